@@ -1,0 +1,51 @@
+/* floor 0: number types, status, and the conventions every file shares.
+ *
+ * Units: SI everywhere inside the program (m, kg, s, Pa, J); units of the scene are converted when it is read.
+ * Components: arrays of components are `real *x[DIM_MAX]`; only the first `dim` are allocated and used.
+ * Symmetric tensors keep dim (dim + 1) / 2 components in the order
+ *     1D: xx      2D: xx yy xy      3D: xx yy zz xy yz zx
+ * with tensor (not engineering) shear where a strain is meant. */
+#ifndef CLEAVE_BASE_H
+#define CLEAVE_BASE_H
+
+#include <assert.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef double real;
+
+enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
+
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+#define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
+
+static inline int symmetric_count(int dim) { return dim * (dim + 1) / 2; }
+
+/* What a function that can fail returns; the values are the exit statuses of the program. */
+typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
+
+/* Composes the one line that a person will read, keeps it for `status_message`, and returns `s`.
+ * Called once, where the fault is seen; callers above only TRY(). The message is the program's one
+ * hidden variable, as errno is the C library's. */
+status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
+const char *status_message(void);
+
+/* Hands a fault to the caller as it came. */
+#define TRY(call)                              \
+    do {                                       \
+        status try_status_ = (call);           \
+        if (try_status_ != OK) return try_status_; \
+    } while (0)
+
+static inline real real_min(real a, real b) { return a < b ? a : b; }
+static inline real real_max(real a, real b) { return a > b ? a : b; }
+static inline real square(real a) { return a * a; }
+static inline real dot(const real *a, const real *b, int dim)
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++) sum += a[d] * b[d];
+    return sum;
+}
+
+#endif

@@ -1,0 +1,113 @@
+/* floor 1: bonds in compressed rows, eight rows to a vector.
+ *
+ * Rows exist only for peridynamic particles (whole family) and hand-shake material points (their peridynamic
+ * neighbours), in ascending particle order: memory and time follow the crack, not the body. Eight consecutive
+ * rows form a group; a group stores its bonds slot by slot, lane l of a slot being a bond of row l:
+ *
+ *     group g        row 8g   row 8g+1  ...  row 8g+7
+ *     slot[g]        nbr      nbr            nbr          one vector load each of nbr, w, inverse_length
+ *     slot[g]+1      ...
+ *
+ * Rows shorter than their group are padded with w = 0. Where the rows of a group see neighbours at the same
+ * index distances (a lattice), a slot holds one distance, its eight neighbours are consecutive in memory
+ * (`consecutive`), and one load replaces the gather. */
+#ifndef CLEAVE_BONDS_H
+#define CLEAVE_BONDS_H
+
+#include "archive.h"
+#include "cells.h"
+#include "material.h"
+#include "region.h"
+
+enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
+enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
+enum surface_rule { SURFACE_NONE, SURFACE_VOLUME };
+enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
+
+/* How a family is made and weighed. */
+struct family {
+    enum space space;
+    enum volume_rule volume;
+    enum calibration calibration;
+    enum surface_rule surface;
+    enum shell_rule shells;
+    real spacing;                        /* [m]                                                      */
+    real horizon;                        /* delta [m]                                                */
+    real cutoff;                         /* farthest neighbour, with its relative tolerance [m]      */
+    real section;                        /* A (1D) [m^2], thickness (2D) [m], 1 (3D)                 */
+    real cell_volume;                    /* of a lattice particle: spacing^dim section [m^3]         */
+    real full;                           /* sum V_j beta of a full family [m^3]                      */
+    real shell_weight[2];                /* along the axes; along the diagonals (shells: isotropic)  */
+};
+
+/* When bonds break: critical stretch by pair of materials, [materials^2]; INFINITY: never. */
+struct bond_limit {
+    const real *critical_stretch;
+    int materials;
+};
+
+struct bonds {
+    int64_t rows, groups, slots;
+    int64_t n;                           /* directed bonds in the rows, broken ones included              */
+    int32_t *particle;                   /* [groups 8] particle of a row; padding rows repeat the last    */
+    int32_t *row_of;                     /* [n_all] row of a particle, -1 without                         */
+    int64_t *slot;                       /* [groups + 1] first slot of a group                            */
+    uint8_t *aligned;                    /* [groups] the eight particles are consecutive                  */
+    uint8_t *consecutive;                /* [slots] the eight neighbours are consecutive                  */
+    int32_t *nbr;                        /* [slots 8] neighbour                                           */
+    real *inverse_length;                /* [slots 8] 1/|X_j - X_i|; 0: padding                 [1/m]     */
+    float *w;                            /* [slots 8] symmetric weight: beta x surface x V_i V_j c_ij over
+                                            stiffness; 0: broken, cut or padding                [1]       */
+    real *trigger;                       /* [groups 8] no bond of the row breaks below this stretch       */
+    float *family_volume;                /* [groups 8] sum V_j of the whole initial family      [m^3]     */
+    float *broken_volume;                /* [groups 8] of its broken bonds                      [m^3]     */
+    real *fracture_energy;               /* [groups 8] half of each broken bond's energy        [J]       */
+    int32_t *broken;                     /* [groups 8] bonds broken by load since the start               */
+    real stiffness;                      /* c V V of a bond between reference particles: force = stiffness w s [N] */
+};
+
+/* Who bonds to whom: everything bonds_make needs besides particles. */
+struct bond_source {
+    struct family family;
+    const struct cells *cells;           /* reference search, edge >= cutoff                          */
+    const struct material *material;
+    int materials;
+    struct bond_limit limit;
+    const struct crack *crack;
+    int cracks;
+    const struct image *image;           /* of loads                                                  */
+    const real *neighbour_volume;        /* [n_all] V_i^H = sum V_j beta, for the surface correction; NULL without */
+};
+
+/* Sums over a full family on the lattice, shell weights, horizon and cutoff; c for material m follows from
+ * family_micro_modulus. `material` [0] fixes the elastic constants that isotropic shell weights aim at. */
+void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
+real family_micro_modulus(const struct family *f, const struct material *m);
+/* beta x shell weight of a reference bond of components xi and length r [1]. */
+real family_weight(const struct family *f, const real *xi, real r);
+
+/* V_i^H = sum V_j beta of every particle, uncracked [m^3], n_all entries. */
+void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
+
+/* Makes the rows of all peridynamic and hand-shake particles. With `old` (rows made before) what was broken stays
+ * broken, and counts are carried over. Bonds cut by a crack have w = 0 and count as damage. Sets damage of all rows' peridynamic particles. */
+void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s);
+void bonds_free(struct bonds *b);
+
+/* Critical time step of the peridynamic side [s]: 2 / omega_max with the block-Gershgorin bound (bond-based sheet
+ * 1.6) over all particles of the body as if all were peridynamic. */
+real bonds_critical_step(const struct particles *p, const struct bond_source *s);
+
+/* The state that rows made anew do not know: what load has broken. */
+status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
+
+/* Bond energy released by breaking so far [J]. */
+real bonds_fracture_energy(const struct bonds *b);
+
+/* Place of bond k of group g, lane l: slot (b->slot[g] + k) LANES + l. */
+static inline int64_t bond_index(const struct bonds *b, int64_t group, int64_t k, int lane)
+{
+    return (b->slot[group] + k) * LANES + lane;
+}
+
+#endif

@@ -1,0 +1,47 @@
+/* floor 1: cells for the two searches of the program: fixed cells over reference positions (families of
+ * bonds), and grid cells in coloured blocks over current positions (transfers). */
+#ifndef CLEAVE_CELLS_H
+#define CLEAVE_CELLS_H
+
+#include "particles.h"
+
+/* ---- search over reference positions: body and images --------------------------------------------- */
+
+struct cells {
+    int dim;
+    int64_t count[DIM_MAX], n;           /* cells per direction, in all                              */
+    real origin[DIM_MAX], edge;          /* lower corner; edge >= search radius            [m]       */
+    int32_t *start;                      /* particles of cell c: order[start[c] .. start[c+1]-1]     */
+    int32_t *order;                      /* ascending inside a cell                                  */
+};
+
+void cells_make(struct cells *c, const struct particles *p, real edge);
+void cells_free(struct cells *c);
+
+/* Particles (body and images) within `radius` <= edge of the point X, ascending; `skip` is left out (-1: none).
+ * Writes at most `room` indices; returns how many there are. */
+int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
+               int32_t *found, int room);
+
+/* ---- the order of transfers ------------------------------------------------------------------------ */
+
+/* Grid cells are grouped in blocks of BLOCK_EDGE^dim; a block has one of 2^dim colours, and blocks of one colour
+ * share no node for any shape function here (support reaches one cell below and two above), so each may be
+ * scattered by its own thread. Colours are taken in order and a block by one thread: the same bits on any
+ * number of threads. Blocks are counted from the grid's absolute node 0, so that growing the grid keeps them. */
+enum { BLOCK_EDGE = 4, COLOURS_MAX = 8 };
+
+struct transfer_order {
+    int64_t n;                           /* material points                                          */
+    int32_t *particle;                   /* by colour, then block, then cell, then index             */
+    int blocks_of[COLOURS_MAX + 1];      /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1     */
+    int blocks, blocks_room;
+    int32_t *block_start;                /* particles of block b: block_start[b] .. block_start[b+1]-1 */
+};
+
+struct grid;
+/* Sorts the material points by the grid cell they are in; a function of positions alone. */
+void transfer_order_sort(struct transfer_order *o, const struct particles *p, const struct grid *g);
+void transfer_order_free(struct transfer_order *o);
+
+#endif

@@ -1,0 +1,50 @@
+/* floor 3: material point -> peridynamic particle, one compacting pass at the end of the step, and the coupling
+ * data that follow from who is what: bond rows and partial stresses. */
+#ifndef CLEAVE_CONVERT_H
+#define CLEAVE_CONVERT_H
+
+#include "bonds.h"
+#include "cells.h"
+#include "kernels.h"
+#include "loads.h"
+
+enum coupling { COUPLING_PARTIAL_STRESS, COUPLING_HANDSHAKE };
+enum { CONVERT_ON_CUT = 1, CONVERT_ON_STRESS = 2 };
+
+struct conversion_rule {
+    unsigned criteria;                   /* sum of CONVERT_ON_*                                       */
+    real stress;                         /* sigma_max [Pa]; NAN: E s_c                                */
+    real alpha;                          /* share of it that triggers                                 */
+    bool block;                          /* the triggered particle takes its horizon neighbours along */
+};
+
+/* What conversion has done so far. */
+struct conversion {
+    real first_time;                     /* [s], NAN before                                           */
+    real first_place[DIM_MAX];           /* reference position of the first triggered particle [m]    */
+    int64_t start, converted, events;    /* peridynamic particles at t = 0; converted since; passes   */
+    int64_t peak_bonds;                  /* directed bonds stored, most at any time                   */
+    real released;                       /* energy of bonds that were past their limit when made [J]  */
+};
+
+/* Converts every material point flagged FLAG_STRESSED or FLAG_CUT (as the criteria say), both ends of a bond that
+ * broke, and with `block` their neighbours within the horizon; clears the flags of the step. Rows of bonds and partial
+ * stresses (`partial` NULL: hand-shake without them) are rebuilt only if something converted. Bonds that are past their limit when made are cut at once
+ * and their energy is booked as fracture. Returns the number of particles converted. */
+int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
+                const struct bond_source *source, struct partial_stress *partial,
+                real t);
+
+/* Marks as peridynamic, before step 0, every particle one of whose bonds a pre-crack cuts (Zeng et al. 2022,
+ * eq. 28), and those in `region` (NULL: none). */
+void convert_start(struct particles *p, const struct bond_source *source, const struct region *region);
+
+/* Partial stress (coupling sheet 2.3) of every material point whose cell a bond between a peridynamic particle and a
+ * material point crosses: T = (1/V) sum K xi^2 l e e e e, l the share of the bond's reference segment inside the cell.
+ * `changed`: particles converted since the last call, only their surroundings are made anew; NULL: everything. */
+void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
+                         const struct bond_source *source, const int32_t *changed, int64_t n);
+void partial_stress_free(struct partial_stress *partial);
+status conversion_archive(struct conversion *c, struct archive *a);
+
+#endif

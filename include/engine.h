@@ -1,0 +1,84 @@
+/* floor 5: the engine owns everything of a run, by value. */
+#ifndef CLEAVE_ENGINE_H
+#define CLEAVE_ENGINE_H
+
+#include <signal.h>
+
+#include "bonds.h"
+#include "cells.h"
+#include "convert.h"
+#include "grid.h"
+#include "kernels.h"
+#include "loads.h"
+#include "output.h"
+#include "particles.h"
+#include "probes.h"
+#include "scene.h"
+#include "team.h"
+#include "tips.h"
+#include "watch.h"
+
+struct engine {
+    const struct scene *scene;           /* borrowed                                                  */
+    struct kernels kernels;
+    struct particles part;
+    struct cells cells;                  /* search over reference positions                           */
+    struct bond_source source;
+    struct bonds bonds;
+    struct bond_limit limit;
+    real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
+    real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */
+    struct elastic *elastic;             /* [materials]                                               */
+    struct grid grid;
+    struct transfer_order order;
+    struct partial_stress partial;
+    struct transfer_data transfer;
+    struct loads loads;
+    struct conversion conversion;
+    struct watch watch;
+    struct tips tips;
+    struct probes probes;
+    struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
+    struct laps laps;
+    real t, dt, dt_critical;             /* [s]                                                       */
+    int64_t step, steps;
+    real wave_speed;                     /* fastest of the materials [m/s]                            */
+    real residual, residual_step0;       /* largest nodal force of the last and first step [N]        */
+    real strain_stress;                  /* largest component of the initial stress [Pa]              */
+    real smallest_mass;                  /* of a node that moves [kg]                                 */
+    bool sort_needed;                    /* material points moved to other cells or converted         */
+    bool uses_partial;                   /* coupling by partial stress                                */
+    real *record;                        /* one line of history.csv                                   */
+    int optional;                        /* WITH_* arrays of the particles                            */
+    int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
+    int64_t bond_visits;
+    double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
+    struct {                             /* a sample in the making (engine_report.h)                  */
+        bool due;
+        real kinetic, potential, fracture, work, work_before;
+    } sampling;
+    status history_status;               /* of the last line written                                  */
+    double started, last_progress, last_checkpoint;   /* wall clock [s]                               */
+    int64_t step_started;                /* first step of this process                                */
+    bool quiet;
+    const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never        */
+};
+
+/* Everything up to step 0: particles, cells, loads, bonds, grid, time step. `out` may be NULL. */
+status engine_make(struct engine *e, const struct scene *s, struct output *out);
+/* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal asked for it. */
+status engine_run(struct engine *e);
+void engine_free(struct engine *e);
+/* Saves or restores the state between two steps. */
+status engine_archive(void *engine, struct archive *a);
+/* What probes may look at. */
+struct observed engine_observed(const struct engine *e);
+
+/* summary.json of the run so far; s is its status, `threads` and `wall_seconds` as measured by the caller. */
+status summary_write(const struct engine *e, status s, int threads, double wall_seconds);
+
+/* fill.c: particles, positions, volumes, masses, initial state, from the scene. REFUSED: empty bodies, unreadable
+ * lists, two particles in one place. */
+status fill_particles(struct particles *p, const struct scene *s, int optional);
+
+#endif

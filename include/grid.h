@@ -1,0 +1,45 @@
+/* floor 1: the background grid of the material point method: a box of nodes round the material points. Nodes
+ * are counted from an anchor fixed for the whole run, so a grid that grows keeps its node positions exactly. */
+#ifndef CLEAVE_GRID_H
+#define CLEAVE_GRID_H
+
+#include "base.h"
+
+struct grid {
+    int dim;
+    real h;                              /* node distance                                  [m]      */
+    real anchor[DIM_MAX];                /* position of node 0                             [m]      */
+    int64_t first[DIM_MAX];              /* lowest node of the box, counted from the anchor         */
+    int64_t count[DIM_MAX], n;           /* nodes per direction, in all                             */
+    int64_t stride[DIM_MAX];             /* of the node index; stride[0] = 1                        */
+    real *mass;                          /* nodal mass                                     [kg]     */
+    real *momentum[DIM_MAX];             /* nodal momentum; after grid_remapped the velocity
+                                            of the second map                        [kg m/s], [m/s] */
+    real *force[DIM_MAX];                /* nodal force; after grid_move the change of velocity [N], [m/s] */
+    real *velocity[DIM_MAX];             /* nodal velocity at the end of the step          [m/s]    */
+    int64_t walls, walls_room;
+    struct wall *wall;                   /* prescribed velocities of this step, in order            */
+};
+
+/* One held component of one node; its force is replaced by what the prescribed motion needs. */
+struct wall {
+    int32_t node;
+    int16_t component, load;             /* load: who holds it                                      */
+    real velocity, change;               /* in this step; since the step before            [m/s]    */
+    real given;                          /* impulse it gave in this step                   [N s]    */
+};
+
+/* Sets the box to cover positions from..to with a margin of three cells, rounded outwards to whole blocks;
+ * grows and never shrinks. Returns true if the box changed (all nodal values are then zero). Fails if it would
+ * need more than `most` nodes. */
+status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
+void grid_free(struct grid *g);
+void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load);
+/* Nodes lighter than this share of a full one are left at rest. The sheet (1.3) names 1e-9; but such a node may carry a
+ * force, and what it carries would be lost: momentum is kept to 1e-12 only if just empty nodes are left out, and with the
+ * re-map light nodes do no harm (their velocity is that of their particle). */
+#define GRID_MASS_SMALLEST 1e-30
+
+static inline real grid_position(const struct grid *g, int d, int64_t k) { return g->anchor[d] + g->h * (real)(g->first[d] + k); }
+
+#endif

@@ -1,0 +1,93 @@
+/* floor 3: prescribed velocities, forces, walls and mirrors as functions of time; and the account of what they
+ * put in: impulse and work. */
+#ifndef CLEAVE_LOADS_H
+#define CLEAVE_LOADS_H
+
+#include "archive.h"
+#include "bonds.h"
+#include "grid.h"
+#include "kernels.h"
+#include "particles.h"
+#include "region.h"
+
+enum boundary_kind {
+    BOUNDARY_VELOCITY,       /* holds components of the velocity (`fixed` is this with value 0)          */
+    BOUNDARY_TRACTION,       /* surface force on the outermost layer of a flat face       [Pa]           */
+    BOUNDARY_BODY_FORCE,     /*                                                            [N/m^3]       */
+    BOUNDARY_MIRROR          /* plane of symmetry (roller) or of antisymmetry (fixed end)                */
+};
+
+/* One boundary condition, as the scene says it. */
+struct boundary {
+    char name[NAME_MAX_LENGTH];
+    enum boundary_kind kind;
+    struct region region;                /* of reference positions; empty: everywhere                 */
+    int body;                            /* -1: any                                                   */
+    uint8_t components;                  /* bit d: component d is held (VELOCITY)                     */
+    real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3]                                    */
+    struct time_function time;           /* factor on value                                           */
+    int face;                            /* TRACTION: axis of the face's normal                       */
+    int side;                            /* TRACTION: +1 upper face, -1 lower face                    */
+    int axis;                            /* MIRROR: normal of the plane ...                           */
+    real at;                             /*         ... and where it is                   [m]         */
+    bool hold_tangential;                /* MIRROR: displacement odd in all components, not only normal */
+};
+
+/* A boundary condition at work on particles. */
+struct load {
+    const struct boundary *boundary;     /* borrowed from the scene                                   */
+    int64_t n;
+    int32_t *particle;                   /* ascending                                                 */
+    real *share;                         /* TRACTION, BODY_FORCE: area or volume  [m^2], [m^3]        */
+    real reaction[DIM_MAX];              /* VELOCITY: force the support gave in the last step [N]     */
+    real displacement[DIM_MAX];          /* of the driven particles, accumulated              [m]     */
+    int outside;                         /* MIRROR: side of the plane without body, -1 or +1          */
+};
+
+/* A component of a node that is held as long as the grid keeps its box. */
+struct held { int32_t node; uint8_t component, load; };
+
+struct loads {
+    int n;
+    struct load *load;
+    int64_t images;
+    struct image *image;
+    real impulse[DIM_MAX];               /* given by loads and supports since the start       [N s]   */
+    real work;                           /* done by them                                      [J]     */
+    real spacing;                        /* [m]                                                       */
+    real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
+    int64_t share_room;
+    struct held *held;                   /* nodes in driven regions and beyond mirrors ...            */
+    int64_t helds, held_room;
+    int64_t held_first[DIM_MAX], held_count[DIM_MAX];   /* ... of the grid box they were found in     */
+};
+
+/* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
+ * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is the layer thickness of
+ * tractions. Refuses forces on a region without particles. */
+status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
+                  real reach, int optional);
+void loads_free(struct loads *l);
+
+/* Moves images to the mirror image of their sources (x, v, kind). */
+void loads_mirror(const struct loads *l, struct particles *p);
+
+/* Before bonds: f = 0 on every loaded particle. After bonds: adds applied forces; for driven peridynamic
+ * particles replaces f by what gives them their velocity. t is the middle of the step. */
+void loads_clear(struct loads *l, struct particles *p);
+void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
+
+/* Walls of the grid: nodes in a driven region or beyond a mirror plane, and nodes at least half of whose mass
+ * belongs to driven points. Call after the first map. */
+void loads_walls(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
+                 real half_width, real t, real dt);
+
+/* After the gather: driven material points take their velocity exactly; books reactions of walls and the work of
+ * applied forces. */
+void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt_velocity);
+
+status loads_archive(struct loads *l, struct archive *a);
+
+enum { BOUNDARIES_MAX = 255 };
+
+#endif

@@ -1,0 +1,24 @@
+/* floor 0: labelled, 64-byte aligned, zeroed arrays. Out of memory is answered here, once: one line that
+ * names the label, the size and the memory used so far, and exit status 1. */
+#ifndef CLEAVE_MEMORY_H
+#define CLEAVE_MEMORY_H
+
+#include "base.h"
+
+/* `count` zeroed elements of `size` bytes, written first by the threads that will own them (static
+ * partition). Never returns NULL; count 0 gives a valid pointer. Free with memory_free. */
+void *memory_new(const char *label, int64_t count, size_t size);
+
+/* Grows or shrinks an array of memory_new; the first min(old, new) elements are kept, new ones are zero.
+ * `pointer` may be NULL. */
+void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
+
+/* Frees; NULL is allowed. */
+void memory_free(void *pointer);
+
+/* High-water mark of the process as the operating system knows it [byte]. */
+int64_t memory_peak(void);
+
+#define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
+
+#endif

@@ -1,0 +1,76 @@
+/* floor 4: what a run leaves in its folder: frames, their indices, history, checkpoints. Only output*.c and
+ * checkpoint.c know HDF5. Every file but history.csv, which grows, is written aside, synced and renamed: a file that
+ * is there is whole. After a failed write of HDF5 all that needs it returns FAILED and lets the first message stand. */
+#ifndef CLEAVE_OUTPUT_H
+#define CLEAVE_OUTPUT_H
+
+#include <stdio.h>
+
+#include "archive.h"
+#include "particles.h"
+#include "probes.h"
+
+struct output {
+    char *folder;                        /* DIR                                                       */
+    int frames, frames_room;             /* frames written                                            */
+    real *frame_time;                    /* [s]                                                       */
+    int64_t frame_particles;
+    bool compress;
+    FILE *history;
+    int64_t history_bytes;               /* length at the last sample                                 */
+    int columns;
+    bool broken;                         /* HDF5 failed to write: it must not be called again         */
+};
+
+/* Once per process, before any other HDF5 call: no exit handler, no error stack on the terminal; SIGXFSZ and
+ * SIGPIPE ignored (a full disk must be an error, not a death). */
+void output_start(void);
+
+/* Makes DIR and DIR/frames. REFUSED if DIR holds another run (a scene.yaml with other text, or any frame or
+ * checkpoint when `resume` is false and the scene differs); a finished or interrupted run of the same scene is
+ * overwritten without --resume. Removes stale temporary files, and without `resume` what the older run left; writes
+ * scene.yaml. FAILED if it cannot be made. On a fault nothing is left to close. */
+status output_open(struct output *o, const char *folder, const char *scene_text, bool resume, bool compress);
+void output_close(struct output *o);
+
+/* Writes `text` to DIR/name (aside, sync, rename). */
+status output_text(const struct output *o, const char *name, const char *text, size_t length);
+
+/* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
+ * written in the order of their id. Single precision. */
+status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
+
+/* history.csv: header `name [unit],...` of all `columns`, time and step first among them, then one line per sample
+ * (%.9g), flushed. With `resume` the file is cut to the length that output_archive restored. */
+status output_history_open(struct output *o, const struct column *column, int columns, bool resume);
+status output_history(struct output *o, const real *value);
+
+/* Figures read back from a frame, by id; for plot and compare. Arrays are allocated here, freed by frame_free. */
+struct frame {
+    int64_t n;
+    int dim;
+    real t;
+    int64_t step;
+    float *X[DIM_MAX], *u[DIM_MAX], *v[DIM_MAX], *stress[SYM_MAX], *damage;
+    uint8_t *kind, *material, *body;
+    int32_t *id;
+};
+status frame_read(struct frame *f, const char *path);
+void frame_free(struct frame *f);
+/* Times of a run's frames from frames.hdf.series; returns their number through `n`. */
+status frames_list(const char *folder, int *n, real **time);
+
+/* ---- checkpoints ----------------------------------------------------------------------------------- */
+
+/* DIR/checkpoint.h5, the one before as checkpoint.previous.h5. `archive_all` saves or restores everything through
+ * the archive it is handed. Format version, scene text and a 24-byte footer (magic, length, hash of all bytes
+ * before) guard it. */
+typedef status archive_all_fn(void *context, struct archive *a);
+status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context);
+/* Restores from the newest whole checkpoint; falls back to the one before and says so on standard error. FAILED if
+ * there is none or it belongs to another scene or version. */
+status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context);
+bool checkpoint_exists(const char *folder);
+status output_archive(struct output *o, struct archive *a);
+
+#endif

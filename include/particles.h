@@ -1,0 +1,74 @@
+/* floor 1: particles of both kinds as a structure of arrays, and the one table that describes every array.
+ *
+ * Layout: entries 0 .. n-1 are the body, sorted row by row (x fastest) so that lattice neighbours are
+ * neighbours in memory; entries n .. n_all-1 are mirror images of some of them (struct image), read by bonds,
+ * never integrated. Arrays have room for LANES more entries, so that whole vectors can be loaded anywhere. */
+#ifndef CLEAVE_PARTICLES_H
+#define CLEAVE_PARTICLES_H
+
+#include "base.h"
+
+enum { LANES = 8 };                      /* particles per vector: 8 doubles                      */
+
+enum kind { KIND_MPM, KIND_PD, KINDS };
+
+enum particle_flag {
+    FLAG_CUT = 1,                        /* lost a bond in this step                             */
+    FLAG_STRESSED = 2,                   /* largest principal stress passed the trigger          */
+    FLAG_DRIVEN = 4,                     /* a velocity or fixed condition holds a component      */
+    FLAG_CRACKED = 8                     /* lost a bond to a particle, neither of them driven    */
+};
+
+struct particles {
+    int64_t n, n_all;                    /* body; body and images                                */
+    int dim;
+    int64_t n_of[KINDS];                 /* of the body                                          */
+    int32_t *list[KINDS];                /* their indices, ascending; rebuilt by particles_list  */
+                                         /* ---- every array below has n_all (+ LANES) entries - */
+    real *X[DIM_MAX];                    /* reference position                      [m]          */
+    real *x[DIM_MAX];                    /* position                                [m]          */
+    real *v[DIM_MAX];                    /* velocity, half a step behind x          [m/s]        */
+    real *f[DIM_MAX];                    /* bond and applied force                  [N]          */
+    real *mass;                          /*                                         [kg]         */
+    real *volume0, *volume;              /* reference and current volume            [m^3]        */
+    real *stress[SYM_MAX];               /* Cauchy stress of material points        [Pa]         */
+    real *gradient[DIM_MAX * DIM_MAX];   /* velocity gradient dv_a/dx_b at [a dim + b], only APIC [1/s] */
+    real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP              [1]          */
+    real *damage;                        /* share of broken bonds, 0..1             [1]          */
+    uint8_t *kind, *material, *body, *flag;  /* enum kind; indices; enum particle_flag           */
+    int32_t *id;                         /* order in which the scene made them                   */
+};
+
+/* Mirror images: entry n + k of the particles is the image of `source` (which may itself be an image) in the
+ * mirror of load `load`. */
+struct image { int32_t source; uint8_t load; };
+
+/* Which optional arrays exist. */
+enum { WITH_GRADIENT = 1, WITH_STRETCH = 2 };
+
+/* One line per array: name, unit, what it is, where it lives. `size` is the bytes of one entry; `count` the
+ * number of component arrays for a dimension. The table makes, frees, sorts, checkpoints and restores. */
+struct particle_field {
+    const char *name, *unit, *meaning;
+    size_t offset, size;                 /* of the (first) array pointer in struct particles; entry */
+    int (*count)(int dim, int optional);
+};
+extern const struct particle_field particle_fields[];
+extern const int particle_fields_count;
+
+/* Component array k of a field. */
+void *particle_array(const struct particles *p, const struct particle_field *f, int k);
+
+/* Makes n zeroed particles with room for `images` more; optional is a sum of WITH_*. */
+void particles_make(struct particles *p, int dim, int64_t n, int optional);
+/* Grows every array by `images` entries behind the body; pointers change. Called once, at set-up. */
+void particles_add_images(struct particles *p, int64_t images, int optional);
+void particles_free(struct particles *p);
+
+/* Sorts the body row by row: z, then y, then x, in rows of thickness `spacing`; ties by id. At set-up. */
+void particles_sort(struct particles *p, real spacing, int optional);
+
+/* Rebuilds n_of and list from kind. */
+void particles_list(struct particles *p);
+
+#endif

@@ -1,0 +1,83 @@
+/* floor 3: what a run watches besides its frames: time series, profiles, and the figures scripts rely on. */
+#ifndef CLEAVE_PROBES_H
+#define CLEAVE_PROBES_H
+
+#include "archive.h"
+#include "bonds.h"
+#include "cells.h"
+#include "loads.h"
+#include "particles.h"
+#include "region.h"
+#include "tips.h"
+
+enum probe_kind {
+    PROBE_TIP,               /* one crack tip (the longest, or the one nearest to `at`)                    */
+    PROBE_BREAK,             /* first cut bond in a region                                                 */
+    PROBE_REACTION,          /* force of the support at a named boundary                                   */
+    PROBE_PATCH,             /* largest nodal force residual over stress x h under uniform strain          */
+    PROBE_SPALL,             /* separated end of a bar                                                     */
+    PROBE_POINT,             /* displacement, velocity, stress, damage of the particle nearest to `at`     */
+    PROBE_LINE,              /* profile from `from` to `to` in `points` stations, at the end and per frame */
+    PROBE_ENERGY,            /* energies of the particles of a region                                      */
+    PROBE_MOMENTUM,          /* momentum of the particles of a region                                      */
+    PROBES
+};
+
+/* As the scene asks for it. */
+struct probe_request {
+    char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
+    enum probe_kind kind;
+    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM; empty: everywhere         */
+    bool has_at; real at[DIM_MAX];       /* TIP, POINT                                        [m]     */
+    real from[DIM_MAX], to[DIM_MAX];     /* LINE                                              [m]     */
+    int points;                          /* LINE                                                      */
+    char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
+};
+
+/* A column of history.csv or a figure of summary.json. */
+struct column { char name[2 * NAME_MAX_LENGTH]; char unit[16]; };
+
+/* What probes may look at; borrowed, read only. */
+struct observed {
+    const struct particles *part;
+    const struct cells *cells;           /* reference search                                          */
+    const struct bonds *bonds;
+    const struct loads *loads;
+    const struct grid *grid;
+    const struct tips *tips;
+    const struct material *material;
+    const struct partial_stress *partial;
+    real spacing;                        /* [m]                                                       */
+    real thickness;                      /* section, thickness or 1                                   */
+    real strain_stress;                  /* largest |component| of the initial stress [Pa], for PATCH */
+    real residual;                       /* largest nodal |force| of the step (grid and PD), for PATCH [N] */
+    real residual_step0;                 /* the same in the first step [N]                            */
+    real t;                              /* [s]                                                       */
+};
+
+struct probe;                            /* probes.c */
+struct probes {
+    int n;
+    struct probe *probe;
+    int columns;                         /* of all probes together                                    */
+    struct column *column;
+    real *value;                         /* at the last sample, by column                             */
+};
+
+/* Binds requests to particles. Refuses a point outside the body or an unknown boundary name. */
+status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
+void probes_free(struct probes *s);
+/* Fills value[]. FLAG_CUT of the particles marks bonds cut since the last call of probes_step. */
+void probes_sample(struct probes *s, const struct observed *o);
+/* Called every step in which a bond broke, before flags are cleared (BREAK), and at every step if any probe
+ * integrates in time (REACTION: largest and rms force). */
+void probes_step(struct probes *s, const struct observed *o);
+/* Calls `emit` for every figure of every probe: probe name, quantity, value (SI). Figures a run does not have
+ * (NAN) are left out. */
+void probes_figures(const struct probes *s, const struct observed *o,
+                    void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
+/* Writes the profile of LINE probes as csv to `folder`/<name>_<frame>.csv. */
+status probes_profiles(const struct probes *s, const struct observed *o, const char *folder, int frame);
+status probes_archive(struct probes *s, struct archive *a);
+
+#endif

@@ -1,0 +1,97 @@
+/* floor 4: a scene: everything a run needs, as read and checked. Only scene*.c know libyaml. Every length is in
+ * metres, every time in seconds: units are gone. */
+#ifndef CLEAVE_SCENE_H
+#define CLEAVE_SCENE_H
+
+#include <stdio.h>
+
+#include "bonds.h"
+#include "convert.h"
+#include "kernels.h"
+#include "loads.h"
+#include "material.h"
+#include "probes.h"
+#include "region.h"
+
+enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE };
+
+struct scene_body {
+    char name[NAME_MAX_LENGTH];
+    int material;                        /* index into scene.material                                 */
+    struct region shape;                 /* filled with a lattice ...                                 */
+    char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
+    real velocity[DIM_MAX];              /* [m/s]                                                     */
+};
+
+/* Initial state of the particles in a region; later entries overwrite earlier ones. */
+struct scene_initial {
+    struct region region;
+    int body;                            /* -1: any                                                   */
+    bool sets_velocity, sets_strain;
+    real velocity[DIM_MAX];              /* [m/s]                                                     */
+    real velocity_gradient[DIM_MAX * DIM_MAX];     /* v += G (X - centre), row major dim x dim [1/s]  */
+    real displacement_gradient[DIM_MAX * DIM_MAX]; /* x = X + H (X - centre), stress = C : sym H [1]  */
+    real centre[DIM_MAX];                /* [m]                                                       */
+};
+
+struct scene {
+    char *path;                          /* file it came from, as given on the command line           */
+    char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending        */
+    enum space space;
+    int dim;
+    real thickness;                      /* 2D [m]; 1 in 3D                                           */
+    real section;                        /* 1D: cross-section A [m^2]; key `section`, default 1       */
+    real duration;                       /* [s]                                                       */
+    enum method method;
+    enum pd_model model;
+
+    int materials;  struct material *material;
+    int bodies;     struct scene_body *body;
+
+    real spacing, horizon, irregularity; /* [m], in spacings, [1]                                     */
+    uint64_t seed;
+
+    enum volume_rule volume;
+    enum calibration calibration;
+    enum surface_rule surface;           /* resolved: never "auto" here                               */
+    enum shell_rule shells;
+    bool has_pd_region;  struct region pd_region;      /* peridynamic from the start (adaptive)       */
+
+    real cell;                           /* grid node distance, in spacings                           */
+    enum shape shape;
+    enum transfer transfer;
+    bool has_grid_origin; real grid_origin[DIM_MAX];   /* a node of the grid [m]                      */
+
+    enum coupling coupling;
+    struct conversion_rule conversion;
+
+    int cracks;     struct crack *crack;
+    int initials;   struct scene_initial *initial;
+    int boundaries; struct boundary *boundary;
+    int probes;     struct probe_request *probe;
+
+    real time_step;                      /* [s]; 0: automatic                                         */
+    real safety;                         /* of the automatic step                                     */
+    int frames;                          /* frames after the one at t = 0                             */
+    int samples;                         /* samples of history.csv after the one at t = 0             */
+    real checkpoint_interval;            /* wall clock between checkpoints [s]                        */
+    bool compress;                       /* gzip the frames                                           */
+    real speed_window;                   /* of the crack tip's speed [s]                              */
+
+    char *text;                          /* the scene as run: every key, defaults written out, YAML    */
+};
+
+struct scene_override { const char *key, *value; };    /* of `-s key=value` */
+
+/* Reads and checks a file. On REFUSED the message is `file:line:column: what; what would be right`; nothing is
+ * left to free. */
+status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides);
+/* The same from memory; no files are opened except particle lists' existence check. `name` stands in messages. */
+status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
+                       const struct scene_override *override, int overrides);
+void scene_free(struct scene *s);
+
+/* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
+status scene_help(FILE *out, const char *key);
+
+#endif

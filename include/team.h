@@ -1,0 +1,35 @@
+/* floor 0: threads, and sums that do not depend on how many there are. Only team.c knows hwloc. */
+#ifndef CLEAVE_TEAM_H
+#define CLEAVE_TEAM_H
+
+#include "base.h"
+
+struct machine {
+    int cores, threads_allowed;          /* physical cores; hardware threads in the process's mask */
+    int64_t cache[4];                    /* bytes of one L1d, L2, L3 cache (1..3), 0 if unknown    */
+    int64_t memory;                      /* bytes                                                  */
+    char model[128];                     /* the processor's name                                   */
+};
+
+/* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask.
+ * Binds helper thread k >= 1 to the k-th core of the mask, if there is one for each, unless the user set
+ * OMP_PROC_BIND or OMP_PLACES; the calling thread keeps the mask. Returns the number in use. */
+int team_make(int threads);
+struct machine team_machine(void);
+
+/* Wall clock [s]. */
+double team_clock(void);
+
+/* Adds `n` terms in fixed blocks of SUM_BLOCK and the blocks in their order: the same bits on any number
+ * of threads. `term(context, i)` must not write. */
+enum { SUM_BLOCK = 1024 };
+real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
+
+/* Where the time of a step goes. */
+enum lap { LAP_BONDS, LAP_SCATTER, LAP_GRID, LAP_GATHER, LAP_CONVERT, LAP_WATCH, LAP_OUTPUT, LAPS };
+extern const char *const lap_name[LAPS];
+struct laps { double last, spent[LAPS]; };                        /* [s] */
+void laps_start(struct laps *l);
+void lap(struct laps *l, enum lap which);   /* books the time since the last lap (or start) on `which` */
+
+#endif

@@ -1,0 +1,58 @@
+/* floor 3: the ledger of energy and momentum, the first break, and the alarm for unstable runs. */
+#ifndef CLEAVE_WATCH_H
+#define CLEAVE_WATCH_H
+
+#include "archive.h"
+#include "bonds.h"
+#include "convert.h"
+#include "kernels.h"
+#include "loads.h"
+#include "particles.h"
+
+struct ledger {
+    real time;                           /* [s]                                                       */
+    real kinetic;                        /* mean of before and after the step's velocity update  [J]  */
+    real strain, plastic, fracture;      /* bonds and material points; 0 here; bonds broken      [J]  */
+    real external_work;                  /* of loads and supports since the start                [J]  */
+    real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far     [1]  */
+    real momentum[DIM_MAX];              /* [kg m/s]                                                  */
+    real momentum_error;                 /* |p - p_0 - impulse| / sum |m v|, largest so far      [1]  */
+};
+
+struct watch {
+    struct ledger now;
+    real energy_start, energy_scale;     /* [J] */
+    real momentum_start[DIM_MAX];
+    bool started;
+    real break_time;                     /* first bond broken by load (driven particles' bonds do not count), NAN before [s] */
+    real break_place[DIM_MAX];           /* mean reference position of the particles cut in that step [m] */
+    int64_t bonds_broken;                /* directed, by load                                         */
+};
+
+/* Nothing seen yet. Call once, before step 0. */
+void watch_make(struct watch *w);
+
+/* Kinetic energy 1/2 sum m v^2 of the body [J]. */
+real watch_kinetic(const struct particles *p);
+/* Strain energy of the material points: 1/2 sum sigma_given : C^-1 sigma V [J]. */
+real watch_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial);
+
+/* The same of the material points among `n` listed particles. */
+real watch_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
+                     const int32_t *list, int64_t n);
+
+/* Fills `now` for time t: energies [J] and work [J] as they stood then, impulse [N s] of loads and supports up to the
+ * velocities that p holds. */
+void watch_ledger(struct watch *w, const struct particles *p, real t, real kinetic, real strain, real fracture,
+                  real work, const real *impulse);
+
+/* Books the first break of the run from FLAG_CRACKED. */
+void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, real t);
+
+/* FAILED with place, step, cause and cure if a position or velocity is not finite or a particle outruns `limit`
+ * [m/s] (the fastest wave of the scene). */
+status watch_alarm(const struct particles *p, real limit, int64_t step, real t, real dt);
+
+status watch_archive(struct watch *w, struct archive *a);
+
+#endif

@@ -1,0 +1,59 @@
+/* floor 2: the rule of breaking, scalar and exact: a bond whose stretch is larger than its critical stretch is broken
+ * for ever; equality keeps it. Its energy is booked half at each end. */
+#include <math.h>
+
+#include "bond_laws.h"
+#include "kernels.h"
+
+/* Reference and current geometry of stored bond q between i and j. */
+static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
+{
+    real distance2 = 0;
+    for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][j] - p->x[d][i]);
+    return sqrt(distance2) * b->inverse_length[q] - 1;
+}
+
+/* Flags are set by the owner of a row and read by its neighbours' owners at the same time; the bit they read does not
+ * change, the atomics only say so. */
+static bool is_driven(const struct particles *p, int32_t i) { return __atomic_load_n(&p->flag[i], __ATOMIC_RELAXED) & FLAG_DRIVEN; }
+static void set_flag(struct particles *p, int32_t i, int flag)
+{
+    __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
+}
+
+static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
+{
+    b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * bond_law_energy(PD_BOND, stretch) / b->inverse_length[q];
+    b->w[q] = 0;
+    b->broken[row]++;
+    b->broken_volume[row] += (float)p->volume0[j];
+    set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_CUT : FLAG_CUT | FLAG_CRACKED);
+    if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
+}
+
+int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
+{
+    int64_t broken = 0;
+    for (int l = 0; l < LANES && group * LANES + l < b->rows; l++) {
+        int64_t row = group * LANES + l;
+        int32_t i = b->particle[row];
+        for (int64_t k = 0; k < b->slot[group + 1] - b->slot[group]; k++) {
+            int64_t q = bond_index(b, group, k, l);
+            if (b->w[q] == 0) continue;
+            int32_t j = b->nbr[q];
+            real stretch = bond_stretch(b, p, q, i, j);
+            if (!(stretch > limit->critical_stretch[p->material[i] * limit->materials + p->material[j]])) continue;
+            bond_break(b, p, row, q, i, j, stretch);
+            broken++;
+        }
+    }
+    return broken;
+}
+
+int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit)
+{
+    int64_t broken = 0;
+#pragma omp parallel for schedule(static) reduction(+ : broken)
+    for (int64_t g = 0; g < b->groups; g++) broken += bond_break_group(b, p, limit, g);
+    return broken;
+}

@@ -1,0 +1,85 @@
+/* floor 2: what bonds hold: their elastic energy, and the stress they amount to. Visited at samples and frames only. */
+#include <math.h>
+
+#include "bond_laws.h"
+#include "kernels.h"
+#include "variants.h"
+
+/* Stretch and relative position of stored bond q of particle i. */
+static ALWAYS_INLINE real bond_geometry(const struct bonds *b, const struct particles *p, int64_t q, int32_t i,
+                                        real *relative, const int dim)
+{
+    real distance2 = 0;
+    for (int d = 0; d < dim; d++) {
+        relative[d] = p->x[d][b->nbr[q]] - p->x[d][i];
+        distance2 += relative[d] * relative[d];
+    }
+    return sqrt(distance2) * b->inverse_length[q] - 1;
+}
+
+static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
+                                            const enum pd_model model)
+{
+    real sum = 0, relative[DIM_MAX];
+    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
+        for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
+            int64_t q = bond_index(b, g, k, l);
+            if (b->w[q] == 0) continue;
+            real stretch = bond_geometry(b, p, q, b->particle[g * LANES + l], relative, dim);
+            sum += b->w[q] * bond_law_energy(model, stretch) / b->inverse_length[q];
+        }
+    }
+    return 0.5 * b->stiffness * sum;
+}
+
+/* sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F the force on i. */
+static ALWAYS_INLINE void bond_stress_row(const struct bonds *b, struct particles *p, int64_t row, const int dim,
+                                          const enum pd_model model)
+{
+    int32_t i = b->particle[row];
+    real stress[SYM_MAX] = {0}, y[DIM_MAX];
+    const int symmetric = dim * (dim + 1) / 2;
+    if (p->kind[i] != KIND_PD) return;
+    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        if (b->w[q] == 0) continue;
+        real stretch = bond_geometry(b, p, q, i, y, dim);
+        real law = bond_law(model, lanes_of(stretch))[0];
+        real share = b->stiffness * b->w[q] * law * b->inverse_length[q] / (1 + stretch) / (2 * p->volume0[i]);
+        for (int d = 0; d < dim; d++) stress[d] += share * y[d] * y[d];
+        if (dim > 1) stress[dim] += share * y[0] * y[1];
+        if (dim > 2) stress[4] += share * y[1] * y[2], stress[5] += share * y[2] * y[0];
+    }
+    for (int s = 0; s < symmetric; s++) p->stress[s][i] = stress[s];
+}
+
+/* Groups are added in blocks of fixed size, the blocks in their order: the same bits on any number of threads. */
+enum { GROUPS_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
+
+#define INSTANCE(D, M)                                                                                          \
+    static real bond_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                        \
+    {                                                                                                           \
+        real total = 0;                                                                                         \
+        for (int64_t first = 0; first < b->groups; first += (int64_t)GROUPS_PER_BLOCK * BLOCKS_AT_ONCE) {       \
+            real part[BLOCKS_AT_ONCE] = {0};                                                                    \
+            _Pragma("omp parallel for schedule(static)")                                                        \
+            for (int block = 0; block < BLOCKS_AT_ONCE; block++)                                                \
+                for (int k = 0; k < GROUPS_PER_BLOCK; k++) {                                                    \
+                    int64_t g = first + (int64_t)block * GROUPS_PER_BLOCK + k;                                  \
+                    if (g < b->groups) part[block] += bond_energy_group(b, p, g, D, PD_##M);                    \
+                }                                                                                               \
+            for (int block = 0; block < BLOCKS_AT_ONCE; block++) total += part[block];                          \
+        }                                                                                                       \
+        return total;                                                                                           \
+    }                                                                                                           \
+    static void bond_stress_##D##d_##M(const struct bonds *b, struct particles *p)                              \
+    {                                                                                                           \
+        _Pragma("omp parallel for schedule(static)")                                                            \
+        for (int64_t row = 0; row < b->rows; row++) bond_stress_row(b, p, row, D, PD_##M);                      \
+    }
+PD_VARIANTS(INSTANCE)
+
+#define ENERGY(D, M) [D][PD_##M] = bond_energy_##D##d_##M,
+bond_energy_fn *const bond_energy_table[DIM_MAX + 1][PD_MODELS] = {PD_VARIANTS(ENERGY)};
+#define STRESS(D, M) [D][PD_##M] = bond_stress_##D##d_##M,
+bond_stress_fn *const bond_stress_table[DIM_MAX + 1][PD_MODELS] = {PD_VARIANTS(STRESS)};

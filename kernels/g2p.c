@@ -1,0 +1,80 @@
+/* floor 2: nodes to points at the end of the step: position, velocity gradient, stress, volume, and the mark of a point
+ * whose largest principal stress passed the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49, corrected; sheet 1.1).
+ *     FLIP (MUSL)  x += dt sum N v_I,  L = sum v2_I (x) grad N  with the velocity v2 of the second map
+ *     APIC         v = sum N v_I, x += dt v,  L = sum v_I (x) grad N
+ * Every point is written by one thread. */
+#include "kernels.h"
+#include "shape.h"
+#include "stress.h"
+#include "variants.h"
+
+/* Volume follows tr eps of the space; in plane stress the strain through the thickness is left out (below 1 % strain
+ * it changes the volume by less than 0.5 %). */
+static ALWAYS_INLINE void point_strain(struct particles *p, const struct transfer_data *t, int64_t i, const real *L,
+                                       const int dim, const enum shape shape)
+{
+    const int n = dim * (dim + 1) / 2;
+    const struct elastic *m = &t->elastic[p->material[i]];
+    real stress[SYM_MAX];
+    for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
+    p->volume[i] *= 1 + stress_update(stress, L, m, t->dt, dim);
+    for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
+    if (shape == SHAPE_CPGIMP)
+        for (int d = 0; d < dim; d++) p->stretch[d][i] *= 1 + t->dt * L[d * dim + d];
+    if (stress_bound(stress, dim) > m->trigger && stress_principal(stress, dim) > m->trigger) p->flag[i] |= FLAG_STRESSED;
+}
+
+/* Returns whether the point entered another cell. */
+static ALWAYS_INLINE bool point_move(const struct grid *g, struct particles *p, int64_t i, const real *step, const int dim)
+{
+    bool moved = false;
+    for (int d = 0; d < dim; d++) {
+        const int64_t before = floor_to_int((p->x[d][i] - g->anchor[d]) / g->h);
+        p->x[d][i] += step[d];
+        moved |= before != floor_to_int((p->x[d][i] - g->anchor[d]) / g->h);
+    }
+    return moved;
+}
+
+static ALWAYS_INLINE bool g2p_particle(const struct grid *g, struct particles *p, const struct transfer_data *t,
+                                       int64_t i, const int dim, const enum shape shape, const enum transfer transfer)
+{
+    struct stencil s;
+    stencil_make(&s, g, p, i, t->half_width, dim, shape);
+    real velocity[DIM_MAX] = {0}, L[DIM_MAX * DIM_MAX] = {0};
+    FOR_NODES(dim, shape) {
+        const int64_t I = stencil_index(&s, g, k0, k1, k2, dim);
+        const real N = stencil_weight(&s, k0, k1, k2, dim);
+        real grad[DIM_MAX];
+        stencil_gradient(&s, k0, k1, k2, grad, dim);
+        for (int d = 0; d < dim; d++) {
+            velocity[d] += N * g->velocity[d][I];
+            const real straining = transfer == TRANSFER_APIC ? g->velocity[d][I] : g->momentum[d][I];
+            for (int e = 0; e < dim; e++) L[d * dim + e] += straining * grad[e];
+        }
+    }
+    if (transfer == TRANSFER_APIC) {
+        for (int d = 0; d < dim; d++) p->v[d][i] = velocity[d];
+        for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = L[c];
+    }
+    point_strain(p, t, i, L, dim, shape);
+    for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
+    return point_move(g, p, i, velocity, dim);
+}
+
+#define INSTANCE(D, S, T)                                                                                           \
+    static int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)   \
+    {                                                                                                               \
+        const struct transfer_order *o = t->order;                                                                  \
+        int64_t moved = 0;                                                                                          \
+        _Pragma("omp parallel for schedule(static) reduction(+ : moved)")                                           \
+        for (int64_t k = 0; k < o->n; k++)                                                                          \
+            moved += g2p_particle(g, p, t, o->particle[k], D, SHAPE_##S, TRANSFER_##T);                             \
+        return moved;                                                                                               \
+    }
+#define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
+SHAPE_VARIANTS(BOTH)
+
+#define ENTRY(D, S, T) [D][SHAPE_##S][TRANSFER_##T] = g2p_##D##d_##S##_##T,
+#define ENTRIES(D, S) TRANSFER_VARIANTS(ENTRY, D, S)
+g2p_fn *const g2p_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIES)};

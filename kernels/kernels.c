@@ -1,0 +1,15 @@
+/* floor 2: the choice of kernels, once, before the loop. */
+#include "kernels.h"
+
+void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer)
+{
+    k->bond_force = bond_force_table[dim][model];
+    k->bond_energy = bond_energy_table[dim][model];
+    k->bond_stress = bond_stress_table[dim][model];
+    k->pd_move = pd_move_table[dim];
+    k->p2g = p2g_table[dim][shape][transfer];
+    k->remap = remap_table[dim][shape];
+    k->g2p = g2p_table[dim][shape][transfer];
+    k->spread = spread_table[dim][shape];
+    assert(k->bond_force && k->bond_energy && k->bond_stress && k->pd_move && k->p2g && k->remap && k->g2p && k->spread);
+}

@@ -1,0 +1,109 @@
+/* floor 2: the contract of the hot loops: what each reads, writes and costs. Every kernel has one body, many
+ * instances (variants.h), and a plain twin in tests/reference.h. Kernels cannot fail and know no files, scenes,
+ * memory or clocks. */
+#ifndef CLEAVE_KERNELS_H
+#define CLEAVE_KERNELS_H
+
+#include "bonds.h"
+#include "cells.h"
+#include "grid.h"
+#include "particles.h"
+
+enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
+enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
+enum pd_model { PD_BOND, PD_MODELS };
+
+/* Elastic constants of a material as the stress update wants them, and its conversion trigger. */
+struct elastic {
+    real c11, c12, shear;                /* [Pa]                                                     */
+    real trigger;                        /* sigma_1 that marks a point for conversion; INFINITY [Pa] */
+};
+
+/* Partial stress (coupling sheet 2.3): the share of its stress that a material point leaves to the crossing
+ * bonds. sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. */
+struct partial_stress {
+    int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does   */
+    real *matrix;                        /* [entries][symmetric^2], row major                         */
+    int64_t entries, room;
+};
+
+/* What the transfers need besides particles and grid. */
+struct transfer_data {
+    const struct transfer_order *order;
+    const struct partial_stress *partial;
+    const struct elastic *elastic;       /* by material                                               */
+    real half_width;                     /* l_p of uGIMP: half the particle's reference edge  [m]     */
+    real dt;                             /* [s]                                                       */
+    real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
+};
+
+/* Force of all intact bonds on every row's particle (overwrites f there), then breaks what is stretched beyond
+ * its limit: such a bond still acts in the step in which it breaks. Sets FLAG_CUT (and FLAG_CRACKED where no driven particle is involved), damage, broken counts and
+ * fracture energy. Moves 16 bytes per bond from memory
+ * (nbr 4, inverse_length 8, w 4); positions come from cache. Returns the number of directed bonds broken. */
+typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit);
+
+/* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then may
+ * be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
+int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group);
+int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit);
+
+/* Half the elastic energy of every row's intact bonds, added up in fixed blocks [J]. */
+typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
+
+/* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
+typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
+
+/* v += dt_velocity f/m, x += dt v of all peridynamic particles. */
+typedef void pd_move_fn(struct particles *p, real dt, real dt_velocity);
+
+/* First map: mass, momentum, and force -V sigma_given . grad N + N f (material point sheet 1.1, steps 1 and 3). */
+typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
+
+/* v_p += sum N (f/m dt), then momentum of the second map, with the same weights (steps 4 and 6; MUSL, FLIP only). */
+typedef void remap_fn(struct grid *g, struct particles *p, const struct transfer_data *t);
+
+/* x_p += dt sum N v, velocity gradient, strain, spin, stress, volume, conversion flag (steps 4, 7, 8); with APIC
+ * also v_p and its gradient. Returns how many points entered another cell. */
+typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
+
+/* Adds value[k] sum N of the listed points to `field`; serial. */
+typedef void spread_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list,
+                       int64_t n, const real *value, real *field);
+
+struct kernels {                         /* chosen once, before the loop                              */
+    bond_force_fn *bond_force;
+    bond_energy_fn *bond_energy;
+    bond_stress_fn *bond_stress;
+    pd_move_fn *pd_move;
+    p2g_fn *p2g;
+    remap_fn *remap;
+    g2p_fn *g2p;
+    spread_fn *spread;
+};
+
+extern bond_force_fn *const bond_force_table[DIM_MAX + 1][PD_MODELS];
+extern bond_energy_fn *const bond_energy_table[DIM_MAX + 1][PD_MODELS];
+extern bond_stress_fn *const bond_stress_table[DIM_MAX + 1][PD_MODELS];
+extern pd_move_fn *const pd_move_table[DIM_MAX + 1];
+extern p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS];
+extern remap_fn *const remap_table[DIM_MAX + 1][SHAPES];
+extern g2p_fn *const g2p_table[DIM_MAX + 1][SHAPES][TRANSFERS];
+extern spread_fn *const spread_table[DIM_MAX + 1][SHAPES];
+
+void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer);
+
+/* ---- nodal updates between the maps, any dimension ------------------------------------------------- */
+
+void grid_clear(struct grid *g);         /* mass, momentum, force = 0 */
+
+/* Step 3: velocity = (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready for
+ * the second map. At walls the velocity is prescribed and the change is that of the prescribed motion. Nodes
+ * lighter than `smallest_mass` [kg] are left at rest. Adds what the walls gave to impulse [N s] and work [J]; with
+ * APIC, where particles take the nodal velocity itself, that includes the momentum they replaced. */
+void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX], real *work);
+
+/* Step 6: momentum of the second map becomes its velocity, in place; walls prescribe. */
+void grid_remapped(struct grid *g, real smallest_mass);
+
+#endif

@@ -1,0 +1,80 @@
+/* floor 2: eight doubles as one value. Written with the compiler's vector extension, so the same source becomes
+ * AVX-512, AVX2 or SSE code; only the reciprocal root and the gather name AVX-512 instructions, and have a plain
+ * twin beside them. */
+#ifndef CLEAVE_LANES_H
+#define CLEAVE_LANES_H
+
+#include <math.h>
+
+#include "particles.h"
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+typedef real lanes __attribute__((vector_size(LANES * sizeof(real))));
+typedef real lanes_anywhere __attribute__((vector_size(LANES * sizeof(real)), aligned(sizeof(real)), may_alias));
+typedef float lanes_float __attribute__((vector_size(LANES * sizeof(float)), may_alias));
+typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))));
+
+static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (const lanes_anywhere *)from; }
+static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to = a; }
+static ALWAYS_INLINE lanes lanes_of(real a) { return (lanes){a, a, a, a, a, a, a, a}; }
+
+/* Eight floats at a 32-byte boundary. */
+static ALWAYS_INLINE lanes lanes_load_float(const float *from)
+{
+    return __builtin_convertvector(*(const lanes_float *)from, lanes);
+}
+
+static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_i32gather_pd(_mm256_load_si256((const __m256i *)index), from, sizeof(real));
+#else
+    return (lanes){from[index[0]], from[index[1]], from[index[2]], from[index[3]],
+                   from[index[4]], from[index[5]], from[index[6]], from[index[7]]};
+#endif
+}
+
+/* a where the mask is set, else b. */
+static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
+{
+    return (lanes)((mask & (lanes_mask)a) | (~mask & (lanes_mask)b));
+}
+
+static ALWAYS_INLINE lanes lanes_max(lanes a, lanes b)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_max_pd((__m512d)a, (__m512d)b);
+#else
+    return lanes_choose(a > b, a, b);
+#endif
+}
+
+static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
+{
+#ifdef __AVX512F__
+    return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+#else
+    int64_t any = 0;
+    for (int l = 0; l < LANES; l++) any |= mask[l];
+    return any != 0;
+#endif
+}
+
+/* 1/sqrt(a) to full double precision: a 14-bit estimate and two Newton steps cost a third of a root and a division. */
+static ALWAYS_INLINE lanes lanes_inverse_root(lanes a)
+{
+#ifdef __AVX512F__
+    lanes y = (lanes)_mm512_rsqrt14_pd((__m512d)a), half = a * 0.5;
+    y = y * (1.5 - half * y * y);
+    return y * (1.5 - half * y * y);
+#else
+    lanes y;
+    for (int l = 0; l < LANES; l++) y[l] = 1 / sqrt(a[l]);
+    return y;
+#endif
+}
+
+#endif

@@ -1,0 +1,44 @@
+/* floor 2: the second map of MUSL: points take the change of the nodal velocities (FLIP), then give their new momentum
+ * back to the nodes with the same weights:  v_p += sum N dv_I,   P_I = sum m v_p N  (Zeng et al. 2022, eqs. 39, 42). */
+#include "kernels.h"
+#include "shape.h"
+#include "variants.h"
+
+static ALWAYS_INLINE void remap_particle(struct grid *g, struct particles *p, const struct transfer_data *t, int64_t i,
+                                         const int dim, const enum shape shape)
+{
+    struct stencil s;
+    stencil_make(&s, g, p, i, t->half_width, dim, shape);
+    real change[DIM_MAX] = {0}, momentum[DIM_MAX];
+    FOR_NODES(dim, shape) {
+        const int64_t I = stencil_index(&s, g, k0, k1, k2, dim);
+        const real N = stencil_weight(&s, k0, k1, k2, dim);
+        for (int d = 0; d < dim; d++) change[d] += N * g->force[d][I];
+    }
+    for (int d = 0; d < dim; d++) {
+        p->v[d][i] += change[d];
+        momentum[d] = p->mass[i] * p->v[d][i];
+    }
+    FOR_NODES(dim, shape) {
+        const int64_t I = stencil_index(&s, g, k0, k1, k2, dim);
+        const real N = stencil_weight(&s, k0, k1, k2, dim);
+        for (int d = 0; d < dim; d++) g->momentum[d][I] += momentum[d] * N;
+    }
+}
+
+#define INSTANCE(D, S)                                                                                              \
+    static void remap_##D##d_##S(struct grid *g, struct particles *p, const struct transfer_data *t)                \
+    {                                                                                                               \
+        const struct transfer_order *o = t->order;                                                                  \
+        _Pragma("omp parallel")                                                                                     \
+        for (int colour = 0; colour < 1 << D; colour++) {                                                           \
+            _Pragma("omp for schedule(static)")                                                                     \
+            for (int block = o->blocks_of[colour]; block < o->blocks_of[colour + 1]; block++)                       \
+                for (int32_t k = o->block_start[block]; k < o->block_start[block + 1]; k++)                         \
+                    remap_particle(g, p, t, o->particle[k], D, SHAPE_##S);                                          \
+        }                                                                                                           \
+    }
+SHAPE_VARIANTS(INSTANCE)
+
+#define ENTRY(D, S) [D][SHAPE_##S] = remap_##D##d_##S,
+remap_fn *const remap_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS(ENTRY)};

@@ -1,0 +1,95 @@
+/* floor 2: constitutive update of a material point: linear elasticity in the rate form of Jaumann (sheet 1.1):
+ *     sigma += C : eps + W sigma - sigma W,   eps = sym(L) dt,  W = skew(L) dt
+ * Components as in base.h; plane stress and plane strain differ in their constants only. */
+#ifndef CLEAVE_STRESS_H
+#define CLEAVE_STRESS_H
+
+#include <math.h>
+
+#include "kernels.h"
+
+/* Half the angle above which the first-order rotation is replaced by the exact one (sheet 1.1) [rad]. */
+#define SPIN_SMALL 1e-3
+
+static ALWAYS_INLINE void stress_rotate_2d(real *s, real w)
+{
+    /* first order: s + W s - s W; else R s R^T with the rotation by the angle -w of x towards y (w = W_xy) */
+    if (fabs(w) <= SPIN_SMALL) {
+        const real xx = s[0], yy = s[1], xy = s[2];
+        s[0] = xx + 2 * xy * w, s[1] = yy - 2 * xy * w, s[2] = xy + (yy - xx) * w;
+        return;
+    }
+    const real c = cos(2 * w), n = sin(2 * w), mean = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
+    const real turned = half * c + s[2] * n;
+    s[2] = s[2] * c - half * n;
+    s[0] = mean + turned, s[1] = mean - turned;
+}
+
+/* s + W s - s W with W_xy, W_yz, W_zx. */
+static ALWAYS_INLINE void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
+{
+    const real S[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
+    const real W[3][3] = {{0, wxy, -wzx}, {-wxy, 0, wyz}, {wzx, -wyz, 0}};
+    real change[3][3];
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            change[a][b] = 0;
+            for (int k = 0; k < 3; k++) change[a][b] += W[a][k] * S[k][b] - S[a][k] * W[k][b];
+        }
+    s[0] += change[0][0], s[1] += change[1][1], s[2] += change[2][2];
+    s[3] += change[0][1], s[4] += change[1][2], s[5] += change[2][0];
+}
+
+/* Updates s by the velocity gradient L[a dim + b] = dv_a/dx_b; returns the trace of the strain increment. */
+static ALWAYS_INLINE real stress_update(real *s, const real *L, const struct elastic *m, real dt, const int dim)
+{
+    if (dim == 1) {
+        s[0] += m->c11 * L[0] * dt;
+        return L[0] * dt;
+    }
+    if (dim == 2) {
+        const real xx = L[0] * dt, yy = L[3] * dt, xy = 0.5 * (L[1] + L[2]) * dt;
+        stress_rotate_2d(s, 0.5 * (L[1] - L[2]) * dt);
+        s[0] += m->c11 * xx + m->c12 * yy;
+        s[1] += m->c12 * xx + m->c11 * yy;
+        s[2] += 2 * m->shear * xy;
+        return xx + yy;
+    }
+    const real xx = L[0] * dt, yy = L[4] * dt, zz = L[8] * dt, trace = xx + yy + zz;
+    stress_rotate_3d(s, 0.5 * (L[1] - L[3]) * dt, 0.5 * (L[5] - L[7]) * dt, 0.5 * (L[6] - L[2]) * dt);
+    const real lambda = m->c12, twice = m->c11 - m->c12;
+    s[0] += lambda * trace + twice * xx;
+    s[1] += lambda * trace + twice * yy;
+    s[2] += lambda * trace + twice * zz;
+    s[3] += m->shear * (L[1] + L[3]) * dt;
+    s[4] += m->shear * (L[5] + L[7]) * dt;
+    s[5] += m->shear * (L[6] + L[2]) * dt;
+    return trace;
+}
+
+/* Largest principal stress; in 3D by the trigonometric solution of the cubic. */
+static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
+{
+    if (dim == 1) return s[0];
+    if (dim == 2) return 0.5 * (s[0] + s[1]) + sqrt(0.25 * (s[0] - s[1]) * (s[0] - s[1]) + s[2] * s[2]);
+    const real mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
+    const real off = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+    const real j2 = 0.5 * (a * a + b * b + c * c) + off;
+    if (j2 <= 0) return mean;
+    const real j3 = a * b * c + 2 * s[3] * s[4] * s[5] - a * s[4] * s[4] - b * s[5] * s[5] - c * s[3] * s[3];
+    real cosine = 1.5 * sqrt(3.0) * j3 / (j2 * sqrt(j2));
+    cosine = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
+    return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
+}
+
+/* No principal stress exceeds this; cheap, to look closer only where it may matter. */
+static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
+{
+    if (dim == 1) return s[0];
+    if (dim == 2) return 0.5 * (s[0] + s[1]) + 0.5 * fabs(s[0] - s[1]) + fabs(s[2]);
+    real most = s[0] > s[1] ? s[0] : s[1];
+    most = most > s[2] ? most : s[2];
+    return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
+}
+
+#endif

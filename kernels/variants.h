@@ -1,0 +1,17 @@
+/* floor 2: the list of kernel instances. One line here makes the instance, its table entry, its test and its
+ * timing. */
+#ifndef CLEAVE_VARIANTS_H
+#define CLEAVE_VARIANTS_H
+
+#define DIM_VARIANTS(X) X(1) X(2) X(3)
+
+#define PD_VARIANTS(X) X(1, BOND) X(2, BOND) X(3, BOND)
+
+#define SHAPE_VARIANTS(X)                                                       \
+    X(1, LINEAR) X(1, GIMP) X(1, CPGIMP) X(1, QUADRATIC) X(1, CUBIC)            \
+    X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
+    X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
+
+#define TRANSFER_VARIANTS(X, D, S) X(D, S, FLIP) X(D, S, APIC)
+
+#endif

@@ -1,0 +1,23 @@
+/* floor 0: the one message that goes with a status. */
+#include "base.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+enum { MESSAGE_LENGTH = 1024 };
+
+/* As errno: each thread has its own, so that a worker's fault never mixes with another's. */
+static _Thread_local char message[MESSAGE_LENGTH];
+
+status status_set(status s, const char *format, ...)
+{
+    char text[MESSAGE_LENGTH];           /* the old message may be among the arguments */
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    snprintf(message, sizeof message, "%s", text);
+    return s;
+}
+
+const char *status_message(void) { return message; }

@@ -1,0 +1,442 @@
+/* floor 1: making bond rows: search, weigh, pack eight rows to a group, carry over what was broken. */
+#include "bonds.h"
+
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+#include "memory.h"
+
+/* One row while it is made. */
+struct row {
+    int n;
+    int32_t *nbr;
+    real *inverse_length;
+    float *w;
+    real trigger, family_volume, cut_volume;
+};
+
+/* A thread's room for the eight rows of a group. */
+struct group_room {
+    int room;                            /* bonds a row may have */
+    struct row row[LANES];
+    int32_t *offset;                     /* [LANES room] distinct index distances */
+};
+
+/* Micro-moduli of all pairs of materials over that of material 0. */
+struct pair_table { real *ratio; int materials; };
+
+/* ---- who is whose neighbour ------------------------------------------------------------------------ */
+
+/* Bonds join particles of one body. */
+static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
+{
+    real X[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    int n = cells_near(s->cells, p, X, s->family.cutoff, i, found, room), kept = 0;
+    if (n > room) return n;
+    for (int k = 0; k < n; k++)
+        if (p->body[found[k]] == p->body[i]) found[kept++] = found[k];
+    return kept;
+}
+
+/* Most neighbours any particle has within the cutoff. */
+static int family_room(const struct bond_source *s, const struct particles *p)
+{
+    int most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most)
+    for (int64_t i = 0; i < p->n_all; i++) {
+        real X[DIM_MAX];
+        for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+        int n = cells_near(s->cells, p, X, s->family.cutoff, (int32_t)i, NULL, 0);
+        if (n > most) most = n;
+    }
+    return most;
+}
+
+static bool cut_by_crack(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) a[d] = p->X[d][i], b[d] = p->X[d][j];
+    for (int c = 0; c < s->cracks; c++)
+        if (crack_cuts(&s->crack[c], a, b, p->dim)) return true;
+    return false;
+}
+
+/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`. */
+static void mark_rows(const struct bond_source *s, const struct particles *p, int room, uint8_t *wanted)
+{
+    if (p->n_of[KIND_PD] == p->n) {
+        memset(wanted, 1, (size_t)p->n);
+        return;
+    }
+    int32_t *found = NEW("bonds.found", room, int32_t);
+    for (int64_t i = 0; i < p->n_all; i++) {
+        if (p->kind[i] != KIND_PD) continue;
+        if (i < p->n) wanted[i] = 1;
+        int n = family_search(s, p, (int32_t)i, found, room);
+        for (int k = 0; k < n; k++)
+            if (found[k] < p->n) wanted[found[k]] = 1;
+    }
+    memory_free(found);
+}
+
+/* ---- one row --------------------------------------------------------------------------------------- */
+
+static float bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+                         int32_t i, int32_t j, const real *xi, real r)
+{
+    /* Written so that i and j may be exchanged without changing a bit. */
+    real weight = family_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
+    weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
+    if (s->neighbour_volume)             /* volume method (sheet 1.5) */
+        weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
+    return (float)weight;
+}
+
+static void row_make(struct row *row, const struct bond_source *s, const struct particles *p,
+                     const struct pair_table *pairs, int32_t i, int room)
+{
+    int n = family_search(s, p, i, row->nbr, room), kept = 0;
+    row->trigger = INFINITY, row->family_volume = row->cut_volume = 0;
+    for (int k = 0; k < n; k++) {
+        int32_t j = row->nbr[k];
+        bool whole = p->kind[i] == KIND_PD || p->kind[j] == KIND_PD;
+        real xi[DIM_MAX], r2 = 0;
+        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
+        row->family_volume += p->volume0[j];
+        if (!whole) continue;
+        bool cut = s->cracks > 0 && cut_by_crack(s, p, i, j);
+        if (cut) row->cut_volume += p->volume0[j];
+        row->nbr[kept] = j;
+        row->inverse_length[kept] = 1 / sqrt(r2);
+        row->w[kept] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, sqrt(r2));
+        row->trigger = real_min(row->trigger, s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]]);
+        kept++;
+    }
+    row->n = kept;
+}
+
+/* What load had broken in the rows before stays broken. Both rows list their neighbours in ascending order of
+ * distance in index inside a slot order of their own, so a search is needed; broken rows are few. */
+static void row_inherit(struct row *row, const struct bonds *old, int64_t old_row)
+{
+    int64_t group = old_row / LANES;
+    int lane = (int)(old_row % LANES);
+    for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
+        int64_t q = bond_index(old, group, k, lane);
+        if (old->w[q] != 0 || old->inverse_length[q] == 0) continue;
+        for (int m = 0; m < row->n; m++)
+            if (row->nbr[m] == old->nbr[q]) row->w[m] = 0;
+    }
+}
+
+/* ---- one group ------------------------------------------------------------------------------------- */
+
+static int group_rows(const struct bonds *b, int64_t g) { return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES; }
+
+/* Distinct index distances of the group's bonds, ascending. */
+static int group_offsets(struct group_room *g, const int32_t *particle, int rows)
+{
+    int n = 0;
+    for (int l = 0; l < rows; l++)
+        for (int k = 0, at = 0; k < g->row[l].n; k++) {
+            int32_t offset = g->row[l].nbr[k] - particle[l];
+            while (at < n && g->offset[at] < offset) at++;
+            if (at < n && g->offset[at] == offset) continue;
+            memmove(g->offset + at + 1, g->offset + at, (size_t)(n - at) * sizeof *g->offset);
+            g->offset[at] = offset, n++;
+        }
+    return n;
+}
+
+/* Slots the group needs; `by_offset` tells whether a slot holds one index distance (a lattice) or the rows are
+ * simply packed (an irregular cloud, where distances differ and slots by distance would be mostly padding). */
+static int group_slots(struct group_room *g, const int32_t *particle, int rows, bool *by_offset)
+{
+    int longest = 0;
+    for (int l = 0; l < rows; l++)
+        if (g->row[l].n > longest) longest = g->row[l].n;
+    int offsets = group_offsets(g, particle, rows);
+    *by_offset = offsets <= longest + longest / 3;
+    return *by_offset ? offsets : longest;
+}
+
+static void slot_put(struct bonds *b, int64_t q, const struct row *row, int k)
+{
+    b->nbr[q] = row->nbr[k];
+    b->inverse_length[q] = row->inverse_length[k];
+    b->w[q] = row->w[k];
+}
+
+static void slot_pad(struct bonds *b, int64_t q, int32_t neighbour)
+{
+    b->nbr[q] = neighbour;
+    b->inverse_length[q] = 0;
+    b->w[q] = 0;
+}
+
+static void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, int64_t n_all)
+{
+    const int32_t *particle = b->particle + g * LANES;
+    int used[LANES] = {0}, slots = (int)(b->slot[g + 1] - b->slot[g]);
+    for (int k = 0; k < slots; k++) {
+        int64_t q = bond_index(b, g, k, 0);
+        for (int l = 0; l < LANES; l++) {
+            const struct row *row = &room->row[l];
+            bool has = l < rows && used[l] < row->n;
+            if (has && by_offset) has = row->nbr[used[l]] - particle[l] == room->offset[k];
+            int64_t other = by_offset ? particle[l] + (l < rows ? room->offset[k] : 0) : particle[l];
+            if (has) slot_put(b, q + l, row, used[l]++);
+            else slot_pad(b, q + l, other < 0 || other >= n_all ? particle[l] : (int32_t)other);
+        }
+        bool consecutive = true;
+        for (int l = 1; l < LANES; l++) consecutive = consecutive && b->nbr[q + l] == b->nbr[q] + l;
+        b->consecutive[b->slot[g] + k] = consecutive;
+    }
+}
+
+static void group_note(struct bonds *b, const struct group_room *room, int64_t g, int rows)
+{
+    bool aligned = rows == LANES;
+    for (int l = 1; l < rows; l++) aligned = aligned && b->particle[g * LANES + l] == b->particle[g * LANES] + l;
+    b->aligned[g] = aligned;
+    for (int l = 0; l < rows; l++) {
+        int64_t r = g * LANES + l;
+        b->trigger[r] = room->row[l].trigger * (1 - 1e-9);
+        b->family_volume[r] = (float)room->row[l].family_volume;
+        b->broken_volume[r] = (float)room->row[l].cut_volume;
+    }
+    for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
+}
+
+/* ---- all rows -------------------------------------------------------------------------------------- */
+
+static void rooms_make(struct group_room *g, int room)
+{
+    g->room = room;
+    for (int l = 0; l < LANES; l++) {
+        g->row[l].nbr = NEW("bonds.row", room, int32_t);
+        g->row[l].inverse_length = NEW("bonds.row", room, real);
+        g->row[l].w = NEW("bonds.row", room, float);
+    }
+    g->offset = NEW("bonds.offset", (int64_t)LANES * room + 1, int32_t);
+}
+
+static void rooms_free(struct group_room *g)
+{
+    for (int l = 0; l < LANES; l++) {
+        memory_free(g->row[l].nbr);
+        memory_free(g->row[l].inverse_length);
+        memory_free(g->row[l].w);
+    }
+    memory_free(g->offset);
+}
+
+static struct pair_table pairs_make(const struct bond_source *s)
+{
+    struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
+    real *c = NEW("bonds.moduli", s->materials, real);
+    for (int m = 0; m < s->materials; m++) c[m] = family_micro_modulus(&s->family, &s->material[m]);
+    for (int a = 0; a < s->materials; a++)       /* springs in series across a material interface */
+        for (int b = 0; b < s->materials; b++) t.ratio[a * s->materials + b] = 2 * (c[a] * c[b]) / (c[a] + c[b]) / c[0];
+    memory_free(c);
+    return t;
+}
+
+static void rows_list(struct bonds *b, const struct particles *p, const uint8_t *wanted)
+{
+    b->row_of = NEW("bonds.row_of", p->n_all, int32_t);
+    b->rows = 0;
+    for (int64_t i = 0; i < p->n_all; i++) b->row_of[i] = i < p->n && wanted[i] ? (int32_t)b->rows++ : -1;
+    b->groups = (b->rows + LANES - 1) / LANES;
+    b->particle = NEW("bonds.particle", b->groups * LANES, int32_t);
+    for (int64_t i = 0; i < p->n; i++)
+        if (b->row_of[i] >= 0) b->particle[b->row_of[i]] = (int32_t)i;
+    for (int64_t r = b->rows; r < b->groups * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
+}
+
+static void rows_arrays(struct bonds *b)
+{
+    int64_t padded = b->groups * LANES;
+    b->slot = NEW("bonds.slot", b->groups + 1, int64_t);
+    b->aligned = NEW("bonds.aligned", b->groups, uint8_t);
+    b->trigger = NEW("bonds.trigger", padded, real);
+    b->family_volume = NEW("bonds.family_volume", padded, float);
+    b->broken_volume = NEW("bonds.broken_volume", padded, float);
+    b->fracture_energy = NEW("bonds.fracture_energy", padded, real);
+    b->broken = NEW("bonds.broken", padded, int32_t);
+}
+
+/* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice. */
+static void rows_pass(struct bonds *b, const struct bonds *old, const struct particles *p, const struct bond_source *s,
+                      const struct pair_table *pairs, int most, bool count)
+{
+#pragma omp parallel
+    {
+        struct group_room room = {0};
+        rooms_make(&room, most);
+#pragma omp for schedule(static)
+        for (int64_t g = 0; g < b->groups; g++) {
+            int rows = group_rows(b, g);
+            for (int l = 0; l < rows; l++) {
+                int32_t i = b->particle[g * LANES + l];
+                row_make(&room.row[l], s, p, pairs, i, most);
+                if (!count && old && i < p->n && old->row_of[i] >= 0) row_inherit(&room.row[l], old, old->row_of[i]);
+            }
+            bool by_offset;
+            int slots = group_slots(&room, b->particle + g * LANES, rows, &by_offset);
+            if (count) b->slot[g + 1] = slots;
+            else group_fill(b, &room, g, rows, by_offset, p->n_all), group_note(b, &room, g, rows);
+        }
+        rooms_free(&room);
+    }
+}
+
+static void rows_carry(struct bonds *b, const struct bonds *old)
+{
+    for (int64_t r = 0; r < b->rows; r++) {
+        int32_t before = old->row_of[b->particle[r]];
+        if (before < 0) continue;
+        b->fracture_energy[r] = old->fracture_energy[before];
+        b->broken[r] = old->broken[before];
+        if (old->broken[before] > 0) b->broken_volume[r] = old->broken_volume[before];
+    }
+}
+
+void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s)
+{
+    memset(b, 0, sizeof *b);
+    int most = family_room(s, p);
+    uint8_t *wanted = NEW("bonds.wanted", p->n, uint8_t);
+    mark_rows(s, p, most, wanted);
+    rows_list(b, p, wanted);
+    memory_free(wanted);
+    rows_arrays(b);
+
+    struct pair_table pairs = pairs_make(s);
+    rows_pass(b, old, p, s, &pairs, most, true);
+    for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
+    b->slots = b->slot[b->groups];
+    b->consecutive = NEW("bonds.consecutive", b->slots, uint8_t);
+    b->nbr = NEW("bonds.nbr", b->slots * LANES, int32_t);
+    b->inverse_length = NEW("bonds.inverse_length", b->slots * LANES, real);
+    b->w = NEW("bonds.w", b->slots * LANES, float);
+    rows_pass(b, old, p, s, &pairs, most, false);
+    memory_free(pairs.ratio);
+    for (int64_t q = 0; q < b->slots * LANES; q++) b->n += b->inverse_length[q] != 0;
+    if (old) rows_carry(b, old);
+
+    b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
+    for (int64_t r = 0; r < b->rows; r++)
+        if (p->kind[b->particle[r]] == KIND_PD)
+            p->damage[b->particle[r]] = b->family_volume[r] > 0 ? b->broken_volume[r] / b->family_volume[r] : 0;
+}
+
+void bonds_free(struct bonds *b)
+{
+    memory_free(b->particle);
+    memory_free(b->row_of);
+    memory_free(b->slot);
+    memory_free(b->aligned);
+    memory_free(b->consecutive);
+    memory_free(b->nbr);
+    memory_free(b->inverse_length);
+    memory_free(b->w);
+    memory_free(b->trigger);
+    memory_free(b->family_volume);
+    memory_free(b->broken_volume);
+    memory_free(b->fracture_energy);
+    memory_free(b->broken);
+    memset(b, 0, sizeof *b);
+}
+
+/* ---- sums over all particles as if all were peridynamic -------------------------------------------- */
+
+void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
+{
+    int most = family_room(s, p);
+    struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
+    plain.shell_weight[0] = plain.shell_weight[1] = 1;
+#pragma omp parallel
+    {
+        int32_t *found = NEW("bonds.found", most, int32_t);
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < p->n_all; i++) {
+            int n = family_search(s, p, (int32_t)i, found, most);
+            volume[i] = 0;
+            for (int k = 0; k < n; k++) {
+                real xi[DIM_MAX];
+                for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][found[k]] - p->X[d][i];
+                real r = sqrt(dot(xi, xi, p->dim));
+                volume[i] += p->volume0[found[k]] * family_weight(&plain, xi, r);
+            }
+        }
+        memory_free(found);
+    }
+    for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
+}
+
+/* omega^2 m of one particle: largest row sum of the 3x3 block sum K n n plus sum K [N/m]. */
+static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
+{
+    real block[DIM_MAX][DIM_MAX] = {{0}}, total = 0, norm = 0;
+    for (int k = 0; k < row->n; k++) {
+        real K = stiffness * row->w[k] * row->inverse_length[k], n[DIM_MAX] = {0};
+        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][row->nbr[k]] - p->X[d][i]) * row->inverse_length[k];
+        for (int a = 0; a < p->dim; a++)
+            for (int c = 0; c < p->dim; c++) block[a][c] += K * n[a] * n[c];
+        total += K;
+    }
+    for (int a = 0; a < p->dim; a++) {
+        real sum = 0;
+        for (int c = 0; c < p->dim; c++) sum += fabs(block[a][c]);
+        norm = real_max(norm, sum);
+    }
+    return norm + total;
+}
+
+real bonds_critical_step(const struct particles *p, const struct bond_source *s)
+{
+    int most = family_room(s, p);
+    real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
+    struct pair_table pairs = pairs_make(s);
+    uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);
+    struct particles all = *p;
+    memset(kind, KIND_PD, (size_t)p->n_all);
+    all.kind = kind;
+#pragma omp parallel reduction(max : largest)
+    {
+        struct group_room room = {0};
+        rooms_make(&room, most);
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) {
+            row_make(&room.row[0], s, &all, &pairs, (int32_t)i, most);
+            largest = real_max(largest, row_stiffness(&room.row[0], &all, (int32_t)i, stiffness) / p->mass[i]);
+        }
+        rooms_free(&room);
+    }
+    memory_free(kind);
+    memory_free(pairs.ratio);
+    return largest > 0 ? 2 / sqrt(largest) : INFINITY;
+}
+
+/* ---- state that survives a restart ------------------------------------------------------------------ */
+
+status bonds_archive(struct bonds *b, struct particles *p, struct archive *a)
+{
+    size_t padded = (size_t)(b->groups * LANES);
+    TRY(a->exchange(a, "bonds/w", b->w, (size_t)b->slots * LANES * sizeof *b->w));
+    TRY(a->exchange(a, "bonds/broken_volume", b->broken_volume, padded * sizeof *b->broken_volume));
+    TRY(a->exchange(a, "bonds/fracture_energy", b->fracture_energy, padded * sizeof *b->fracture_energy));
+    TRY(a->exchange(a, "bonds/broken", b->broken, padded * sizeof *b->broken));
+    TRY(a->exchange(a, "bonds/damage", p->damage, (size_t)p->n_all * sizeof *p->damage));
+    return OK;
+}
+
+real bonds_fracture_energy(const struct bonds *b)
+{
+    real sum = 0;                        /* few rows have any; a serial sum is the same on any number of threads */
+    for (int64_t r = 0; r < b->rows; r++) sum += b->fracture_energy[r];
+    return sum;
+}

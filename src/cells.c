@@ -1,0 +1,240 @@
+/* floor 1: linked cells over reference positions, and the coloured order of transfers. */
+#include "cells.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "grid.h"
+#include "memory.h"
+
+/* ---- reference search ------------------------------------------------------------------------------ */
+
+static int64_t cell_of(const struct cells *c, const real *X)
+{
+    int64_t index = 0;
+    for (int d = c->dim - 1; d >= 0; d--) {
+        int64_t k = (int64_t)floor((X[d] - c->origin[d]) / c->edge);
+        if (k < 0) k = 0;
+        if (k >= c->count[d]) k = c->count[d] - 1;
+        index = index * c->count[d] + k;
+    }
+    return index;
+}
+
+static void point_of(const struct particles *p, int64_t i, real *X)
+{
+    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+}
+
+/* A box far larger than its particles would need more cells than particles: coarser cells search as well. */
+static void cells_shape(struct cells *c, const struct particles *p, real edge)
+{
+    real low[DIM_MAX], high[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) {
+        low[d] = INFINITY, high[d] = -INFINITY;
+        for (int64_t i = 0; i < p->n_all; i++) {
+            low[d] = real_min(low[d], p->X[d][i]);
+            high[d] = real_max(high[d], p->X[d][i]);
+        }
+    }
+    c->dim = p->dim;
+    for (c->edge = edge;; c->edge *= 1.5) {
+        real cells = 1;
+        for (int d = 0; d < c->dim; d++) {
+            c->origin[d] = low[d];
+            c->count[d] = p->n_all > 0 ? (int64_t)floor((high[d] - low[d]) / c->edge) + 1 : 1;
+            cells *= (real)c->count[d];
+        }
+        if (cells <= 4.0 * (real)p->n_all + 64) break;
+    }
+    c->n = 1;
+    for (int d = 0; d < c->dim; d++) c->n *= c->count[d];
+}
+
+void cells_make(struct cells *c, const struct particles *p, real edge)
+{
+    cells_shape(c, p, edge);
+    c->start = NEW("cells.start", c->n + 2, int32_t);
+    c->order = NEW("cells.order", p->n_all, int32_t);
+    real X[DIM_MAX];
+    for (int64_t i = 0; i < p->n_all; i++) {
+        point_of(p, i, X);
+        c->start[cell_of(c, X) + 2]++;
+    }
+    for (int64_t k = 0; k < c->n; k++) c->start[k + 2] += c->start[k + 1];
+    for (int64_t i = 0; i < p->n_all; i++) {
+        point_of(p, i, X);
+        c->order[c->start[cell_of(c, X) + 1]++] = (int32_t)i;
+    }
+}
+
+void cells_free(struct cells *c)
+{
+    memory_free(c->start);
+    memory_free(c->order);
+    memset(c, 0, sizeof *c);
+}
+
+/* Keeps found[0 .. n] ascending; new indices come almost in order. */
+static void insert_ascending(int32_t *found, int n, int32_t index)
+{
+    int k = n;
+    for (; k > 0 && found[k - 1] > index; k--) found[k] = found[k - 1];
+    found[k] = index;
+}
+
+static int near_in_row(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
+                       int64_t first, int64_t last, int32_t *found, int room, int n)
+{
+    for (int32_t k = c->start[first]; k < c->start[last + 1]; k++) {
+        int32_t j = c->order[k];
+        real r2 = 0;
+        for (int d = 0; d < c->dim; d++) r2 += square(p->X[d][j] - X[d]);
+        if (r2 > radius * radius || j == skip) continue;
+        if (n < room) insert_ascending(found, n, j);
+        n++;
+    }
+    return n;
+}
+
+int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
+               int32_t *found, int room)
+{
+    int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
+    for (int d = 0; d < c->dim; d++) {
+        int64_t reach = (int64_t)ceil(radius / c->edge);
+        int64_t k = (int64_t)floor((X[d] - c->origin[d]) / c->edge);
+        low[d] = k - reach < 0 ? 0 : k - reach;
+        high[d] = k + reach >= c->count[d] ? c->count[d] - 1 : k + reach;
+        if (low[d] > high[d]) return 0;
+    }
+    int n = 0;
+    for (int64_t a = low[2]; a <= high[2]; a++) {
+        for (int64_t b = low[1]; b <= high[1]; b++) {
+            int64_t row = (a * (c->dim > 1 ? c->count[1] : 1) + b) * c->count[0];
+            n = near_in_row(c, p, X, radius, skip, row + low[0], row + high[0], found, room, n);
+        }
+    }
+    return n;
+}
+
+/* ---- transfer order --------------------------------------------------------------------------------- */
+
+/* Key of the grid cell of a material point: colour, block, cell inside the block. */
+struct block_shape {
+    int64_t first[DIM_MAX], blocks[DIM_MAX];   /* in blocks, counted from node 0 */
+    int64_t cells_in_block, n;
+};
+
+static int64_t floor_divide(int64_t a, int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+static struct block_shape block_shape_of(const struct grid *g)
+{
+    struct block_shape s = {.cells_in_block = 1, .n = 1};
+    for (int d = 0; d < g->dim; d++) {
+        s.first[d] = floor_divide(g->first[d], BLOCK_EDGE);
+        s.blocks[d] = floor_divide(g->first[d] + g->count[d] - 1, BLOCK_EDGE) - s.first[d] + 1;
+        s.cells_in_block *= BLOCK_EDGE;
+        s.n *= s.blocks[d];
+    }
+    return s;
+}
+
+static int64_t block_key(const struct block_shape *s, const struct grid *g, const struct particles *p, int64_t i,
+                         int64_t *inside)
+{
+    int64_t block = 0, cell = 0;
+    for (int d = g->dim - 1; d >= 0; d--) {
+        int64_t k = (int64_t)floor((p->x[d][i] - g->anchor[d]) / g->h);
+        int64_t b = floor_divide(k, BLOCK_EDGE);
+        block = block * s->blocks[d] + (b - s->first[d]);
+        cell = cell * BLOCK_EDGE + (k - b * BLOCK_EDGE);
+    }
+    *inside = cell;
+    return block;
+}
+
+static int block_colour(const struct block_shape *s, int dim, int64_t block)
+{
+    int colour = 0;
+    for (int d = 0; d < dim; d++) {
+        colour |= (int)((block % s->blocks[d] + s->first[d]) & 1) << d;
+        block /= s->blocks[d];
+    }
+    return colour;
+}
+
+static void order_room(struct transfer_order *o, int64_t n, int64_t blocks)
+{
+    if (o->blocks_room < blocks + 1 || o->n != n) {
+        memory_free(o->particle);
+        memory_free(o->block_start);
+        o->particle = NEW("transfer.particle", n, int32_t);
+        o->block_start = NEW("transfer.block_start", blocks + 1, int32_t);
+        o->blocks_room = (int)blocks + 1;
+    }
+    o->n = n;
+}
+
+/* Counting sort by block (blocks numbered colour by colour), then by cell inside each block. */
+static void sort_in_block(int32_t *particle, uint8_t *inside, int32_t n)
+{
+    for (int32_t k = 1; k < n; k++) {
+        int32_t i = particle[k];
+        uint8_t c = inside[k];
+        int32_t m = k;
+        for (; m > 0 && inside[m - 1] > c; m--) particle[m] = particle[m - 1], inside[m] = inside[m - 1];
+        particle[m] = i, inside[m] = c;
+    }
+}
+
+void transfer_order_sort(struct transfer_order *o, const struct particles *p, const struct grid *g)
+{
+    struct block_shape s = block_shape_of(g);
+    int64_t n = p->n_of[KIND_MPM];
+    order_room(o, n, s.n);
+
+    /* rank of a block: its place in the list of all blocks, colour by colour */
+    int32_t *rank = NEW("transfer.rank", s.n, int32_t);
+    int32_t *key = NEW("transfer.key", n, int32_t);
+    uint8_t *inside = NEW("transfer.inside", n, uint8_t), *sorted = NEW("transfer.sorted", n, uint8_t);
+    int32_t next = 0;
+    for (int c = 0; c < 1 << g->dim; c++) {
+        o->blocks_of[c] = next;
+        for (int64_t b = 0; b < s.n; b++)
+            if (block_colour(&s, g->dim, b) == c) rank[b] = next++;
+    }
+    for (int c = 1 << g->dim; c <= COLOURS_MAX; c++) o->blocks_of[c] = next;
+    o->blocks = next;
+
+    memset(o->block_start, 0, (size_t)(s.n + 1) * sizeof *o->block_start);
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < n; k++) {
+        int64_t cell;
+        key[k] = rank[block_key(&s, g, p, p->list[KIND_MPM][k], &cell)];
+        inside[k] = (uint8_t)cell;
+    }
+    for (int64_t k = 0; k < n; k++) o->block_start[key[k] + 1]++;
+    for (int64_t b = 0; b < s.n; b++) o->block_start[b + 1] += o->block_start[b];
+    int32_t *fill = rank;                                   /* done with ranks */
+    memcpy(fill, o->block_start, (size_t)s.n * sizeof *fill);
+    for (int64_t k = 0; k < n; k++) {
+        int32_t at = fill[key[k]]++;
+        o->particle[at] = p->list[KIND_MPM][k];
+        sorted[at] = inside[k];
+    }
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t b = 0; b < s.n; b++)
+        sort_in_block(o->particle + o->block_start[b], sorted + o->block_start[b], o->block_start[b + 1] - o->block_start[b]);
+    memory_free(rank);
+    memory_free(key);
+    memory_free(inside);
+    memory_free(sorted);
+}
+
+void transfer_order_free(struct transfer_order *o)
+{
+    memory_free(o->particle);
+    memory_free(o->block_start);
+    memset(o, 0, sizeof *o);
+}

@@ -1,0 +1,172 @@
+/* floor 3: conversion of material points to peridynamic particles (Zeng et al. 2022, eqs. 28, 31, 32; sheet 3). */
+#include "convert.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "memory.h"
+
+/* A growing list of particle indices. */
+struct index_list { int32_t *at; int64_t n, room; };
+
+static void list_add(struct index_list *l, int64_t i)
+{
+    if (l->n == l->room) {
+        int64_t room = l->room ? 2 * l->room : 256;
+        l->at = memory_resize("convert.list", l->at, l->room, room, sizeof *l->at);
+        l->room = room;
+    }
+    l->at[l->n++] = (int32_t)i;
+}
+
+/* Particles and images within the cutoff of particle i; grows the list as needed. */
+static int near_particle(const struct bond_source *s, const struct particles *p, int64_t i, struct index_list *found)
+{
+    real X[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    for (;;) {
+        int n = cells_near(s->cells, p, X, s->family.cutoff, (int32_t)i, found->at, (int)found->room);
+        if (n <= found->room) return n;
+        found->n = found->room;
+        list_add(found, 0);
+    }
+}
+
+/* The particle that an image is the image of. */
+static int64_t root_of(const struct bond_source *s, const struct particles *p, int64_t i)
+{
+    while (i >= p->n) i = s->image[i - p->n].source;
+    return i;
+}
+
+static void images_follow(const struct bond_source *s, struct particles *p)
+{
+    for (int64_t k = p->n; k < p->n_all; k++) p->kind[k] = p->kind[s->image[k - p->n].source];
+}
+
+/* ---- before the first step ---------------------------------------------------------------------------- */
+
+static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const int32_t *found, int n)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) a[d] = p->X[d][i];
+    for (int k = 0; k < n; k++) {
+        if (p->body[found[k]] != p->body[i]) continue;
+        for (int d = 0; d < p->dim; d++) b[d] = p->X[d][found[k]];
+        for (int c = 0; c < s->cracks; c++)
+            if (crack_cuts(&s->crack[c], a, b, p->dim)) return true;
+    }
+    return false;
+}
+
+void convert_start(struct particles *p, const struct bond_source *source, const struct region *region)
+{
+#pragma omp parallel
+    {
+        struct index_list found = {0};
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) {
+            real X[DIM_MAX];
+            for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+            if (region && region_contains(region, X, p->dim, 1e-9 * source->family.spacing)) p->kind[i] = KIND_PD;
+            if (source->cracks == 0) continue;
+            int n = near_particle(source, p, i, &found);
+            if (loses_bond(source, p, i, found.at, n)) p->kind[i] = KIND_PD;
+        }
+        memory_free(found.at);
+    }
+    images_follow(source, p);
+    particles_list(p);
+}
+
+/* ---- one pass --------------------------------------------------------------------------------------- */
+
+static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
+{
+    unsigned wanted = (rule->criteria & CONVERT_ON_CUT ? FLAG_CUT : 0u) | (rule->criteria & CONVERT_ON_STRESS ? FLAG_STRESSED : 0u);
+    /* a material point that lost a bond is peridynamic whatever the criteria say: damage lives in bonds only */
+    return p->kind[i] == KIND_MPM && (p->flag[i] & (wanted | FLAG_CUT));
+}
+
+static bool any_flag(const struct particles *p)
+{
+    int any = 0;
+#pragma omp parallel for simd schedule(static) reduction(| : any)
+    for (int64_t i = 0; i < p->n; i++) any |= p->flag[i] & (FLAG_CUT | FLAG_STRESSED);
+    return any != 0;
+}
+
+static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)
+{
+    if (p->kind[i] != KIND_MPM) return;
+    p->kind[i] = KIND_PD;
+    list_add(changed, i);
+}
+
+/* Converts what triggers, and its block; lists the converted. */
+static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
+                           const struct bond_source *source, struct index_list *changed, real t)
+{
+    struct index_list triggered = {0}, found = {0};
+    for (int64_t i = 0; i < p->n; i++) {
+        if (triggers(rule, p, i)) list_add(&triggered, i);
+        p->flag[i] &= (uint8_t)~(FLAG_CUT | FLAG_CRACKED | FLAG_STRESSED);
+    }
+    for (int64_t k = 0; k < triggered.n; k++) {
+        int64_t i = triggered.at[k];
+        if (isnan(c->first_time)) {
+            c->first_time = t;
+            for (int d = 0; d < p->dim; d++) c->first_place[d] = p->X[d][i];
+        }
+        become_peridynamic(p, changed, i);
+        if (!rule->block) continue;
+        int n = near_particle(source, p, i, &found);
+        for (int m = 0; m < n; m++) {
+            int64_t j = root_of(source, p, found.at[m]);
+            if (p->body[j] == p->body[i]) become_peridynamic(p, changed, j);
+        }
+    }
+    memory_free(triggered.at);
+    memory_free(found.at);
+}
+
+/* Rows for the new who-is-what; bonds made past their limit break at once. */
+static int64_t rebuild(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source)
+{
+    struct bonds old = *b;
+    images_follow(source, p);
+    particles_list(p);
+    real before = bonds_fracture_energy(&old);
+    bonds_make(b, &old, p, source);
+    bonds_free(&old);
+    int64_t broken = bond_break_all(b, p, &source->limit);
+    c->released += bonds_fracture_energy(b) - before;
+    return broken;
+}
+
+int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
+                const struct bond_source *source, struct partial_stress *partial, real t)
+{
+    if (!any_flag(p)) return 0;
+    struct index_list changed = {0};
+    int64_t had;
+    do {                                 /* a bond that breaks when made takes its other end along, in the same step */
+        had = changed.n;
+        convert_marked(c, rule, p, source, &changed, t);
+    } while (changed.n > had && rebuild(c, p, b, source) > 0);
+    if (changed.n > 0) {
+        if (partial) partial_stress_make(partial, p, b, source, changed.at, changed.n);
+        c->converted += changed.n;
+        c->events++;
+        if (b->n > c->peak_bonds) c->peak_bonds = b->n;
+    }
+    int64_t converted = changed.n;
+    memory_free(changed.at);
+    return converted;
+}
+
+status conversion_archive(struct conversion *c, struct archive *a)
+{
+    ARCHIVE_VALUE(a, "conversion", *c);
+    return OK;
+}

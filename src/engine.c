@@ -1,0 +1,111 @@
+/* floor 5: the step loop. One line for each step of the algorithm of Zeng et al. 2022 (section 4, as corrected: MUSL,
+ * leap-frog start); who does the work stands in the kernels and in loads.c, convert.c. */
+#include <math.h>
+
+#include "engine.h"
+#include "engine_report.h"
+
+/* ---- one step on the grid ------------------------------------------------------------------------------- */
+
+/* Bounds of the material points. */
+static void points_bounds(const struct particles *p, real *from, real *to)
+{
+    for (int d = 0; d < p->dim; d++) {
+        real low = INFINITY, high = -INFINITY;
+        const real *x = p->x[d];
+#pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high)
+        for (int64_t k = 0; k < p->n_of[KIND_MPM]; k++) {
+            low = real_min(low, x[p->list[KIND_MPM][k]]);
+            high = real_max(high, x[p->list[KIND_MPM][k]]);
+        }
+        from[d] = low, to[d] = high;
+    }
+}
+
+/* The grid covers the points and the points know their cells; nothing to do while none has left its cell. */
+static status points_sort(struct engine *e)
+{
+    if (!e->sort_needed) return OK;
+    real from[DIM_MAX], to[DIM_MAX];
+    bool changed;
+    points_bounds(&e->part, from, to);
+    for (int d = 0; d < e->part.dim; d++)
+        if (!isfinite(to[d] - from[d])) return watch_alarm(&e->part, e->wave_speed, e->step, e->t, e->dt);
+    TRY(grid_cover(&e->grid, from, to, 64 * e->part.n + 1000000, &changed));
+    transfer_order_sort(&e->order, &e->part, &e->grid);
+    e->sort_needed = false;
+    return OK;
+}
+
+static status step_points(struct engine *e, real middle)
+{
+    const struct kernels *k = &e->kernels;
+    struct particles *p = &e->part;
+    struct grid *g = &e->grid;
+    struct transfer_data *t = &e->transfer;
+    const enum transfer transfer = e->scene->transfer;
+
+    TRY(points_sort(e));
+    grid_clear(g);
+    k->p2g(g, p, t);                                                        /* 1, 3: mass, momentum, force to nodes */
+    lap(&e->laps, LAP_SCATTER);
+    engine_residual(e);
+    loads_walls(&e->loads, g, p, k, t->half_width, middle, e->dt);
+    grid_move(g, transfer, t->dt_velocity, e->smallest_mass, e->loads.impulse, &e->loads.work);   /* 3: nodes move */
+    lap(&e->laps, LAP_GRID);
+    if (transfer == TRANSFER_FLIP) {
+        k->remap(g, p, t);                                                  /* 4, 6: velocity; momentum back to nodes */
+        lap(&e->laps, LAP_SCATTER);
+        grid_remapped(g, e->smallest_mass);
+        lap(&e->laps, LAP_GRID);
+    }
+    e->sort_needed = k->g2p(g, p, t) > 0;                                   /* 4, 7: position, strain, stress */
+    lap(&e->laps, LAP_GATHER);
+    return OK;
+}
+
+/* ---- the step ------------------------------------------------------------------------------------------- */
+
+static status step(struct engine *e)
+{
+    const struct kernels *k = &e->kernels;
+    struct particles *p = &e->part;
+    const struct scene *s = e->scene;
+    const real middle = e->t + 0.5 * e->dt;
+    const real dt_velocity = e->step == 0 ? 0.5 * e->dt : e->dt;           /* velocities stand half a step behind */
+    e->transfer.dt_velocity = dt_velocity;
+
+    loads_clear(&e->loads, p);
+    int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit);         /* 2, 5: bond forces on both kinds; breaking */
+    loads_apply(&e->loads, p, middle, e->dt, dt_velocity);
+    lap(&e->laps, LAP_BONDS);
+    engine_sample_begin(e);
+    k->pd_move(p, e->dt, dt_velocity);                                      /* peridynamic particles move */
+    lap(&e->laps, LAP_BONDS);
+    if (p->n_of[KIND_MPM] > 0) TRY(step_points(e, middle));                 /* 1, 3, 4, 6, 7: material points move */
+    loads_hold(&e->loads, &e->grid, p, middle, dt_velocity);
+    loads_mirror(&e->loads, p);
+    lap(&e->laps, LAP_GRID);
+    engine_breaks(e, broken);
+    if (convert(&e->conversion, &s->conversion, p, &e->bonds, &e->source,   /* 8: material point -> peridynamic */
+                e->uses_partial ? &e->partial : NULL, e->t) > 0)
+        e->sort_needed = true;
+    lap(&e->laps, LAP_CONVERT);
+    engine_sample_end(e);
+    e->t = (real)(e->step + 1) * e->dt;
+    e->step++;
+    lap(&e->laps, LAP_WATCH);
+    return OK;
+}
+
+status engine_run(struct engine *e)
+{
+    TRY(engine_report_start(e));
+    laps_start(&e->laps);
+    while (e->step < e->steps) {
+        TRY(step(e));
+        TRY(watch_alarm(&e->part, e->wave_speed, e->step, e->t, e->dt));
+        TRY(engine_report(e));
+    }
+    return engine_report_end(e);
+}

@@ -1,0 +1,212 @@
+/* floor 5: samples, frames, checkpoints and the progress line of a run. */
+#include "engine_report.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "memory.h"
+
+#define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
+#define PROGRESS_SECONDS_FILE 60.0       /* and elsewhere                        */
+
+/* ---- when ------------------------------------------------------------------------------------------------ */
+
+/* Step of event k of n evenly spread over the run. */
+static int64_t due_step(const struct engine *e, int64_t k, int64_t n) { return n > 0 ? (k * e->steps + n / 2) / n : e->steps; }
+
+/* The last sample of a run is that of its last step. */
+static bool sample_due(const struct engine *e)
+{
+    const int64_t n = e->scene->samples;
+    if (e->step == e->steps - 1) return true;
+    return n > 0 && due_step(e, (e->step * n + e->steps / 2) / e->steps, n) == e->step;
+}
+
+/* ---- columns ----------------------------------------------------------------------------------------------- */
+
+enum { RECORD_FIXED = 19 };
+
+static const struct column fixed_columns[RECORD_FIXED] = {
+    {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
+    {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
+    {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
+    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}};
+
+static void fill_record(struct engine *e)
+{
+    const struct ledger *l = &e->watch.now;
+    const struct tip *tip = tips_longest(&e->tips);
+    real *r = e->record;
+    const real fixed[RECORD_FIXED] = {
+        e->watch.now.time, (real)e->step, l->kinetic, l->strain, l->plastic, l->fracture, l->external_work, l->balance_error,
+        l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, (real)e->part.n_of[KIND_PD],
+        (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->bonds.n, tip ? tip->growth : 0,
+        tip ? tip->place[0] : NAN, tip && e->part.dim > 1 ? tip->place[1] : NAN, tip && e->part.dim > 2 ? tip->place[2] : NAN};
+    memcpy(r, fixed, sizeof fixed);
+    for (int c = 0; c < e->probes.columns; c++) r[RECORD_FIXED + c] = e->probes.value[c];
+}
+
+static status history_start(struct engine *e, bool resume)
+{
+    int columns = RECORD_FIXED + e->probes.columns;
+    struct column *column = NEW("report.columns", columns, struct column);
+    memcpy(column, fixed_columns, sizeof fixed_columns);
+    for (int c = 0; c < e->probes.columns; c++) column[RECORD_FIXED + c] = e->probes.column[c];
+    status s = output_history_open(e->out, column, columns, resume);
+    memory_free(column);
+    return s;
+}
+
+/* ---- samples ------------------------------------------------------------------------------------------------ */
+
+void engine_sample_begin(struct engine *e)
+{
+    e->sampling.due = sample_due(e);
+    if (!e->sampling.due) return;
+    e->sampling.kinetic = watch_kinetic(&e->part);
+    e->sampling.potential = e->kernels.bond_energy(&e->bonds, &e->part) +
+                            watch_strain(&e->part, e->scene->material, &e->partial);
+    e->sampling.fracture = bonds_fracture_energy(&e->bonds);
+    e->sampling.work = e->sampling.work_before;
+}
+
+void engine_sample_end(struct engine *e)
+{
+    if (e->sampling.due) {
+        /* the first step moves velocities from t = 0, not from half a step before it */
+        real kinetic = e->step == 0 ? e->sampling.kinetic : 0.5 * (e->sampling.kinetic + watch_kinetic(&e->part));
+        watch_ledger(&e->watch, &e->part, e->t, kinetic, e->sampling.potential, e->sampling.fracture, e->sampling.work,
+                     e->loads.impulse);
+        tips_sample(&e->tips, &e->part, &e->cells, e->t);
+        struct observed o = engine_observed(e);
+        probes_sample(&e->probes, &o);
+        fill_record(e);
+        if (e->out && e->history_status == OK) e->history_status = output_history(e->out, e->record);
+    }
+    e->sampling.work_before = e->loads.work;
+}
+
+void engine_breaks(struct engine *e, int64_t broken)
+{
+    if (broken > 0) watch_breaks(&e->watch, &e->part, broken, e->t);
+    struct observed o = engine_observed(e);
+    probes_step(&e->probes, &o);
+}
+
+static bool in_patch(const struct engine *e, const real *x)
+{
+    for (int k = 0; k < e->scene->probes; k++)
+        if (e->scene->probe[k].kind == PROBE_PATCH && region_contains(&e->scene->probe[k].region, x, e->part.dim, 0)) return true;
+    return false;
+}
+
+void engine_residual(struct engine *e)
+{
+    bool wanted = false;
+    for (int k = 0; k < e->scene->probes; k++) wanted |= e->scene->probe[k].kind == PROBE_PATCH;
+    if (e->step > 0 || !wanted) return;
+    const struct grid *g = &e->grid;
+    const struct particles *p = &e->part;
+    real x[DIM_MAX];
+    for (int64_t I = 0; I < g->n; I++) {
+        for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+        for (int d = 0; d < g->dim; d++)
+            if (in_patch(e, x)) e->residual_step0 = real_max(e->residual_step0, fabs(g->force[d][I]));
+    }
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        int32_t i = p->list[KIND_PD][k];
+        for (int d = 0; d < p->dim; d++) x[d] = p->X[d][i];
+        for (int d = 0; d < p->dim; d++)
+            if (in_patch(e, x)) e->residual_step0 = real_max(e->residual_step0, fabs(p->f[d][i]));
+    }
+}
+
+/* ---- frames and checkpoints ------------------------------------------------------------------------------- */
+
+static status write_frame(struct engine *e)
+{
+    e->kernels.bond_stress(&e->bonds, &e->part);
+    TRY(output_frame(e->out, &e->part, e->t, e->step, e->scene->text));
+    struct observed o = engine_observed(e);
+    return probes_profiles(&e->probes, &o, e->out->folder, e->out->frames - 1);
+}
+
+static status write_checkpoint(struct engine *e)
+{
+    e->last_checkpoint = team_clock();
+    return checkpoint_write(e->out, e->scene->text, engine_archive, e);
+}
+
+status engine_report_start(struct engine *e)
+{
+    e->record = NEW("report.record", RECORD_FIXED + e->probes.columns, real);
+    e->started = e->last_progress = e->last_checkpoint = team_clock();
+    e->step_started = e->step;
+    e->loop_before = e->loop_seconds;
+    e->sampling.work_before = e->loads.work;
+    if (!e->out) return OK;
+    TRY(history_start(e, e->step > 0));
+    if (e->step > 0) return OK;
+    TRY(write_frame(e));
+    return write_checkpoint(e);
+}
+
+/* ---- progress ------------------------------------------------------------------------------------------------ */
+
+static void duration_text(char *text, size_t size, double seconds)
+{
+    if (seconds < 100) snprintf(text, size, "%.0f s", seconds);
+    else if (seconds < 6000) snprintf(text, size, "%.0f min", seconds / 60);
+    else snprintf(text, size, "%.1f h", seconds / 3600);
+}
+
+static void progress(struct engine *e, bool last)
+{
+    bool terminal = isatty(STDERR_FILENO);
+    double now = team_clock();
+    if (e->quiet || (!last && now - e->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE))) return;
+    if (last && !terminal) return;
+    e->last_progress = now;
+    double rate = (double)(e->step - e->step_started) / real_max(now - e->started, 1e-9);
+    char left[32];
+    duration_text(left, sizeof left, rate > 0 ? (double)(e->steps - e->step) / rate : 0);
+    const struct tip *tip = tips_longest(&e->tips);
+    fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left  PD %.1f %%  crack %.3g mm%s", terminal ? "\r" : "",
+            (long long)e->step, (long long)e->steps, e->t, rate, left, 100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n,
+            tip ? 1e3 * tip->growth : 0.0, terminal && !last ? "\033[K" : "\n");
+    fflush(stderr);
+}
+
+/* ---- after a step ---------------------------------------------------------------------------------------------- */
+
+status engine_report(struct engine *e)
+{
+    e->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
+    e->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
+    e->bond_visits += e->bonds.n;
+    lap(&e->laps, LAP_WATCH);
+    TRY(e->history_status);
+    if (e->out) {
+        while (e->out->frames <= e->scene->frames && e->scene->frames > 0 &&
+               e->step >= due_step(e, e->out->frames, e->scene->frames) && e->step > 0)
+            TRY(write_frame(e));
+        bool stop = e->stop && *e->stop;
+        if (stop || team_clock() - e->last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
+        if (stop && e->step < e->steps)
+            return status_set(INTERRUPTED, "interrupted at step %lld of %lld; go on with --resume", (long long)e->step, (long long)e->steps);
+    }
+    progress(e, false);
+    lap(&e->laps, LAP_OUTPUT);
+    e->loop_seconds = e->loop_before - e->laps.spent[LAP_OUTPUT];
+    for (int k = 0; k < LAPS; k++) e->loop_seconds += e->laps.spent[k];
+    return OK;
+}
+
+status engine_report_end(struct engine *e)
+{
+    progress(e, true);
+    if (!e->out) return OK;
+    return write_checkpoint(e);
+}

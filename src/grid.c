@@ -1,0 +1,79 @@
+/* floor 1: the background grid: a box of nodes that grows with its material points. */
+#include "grid.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cells.h"
+#include "memory.h"
+
+enum { MARGIN = 3 };                     /* nodes beyond the outermost point: reach of the widest shape and one cell of motion */
+
+static void grid_arrays_free(struct grid *g)
+{
+    memory_free(g->mass);
+    for (int d = 0; d < g->dim; d++) {
+        memory_free(g->momentum[d]);
+        memory_free(g->force[d]);
+        memory_free(g->velocity[d]);
+    }
+}
+
+static void grid_arrays_make(struct grid *g)
+{
+    g->n = 1;
+    for (int d = 0; d < g->dim; d++) {
+        g->stride[d] = g->n;
+        g->n *= g->count[d];
+    }
+    g->mass = NEW("grid.mass", g->n, real);
+    for (int d = 0; d < g->dim; d++) {
+        g->momentum[d] = NEW("grid.momentum", g->n, real);
+        g->force[d] = NEW("grid.force", g->n, real);
+        g->velocity[d] = NEW("grid.velocity", g->n, real);
+    }
+}
+
+static int64_t block_floor(int64_t k) { return (k >= 0 ? k / BLOCK_EDGE : -((-k + BLOCK_EDGE - 1) / BLOCK_EDGE)) * BLOCK_EDGE; }
+
+status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
+{
+    int64_t first[DIM_MAX], end[DIM_MAX];
+    real nodes = 1;
+    *changed = g->n == 0;
+    for (int d = 0; d < g->dim; d++) {
+        first[d] = block_floor((int64_t)floor((from[d] - g->anchor[d]) / g->h) - MARGIN);
+        end[d] = block_floor((int64_t)floor((to[d] - g->anchor[d]) / g->h) + MARGIN + BLOCK_EDGE);
+        if (g->n > 0 && first[d] >= g->first[d]) first[d] = g->first[d]; else *changed = true;
+        if (g->n > 0 && end[d] <= g->first[d] + g->count[d]) end[d] = g->first[d] + g->count[d]; else *changed = true;
+        nodes *= (real)(end[d] - first[d]);
+    }
+    if (!(nodes <= (real)most))
+        return status_set(FAILED, "the material points have spread so far that their grid would need %.3g nodes; "
+                                  "is the run unstable, or does a fragment fly away?", nodes);
+    if (!*changed) return OK;
+    if (g->n > 0) grid_arrays_free(g);
+    for (int d = 0; d < g->dim; d++) {
+        g->first[d] = first[d];
+        g->count[d] = end[d] - first[d];
+    }
+    grid_arrays_make(g);
+    return OK;
+}
+
+void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load)
+{
+    if (g->walls == g->walls_room) {
+        int64_t room = g->walls_room ? 2 * g->walls_room : 256;
+        g->wall = memory_resize("grid.wall", g->wall, g->walls_room, room, sizeof *g->wall);
+        g->walls_room = room;
+    }
+    g->wall[g->walls++] = (struct wall){(int32_t)node, (int16_t)component, (int16_t)load, velocity, change, 0};
+}
+
+void grid_free(struct grid *g)
+{
+    if (g->n > 0) grid_arrays_free(g);
+    memory_free(g->wall);
+    memset(g, 0, sizeof *g);
+}

@@ -1,0 +1,54 @@
+/* floor 5: the program: one command, one exit status. */
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "scene.h"
+
+struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
+
+static const struct command commands[] = {
+    {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume] [-q]", "runs a scene", command_run},
+    {"check", "SCENE [-s KEY=VALUE]...", "what the scene would cost and whether it is sound", command_check},
+    {"plot", "DIR", "pictures of a finished or running run", command_plot},
+    {"compare", "DIR DIR", "how far two runs are apart", command_compare},
+    {"bench", "[NAME...] [--quick]", "kernels, efficiency", command_bench},
+    {"help", "[KEY]", "every scene key: type, unit, range, default", command_help},
+    {"info", "", "version, build, threads, cores and caches", command_info},
+};
+
+static status usage(status result)
+{
+    FILE *to = result == OK ? stdout : stderr;
+    fprintf(to, "cleave: dynamic fracture by peridynamics and the material point method\n");
+    for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)
+        fprintf(to, "  cleave %-8s %-66s %s\n", c->name, c->words, c->meaning);
+    return result;
+}
+
+status command_help(int argc, char **argv)
+{
+    if (argc > 2) return status_set(REFUSED, "usage: cleave help [KEY]");
+    if (argc == 2 && !strcmp(argv[1], "--manual")) return scene_manual(stdout);
+    return scene_help(stdout, argc == 2 ? argv[1] : NULL);
+}
+
+static status call(int argc, char **argv)
+{
+    if (argc < 2) return usage(REFUSED);
+    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) return usage(OK);
+    if (!strcmp(argv[1], "--version")) argv[1] = "info";
+    for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)
+        if (!strcmp(argv[1], c->name)) return c->call(argc - 1, argv + 1);
+    return status_set(REFUSED, "unknown command %s; cleave --help lists them", argv[1]);
+}
+
+int main(int argc, char **argv)
+{
+    status result = call(argc, argv);
+    if (fflush(stdout) != 0 && result == OK) result = status_set(FAILED, "cannot write to standard output");
+    if (result != OK && status_message()[0]) fprintf(stderr, "%s\n", status_message());
+    fflush(stderr);
+    _exit(result);                           /* libraries that failed to write may not survive their exit handlers */
+}

@@ -1,0 +1,196 @@
+/* floor 3: partial stress: the share of its stress that a material point leaves to the bonds that cross its cell
+ * (coupling sheet 2.3). The bonds between a peridynamic particle and a material point already carry, in uniform strain,
+ *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
+ * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives the
+ * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Symmetric, geometric, exact in one dimension. */
+#include <math.h>
+#include <string.h>
+
+#include "convert.h"
+#include "memory.h"
+
+/* ---- geometry ---------------------------------------------------------------------------------------- */
+
+/* Share of the segment a-b inside the cube of half edge `half` round X. */
+static real segment_share(const real *a, const real *b, const real *X, real half, int dim)
+{
+    real in = 0, out = 1;
+    for (int d = 0; d < dim; d++) {
+        real from = a[d] - X[d], along = b[d] - a[d];
+        if (fabs(along) < 1e-14 * half) {
+            if (fabs(from) >= half) return 0;
+            continue;
+        }
+        real t0 = (-half - from) / along, t1 = (half - from) / along;
+        in = real_max(in, real_min(t0, t1));
+        out = real_min(out, real_max(t0, t1));
+    }
+    return out > in ? out - in : 0;
+}
+
+/* Position of the mirror chain's image of a point: X'_d = sign_d X_d + offset_d. */
+struct reflection { real sign[DIM_MAX], offset[DIM_MAX]; int64_t root; };
+
+static struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
+{
+    struct reflection r = {.sign = {1, 1, 1}, .root = i};
+    while (r.root >= p->n) {                     /* X of this image = reflection of X of its source along one axis */
+        int64_t source = s->image[r.root - p->n].source;
+        for (int d = 0; d < p->dim; d++) {
+            if (p->X[d][source] == p->X[d][r.root]) continue;
+            r.offset[d] += r.sign[d] * (p->X[d][source] + p->X[d][r.root]);
+            r.sign[d] = -r.sign[d];
+        }
+        r.root = source;
+    }
+    return r;
+}
+
+/* ---- the tensor -------------------------------------------------------------------------------------- */
+
+static void component_axes(int dim, int s, int *a, int *b)
+{
+    static const int first[SYM_MAX] = {0, 1, 2, 0, 1, 2}, second[SYM_MAX] = {0, 1, 2, 1, 2, 0};
+    int k = dim == 2 && s == 2 ? 3 : s;          /* 2D: xx yy xy */
+    *a = first[k], *b = second[k];
+}
+
+/* Adds the part of one bond, from p (a material point) to m. */
+static void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, real stiffness, int dim)
+{
+    real share = segment_share(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
+    if (share == 0) return;
+    for (int d = 0; d < dim; d++) e[d] = xm[d] - xp[d], length += square(e[d]);
+    length = sqrt(length);
+    const int n = symmetric_count(dim);
+    for (int s = 0; s < n; s++)
+        for (int t = 0; t < n; t++) {
+            int a, b, c, d;
+            component_axes(dim, s, &a, &b);
+            component_axes(dim, t, &c, &d);
+            T[s * n + t] += stiffness * length * share * e[a] * e[b] * e[c] * e[d] / square(square(length));
+        }
+}
+
+/* All crossing bonds that end at material point (or image) j. */
+static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                           int64_t j, const real *X, real half)
+{
+    struct reflection r = reflection_of(s, p, j);
+    int32_t row = b->row_of[r.root];
+    if (row < 0 || p->kind[r.root] != KIND_MPM) return;
+    real xp[DIM_MAX], xm[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) xp[d] = p->X[d][j];
+    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        int64_t q = bond_index(b, row / LANES, k, row % LANES);
+        if (b->w[q] == 0) continue;
+        for (int d = 0; d < p->dim; d++) xm[d] = r.sign[d] * p->X[d][b->nbr[q]] + r.offset[d];
+        tensor_add(T, xp, xm, X, half, b->stiffness * b->w[q], p->dim);
+    }
+}
+
+/* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). Returns false if no bond crosses. */
+static bool partial_matrix(real *M, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                           int64_t i, int32_t *found, int room)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real X[DIM_MAX], T[SYM_MAX * SYM_MAX] = {0}, compliance[SYM_MAX * SYM_MAX];
+    for (int d = 0; d < dim; d++) X[d] = p->X[d][i];
+    real half = 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / dim);
+    int near = cells_near(s->cells, p, X, s->family.cutoff + half * sqrt(dim), -1, found, room);
+    for (int k = 0; k < near; k++)
+        if (p->kind[found[k]] == KIND_MPM && p->body[found[k]] == p->body[i]) tensor_add_row(T, p, b, s, found[k], X, half);
+    material_compliance(&s->material[p->material[i]], dim, compliance);
+    real largest = 0;
+    for (int a = 0; a < n; a++)
+        for (int c = 0; c < n; c++) {
+            M[a * n + c] = 0;
+            for (int k = 0; k < n; k++) M[a * n + c] += T[a * n + k] * (k < dim ? 1 : 2) * compliance[k * n + c] / p->volume0[i];
+            largest = real_max(largest, fabs(M[a * n + c]));
+        }
+    return largest > 0;
+}
+
+/* ---- who needs one ----------------------------------------------------------------------------------- */
+
+static int mark_near(const struct particles *p, const struct bond_source *s, int64_t i, real radius, int32_t *found,
+                     int room, uint8_t *dirty)
+{
+    real X[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    int n = cells_near(s->cells, p, X, radius, -1, found, room);
+    for (int k = 0; k < n && k < room; k++) {
+        int64_t j = reflection_of(s, p, found[k]).root;
+        dirty[j] = 1;
+    }
+    return n;
+}
+
+static int64_t mark_dirty(const struct particles *p, const struct bond_source *s, real radius, const int32_t *changed,
+                          int64_t n, int room, uint8_t *dirty, int32_t *list)
+{
+    int32_t *found = NEW("partial.found", room, int32_t);
+    int64_t count = changed ? n : p->n_of[KIND_PD], dirties = 0;
+    for (int64_t k = 0; k < count; k++) mark_near(p, s, changed ? changed[k] : p->list[KIND_PD][k], radius, found, room, dirty);
+    for (int64_t i = 0; i < p->n; i++)
+        if (dirty[i]) list[dirties++] = (int32_t)i;
+    memory_free(found);
+    return dirties;
+}
+
+static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size)
+{
+    if (partial->index[i] < 0) {
+        if (partial->entries == partial->room) {
+            int64_t room = partial->room ? 2 * partial->room : 256;
+            partial->matrix = memory_resize("partial.matrix", partial->matrix, partial->room * size, room * size, sizeof(real));
+            partial->room = room;
+        }
+        partial->index[i] = (int32_t)partial->entries++;
+    }
+    memcpy(partial->matrix + (int64_t)partial->index[i] * size, M, (size_t)size * sizeof *M);
+}
+
+void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
+                         const struct bond_source *source, const int32_t *changed, int64_t n)
+{
+    const int size = symmetric_count(p->dim) * symmetric_count(p->dim);
+    if (!partial->index) {
+        partial->index = NEW("partial.index", p->n, int32_t);
+        for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
+    }
+    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses */
+    const real radius = source->family.cutoff + source->family.spacing * sqrt(p->dim);
+    int room = 0;
+    for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
+        int near = mark_near(p, source, changed ? changed[k] : p->list[KIND_PD][k], radius, NULL, 0, NULL);
+        if (near > room) room = near;
+    }
+    room *= 2;                                   /* points round a marked one may be a little denser */
+    uint8_t *dirty = NEW("partial.dirty", p->n, uint8_t);
+    int32_t *list = NEW("partial.list", p->n, int32_t);
+    int64_t dirties = mark_dirty(p, source, radius, changed, n, room, dirty, list);
+    real *M = NEW("partial.new", dirties * size, real);
+#pragma omp parallel
+    {
+        int32_t *found = NEW("partial.found", room, int32_t);
+#pragma omp for schedule(dynamic, 16)
+        for (int64_t k = 0; k < dirties; k++)    /* dirty becomes: 2 if a bond crosses the cell */
+            if (p->kind[list[k]] == KIND_MPM && partial_matrix(M + k * size, p, b, source, list[k], found, room)) dirty[list[k]] = 2;
+        memory_free(found);
+    }
+    for (int64_t k = 0; k < dirties; k++) {
+        if (dirty[list[k]] == 2) entry_put(partial, list[k], M + k * size, size);
+        else partial->index[list[k]] = -1;
+    }
+    memory_free(M);
+    memory_free(list);
+    memory_free(dirty);
+}
+
+void partial_stress_free(struct partial_stress *partial)
+{
+    memory_free(partial->index);
+    memory_free(partial->matrix);
+    memset(partial, 0, sizeof *partial);
+}

@@ -1,0 +1,60 @@
+/* floor 5: what the files of `cleave plot` share. */
+#ifndef CLEAVE_PLOT_H
+#define CLEAVE_PLOT_H
+
+#include "gnuplot.h"
+#include "output.h"
+
+/* A unit for display: shown = SI / factor. */
+struct unit { double factor; char name[8]; };
+
+/* The SI prefix under which `largest` has one to three digits: unit_for(2e-5, "s") is microseconds. */
+struct unit unit_for(double largest, const char *name);
+/* Millimetres for anything between 0.5 mm and 10 m. */
+struct unit unit_for_length(double largest);
+
+/* One frame as a flat map: all particles in 2D, the layer nearest to the middle of the thinnest direction in 3D. */
+struct cloud {
+    int64_t n;
+    float *place[2];                     /* current positions along the two axes of the map   [m]     */
+    float *damage;                       /* [1]                                                       */
+    uint8_t *kind;
+    int axis[2], normal;                 /* 0..2: x y z; normal -1 in 2D                              */
+    double layer;                        /* where the layer is along the normal               [m]     */
+    double t;                            /* [s]                                                       */
+    double spacing;                      /* [m]                                                       */
+    bool aligned;                        /* neighbours still lie along the axes                       */
+};
+void cloud_make(struct cloud *c, const struct frame *f);
+void cloud_free(struct cloud *c);
+
+/* Distance of neighbouring particles: median over a sample, reference positions [m]. */
+double frame_spacing(const struct frame *f);
+
+enum map { MAP_DAMAGE, MAP_KIND };
+struct colour { uint8_t red, green, blue, alpha; };
+/* Colour of a particle; damage is shown from 0 to `top`. */
+struct colour map_colour(enum map map, enum kind kind, double damage, double top);
+
+/* Rectangle of the map [m], and how its frames are shown. */
+struct view {
+    double from[2], to[2];
+    double top;                          /* damage at the upper end of the colours                    */
+};
+
+/* Paints the particles, each over its own square (or disc where the lattice has turned), the nearest on top, into
+ * width x height pixels, row 0 at the bottom; white and transparent where there is no body. */
+void raster_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
+                  enum map map);
+
+/* One picture with a panel for each cloud, a common colour bar, and `title` above. */
+status maps_draw(const char *path, const char *title, enum map map, const struct view *view,
+                 const struct cloud *cloud, int clouds);
+
+/* history.csv: crack.png and energy.png in `pictures`. */
+status curves_draw(const char *folder, const char *pictures, const char *title);
+
+/* One-dimensional frames: velocity, stress, damage along the bar. */
+status profiles_draw(const char *path, const char *title, const struct frame *frame, int frames);
+
+#endif

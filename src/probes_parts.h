@@ -1,0 +1,55 @@
+/* floor 3: what the files of the probes share: a probe bound to its particles, and what it remembers. */
+#ifndef CLEAVE_PROBES_PARTS_H
+#define CLEAVE_PROBES_PARTS_H
+
+#include "probes.h"
+
+/* All that a probe cannot find again in the state of the run. No padding: it goes to checkpoints as it is. */
+struct probe_memory {
+    real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before  [s]      */
+    real place[DIM_MAX];                 /* BREAK: mean place of the cut; SPALL: [0] the plane [m]    */
+    real force_max, force_square;        /* REACTION: largest |F|; sum of F^2                [N], [N^2] */
+    int64_t steps;                       /* REACTION: in that sum                                     */
+    int64_t body;                        /* SPALL: the bar that broke                                 */
+};
+
+struct probe {
+    struct probe_request request;        /* its region is borrowed from the scene                     */
+    int first, columns;                  /* its columns in the history                                */
+    int64_t n;
+    int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
+    struct probe_memory memory;
+};
+
+/* ---- what a single particle tells: POINT and LINE ------------------------------------------------ */
+
+/* displacement, velocity, stress, damage */
+enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 1 };
+int readings_count(int dim);
+struct column reading_column(int dim, int k);
+void readings_of(const struct particles *p, int64_t i, real *value);
+
+/* ---- the rest by kind ------------------------------------------------------------------------------ */
+
+extern const char *const axis_name[DIM_MAX];
+
+/* Nearest particle of the body to the reference position X, -1 where X lies outside the body. */
+int32_t particle_nearest(const struct observed *o, const real *X);
+void station_position(const struct probe *q, int dim, int k, real *X);
+
+/* The tip that a TIP probe follows now; NULL if there is none. */
+const struct tip *probe_tip(const struct probe *q, const struct tips *t);
+
+/* Sum of the reactions of all supports of the probe's boundary, and mean displacement of their particles. */
+void probe_reaction(const struct probe *q, const struct loads *l, int dim, real *force, real *displacement);
+
+struct energies { real kinetic, strain, fracture; };       /* [J] */
+struct energies probe_energies(const struct probe *q, const struct observed *o);
+void probe_momentum(const struct probe *q, const struct particles *p, real *momentum);
+
+/* Looks whether a bar has come apart; remembers where and when. Where it has: mean velocity along x of the lighter
+ * part and of the rest [m/s]. */
+void spall_look(struct probe *q, const struct observed *o);
+void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
+
+#endif

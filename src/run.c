@@ -1,0 +1,93 @@
+/* floor 5: `cleave run` and `cleave check`: from a scene file to results, or to what it would cost. */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "arguments.h"
+#include "commands.h"
+#include "engine.h"
+#include "memory.h"
+
+/* The one variable that a signal may reach. */
+static volatile sig_atomic_t stop_asked;
+
+static void on_signal(int number)
+{
+    if (stop_asked) _exit(128 + number);     /* the second time: at once */
+    stop_asked = 1;
+}
+
+static void listen_to_signals(void)
+{
+    struct sigaction action = {.sa_handler = on_signal};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
+}
+
+/* ---- run -------------------------------------------------------------------------------------------------------- */
+
+static void print_summary(const struct engine *e, const char *folder, double wall)
+{
+    const struct tip *tip = tips_longest(&e->tips);
+    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n, (long long)e->step, e->dt, wall);
+    if (!isnan(e->watch.break_time)) printf("  first bond cut at %.4g s", e->watch.break_time);
+    if (tip) printf(", longest crack grew %.4g mm at %.3g degrees", 1e3 * tip->growth, tip_angle(tip, e->part.dim));
+    if (!isnan(e->watch.break_time)) printf("\n");
+    printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n", 100.0 * (double)e->conversion.start / (double)e->part.n,
+           100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n);
+    printf("  energy balance %.2g, momentum %.2g\n", e->watch.now.balance_error, e->watch.now.momentum_error);
+    printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", folder, folder, folder);
+}
+
+static status run_engine(struct engine *e, const struct scene *s, struct output *out, const struct run_arguments *a, int threads)
+{
+    double start = team_clock();
+    TRY(engine_make(e, s, out));
+    e->quiet = a->quiet;
+    e->stop = &stop_asked;
+    if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
+    status ran = engine_run(e);
+    status written = ran == REFUSED ? OK : summary_write(e, ran, threads, team_clock() - start);
+    if (ran != OK) return ran;
+    TRY(written);
+    if (!a->quiet) print_summary(e, out->folder, team_clock() - start);
+    return OK;
+}
+
+static char *default_folder(const struct scene *s)
+{
+    char *folder = malloc(strlen(s->name) + 16);
+    if (folder) sprintf(folder, "results/%s", s->name);
+    return folder;
+}
+
+status command_run(int argc, char **argv)
+{
+    struct run_arguments a;
+    TRY(arguments_read(&a, argc, argv, "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume] [-q]"));
+    output_start();
+    int threads = team_make(a.threads);
+    struct scene s = {0};
+    struct engine e = {0};
+    struct output out = {0};
+    status result = scene_read(&s, a.scene, a.override, a.overrides);
+    if (result == OK) {
+        char *folder = a.folder ? strdup(a.folder) : default_folder(&s);
+        result = output_open(&out, folder, s.text, a.resume, s.compress);
+        free(folder);
+    }
+    if (result == OK) {
+        listen_to_signals();
+        result = output_text(&out, "scene.yaml", s.text, strlen(s.text));
+    }
+    if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
+    engine_free(&e);
+    output_close(&out);
+    scene_free(&s);
+    arguments_free(&a);
+    return result;
+}

@@ -1,0 +1,72 @@
+/* floor 4: what several keys of a scene must fulfil together, and the defaults that depend on other keys. */
+#include "scene_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct node *below(const struct node *root, const char *group, const char *leaf)
+{
+    return node_find(node_find(root, group), leaf);
+}
+
+/* Thickness and section exist in the plane and in line only; what does not exist is 1. */
+static status check_measure(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *thickness = node_find(root, "thickness"), *section = node_find(root, "section");
+    const char *space = space_names[s->space];
+    if (s->dim == 2 && !thickness) return fault_missing(r, root, key_find("", "thickness"));
+    if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; leave it out", space);
+    if (s->dim != 1 && section) return fault(r, section, "space %s has no section; leave it out", space);
+    if (s->dim != 2) s->thickness = 1;
+    return OK;
+}
+
+/* Boxes round the bodies, filled at the spacing: more than this no index and no memory holds. */
+status check_size(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    real total = 0, from[DIM_MAX], to[DIM_MAX];
+    for (int b = 0; b < s->bodies; b++) {
+        real count = 1;
+        if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
+        for (int d = 0; d < s->dim; d++) count *= real_max(1, (to[d] - from[d]) / s->spacing);
+        total += count;
+    }
+    if (total <= 2e9) return OK;
+    const struct node *spacing = below(root, "particles", "spacing");
+    return fault(r, spacing, "%s would make about %.1e particles; 2e9 is the most", shown(r, spacing), total);
+}
+
+static status check_steps(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *step = below(root, "time", "step");
+    if (!step || s->time_step == 0 || s->duration / s->time_step <= 1e12) return OK;
+    return fault(r, step, "%s would take %.1e steps; 1e12 is the most", shown(r, step), s->duration / s->time_step);
+}
+
+static status check_transfer(struct reader *r, const struct node *root)
+{
+    const struct node *transfer = below(root, "mpm", "transfer");
+    if (!transfer || r->scene->shape != SHAPE_LINEAR || r->scene->transfer != TRANSFER_APIC) return OK;
+    return fault(r, transfer, "apic with shape linear was measured unstable (strains from velocities that are not "
+                              "mapped again); flip, or shape gimp, is expected");
+}
+
+/* `method: pd` alone has whole bodies of bonds, whose surfaces need the correction. */
+static void resolve_defaults(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    if (!below(root, "pd", "surface")) s->surface = s->method == METHOD_PD ? SURFACE_VOLUME : SURFACE_NONE;
+    if (!below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
+}
+
+status check_scene(struct reader *r, const struct node *root)
+{
+    resolve_defaults(r, root);
+    TRY(check_measure(r, root));
+    TRY(check_transfer(r, root));
+    return check_steps(r, root);
+}

@@ -1,0 +1,330 @@
+/* floor 4: the one table of keys: what a scene can say, in which unit and range, and what holds where it is silent. */
+#include "scene_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+#define NOWHERE .place = 0
+#define AT(s, member) .place = 1 + offsetof(struct s, member), .size = sizeof(((struct s *)0)->member)
+#define FLAG(s, member) 1 + offsetof(struct s, member)
+#define ANY {0, 0, false, false}
+#define ABOVE(a) {a, INFINITY, true, true}
+#define FROM(a) {a, INFINITY, false, true}
+#define BETWEEN(a, b) {a, b, false, true}
+#define INSIDE(a, b) {a, b, true, true}      /* a itself is outside */
+#define REQUIRED "required"
+#define NONE "-"
+#define KEY(path_, type_, unit_, place_, range_, fallback_, help_, ...)                                        \
+    {.path = path_, .type = type_, .unit = unit_, place_, .range = range_, .fallback = fallback_, .help = help_, \
+     __VA_ARGS__}
+
+/* path, type, unit, place in its group's struct, range, default, help; then what only some keys have. */
+const struct key keys[] = {
+    KEY("name", KEY_NAME, UNIT_NONE, AT(scene, name), ANY, "(the file's name)",
+        "names the run and its results folder"),
+    KEY("space", KEY_CHOICE, UNIT_NONE, AT(scene, space), ANY, REQUIRED,
+        "dimension and plane state", .words = "line|plane stress|plane strain|solid"),
+    KEY("thickness", KEY_REAL, UNIT_LENGTH, AT(scene, thickness), ABOVE(0), "(required in plane spaces)",
+        "out of the plane; plane stress and plane strain only"),
+    KEY("section", KEY_REAL, UNIT_AREA, AT(scene, section), ABOVE(0), "1 m^2", "cross-section of a bar; line only"),
+    KEY("duration", KEY_REAL, UNIT_TIME, AT(scene, duration), ABOVE(0), REQUIRED, "simulated time"),
+    KEY("method", KEY_CHOICE, UNIT_NONE, AT(scene, method), ANY, "adaptive",
+        "peridynamics, material points, or material points that become peridynamic where the material breaks",
+        .words = "pd|mpm|adaptive", .later = "auto"),
+    KEY("model", KEY_CHOICE, UNIT_NONE, AT(scene, model), ANY, "bond",
+        "peridynamic law", .words = "bond", .later = "ospd|mospd"),
+    KEY("solver", KEY_CHOICE, UNIT_NONE, NOWHERE, ANY, "explicit",
+        "how time advances", .words = "explicit", .later = "relaxation|cg"),
+    KEY("accuracy", KEY_LATER, UNIT_NONE, NOWHERE, ANY, NONE, "wanted accuracy", .later = "method auto"),
+    KEY(),
+    KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(this or materials)", "the one material; its keys follow"),
+    KEY("materials", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(this or material)",
+        "several materials, each with the keys of material and a name"),
+    KEY("material.name", KEY_NAME, UNIT_NONE, AT(material, name), ANY, "(material; required in materials)",
+        "what bodies call it"),
+    KEY("material.young", KEY_REAL, UNIT_PRESSURE, AT(material, young), ABOVE(0), REQUIRED, "Young's modulus"),
+    KEY("material.poisson", KEY_REAL, UNIT_NONE, AT(material, poisson), INSIDE(-1, 0.4999),
+        "(1/3 in plane stress, 1/4 in plane strain and solid, 0 in line)",
+        "Poisson's ratio; pd and adaptive with model bond can only do the default"),
+    KEY("material.density", KEY_REAL, UNIT_DENSITY, AT(material, density), ABOVE(0), REQUIRED, "mass density"),
+    KEY("material.energy_release_rate", KEY_REAL, UNIT_SURFACE_ENERGY, AT(material, energy_release_rate), ABOVE(0),
+        NONE,
+        "G_c, from which the critical stretch follows; give at most one of these three, without any bonds never break"),
+    KEY("material.critical_stretch", KEY_REAL, UNIT_NONE, AT(material, critical_stretch), ABOVE(0), NONE,
+        "stretch at which a bond breaks; inf: never", .infinite = true),
+    KEY("material.toughness", KEY_HAND, UNIT_TOUGHNESS, NOWHERE, ABOVE(0), NONE,
+        "K_Ic; gives G_c = K^2/E (line, plane stress) or K^2 (1 - nu^2)/E", .words = "number"),
+    KEY("material.yield", KEY_LATER, UNIT_PRESSURE, NOWHERE, ANY, NONE, "yield stress", .later = "plasticity"),
+    KEY(),
+    KEY("body", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(this or bodies)",
+        "shape of the one body, which is then called body", .words = "solid or list of solids"),
+    KEY("bodies", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(this or body)",
+        "several bodies; each has the keys below"),
+    KEY("bodies.name", KEY_NAME, UNIT_NONE, AT(scene_body, name), ANY, "(body0, body1, ..)",
+        "what boundary and initial call it"),
+    KEY("bodies.material", KEY_MATERIAL, UNIT_NONE, AT(scene_body, material), ANY, "(the only one)",
+        "name of its material"),
+    KEY("bodies.shape", KEY_REGION, UNIT_NONE, AT(scene_body, shape), ANY, "(this or particles)",
+        "solids, filled with a lattice of particles"),
+    KEY("bodies.particles", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(this or shape)",
+        "particle list (positions, volumes, material, body); sought in the scene's folder, then in the current one",
+        .words = "file name, .csv or .h5"),
+    KEY("bodies.velocity", KEY_POINT, UNIT_SPEED, AT(scene_body, velocity), ANY, "(0)", "initial velocity"),
+    KEY(),
+    KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
+        "what bodies and regions are made of: one of the following, or a list of them, built in order"),
+    KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),
+    KEY("solid.box.from", KEY_POINT, UNIT_LENGTH, AT(solid, from), ANY, REQUIRED,
+        "lower corner; -inf only in a region", .infinite = true),
+    KEY("solid.box.to", KEY_POINT, UNIT_LENGTH, AT(solid, to), ANY, REQUIRED,
+        "upper corner; inf only in a region", .infinite = true),
+    KEY("solid.disc", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "disc; plane spaces only"),
+    KEY("solid.disc.centre", KEY_POINT, UNIT_LENGTH, AT(solid, centre), ANY, REQUIRED, "centre"),
+    KEY("solid.disc.radius", KEY_REAL, UNIT_LENGTH, AT(solid, radius), ABOVE(0), REQUIRED, "radius"),
+    KEY("solid.ball", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "ball; in the plane a disc, in line an interval"),
+    KEY("solid.ball.centre", KEY_POINT, UNIT_LENGTH, AT(solid, centre), ANY, REQUIRED, "centre"),
+    KEY("solid.ball.radius", KEY_REAL, UNIT_LENGTH, AT(solid, radius), ABOVE(0), REQUIRED, "radius"),
+    KEY("solid.cylinder", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "round cylinder; space solid only"),
+    KEY("solid.cylinder.from", KEY_POINT, UNIT_LENGTH, AT(solid, from), ANY, REQUIRED, "one end of its axis"),
+    KEY("solid.cylinder.to", KEY_POINT, UNIT_LENGTH, AT(solid, to), ANY, REQUIRED, "the other end"),
+    KEY("solid.cylinder.radius", KEY_REAL, UNIT_LENGTH, AT(solid, radius), ABOVE(0), REQUIRED, "radius"),
+    KEY("solid.half-space", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
+        "all on the side of a plane that its normal leaves"),
+    KEY("solid.half-space.point", KEY_POINT, UNIT_LENGTH, AT(solid, point), ANY, REQUIRED, "a point of the plane"),
+    KEY("solid.half-space.normal", KEY_POINT, UNIT_NONE, AT(solid, normal), ANY, REQUIRED,
+        "points outwards, any length"),
+    KEY("solid.all", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "everywhere", .words = "true"),
+    KEY("solid.add", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
+        "a solid to add; a solid by itself is added, too", .words = "solid"),
+    KEY("solid.subtract", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
+        "a solid to take away from what the list has built", .words = "solid"),
+    KEY(),
+    KEY("particles", KEY_MAP, UNIT_NONE, NOWHERE, ANY, REQUIRED, "discretisation"),
+    KEY("particles.spacing", KEY_REAL, UNIT_LENGTH, AT(scene, spacing), ABOVE(0), REQUIRED,
+        "distance of the lattice"),
+    KEY("particles.horizon", KEY_REAL, UNIT_NONE, AT(scene, horizon), BETWEEN(1, 10.5), "3.015",
+        "reach of bonds, in spacings", .low = "is smaller than one spacing; 3.015 is usual"),
+    KEY("particles.irregularity", KEY_REAL, UNIT_NONE, AT(scene, irregularity), BETWEEN(0, 1), "0",
+        "each component is shifted by spacing x this x a random number in [-1/2, 1/2]"),
+    KEY("particles.seed", KEY_SEED, UNIT_NONE, AT(scene, seed), ANY, "1", "of the random numbers"),
+    KEY(),
+    KEY("pd", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "peridynamics"),
+    KEY("pd.volume", KEY_CHOICE, UNIT_NONE, AT(scene, volume), ANY, "whole",
+        "share of a neighbour at the horizon's edge", .words = "whole|ramp|cut-ramp"),
+    KEY("pd.calibration", KEY_CHOICE, UNIT_NONE, AT(scene, calibration), ANY, "lattice",
+        "what fixes the bonds' stiffness: a full family of the lattice, the continuum integral, or vmpd",
+        .words = "lattice|continuum|vmpd"),
+    KEY("pd.surface", KEY_CHOICE, UNIT_NONE, AT(scene, surface), ANY, "(volume with method pd, else none)",
+        "correction of incomplete families", .words = "none|volume"),
+    KEY("pd.weights", KEY_CHOICE, UNIT_NONE, AT(scene, shells), ANY, "uniform",
+        "isotropic: two shell weights take the lattice's anisotropy away", .words = "uniform|isotropic"),
+    KEY("pd.region", KEY_REGION, UNIT_NONE, AT(scene, pd_region), ANY, NONE,
+        "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
+    KEY(),
+    KEY("mpm", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "material point method"),
+    KEY("mpm.cell", KEY_REAL, UNIT_NONE, AT(scene, cell), BETWEEN(1, 8), "2",
+        "node distance of the grid, in spacings"),
+    KEY("mpm.shape", KEY_CHOICE, UNIT_NONE, AT(scene, shape), ANY, "gimp",
+        "shape functions", .words = "linear|gimp|cpgimp|quadratic|cubic"),
+    KEY("mpm.transfer", KEY_CHOICE, UNIT_NONE, AT(scene, transfer), ANY, "flip",
+        "grid to particle; apic not with linear", .words = "flip|apic"),
+    KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, NOWHERE, ANY, "current",
+        "configuration the grid lives in", .words = "current", .later = "reference|auto"),
+    KEY("mpm.origin", KEY_POINT, UNIT_LENGTH, AT(scene, grid_origin), ANY, "(from the bodies)",
+        "a node of the grid", .has = FLAG(scene, has_grid_origin)),
+    KEY(),
+    KEY("coupling", KEY_CHOICE, UNIT_NONE, AT(scene, coupling), ANY, "partial stress",
+        "of material points and bonds where both meet", .words = "partial stress|handshake", .later = "pm|pg|pmg|pgg"),
+    KEY(),
+    KEY("conversion", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE,
+        "material point to peridynamic particle (method adaptive)"),
+    KEY("conversion.stress", KEY_REAL, UNIT_PRESSURE, AT(scene, conversion.stress), ABOVE(0), "auto",
+        "largest principal stress sigma_max; auto: young x critical stretch", .words = "auto", .word_value = NAN),
+    KEY("conversion.alpha", KEY_REAL, UNIT_NONE, AT(scene, conversion.alpha), INSIDE(0, 1), "0.95",
+        "share of it that converts"),
+    KEY("conversion.block", KEY_FLAG, UNIT_NONE, AT(scene, conversion.block), ANY, "true",
+        "a particle takes its horizon neighbours along"),
+    KEY("conversion.criteria", KEY_SET, UNIT_NONE, AT(scene, conversion.criteria), ANY, "([bond, stress])",
+        "what converts: a cut bond, the stress; a list, or none", .words = "bond|stress"),
+    KEY(),
+    KEY("cracks", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "cracks there at the start"),
+    KEY("cracks.from", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "one end of a segment (plane)"),
+    KEY("cracks.to", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "the other end"),
+    KEY("cracks.at", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "place of a cut (line)"),
+    KEY("cracks.polygon", KEY_HAND, UNIT_LENGTH, NOWHERE, BETWEEN(3, 1000), NONE,
+        "plane convex polygon (solid)", .words = "list of points"),
+    KEY("crack", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "how crack tips are followed"),
+    KEY("crack.speed_window", KEY_REAL, UNIT_TIME, AT(scene, speed_window), ABOVE(0), "(duration/10)",
+        "window of the regression for a tip's speed"),
+    KEY(),
+    KEY("initial", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "initial states; later entries overwrite"),
+    KEY("initial.region", KEY_REGION, UNIT_NONE, AT(scene_initial, region), ANY, "(everywhere)", "where"),
+    KEY("initial.body", KEY_BODY, UNIT_NONE, AT(scene_initial, body), ANY, "(any)", "name of the body it holds for"),
+    KEY("initial.velocity", KEY_POINT, UNIT_SPEED, AT(scene_initial, velocity), ANY, "(0)",
+        "velocity at the centre", .has = FLAG(scene_initial, sets_velocity)),
+    KEY("initial.velocity_gradient", KEY_MATRIX, UNIT_RATE, AT(scene_initial, velocity_gradient), ANY, "(0)",
+        "G: v += G (X - centre)", .has = FLAG(scene_initial, sets_velocity)),
+    KEY("initial.displacement_gradient", KEY_MATRIX, UNIT_NONE, AT(scene_initial, displacement_gradient), ANY, "(0)",
+        "H: x = X + H (X - centre), stressed accordingly", .has = FLAG(scene_initial, sets_strain)),
+    KEY("initial.centre", KEY_POINT, UNIT_LENGTH, AT(scene_initial, centre), ANY, "(0)", "of both gradients"),
+    KEY(),
+    KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
+        "boundary conditions; each has one of the five kinds"),
+    KEY("boundary.name", KEY_NAME, UNIT_NONE, AT(boundary, name), ANY, "(boundary0, boundary1, ..)",
+        "what probes call it"),
+    KEY("boundary.region", KEY_REGION, UNIT_NONE, AT(boundary, region), ANY, "(everywhere)",
+        "where, by reference position"),
+    KEY("boundary.body", KEY_BODY, UNIT_NONE, AT(boundary, body), ANY, "(any)", "name of the body it acts on"),
+    KEY("boundary.fixed", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
+        "components held at rest", .words = "all or list of x|y|z"),
+    KEY("boundary.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, NONE,
+        "components driven; free ones are left alone", .words = "list of number or free"),
+    KEY("boundary.traction", KEY_HAND, UNIT_PRESSURE, NOWHERE, ANY, NONE,
+        "force per area of a flat face", .words = "list of number"),
+    KEY("boundary.face", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
+        "outward normal of the face (with traction)", .words = "x+|x-|y+|y-|z+|z-"),
+    KEY("boundary.body_force", KEY_HAND, UNIT_BODY_FORCE, NOWHERE, ANY, NONE,
+        "force per volume", .words = "list of number"),
+    KEY("boundary.mirror", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "plane of symmetry"),
+    KEY("boundary.mirror.axis", KEY_CHOICE, UNIT_NONE, AT(boundary, axis), ANY, REQUIRED,
+        "normal of the plane", .words = "x|y|z"),
+    KEY("boundary.mirror.at", KEY_REAL, UNIT_LENGTH, AT(boundary, at), ANY, REQUIRED, "where it is"),
+    KEY("boundary.mirror.tangential", KEY_CHOICE, UNIT_NONE, AT(boundary, hold_tangential), ANY, "free",
+        "held: no motion along the plane either (a clamped end)", .words = "free|held"),
+    KEY("boundary.time", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "constant",
+        "factor on the value, one of the following", .words = "constant or mapping"),
+    KEY("boundary.time.step", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "1 for from <= t < until, else 0"),
+    KEY("boundary.time.step.from", KEY_REAL, UNIT_TIME, AT(time_function, from), ANY, "0", "begins"),
+    KEY("boundary.time.step.until", KEY_REAL, UNIT_TIME, AT(time_function, until), ANY, REQUIRED, "ends"),
+    KEY("boundary.time.pulse", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "sin^2 between from and until, 0 outside"),
+    KEY("boundary.time.pulse.from", KEY_REAL, UNIT_TIME, AT(time_function, from), ANY, "0", "begins"),
+    KEY("boundary.time.pulse.until", KEY_REAL, UNIT_TIME, AT(time_function, until), ANY, REQUIRED, "ends"),
+    KEY("boundary.time.ramp", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "0 before from, linear, 1 after until"),
+    KEY("boundary.time.ramp.from", KEY_REAL, UNIT_TIME, AT(time_function, from), ANY, "0", "begins"),
+    KEY("boundary.time.ramp.until", KEY_REAL, UNIT_TIME, AT(time_function, until), ANY, REQUIRED, "ends"),
+    KEY("boundary.time.table", KEY_HAND, UNIT_TIME, NOWHERE, BETWEEN(2, 50000), NONE,
+        "linear between points, held outside; times ascend", .words = "list of [time, factor]"),
+    KEY(),
+    KEY("time", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "time step"),
+    KEY("time.step", KEY_REAL, UNIT_TIME, AT(scene, time_step), ABOVE(0), "auto",
+        "step; auto: safety x the critical one", .words = "auto", .word_value = 0),
+    KEY("time.safety", KEY_REAL, UNIT_NONE, AT(scene, safety), INSIDE(0, 2), "0.8", "above 1 shows instability"),
+    KEY(),
+    KEY("output", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "what is written, and how often"),
+    KEY("output.frames", KEY_INT, UNIT_NONE, AT(scene, frames), BETWEEN(0, 100000), "20",
+        "frames after the one at t = 0"),
+    KEY("output.samples", KEY_INT, UNIT_NONE, AT(scene, samples), BETWEEN(1, 10000000), "500",
+        "lines of history.csv after the one at t = 0"),
+    KEY("output.checkpoint", KEY_REAL, UNIT_TIME, AT(scene, checkpoint_interval), FROM(0), "60 s",
+        "wall clock between checkpoints; 0: after every sample"),
+    KEY("output.compress", KEY_FLAG, UNIT_NONE, AT(scene, compress), ANY, "false", "gzip the frames (slow)"),
+    KEY(),
+    KEY("probes", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
+        "what is watched: kinds, or mappings kind: {keys}"),
+    KEY("probes.tip", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "a crack tip: the longest, or the one nearest to at"),
+    KEY("probes.tip.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(tip)", "name in the results"),
+    KEY("probes.tip.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, "(the longest)",
+        "near where it starts", .has = FLAG(probe_request, has_at)),
+    KEY("probes.break", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "first cut bond"),
+    KEY("probes.break.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(break)", "name in the results"),
+    KEY("probes.break.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
+    KEY("probes.reaction", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "force at driven or held particles"),
+    KEY("probes.reaction.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(reaction)",
+        "name in the results"),
+    KEY("probes.reaction.boundary", KEY_NAME, UNIT_NONE, AT(probe_request, boundary), ANY, REQUIRED,
+        "name of a boundary condition"),
+    KEY("probes.patch", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
+        "nodal force residual over S h under uniform strain"),
+    KEY("probes.patch.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(patch)", "name in the results"),
+    KEY("probes.patch.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
+    KEY("probes.spall", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "separated end of a bar"),
+    KEY("probes.spall.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(spall)", "name in the results"),
+    KEY("probes.point", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "time series of the particle nearest to a point"),
+    KEY("probes.point.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(point)", "name in the results"),
+    KEY("probes.point.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, REQUIRED,
+        "the point", .has = FLAG(probe_request, has_at)),
+    KEY("probes.line", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "profile along a line, with every frame"),
+    KEY("probes.line.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(line)", "name in the results"),
+    KEY("probes.line.from", KEY_POINT, UNIT_LENGTH, AT(probe_request, from), ANY, REQUIRED, "first station"),
+    KEY("probes.line.to", KEY_POINT, UNIT_LENGTH, AT(probe_request, to), ANY, REQUIRED, "last station"),
+    KEY("probes.line.points", KEY_INT, UNIT_NONE, AT(probe_request, points), BETWEEN(2, 1000000), "101", "stations"),
+    KEY("probes.energy", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "energies of the particles of a region"),
+    KEY("probes.energy.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(energy)", "name in the results"),
+    KEY("probes.energy.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
+    KEY("probes.momentum", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "momentum of the particles of a region"),
+    KEY("probes.momentum.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(momentum)",
+        "name in the results"),
+    KEY("probes.momentum.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
+    KEY("probes.sif", KEY_LATER, UNIT_NONE, NOWHERE, ANY, NONE,
+        "stress intensity factors", .later = "contour integrals"),
+    KEY("probes.exact", KEY_LATER, UNIT_NONE, NOWHERE, ANY, NONE, "against a closed form", .later = "closed forms"),
+    KEY("probes.pulse", KEY_LATER, UNIT_NONE, NOWHERE, ANY, NONE,
+        "wave packet at an interface", .later = "wave packets"),
+    KEY("probes.rigid", KEY_LATER, UNIT_NONE, NOWHERE, ANY, NONE, "rigid rotation", .later = "rigid rotation"),
+};
+const int keys_count = COUNT_OF(keys);
+
+const char *key_leaf(const struct key *k)
+{
+    const char *dot = strrchr(k->path, '.');
+    return dot ? dot + 1 : k->path;
+}
+
+bool key_in(const struct key *k, const char *group)
+{
+    size_t length = strlen(group);
+    if (k->type == KEY_GROUP) return false;
+    if (length == 0) return !strchr(k->path, '.');
+    return strncmp(k->path, group, length) == 0 && k->path[length] == '.' && !strchr(k->path + length + 1, '.');
+}
+
+/* A key of a later version also answers for names that it begins (`yield` for `yield_stress`). */
+static bool leaf_matches(const struct key *k, const char *leaf)
+{
+    const char *own = key_leaf(k);
+    size_t length = strlen(own);
+    if (strcmp(own, leaf) == 0) return true;
+    return k->type == KEY_LATER && strncmp(own, leaf, length) == 0 && leaf[length] == '_';
+}
+
+const struct key *key_find(const char *group, const char *leaf)
+{
+    for (int k = 0; k < keys_count; k++)
+        if (key_in(&keys[k], group) && leaf_matches(&keys[k], leaf)) return &keys[k];
+    return NULL;
+}
+
+/* Letters added, lost, changed or swapped with their neighbour (optimal string alignment). */
+int edit_distance(const char *a, const char *b)
+{
+    enum { LONGEST = 48 };
+    int row[3][LONGEST + 1], n = (int)strnlen(a, LONGEST), m = (int)strnlen(b, LONGEST);
+    int *older = row[0], *old = row[1], *now = row[2];
+    for (int j = 0; j <= m; j++) old[j] = j;
+    for (int i = 1; i <= n; i++) {
+        now[0] = i;
+        for (int j = 1; j <= m; j++) {
+            int best = old[j - 1] + (a[i - 1] != b[j - 1]);
+            if (old[j] + 1 < best) best = old[j] + 1;
+            if (now[j - 1] + 1 < best) best = now[j - 1] + 1;
+            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped && older[j - 2] + 1 < best) best = older[j - 2] + 1;
+            now[j] = best;
+        }
+        int *spare = older;
+        older = old, old = now, now = spare;
+    }
+    return old[m];
+}
+
+const struct key *key_nearest(const char *group, const char *leaf)
+{
+    const struct key *nearest = NULL;
+    int least = 1000;
+    for (int k = 0; k < keys_count; k++) {
+        if (!key_in(&keys[k], group) || keys[k].type == KEY_LATER) continue;
+        int distance = edit_distance(key_leaf(&keys[k]), leaf);
+        if (distance < least) nearest = &keys[k], least = distance;
+    }
+    return nearest;
+}

@@ -1,0 +1,165 @@
+/* floor 4: the materials, bodies and initial states of a scene. */
+#include "scene_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "memory.h"
+
+/* ---- materials ------------------------------------------------------------------------------------------------ */
+
+/* What fracture costs may be said in one of three ways; two could contradict each other. */
+static status read_strength(struct reader *r, const struct node *n, struct material *m)
+{
+    const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
+    const struct node *given = NULL, *toughness = node_find(n, "toughness");
+    for (size_t k = 0; k < COUNT_OF(ways); k++) {
+        const struct node *way = node_find(n, ways[k]);
+        if (way && given) return fault(r, way, "given beside %s; one of the two fixes the other", given->key);
+        if (way) given = way;
+    }
+    if (toughness) {
+        real K;
+        bool plane_strain = r->scene->space == SPACE_PLANE_STRAIN || r->scene->space == SPACE_SOLID;
+        TRY(read_number(r, key_find("material", "toughness"), toughness, &K));
+        m->energy_release_rate = K * K / m->young * (plane_strain ? 1 - square(m->poisson) : 1);
+    }
+    if (!given) m->critical_stretch = INFINITY;
+    return OK;
+}
+
+/* Bonds have one constant where an isotropic solid has two. */
+static status check_poisson(struct reader *r, const struct node *n, const struct material *m)
+{
+    const struct scene *s = r->scene;
+    real bond = material_bond_poisson(s->space);
+    const struct node *poisson = node_find(n, "poisson");
+    if (!poisson || s->method == METHOD_MPM || s->space == SPACE_LINE || fabs(m->poisson - bond) <= 1e-6) return OK;
+    return fault(r, poisson, "%s is impossible with bond-based peridynamics in space %s; %s is expected",
+                 shown(r, poisson), space_names[s->space], s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4");
+}
+
+static status read_material(struct reader *r, const struct node *n, struct material *m)
+{
+    const struct scene *s = r->scene;
+    bool line = s->space == SPACE_LINE;
+    m->energy_release_rate = NAN;
+    m->poisson = line ? 0 : material_bond_poisson(s->space);
+    strcpy(m->name, "material");
+    TRY(read_group(r, n, n, "material", m));
+    TRY(check_poisson(r, n, m));
+    TRY(read_strength(r, n, m));
+    material_derive(m, s->space);
+    if (!isnan(m->energy_release_rate))
+        m->critical_stretch = material_critical_stretch(m, s->space, s->horizon * s->spacing);
+    if (m->critical_stretch > 0) return OK;
+    return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
+}
+
+status read_materials(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *one = node_find(root, "material"), *many = node_find(root, "materials");
+    if (!one && !many) return fault_missing(r, root, key_find("", "material"));
+    if (one && many) return fault(r, many, "given beside material; keep one of the two");
+    if (many) TRY(expect_list(r, key_find("", "materials"), many));
+    s->materials = many ? many->n : 1;
+    s->material = NEW("materials", s->materials, struct material);
+    const struct node *n = many ? many->first : one;
+    for (int k = 0; k < s->materials; k++, n = n->next) {
+        TRY(read_material(r, n, &s->material[k]));
+        if (many && !node_find(n, "name")) return fault_missing(r, n, key_find("material", "name"));
+        for (int j = 0; j < k; j++)
+            if (strcmp(s->material[j].name, s->material[k].name) == 0)
+                return fault(r, node_find(n, "name"), "%s is the name of another material", s->material[k].name);
+    }
+    return OK;
+}
+
+/* ---- bodies ----------------------------------------------------------------------------------------------------- */
+
+/* A list of particles lies in the scene's folder, or where the program was started. */
+static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
+{
+    const char *slash = strrchr(r->name, '/');
+    size_t folder = slash ? (size_t)(slash - r->name) + 1 : 0, length = strlen(n->text);
+    bool csv = length > 4 && strcmp(n->text + length - 4, ".csv") == 0;
+    bool h5 = length > 3 && strcmp(n->text + length - 3, ".h5") == 0;
+    if (n->kind != NODE_SCALAR || (!csv && !h5))
+        return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected", shown(r, n));
+    b->file = NEW("file name", folder + length + 1, char);
+    if (r->files && folder > 0 && n->text[0] != '/') {
+        memcpy(b->file, r->name, folder);
+        memcpy(b->file + folder, n->text, length + 1);
+        if (access(b->file, R_OK) == 0) return OK;
+    }
+    memcpy(b->file, n->text, length + 1);
+    if (!r->files || access(b->file, R_OK) == 0) return OK;
+    return fault(r, n, "%s cannot be read; a particle list in the scene's folder is expected", shown(r, n));
+}
+
+static status read_body(struct reader *r, const struct node *n, struct scene_body *b, int number)
+{
+    const struct node *shape = node_find(n, "shape"), *file = node_find(n, "particles");
+    snprintf(b->name, sizeof b->name, "body%d", number);
+    b->material = -1;
+    r->bounded = true;
+    TRY(read_group(r, n, n, "bodies", b));
+    r->bounded = false;
+    if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
+    if (shape && file) return fault(r, file, "given beside shape; keep one of the two");
+    if (file) TRY(read_file(r, file, b));
+    if (b->material < 0 && r->scene->materials > 1) return fault_missing(r, n, key_find("bodies", "material"));
+    if (b->material < 0) b->material = 0;
+    for (int j = 0; j < number; j++)
+        if (strcmp(r->scene->body[j].name, b->name) == 0)
+            return fault(r, n, "%s is the name of another body; every body has its own", b->name);
+    return OK;
+}
+
+status read_bodies(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *one = node_find(root, "body"), *many = node_find(root, "bodies");
+    if (!one && !many) return fault_missing(r, root, key_find("", "body"));
+    if (one && many) return fault(r, many, "given beside body; keep one of the two");
+    if (one && s->materials > 1) return fault(r, one, "which of %d materials is it; use bodies", s->materials);
+    if (many) TRY(expect_list(r, key_find("", "bodies"), many));
+    s->bodies = many ? many->n : 1;
+    s->body = NEW("bodies", s->bodies, struct scene_body);
+    if (one) {
+        strcpy(s->body->name, "body");
+        r->bounded = true;
+        TRY(read_region(r, one, &s->body->shape));
+        r->bounded = false;
+        return OK;
+    }
+    const struct node *n = many->first;
+    for (int k = 0; k < s->bodies; k++, n = n->next) TRY(read_body(r, n, &s->body[k], k));
+    return OK;
+}
+
+/* ---- initial states ---------------------------------------------------------------------------------------- */
+
+static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)
+{
+    initial->body = -1;
+    TRY(read_group(r, n, n, "initial", initial));
+    if (initial->sets_velocity || initial->sets_strain) return OK;
+    return fault(r, n, "sets nothing; velocity, velocity_gradient or displacement_gradient is expected");
+}
+
+status read_initials(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *list = node_find(root, "initial");
+    if (!list) return OK;
+    TRY(expect_list(r, key_find("", "initial"), list));
+    s->initials = list->n;
+    s->initial = NEW("initial states", list->n, struct scene_initial);
+    const struct node *n = list->first;
+    for (int k = 0; k < s->initials; k++, n = n->next) TRY(read_initial(r, n, &s->initial[k]));
+    return OK;
+}

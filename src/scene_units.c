@@ -1,0 +1,275 @@
+/* floor 4: numbers with units, by a grammar of our own: no octal, no locale, every unit an exact power of ten. */
+#include "scene_internal.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUMBER_LONGEST = 60, UNIT_LONGEST = 40 };
+
+const struct unit_row unit_rows[UNITS] = {
+    [UNIT_NONE] = {"a plain number", "", "0.25", {0, 0, 0}},
+    [UNIT_LENGTH] = {"a length", "m", "0.5 mm", {2, 0, 0}},
+    [UNIT_AREA] = {"an area", "m^2", "2 mm^2", {4, 0, 0}},
+    [UNIT_TIME] = {"a time", "s", "20 us", {0, 0, 2}},
+    [UNIT_SPEED] = {"a velocity", "m/s", "22 m/s", {2, 0, -2}},
+    [UNIT_DENSITY] = {"a density", "kg/m^3", "7800 kg/m^3", {-6, 2, 0}},
+    [UNIT_PRESSURE] = {"a stress", "Pa", "190 GPa", {-2, 2, -4}},
+    [UNIT_SURFACE_ENERGY] = {"an energy per area", "J/m^2", "69 kJ/m^2", {0, 2, -4}},
+    [UNIT_TOUGHNESS] = {"a stress intensity", "Pa m^0.5", "60 MPa m^0.5", {-1, 2, -4}},
+    [UNIT_BODY_FORCE] = {"a force per volume", "N/m^3", "1e5 N/m^3", {-4, 2, -4}},
+    [UNIT_RATE] = {"a rate", "1/s", "100 1/s", {0, 0, -2}},
+};
+
+/* ---- units ----------------------------------------------------------------------------------------------- */
+
+/* ten: twice the power of ten that leads to SI. */
+struct measure { int twice[3], ten; };
+
+static const struct symbol { const char *name; struct measure measure; } symbols[] = {
+    {"m", {{2, 0, 0}, 0}},    {"g", {{0, 2, 0}, -6}},   {"s", {{0, 0, 2}, 0}},    {"Pa", {{-2, 2, -4}, 0}},
+    {"N", {{2, 2, -4}, 0}},   {"J", {{4, 2, -4}, 0}},   {"Hz", {{0, 0, -2}, 0}},  {"%", {{0, 0, 0}, -4}},
+    {"1", {{0, 0, 0}, 0}},
+};
+static const struct prefix { const char *name; int ten; } prefixes[] = {
+    {"n", -18}, {"u", -12}, {"\u00b5", -12}, {"\u03bc", -12}, {"m", -6},
+    {"c", -4},  {"k", 6},   {"M", 12},       {"G", 18},       {"T", 24},
+};
+
+static const struct symbol *symbol_named(const char *name, size_t length)
+{
+    for (size_t k = 0; k < COUNT_OF(symbols); k++)
+        if (strlen(symbols[k].name) == length && memcmp(symbols[k].name, name, length) == 0) return &symbols[k];
+    return NULL;
+}
+
+/* `mm`, `GPa`, `kg`, `%`: a symbol, or a prefix and a symbol. */
+static bool symbol_read(struct measure *m, const char *name, size_t length)
+{
+    const struct symbol *symbol = symbol_named(name, length);
+    int ten = 0;
+    for (size_t k = 0; k < COUNT_OF(prefixes) && !symbol; k++) {
+        size_t prefix = strlen(prefixes[k].name);
+        if (prefix >= length || memcmp(prefixes[k].name, name, prefix) != 0) continue;
+        symbol = symbol_named(name + prefix, length - prefix);
+        if (symbol && !isalpha((unsigned char)symbol->name[0])) symbol = NULL;
+        ten = prefixes[k].ten;
+    }
+    if (!symbol) return false;
+    *m = symbol->measure;
+    m->ten += ten;
+    return true;
+}
+
+/* Twice the power behind a symbol: `^2`, `2`, `^-1`, `^0.5`, a raised digit; 2 where there is none. */
+static int power_read(const char **at)
+{
+    const char *c = *at;
+    bool caret = *c == '^', minus = false;
+    if (strncmp(c, "\u00b2", 2) == 0 || strncmp(c, "\u00b3", 2) == 0) {
+        *at = c + 2;
+        return (unsigned char)c[1] == 0xB2 ? 4 : 6;
+    }
+    if (caret) c++;
+    if (caret && *c == '-') minus = true, c++;
+    if (caret && strncmp(c, "0.5", 3) == 0) {
+        *at = c + 3;
+        return minus ? -1 : 1;
+    }
+    if (*c < '1' || *c > '9') return caret ? 0 : 2;
+    *at = c + 1;
+    return (minus ? -2 : 2) * (*c - '0');
+}
+
+static size_t symbol_length(const char *c)
+{
+    size_t n = 0;
+    if ((*c == '%' && c[1] == '\0') || (*c == '1' && c[1] == '/')) return 1;
+    while (isalpha((unsigned char)c[n]) || (unsigned char)c[n] >= 0xC3 || ((unsigned char)c[n] & 0xC0) == 0x80 ||
+           ((unsigned char)c[n] == 0xC2 && (unsigned char)c[n + 1] == 0xB5))
+        n++;
+    return n;
+}
+
+/* One factor: `kg`, `m^3`, `sqrt(m)`. */
+static bool factor_read(struct measure *m, const char **at)
+{
+    bool root = strncmp(*at, "sqrt(", 5) == 0;
+    if (root) *at += 5;
+    size_t length = symbol_length(*at);
+    if (length == 0 || !symbol_read(m, *at, length)) return false;
+    *at += length;
+    int twice = **at == '\0' ? 2 : power_read(at);
+    if (root && *(*at)++ != ')') return false;
+    if (root) twice = twice == 2 ? 1 : 0;
+    for (int k = 0; k < 3; k++) m->twice[k] = m->twice[k] * twice / 2;
+    if (twice == 0 || m->ten * twice % 2 != 0) return false;
+    m->ten = m->ten * twice / 2;
+    return true;
+}
+
+/* Factors with spaces, `*` or `/` between them. */
+static bool unit_read(struct measure *sum, const char *text)
+{
+    *sum = (struct measure){{0, 0, 0}, 0};
+    if (strlen(text) > UNIT_LONGEST) return false;
+    for (const char *c = text; *c;) {
+        struct measure m;
+        int sign = 1;
+        while (*c == ' ') c++;
+        if (*c == '/' || (*c == '*' && c != text)) sign = *c == '/' ? -1 : 1, c++;
+        while (*c == ' ') c++;
+        if (!factor_read(&m, &c)) return false;
+        for (int k = 0; k < 3; k++) sum->twice[k] += sign * m.twice[k];
+        sum->ten += sign * m.ten;
+        if (*c && !strchr(" */", *c)) return false;
+    }
+    return sum->ten % 2 == 0;
+}
+
+static const struct unit_row *unit_of(const int twice[3])
+{
+    for (int u = 0; u < UNITS; u++) {
+        const signed char *t = unit_rows[u].twice;
+        if (t[0] == twice[0] && t[1] == twice[1] && t[2] == twice[2]) return &unit_rows[u];
+    }
+    return NULL;
+}
+
+/* ---- numbers --------------------------------------------------------------------------------------------- */
+
+/* Length of `[+-] digits [. digits] [e [+-] digits]`, 0 if there is none. */
+static size_t number_length(const char *c)
+{
+    const char *start = c;
+    size_t digits = 0;
+    if (*c == '+' || *c == '-') c++;
+    while (isdigit((unsigned char)*c)) c++, digits++;
+    if (*c == '.') c++;
+    while (isdigit((unsigned char)*c)) c++, digits++;
+    if (digits == 0) return 0;
+    const char *e = c;
+    if (*e == 'e' || *e == 'E') {
+        e++;
+        if (*e == '+' || *e == '-') e++;
+        if (isdigit((unsigned char)*e)) {
+            while (isdigit((unsigned char)*e)) e++;
+            c = e;
+        }
+    }
+    return (size_t)(c - start);
+}
+
+/* `length` characters times 10^ten, rounded once. */
+static real number_value(const char *c, size_t length, int ten)
+{
+    char text[NUMBER_LONGEST + 32];
+    size_t mantissa = strcspn(c, "eE");
+    long exponent = 0;
+    if (mantissa > length) mantissa = length;
+    if (mantissa < length) exponent = strtol(c + mantissa + 1, NULL, 10);
+    if (exponent > 100000) exponent = 100000;
+    if (exponent < -100000) exponent = -100000;
+    snprintf(text, sizeof text, "%.*se%ld", (int)mantissa, c, exponent + ten);
+    return strtod(text, NULL);
+}
+
+/* What a number that other languages know would be here. */
+static const char *trap(const char *c, size_t length)
+{
+    const char *digits = c + (*c == '+' || *c == '-');
+    const char *rest = c + length;
+    if (*rest == '_') return "digits cannot be grouped by _; write 1000 or 1e3";
+    if (*rest == ',') return "the decimal sign is a point; write 1.5";
+    if (*rest == ':') return "base 60 is not read; write a decimal number";
+    if ((*rest == 'x' || *rest == 'X' || *rest == 'o' || *rest == 'b') && length <= 2 && *digits == '0')
+        return "hexadecimal, octal and binary are not read; write a decimal number";
+    if (digits[0] == '0' && isdigit((unsigned char)digits[1]))
+        return "a leading 0 means octal elsewhere; write the decimal number without it";
+    return NULL;
+}
+
+struct complaint { char *what; size_t room; };
+
+static bool complain(struct complaint c, const char *text, const char *wrong, enum unit unit)
+{
+    const struct unit_row *row = &unit_rows[unit];
+    const char *given = *text ? text : "nothing";
+    snprintf(c.what, c.room, "%.48s %s; %s is expected, as %s", given, wrong, row->name, row->example);
+    return false;
+}
+
+static bool unit_fits(struct complaint c, const char *text, const char *unit_text, enum unit unit, int *ten)
+{
+    struct measure m;
+    char wrong[128];
+    *ten = 0;
+    if (*unit_text == '\0') return true;
+    if (!unit_read(&m, unit_text)) {
+        snprintf(wrong, sizeof wrong, "has the unknown unit %.20s", unit_text);
+        return complain(c, text, wrong, unit);
+    }
+    const signed char *twice = unit_rows[unit].twice;
+    *ten = m.ten / 2;
+    if (m.twice[0] == twice[0] && m.twice[1] == twice[1] && m.twice[2] == twice[2]) return true;
+    const struct unit_row *row = unit_of(m.twice);
+    snprintf(wrong, sizeof wrong, "is %s%s", row ? "" : "not ", row ? row->name : unit_rows[unit].name);
+    return complain(c, text, wrong, unit);
+}
+
+static bool infinite_read(real *value, const char *text)
+{
+    const char *c = text + (*text == '-' || *text == '+');
+    if (strcmp(c, "inf") != 0) return false;
+    *value = *text == '-' ? -INFINITY : INFINITY;
+    return true;
+}
+
+/* The divisor of a fraction and its length; 1 and 0 where there is none. */
+static size_t divisor_read(const char *c, real *divisor)
+{
+    const char *start = c;
+    *divisor = 1;
+    while (*c == ' ') c++;
+    if (*c++ != '/') return 0;
+    while (*c == ' ') c++;
+    if (!isdigit((unsigned char)*c)) return 0;
+    size_t length = number_length(c);
+    if (length > NUMBER_LONGEST) return 0;
+    *divisor = number_value(c, length, 0);
+    return (size_t)(c - start) + length;
+}
+
+bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room)
+{
+    struct complaint c = {what, room};
+    real divisor;
+    int ten;
+    if (infinite_read(value, text)) return infinite || complain(c, text, "is not finite", unit);
+    size_t length = number_length(text);
+    if (length == 0) return complain(c, text, "is not a number", unit);
+    if (length > NUMBER_LONGEST) return complain(c, text, "has too many digits", unit);
+    const char *other = trap(text, length);
+    if (other) {
+        snprintf(what, room, "%.40s is not a number: %s", text, other);
+        return false;
+    }
+    const char *rest = text + length;
+    rest += divisor_read(rest, &divisor);
+    while (*rest == ' ') rest++;
+    if (!unit_fits(c, text, rest, unit, &ten)) return false;
+    if (divisor == 0) return complain(c, text, "divides by 0", unit);
+    *value = number_value(text, length, ten) / divisor;
+    return isfinite(*value) || complain(c, text, "is not finite", unit);
+}
+
+const char *number_text(char text[32], real value)
+{
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) break;
+    }
+    return text;
+}

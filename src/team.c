@@ -1,0 +1,173 @@
+/* floor 0: the team of threads on the machine's cores, sums that do not depend on it, and clocks. */
+#include "team.h"
+
+#include <hwloc.h>
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "memory.h"
+
+/* ---- the machine ----------------------------------------------------------------------------------- */
+
+/* What hwloc says of the machine and what this process may use of it. */
+struct place {
+    hwloc_topology_t topology;
+    hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
+};
+
+static bool place_make(struct place *place)
+{
+    if (hwloc_topology_init(&place->topology) != 0) return false;
+    if (hwloc_topology_load(place->topology) != 0) {
+        hwloc_topology_destroy(place->topology);
+        return false;
+    }
+    hwloc_const_cpuset_t allowed = hwloc_topology_get_allowed_cpuset(place->topology);
+    place->mask = hwloc_bitmap_alloc();
+    if (hwloc_get_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD) != 0)
+        hwloc_bitmap_copy(place->mask, allowed);
+    hwloc_bitmap_and(place->mask, place->mask, allowed);
+    if (hwloc_bitmap_iszero(place->mask)) hwloc_bitmap_copy(place->mask, allowed);
+    return true;
+}
+
+static void place_free(struct place *place)
+{
+    hwloc_bitmap_free(place->mask);
+    hwloc_topology_destroy(place->topology);
+}
+
+/* The k-th physical core of the mask; NULL past the last. */
+static hwloc_obj_t core_at(const struct place *place, int k)
+{
+    hwloc_obj_t core = NULL;
+    while ((core = hwloc_get_next_obj_by_type(place->topology, HWLOC_OBJ_CORE, core)) != NULL)
+        if (hwloc_bitmap_intersects(core->cpuset, place->mask) && k-- == 0) return core;
+    return NULL;
+}
+
+/* Physical cores of the mask; where hwloc sees none (some virtual machines), its hardware threads. */
+static int core_count(const struct place *place)
+{
+    int cores = 0;
+    while (core_at(place, cores) != NULL) cores++;
+    return cores > 0 ? cores : hwloc_bitmap_weight(place->mask);
+}
+
+static int64_t cache_size(hwloc_topology_t topology, hwloc_obj_type_t level)
+{
+    hwloc_obj_t cache = hwloc_get_obj_by_depth(topology, hwloc_get_type_depth(topology, level), 0);
+    return cache != NULL ? (int64_t)cache->attr->cache.size : 0;
+}
+
+static const char *processor_name(hwloc_topology_t topology)
+{
+    hwloc_obj_t package = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_PACKAGE, NULL);
+    const char *name = package != NULL ? hwloc_obj_get_info_by_name(package, "CPUModel") : NULL;
+    if (name == NULL) name = hwloc_obj_get_info_by_name(hwloc_get_root_obj(topology), "CPUModel");
+    return name != NULL ? name : "unknown processor";
+}
+
+struct machine team_machine(void)
+{
+    struct machine m = {.cores = omp_get_num_procs(), .threads_allowed = omp_get_num_procs()};
+    struct place place;
+    snprintf(m.model, sizeof m.model, "unknown processor");
+    if (!place_make(&place)) return m;
+    m.cores = core_count(&place);
+    m.threads_allowed = hwloc_bitmap_weight(place.mask);
+    m.cache[1] = cache_size(place.topology, HWLOC_OBJ_L1CACHE);
+    m.cache[2] = cache_size(place.topology, HWLOC_OBJ_L2CACHE);
+    m.cache[3] = cache_size(place.topology, HWLOC_OBJ_L3CACHE);
+    m.memory = (int64_t)hwloc_get_root_obj(place.topology)->total_memory;
+    snprintf(m.model, sizeof m.model, "%s", processor_name(place.topology));
+    place_free(&place);
+    return m;
+}
+
+/* ---- the team -------------------------------------------------------------------------------------- */
+
+/* Each helper to a core of its own, or back to the whole mask where there are not enough cores. The calling
+ * thread stays free: its mask is what tells the next call (another team size) what the process may use, the
+ * programs it starts inherit it, and with all helpers in place the scheduler has one core to put it. */
+static void bind_helpers(const struct place *place, int threads)
+{
+    bool apart = core_at(place, threads - 1) != NULL;
+#pragma omp parallel num_threads(threads)
+    {
+        int k = omp_get_thread_num();
+        hwloc_bitmap_t mine = hwloc_bitmap_dup(place->mask);
+        if (apart) hwloc_bitmap_and(mine, mine, core_at(place, k)->cpuset);
+        if (k > 0) hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD);   /* a wish: refusal does no harm */
+        hwloc_bitmap_free(mine);
+    }
+}
+
+int team_make(int threads)
+{
+    struct place place;
+    bool known = place_make(&place);
+    if (threads <= 0) {
+        if (getenv("OMP_NUM_THREADS") != NULL) threads = omp_get_max_threads();
+        else threads = known ? core_count(&place) : omp_get_num_procs();
+    }
+    omp_set_dynamic(0);                  /* always this many: partitions must not change between loops */
+    omp_set_num_threads(threads);
+    if (known) {
+        if (getenv("OMP_PROC_BIND") == NULL && getenv("OMP_PLACES") == NULL) bind_helpers(&place, threads);
+        place_free(&place);
+    }
+    return threads;
+}
+
+/* ---- sums ------------------------------------------------------------------------------------------ */
+
+static real block_sum(int64_t first, int64_t end, real (*term)(const void *context, int64_t i), const void *context)
+{
+    real sum = 0;
+    for (int64_t i = first; i < end; i++) sum += term(context, i);
+    return sum;
+}
+
+real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context)
+{
+    int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
+    if (blocks <= 1) return block_sum(0, n, term, context);
+    real *part = NEW("team.sum", blocks, real), sum = 0;
+#pragma omp parallel for schedule(static)
+    for (int64_t b = 0; b < blocks; b++) {
+        int64_t first = b * SUM_BLOCK, end = first + SUM_BLOCK;
+        part[b] = block_sum(first, end < n ? end : n, term, context);
+    }
+    for (int64_t b = 0; b < blocks; b++) sum += part[b];
+    memory_free(part);
+    return sum;
+}
+
+/* ---- clocks ---------------------------------------------------------------------------------------- */
+
+double team_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+const char *const lap_name[LAPS] = {
+    [LAP_BONDS] = "bonds",     [LAP_SCATTER] = "scatter", [LAP_GRID] = "grid",     [LAP_GATHER] = "gather",
+    [LAP_CONVERT] = "convert", [LAP_WATCH] = "watch",     [LAP_OUTPUT] = "output",
+};
+
+void laps_start(struct laps *l)
+{
+    *l = (struct laps){.last = team_clock()};
+}
+
+void lap(struct laps *l, enum lap which)
+{
+    double now = team_clock();
+    l->spent[which] += now - l->last;
+    l->last = now;
+}

@@ -1,0 +1,202 @@
+/* floor 3: the ledger of energy and momentum, the first break, and the alarm for unstable runs. */
+#include "watch.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "memory.h"
+#include "team.h"
+
+void watch_make(struct watch *w) { *w = (struct watch){.break_time = NAN, .break_place = {NAN, NAN, NAN}}; }
+
+/* ---- sums over particles ----------------------------------------------------------------------------- */
+
+static real kinetic_term(const void *context, int64_t i)
+{
+    const struct particles *p = context;
+    real speed2 = 0;
+    for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
+    return 0.5 * p->mass[i] * speed2;
+}
+
+real watch_kinetic(const struct particles *p) { return team_sum(p->n, kinetic_term, p); }
+
+struct momentum_sum { const struct particles *p; int component; };
+
+static real momentum_term(const void *context, int64_t i)
+{
+    const struct momentum_sum *s = context;
+    return s->p->mass[i] * s->p->v[s->component][i];
+}
+
+static real speed_term(const void *context, int64_t i)
+{
+    const struct particles *p = context;
+    real speed2 = 0;
+    for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
+    return p->mass[i] * sqrt(speed2);
+}
+
+/* ---- strain energy of material points ---------------------------------------------------------------- */
+
+struct strain_sum {
+    const struct particles *p;
+    const struct partial_stress *partial;
+    const int32_t *list;
+    real (*compliance)[SYM_MAX * SYM_MAX];   /* by material */
+};
+
+/* The part of the stress that the point does not leave to its crossing bonds: sigma - M sigma [Pa]. */
+static void stress_given(const struct partial_stress *partial, int64_t i, const real *stress, int n, real *given)
+{
+    for (int a = 0; a < n; a++) given[a] = stress[a];
+    if (partial == NULL || partial->index == NULL || partial->index[i] < 0) return;
+    const real *matrix = partial->matrix + (int64_t)partial->index[i] * n * n;
+    for (int a = 0; a < n; a++)
+        for (int b = 0; b < n; b++) given[a] -= matrix[a * n + b] * stress[b];
+}
+
+static real strain_term(const void *context, int64_t k)
+{
+    const struct strain_sum *s = context;
+    const struct particles *p = s->p;
+    int64_t i = s->list[k];
+    int n = symmetric_count(p->dim);
+    if (p->kind[i] != KIND_MPM) return 0;
+    real stress[SYM_MAX], given[SYM_MAX], sum = 0;
+    for (int a = 0; a < n; a++) stress[a] = p->stress[a][i];
+    stress_given(s->partial, i, stress, n, given);
+    for (int a = 0; a < n; a++) {
+        real strain = 0, times = a < p->dim ? 1 : 2;         /* a shear component stands for two */
+        for (int b = 0; b < n; b++) strain += s->compliance[p->material[i]][a * n + b] * stress[b];
+        sum += times * given[a] * strain;
+    }
+    return 0.5 * sum * p->volume[i];
+}
+
+real watch_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
+                     const int32_t *list, int64_t n)
+{
+    int materials = 0;
+    for (int64_t k = 0; k < n; k++)
+        if (p->material[list[k]] >= materials) materials = p->material[list[k]] + 1;
+    struct strain_sum s = {.p = p, .partial = partial, .list = list};
+    s.compliance = memory_new("watch.compliance", materials, sizeof *s.compliance);
+    for (int k = 0; k < materials; k++) material_compliance(&m[k], p->dim, s.compliance[k]);
+    real sum = team_sum(n, strain_term, &s);
+    memory_free(s.compliance);
+    return sum;
+}
+
+real watch_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial)
+{
+    return watch_strain_of(p, m, partial, p->list[KIND_MPM], p->n_of[KIND_MPM]);
+}
+
+/* ---- the ledger -------------------------------------------------------------------------------------- */
+
+/* Momentum that neither was there at the start nor was given since, over all that moves. */
+static void ledger_momentum(struct watch *w, const struct particles *p, const real *impulse)
+{
+    real missing2 = 0, moving = team_sum(p->n, speed_term, p);
+    for (int d = 0; d < p->dim; d++) {
+        w->now.momentum[d] = team_sum(p->n, momentum_term, &(struct momentum_sum){p, d});
+        if (!w->started) w->momentum_start[d] = w->now.momentum[d] - impulse[d];
+        missing2 += square(w->now.momentum[d] - w->momentum_start[d] - impulse[d]);
+    }
+    if (moving > 0) w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / moving);
+}
+
+static void ledger_balance(struct watch *w)
+{
+    struct ledger *l = &w->now;
+    real energy = l->kinetic + l->strain + l->plastic + l->fracture;
+    if (!w->started) w->energy_start = energy - l->external_work;
+    real largest = real_max(fabs(l->kinetic) + fabs(l->strain) + fabs(l->plastic) + fabs(l->fracture), fabs(l->external_work));
+    w->energy_scale = real_max(w->energy_scale, largest);
+    l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
+}
+
+void watch_ledger(struct watch *w, const struct particles *p, real t, real kinetic, real strain, real fracture,
+                  real work, const real *impulse)
+{
+    w->now.time = t;
+    w->now.kinetic = kinetic;
+    w->now.strain = strain;
+    w->now.fracture = fracture;
+    w->now.external_work = work;
+    ledger_balance(w);
+    ledger_momentum(w, p, impulse);
+    w->started = true;
+}
+
+/* ---- the first break --------------------------------------------------------------------------------- */
+
+void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, real t)
+{
+    w->bonds_broken += broken;
+    if (broken == 0 || !isnan(w->break_time)) return;
+    real place[DIM_MAX] = {0};
+    int64_t cut = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (!(p->flag[i] & FLAG_CRACKED)) continue;
+        for (int d = 0; d < p->dim; d++) place[d] += p->X[d][i];
+        cut++;
+    }
+    if (cut == 0) return;                /* only bonds of driven particles */
+    w->break_time = t;
+    for (int d = 0; d < p->dim; d++) w->break_place[d] = place[d] / (real)cut;
+}
+
+/* ---- the alarm --------------------------------------------------------------------------------------- */
+
+/* Comparisons are written so that a number that is none is caught. */
+static bool out_of_hand(const struct particles *p, int64_t i, real limit2)
+{
+    real speed2 = 0, place = 0;
+    for (int d = 0; d < p->dim; d++) {
+        speed2 += square(p->v[d][i]);
+        place += fabs(p->x[d][i]);
+    }
+    return !(speed2 <= limit2) || !isfinite(place);
+}
+
+static status alarm_raise(const struct particles *p, int64_t i, real limit, int64_t step, real t, real dt)
+{
+    char place[128];
+    real speed2 = 0;
+    int used = 0;
+    for (int d = 0; d < p->dim; d++) {
+        speed2 += square(p->v[d][i]);
+        used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
+    }
+    char what[128];
+    if (isfinite(speed2) && speed2 > limit * limit)
+        snprintf(what, sizeof what, "moves at %.3g m/s, faster than the wave speed %.4g m/s", sqrt(speed2), limit);
+    else snprintf(what, sizeof what, "has a position or velocity that is no finite number");
+    return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s; "
+                      "choose a smaller time.safety (now dt = %.3g s)", (long long)step, t, (int)p->id[i], place, what, dt);
+}
+
+status watch_alarm(const struct particles *p, real limit, int64_t step, real t, real dt)
+{
+    assert(limit > 0);
+    int64_t first = p->n;
+#pragma omp parallel for schedule(static) reduction(min : first)
+    for (int64_t i = 0; i < p->n; i++)
+        if (out_of_hand(p, i, limit * limit) && i < first) first = i;
+    return first < p->n ? alarm_raise(p, first, limit, step, t, dt) : OK;
+}
+
+status watch_archive(struct watch *w, struct archive *a)
+{
+    ARCHIVE_VALUE(a, "watch/now", w->now);
+    ARCHIVE_VALUE(a, "watch/energy_start", w->energy_start);
+    ARCHIVE_VALUE(a, "watch/energy_scale", w->energy_scale);
+    ARCHIVE_VALUE(a, "watch/momentum_start", w->momentum_start);
+    ARCHIVE_VALUE(a, "watch/started", w->started);
+    ARCHIVE_VALUE(a, "watch/break_time", w->break_time);
+    ARCHIVE_VALUE(a, "watch/break_place", w->break_place);
+    ARCHIVE_VALUE(a, "watch/bonds_broken", w->bonds_broken);
+    return OK;
+}

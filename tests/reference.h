@@ -1,0 +1,542 @@
+/* floor 2: plain twins of the kernels, written from the physics sheets and not from the kernels: all pairs, all nodes,
+ * one particle at a time, whole tensors, no vectors, no threads. Slow and obvious, so that they can be believed. */
+#ifndef CLEAVE_REFERENCE_H
+#define CLEAVE_REFERENCE_H
+
+#include <math.h>
+#include <string.h>
+
+#include "bonds.h"
+#include "grid.h"
+#include "kernels.h"
+#include "memory.h"
+
+/* ==== families (bond-based sheet 1.2, 1.4, 1.5) ===================================================== */
+
+static inline real reference_relative(real *const *x, int dim, int64_t i, int64_t j, real *relative)
+{
+    real r2 = 0;
+    for (int d = 0; d < dim; d++) relative[d] = x[d][j] - x[d][i], r2 += relative[d] * relative[d];
+    return sqrt(r2);
+}
+
+/* Is j in the family of i? Points at exactly the cutoff are. */
+static inline bool reference_bonded(const struct particles *p, const struct family *f, int64_t i, int64_t j)
+{
+    real xi[DIM_MAX], cutoff = f->horizon + (f->volume == VOLUME_RAMP ? 0.5 * f->spacing : 0);
+    if (i == j || p->body[i] != p->body[j]) return false;
+    return reference_relative(p->X, p->dim, i, j, xi) <= cutoff * (1 + 1e-9);
+}
+
+static inline real reference_beta(const struct family *f, real r)
+{
+    if (f->volume == VOLUME_WHOLE) return 1;
+    return fmax(0, fmin(1, (f->horizon + 0.5 * f->spacing - r) / f->spacing));
+}
+
+/* Bonds nearer the axes and nearer the diagonals may weigh differently: sum n^4 above or below its mean 3/(D + 2). */
+static inline real reference_shell(const struct family *f, const real *xi, real r, int dim)
+{
+    real fourth = 0;
+    for (int d = 0; d < dim; d++) fourth += pow(xi[d] / r, 4);
+    return f->shell_weight[fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1];
+}
+
+/* Sum of r V beta over a full family on the lattice [m^4], and c of sheet 1.2 from it [N/m^6]. */
+static inline real reference_sigma(const struct family *f)
+{
+    int dim = space_dim(f->space), reach = (int)ceil(f->horizon / f->spacing) + 1;
+    real V = pow(f->spacing, dim) * f->section, sum = 0;
+    real cutoff = f->horizon + (f->volume == VOLUME_RAMP ? 0.5 * f->spacing : 0);
+    for (int a = -reach; a <= reach; a++)
+        for (int b = dim > 1 ? -reach : 0; b <= (dim > 1 ? reach : 0); b++)
+            for (int c = dim > 2 ? -reach : 0; c <= (dim > 2 ? reach : 0); c++) {
+                real xi[DIM_MAX] = {a * f->spacing, b * f->spacing, c * f->spacing};
+                real r = sqrt(xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2]);
+                if (r == 0 || r > cutoff * (1 + 1e-9)) continue;
+                sum += r * V * reference_beta(f, r) * reference_shell(f, xi, r, dim);
+            }
+    return sum;
+}
+
+static inline real reference_modulus(const struct family *f, const struct material *m)
+{
+    real E = m->young, nu = m->poisson, sigma = reference_sigma(f);
+    switch (f->space) {
+    case SPACE_LINE: return 2 * E / sigma;
+    case SPACE_PLANE_STRESS: return 8 * E / (2 * (1 - nu)) / sigma;
+    case SPACE_PLANE_STRAIN: return 8 * E / (2 * (1 + nu) * (1 - 2 * nu)) / sigma;
+    default: return 18 * E / (3 * (1 - 2 * nu)) / sigma;
+    }
+}
+
+static inline real reference_neighbour_volume(const struct particles *p, const struct family *f, int64_t i)
+{
+    real xi[DIM_MAX], sum = 0;
+    for (int64_t j = 0; j < p->n; j++)
+        if (reference_bonded(p, f, i, j))
+            sum += p->volume0[j] * reference_beta(f, reference_relative(p->X, p->dim, i, j, xi));
+    return sum;
+}
+
+/* Weight of bond i-j: c beta lambda V_i V_j over that of a bond between lattice particles of material 0. Across a
+ * material interface two half bonds in series: harmonic mean of the moduli. `volume` as above for all particles, or
+ * NULL; V0 is the sum of a full family. */
+static inline real reference_weight(const struct particles *p, const struct bond_source *s, const real *volume,
+                                    int64_t i, int64_t j)
+{
+    const struct family *f = &s->family;
+    real xi[DIM_MAX], r = reference_relative(p->X, p->dim, i, j, xi), cell = pow(f->spacing, p->dim) * f->section;
+    real a = reference_modulus(f, &s->material[p->material[i]]), b = reference_modulus(f, &s->material[p->material[j]]);
+    real w = reference_beta(f, r) * reference_shell(f, xi, r, p->dim) * p->volume0[i] * p->volume0[j] / (cell * cell);
+    w *= 2 * a * b / (a + b) / reference_modulus(f, &s->material[0]);
+    return volume ? w * 2 * f->full / (volume[i] + volume[j]) : w;
+}
+
+/* ==== cracks: general position only ================================================================= */
+
+static inline real reference_turn(const real *a, const real *b, const real *c)
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* Six times the volume of the tetrahedron a b c d. */
+static inline real reference_tetrahedron(const real *a, const real *b, const real *c, const real *d)
+{
+    real u[3], v[3], w[3];
+    for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = c[k] - a[k], w[k] = d[k] - a[k];
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+/* The segment a-b pierces triangle t if its ends lie on both sides and the line turns one way round all edges. */
+static inline bool reference_pierced(const real *t0, const real *t1, const real *t2, const real *a, const real *b)
+{
+    if ((reference_tetrahedron(t0, t1, t2, a) > 0) == (reference_tetrahedron(t0, t1, t2, b) > 0)) return false;
+    bool first = reference_tetrahedron(a, b, t0, t1) > 0;
+    return first == (reference_tetrahedron(a, b, t1, t2) > 0) && first == (reference_tetrahedron(a, b, t2, t0) > 0);
+}
+
+static inline bool reference_cut(const struct crack *c, const real *a, const real *b, int dim)
+{
+    if (dim == 1) return (a[0] < c->corner[0][0]) != (b[0] < c->corner[0][0]);
+    if (dim == 2)
+        return (reference_turn(c->corner[0], c->corner[1], a) > 0) != (reference_turn(c->corner[0], c->corner[1], b) > 0) &&
+               (reference_turn(a, b, c->corner[0]) > 0) != (reference_turn(a, b, c->corner[1]) > 0);
+    for (int k = 1; k + 1 < c->n; k++)   /* a convex polygon is a fan of triangles */
+        if (reference_pierced(c->corner[0], c->corner[k], c->corner[k + 1], a, b)) return true;
+    return false;
+}
+
+/* ==== bonds (bond-based sheet 1.1, 1.3) ============================================================= */
+
+/* The stored weights as a full matrix, w[i n + j]; NAN where no bond is stored. */
+static inline real *reference_table(const struct bonds *b, const struct particles *p)
+{
+    real *w = NEW("reference.w", p->n * p->n, real);
+    for (int64_t k = 0; k < p->n * p->n; k++) w[k] = NAN;
+    for (int64_t row = 0; row < b->rows; row++)
+        for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+            int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+            if (b->inverse_length[q] != 0) w[b->particle[row] * p->n + b->nbr[q]] = b->w[q];
+        }
+    return w;
+}
+
+/* Bond of i to j: stretch, unit vector from i to j, reference length [m]. */
+struct reference_bond { real stretch, length, n[DIM_MAX], y[DIM_MAX]; };
+
+static inline struct reference_bond reference_bond(const struct particles *p, int64_t i, int64_t j)
+{
+    struct reference_bond q;
+    real xi[DIM_MAX], now = reference_relative(p->x, p->dim, i, j, q.y);
+    q.length = reference_relative(p->X, p->dim, i, j, xi);
+    q.stretch = (now - q.length) / q.length;
+    for (int d = 0; d < p->dim; d++) q.n[d] = q.y[d] / now;
+    return q;
+}
+
+/* What one particle gets from its bonds. */
+struct reference_row { real force[DIM_MAX], energy, stress[DIM_MAX][DIM_MAX]; };
+
+static inline struct reference_row reference_row(const struct particles *p, const real *w, real stiffness, int64_t i)
+{
+    struct reference_row row = {.energy = 0};
+    for (int64_t j = 0; j < p->n; j++) {
+        if (!(w[i * p->n + j] > 0)) continue;
+        struct reference_bond q = reference_bond(p, i, j);
+        real force = stiffness * w[i * p->n + j] * q.stretch;
+        row.energy += 0.5 * (0.5 * force * q.stretch * q.length);
+        for (int a = 0; a < p->dim; a++) {
+            row.force[a] += force * q.n[a];
+            for (int b = 0; b < p->dim; b++)
+                row.stress[a][b] += force * q.n[a] * q.y[b] / (2 * p->volume0[i]);
+        }
+    }
+    return row;
+}
+
+/* ==== shape functions (material point sheet 1.2) ==================================================== */
+
+struct reference_shape { real value, slope; };
+
+static inline real reference_tent(real r, real h) { return fmax(0, 1 - fabs(r) / h); }
+
+/* Integral of the tent from -h to r. */
+static inline real reference_tent_integral(real r, real h)
+{
+    if (r <= -h) return 0;
+    if (r >= h) return h;
+    return r < 0 ? 0.5 * (h + r) * (h + r) / h : h - 0.5 * (h - r) * (h - r) / h;
+}
+
+/* N and dN/dx at distance r = x_p - x_I; GIMP is the tent averaged over the particle's width 2 l. */
+static inline struct reference_shape reference_shape(enum shape shape, real r, real h, real l)
+{
+    real s = fabs(r) / h, sign = r < 0 ? -1 : 1;
+    switch (shape) {
+    case SHAPE_LINEAR: return (struct reference_shape){reference_tent(r, h), s < 1 ? -sign / h : 0};
+    case SHAPE_GIMP:
+    case SHAPE_CPGIMP:
+        return (struct reference_shape){(reference_tent_integral(r + l, h) - reference_tent_integral(r - l, h)) / (2 * l),
+                                        (reference_tent(r + l, h) - reference_tent(r - l, h)) / (2 * l)};
+    case SHAPE_QUADRATIC:
+        if (s < 0.5) return (struct reference_shape){0.75 - s * s, -2 * s * sign / h};
+        if (s < 1.5) return (struct reference_shape){0.5 * (1.5 - s) * (1.5 - s), -(1.5 - s) * sign / h};
+        return (struct reference_shape){0, 0};
+    case SHAPE_CUBIC:
+        if (s < 1) return (struct reference_shape){2.0 / 3 - s * s + 0.5 * s * s * s, (-2 * s + 1.5 * s * s) * sign / h};
+        if (s < 2) return (struct reference_shape){pow(2 - s, 3) / 6, -0.5 * (2 - s) * (2 - s) * sign / h};
+        return (struct reference_shape){0, 0};
+    default: return (struct reference_shape){NAN, NAN};
+    }
+}
+
+/* ==== one step of the material point method (sheet 1.1; APIC: 1.3) =================================== */
+
+struct reference_step {
+    enum shape shape;
+    enum transfer transfer;
+    real half_width, dt, dt_velocity, smallest_mass;
+    const struct elastic *elastic;
+    const struct partial_stress *partial;
+    struct particles *p;                 /* overwritten step by step                       */
+    const struct grid *g;                /* where nodes are; its values are not touched    */
+    real *value, *slope[DIM_MAX];        /* N and grad N, [n][nodes], of the old positions */
+    real *mass, *momentum[DIM_MAX], *force[DIM_MAX], *velocity[DIM_MAX], *change[DIM_MAX];
+};
+
+static inline void reference_node_position(const struct grid *g, int64_t node, real *x)
+{
+    for (int d = 0; d < g->dim; d++) {
+        x[d] = grid_position(g, d, node % g->count[d]);
+        node /= g->count[d];
+    }
+}
+
+/* N and grad N of every particle at every node. */
+static inline void reference_weights(struct reference_step *s)
+{
+    const struct particles *p = s->p;
+    for (int64_t i = 0; i < p->n; i++)
+        for (int64_t I = 0; I < s->g->n; I++) {
+            real x[DIM_MAX], *value = &s->value[i * s->g->n + I];
+            struct reference_shape one[DIM_MAX];
+            reference_node_position(s->g, I, x);
+            *value = 1;
+            for (int d = 0; d < p->dim; d++) {
+                real l = s->half_width * (s->shape == SHAPE_CPGIMP ? p->stretch[d][i] : 1);
+                one[d] = reference_shape(s->shape, p->x[d][i] - x[d], s->g->h, l);
+                *value *= one[d].value;
+            }
+            for (int d = 0; d < p->dim; d++) {
+                real slope = one[d].slope;
+                for (int e = 0; e < p->dim; e++) slope *= e == d ? 1 : one[e].value;
+                s->slope[d][i * s->g->n + I] = slope;
+            }
+        }
+}
+
+static inline void reference_step_make(struct reference_step *s)
+{
+    int64_t nodes = s->g->n;
+    s->value = NEW("reference.value", s->p->n * nodes, real);
+    s->mass = NEW("reference.mass", nodes, real);
+    for (int d = 0; d < s->p->dim; d++) {
+        s->slope[d] = NEW("reference.slope", s->p->n * nodes, real);
+        s->momentum[d] = NEW("reference.momentum", nodes, real);
+        s->force[d] = NEW("reference.force", nodes, real);
+        s->velocity[d] = NEW("reference.velocity", nodes, real);
+        s->change[d] = NEW("reference.change", nodes, real);
+    }
+    reference_weights(s);
+}
+
+static inline void reference_step_free(struct reference_step *s)
+{
+    memory_free(s->value);
+    memory_free(s->mass);
+    for (int d = 0; d < s->p->dim; d++) {
+        memory_free(s->slope[d]);
+        memory_free(s->momentum[d]);
+        memory_free(s->force[d]);
+        memory_free(s->velocity[d]);
+        memory_free(s->change[d]);
+    }
+}
+
+/* Places of the symmetric components: xx yy zz xy yz zx in 3D. */
+static inline int reference_symmetric(int dim, int a, int b)
+{
+    if (a == b) return a;
+    if (dim == 2) return 2;
+    return a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
+}
+
+static inline void reference_tensor(const real *symmetric, int dim, real tensor[DIM_MAX][DIM_MAX])
+{
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) tensor[a][b] = symmetric[reference_symmetric(dim, a, b)];
+}
+
+/* The stress that a point gives to the grid. */
+static inline void reference_given(const struct reference_step *s, int64_t i, real tensor[DIM_MAX][DIM_MAX])
+{
+    int n = symmetric_count(s->p->dim);
+    real sigma[SYM_MAX], given[SYM_MAX];
+    for (int a = 0; a < n; a++) given[a] = sigma[a] = s->p->stress[a][i];
+    if (s->partial->index && s->partial->index[i] >= 0)
+        for (int a = 0; a < n; a++)
+            for (int b = 0; b < n; b++) given[a] -= s->partial->matrix[(s->partial->index[i] * n + a) * n + b] * sigma[b];
+    reference_tensor(given, s->p->dim, tensor);
+}
+
+/* Mass and momentum (step 1); affine: the velocity of a point varies with its gradient. */
+static inline void reference_map(struct reference_step *s, bool with_mass)
+{
+    const struct particles *p = s->p;
+    for (int64_t I = 0; I < s->g->n; I++) {
+        real x[DIM_MAX];
+        reference_node_position(s->g, I, x);
+        if (with_mass) s->mass[I] = 0;
+        for (int d = 0; d < p->dim; d++) s->momentum[d][I] = 0;
+        for (int64_t i = 0; i < p->n; i++) {
+            if (p->kind[i] != KIND_MPM) continue;
+            real share = p->mass[i] * s->value[i * s->g->n + I];
+            if (with_mass) s->mass[I] += share;
+            for (int a = 0; a < p->dim; a++) {
+                real v = p->v[a][i];
+                for (int b = 0; b < p->dim && s->transfer == TRANSFER_APIC; b++)
+                    v += p->gradient[a * p->dim + b][i] * (x[b] - p->x[b][i]);
+                s->momentum[a][I] += share * v;
+            }
+        }
+    }
+}
+
+/* f = -sum V sigma . grad N + sum N f (step 3). */
+static inline void reference_forces(struct reference_step *s)
+{
+    const struct particles *p = s->p;
+    for (int64_t i = 0; i < p->n; i++) {
+        real sigma[DIM_MAX][DIM_MAX];
+        if (p->kind[i] != KIND_MPM) continue;
+        reference_given(s, i, sigma);
+        for (int64_t I = 0; I < s->g->n; I++)
+            for (int a = 0; a < p->dim; a++) {
+                s->force[a][I] += s->value[i * s->g->n + I] * p->f[a][i];
+                for (int b = 0; b < p->dim; b++)
+                    s->force[a][I] -= p->volume[i] * sigma[a][b] * s->slope[b][i * s->g->n + I];
+            }
+    }
+}
+
+/* End of step 3: what nodes move with; nodes lighter than the smallest mass rest. */
+static inline void reference_move(struct reference_step *s)
+{
+    for (int64_t I = 0; I < s->g->n; I++)
+        for (int d = 0; d < s->p->dim; d++) {
+            bool light = s->mass[I] < s->smallest_mass;
+            s->change[d][I] = light ? 0 : s->dt_velocity * s->force[d][I] / s->mass[I];
+            s->velocity[d][I] = light ? 0 : s->momentum[d][I] / s->mass[I] + s->change[d][I];
+        }
+}
+
+static inline real reference_at(const struct reference_step *s, const real *weight, const real *field, int64_t i)
+{
+    real sum = 0;
+    for (int64_t I = 0; I < s->g->n; I++) sum += weight[i * s->g->n + I] * field[I];
+    return sum;
+}
+
+/* Steps 4 to 6 of FLIP: velocities of points, then the second map with the old weights; after it `momentum` holds its
+ * velocity. */
+static inline void reference_remap(struct reference_step *s)
+{
+    for (int64_t i = 0; i < s->p->n; i++)
+        for (int d = 0; d < s->p->dim; d++)
+            if (s->p->kind[i] == KIND_MPM) s->p->v[d][i] += reference_at(s, s->value, s->change[d], i);
+    reference_map(s, false);
+    for (int64_t I = 0; I < s->g->n; I++)
+        for (int d = 0; d < s->p->dim; d++)
+            s->momentum[d][I] = s->mass[I] < s->smallest_mass ? 0 : s->momentum[d][I] / s->mass[I];
+}
+
+static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][DIM_MAX], real c[DIM_MAX][DIM_MAX], int dim)
+{
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) {
+            c[i][j] = 0;
+            for (int k = 0; k < dim; k++) c[i][j] += a[i][k] * b[k][j];
+        }
+}
+
+/* sigma + W sigma - sigma W; beyond 1e-3 rad R sigma R^T with R = exp W, summed as its power series. */
+static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX][DIM_MAX], int dim)
+{
+    real a[DIM_MAX][DIM_MAX], b[DIM_MAX][DIM_MAX], R[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, angle2 = 0;
+    real term[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, turned[DIM_MAX][DIM_MAX];
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < i; j++) angle2 += W[i][j] * W[i][j];
+    reference_product(W, sigma, a, dim);
+    reference_product(sigma, W, b, dim);
+    for (int i = 0; i < dim && sqrt(angle2) <= 1e-3; i++)
+        for (int j = 0; j < dim; j++) sigma[i][j] += a[i][j] - b[i][j];
+    if (sqrt(angle2) <= 1e-3) return;
+    for (int n = 1; n < 20; n++) {
+        reference_product(term, W, a, dim);
+        for (int i = 0; i < dim; i++)
+            for (int j = 0; j < dim; j++) R[i][j] += term[i][j] = a[i][j] / n;
+    }
+    reference_product(R, sigma, turned, dim);
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) a[i][j] = R[j][i];
+    reference_product(turned, a, b, dim);
+    memcpy(sigma, b, sizeof b);
+}
+
+/* Step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain, volume, axial stretch. */
+static inline void reference_stress(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
+{
+    struct particles *p = s->p;
+    const struct elastic *c = &s->elastic[p->material[i]];
+    real sigma[DIM_MAX][DIM_MAX] = {{0}}, W[DIM_MAX][DIM_MAX] = {{0}}, old[SYM_MAX], trace = 0;
+    for (int a = 0; a < symmetric_count(p->dim); a++) old[a] = p->stress[a][i];
+    reference_tensor(old, p->dim, sigma);
+    for (int a = 0; a < p->dim; a++) {
+        trace += L[a][a] * s->dt;
+        for (int b = 0; b < p->dim; b++) W[a][b] = 0.5 * s->dt * (L[a][b] - L[b][a]);
+    }
+    reference_rotate(sigma, W, p->dim);
+    for (int a = 0; a < p->dim; a++)
+        for (int b = 0; b <= a; b++) {
+            real strain = 0.5 * s->dt * (L[a][b] + L[b][a]);
+            sigma[a][b] += a == b ? (c->c11 - c->c12) * strain + c->c12 * trace : 2 * c->shear * strain;
+            p->stress[reference_symmetric(p->dim, a, b)][i] = sigma[a][b];
+        }
+    p->volume[i] *= 1 + trace;
+    for (int a = 0; a < p->dim && s->shape == SHAPE_CPGIMP; a++) p->stretch[a][i] *= 1 + s->dt * L[a][a];
+}
+
+/* Positions with the nodal velocity; gradient from the second map (FLIP) or the nodal velocity itself (APIC). */
+static inline void reference_gather(struct reference_step *s)
+{
+    struct particles *p = s->p;
+    bool affine = s->transfer == TRANSFER_APIC;
+    for (int64_t i = 0; i < p->n; i++) {
+        real L[DIM_MAX][DIM_MAX];
+        if (p->kind[i] != KIND_MPM) continue;
+        for (int a = 0; a < p->dim; a++)
+            for (int b = 0; b < p->dim; b++) {
+                L[a][b] = reference_at(s, s->slope[b], affine ? s->velocity[a] : s->momentum[a], i);
+                if (affine) p->gradient[a * p->dim + b][i] = L[a][b];
+            }
+        for (int a = 0; a < p->dim; a++) {
+            real v = reference_at(s, s->value, s->velocity[a], i);
+            if (affine) p->v[a][i] = v;
+            p->x[a][i] += s->dt * v;
+        }
+        reference_stress(s, i, L);
+    }
+}
+
+/* Largest principal stress: the largest n . sigma . n, by Jacobi rotations of the tensor. */
+static inline real reference_principal(const real *symmetric, int dim)
+{
+    real t[DIM_MAX][DIM_MAX], largest = -INFINITY;
+    reference_tensor(symmetric, dim, t);
+    for (int sweep = 0; sweep < 20; sweep++)
+        for (int a = 0; a < dim; a++)
+            for (int b = a + 1; b < dim; b++) {
+                real angle = 0.5 * atan2(2 * t[a][b], t[a][a] - t[b][b]), c = cos(angle), s = sin(angle);
+                for (int k = 0; k < dim; k++) {
+                    real left = t[a][k], right = t[b][k];
+                    t[a][k] = c * left + s * right, t[b][k] = c * right - s * left;
+                }
+                for (int k = 0; k < dim; k++) {
+                    real left = t[k][a], right = t[k][b];
+                    t[k][a] = c * left + s * right, t[k][b] = c * right - s * left;
+                }
+            }
+    for (int a = 0; a < dim; a++) largest = fmax(largest, t[a][a]);
+    return largest;
+}
+
+/* ==== partial stress (sheet 2.3) ==================================================================== */
+
+/* Fraction of the segment between two reference positions inside the cube of q. */
+static inline real reference_inside(const struct particles *p, real section, int64_t m, int64_t j, int64_t q)
+{
+    real edge = pow(p->volume0[q] / section, 1.0 / p->dim), from = 0, to = 1;
+    for (int d = 0; d < p->dim; d++) {
+        real start = p->X[d][m] - p->X[d][q], way = p->X[d][j] - p->X[d][m];
+        if (way == 0) {
+            if (fabs(start) > 0.5 * edge) return 0;
+            continue;
+        }
+        real one = (-0.5 * edge - start) / way, two = (0.5 * edge - start) / way;
+        from = fmax(from, fmin(one, two)), to = fmin(to, fmax(one, two));
+    }
+    return fmax(0, to - from);
+}
+
+/* T_q [Pa] of material point q from every intact bond between a peridynamic particle and a material point. `w` is the
+ * table of stored weights. */
+static inline void reference_partial(const struct particles *p, const real *w, real stiffness, real section, int64_t q,
+                                     real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX])
+{
+    memset(T, 0, sizeof(real[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX]));
+    for (int64_t m = 0; m < p->n; m++)
+        for (int64_t j = 0; j < p->n; j++) {
+            real xi[DIM_MAX], r;
+            if (p->kind[m] != KIND_PD || p->kind[j] != KIND_MPM || !(w[m * p->n + j] > 0)) continue;
+            r = reference_relative(p->X, p->dim, m, j, xi);
+            real K = stiffness * w[m * p->n + j] / r, share = reference_inside(p, section, m, j, q);
+            for (int a = 0; a < p->dim; a++)
+                for (int b = 0; b < p->dim; b++)
+                    for (int c = 0; c < p->dim; c++)
+                        for (int d = 0; d < p->dim; d++)
+                            T[a][b][c][d] += K * r * r * share * xi[a] * xi[b] * xi[c] * xi[d] / pow(r, 4) / p->volume0[q];
+        }
+}
+
+/* T : C^-1 sigma, with C^-1 of the isotropic law written out. */
+static inline void reference_carried(const struct material *m, int dim, real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX],
+                                     const real *sigma, real *carried)
+{
+    real s[DIM_MAX][DIM_MAX], trace = 0;
+    reference_tensor(sigma, dim, s);
+    for (int a = 0; a < dim; a++) trace += s[a][a];
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) {
+            real sum = 0;
+            for (int c = 0; c < dim; c++)
+                for (int d = 0; d < dim; d++) {
+                    real hydrostatic = c == d ? m->c12 / (dim * m->c12 + 2 * m->shear) * trace : 0;
+                    real strain = dim == 1 ? s[0][0] / m->young : (s[c][d] - hydrostatic) / (2 * m->shear);
+                    sum += T[a][b][c][d] * strain;
+                }
+            carried[reference_symmetric(dim, a, b)] = sum;
+        }
+}
+
+#endif

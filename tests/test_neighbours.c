@@ -1,0 +1,392 @@
+/* floor 4: searches, bond rows and the order of transfers against all pairs. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <cmocka.h>
+#include <omp.h>
+
+#include "cloud.h"
+#include "reference.h"
+#include "team.h"
+
+/* ---- search ----------------------------------------------------------------------------------------- */
+
+static void search_equals_all_pairs(const struct particles *p, const struct cells *c, const real *X, real radius, int32_t skip)
+{
+    int32_t found[1000], n = cells_near(c, p, X, radius, skip, found, COUNT_OF(found)), expected = 0;
+    assert_in_range(n, 0, COUNT_OF(found));
+    for (int32_t j = 0; j < p->n; j++) {
+        real r2 = 0;
+        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][j] - X[d]);
+        if (r2 > radius * radius || j == skip) continue;
+        assert_true(expected < n);
+        assert_int_equal(found[expected++], j);           /* ascending, none twice, none missing */
+    }
+    assert_int_equal(n, expected);
+    assert_int_equal(cells_near(c, p, X, radius, skip, NULL, 0), expected);
+}
+
+static void searches(const struct cloud_plan *plan, real edge, bool outlier)
+{
+    struct cloud c;
+    struct cells cells;
+    uint64_t seed = 7;
+    cloud_make(&c, plan);
+    if (outlier)                          /* a box that is mostly empty must not need a cell for every spacing of it */
+        for (int d = 0; d < c.p.dim; d++) c.p.X[d][c.p.n - 1] = 1e3 * CLOUD_SPACING;
+    cells_make(&cells, &c.p, edge);
+    for (int32_t i = 0; i < c.p.n; i++) {
+        real X[DIM_MAX];
+        for (int d = 0; d < c.p.dim; d++) X[d] = c.p.X[d][i];
+        search_equals_all_pairs(&c.p, &cells, X, edge, i);
+        for (int d = 0; d < c.p.dim; d++) X[d] = cloud_between(&seed, -5, 12) * CLOUD_SPACING;
+        search_equals_all_pairs(&c.p, &cells, X, cloud_random(&seed) * edge, -1);
+    }
+    cells_free(&cells);
+    cloud_free(&c);
+}
+
+static void test_search(void **state)
+{
+    (void)state;
+    static const struct cloud_plan plan[] = {
+        {.space = SPACE_LINE, .count = {40}, .horizon = 3},
+        {.space = SPACE_LINE, .count = {40}, .horizon = 3, .shake = 0.3, .seed = 1},
+        {.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 3},
+        {.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 3, .shake = 0.3, .seed = 2},
+        {.space = SPACE_SOLID, .count = {5, 6, 4}, .horizon = 3},
+        {.space = SPACE_SOLID, .count = {5, 6, 4}, .horizon = 3, .shake = 0.3, .seed = 3},
+    };
+    for (size_t k = 0; k < COUNT_OF(plan); k++)
+        for (int outlier = 0; outlier < 2; outlier++) {
+            searches(&plan[k], 3.015 * CLOUD_SPACING, outlier);
+            searches(&plan[k], 1.5 * CLOUD_SPACING, outlier);
+            searches(&plan[k], 50 * CLOUD_SPACING, outlier);
+        }
+}
+
+/* ---- rows ------------------------------------------------------------------------------------------- */
+
+enum { MIXED = 1, BODIES = 2, MATERIALS = 4, CRACKED = 8 };
+
+struct rows_case { struct cloud_plan plan; int what; };
+
+static const struct rows_case rows_case[] = {
+    {{.space = SPACE_LINE, .count = {37}, .horizon = 3}, 0},
+    {{.space = SPACE_LINE, .count = {37}, .horizon = 3, .volume = VOLUME_RAMP}, MIXED | CRACKED},
+    {{.space = SPACE_LINE, .count = {37}, .horizon = 3, .shake = 0.2, .seed = 4}, MIXED | BODIES | MATERIALS},
+    {{.space = SPACE_LINE, .count = {37}, .horizon = 3, .surface = SURFACE_VOLUME}, MIXED},
+    {{.space = SPACE_PLANE_STRESS, .count = {13, 11}, .horizon = 3.015}, 0},
+    {{.space = SPACE_PLANE_STRESS, .count = {13, 11}, .horizon = 3.015, .volume = VOLUME_RAMP}, MIXED | CRACKED},
+    {{.space = SPACE_PLANE_STRAIN, .count = {13, 11}, .horizon = 3.015, .surface = SURFACE_VOLUME}, MIXED | MATERIALS},
+    {{.space = SPACE_PLANE_STRESS, .count = {13, 11}, .horizon = 3.015, .shake = 0.3, .seed = 5}, CRACKED},
+    {{.space = SPACE_PLANE_STRESS, .count = {13, 11}, .horizon = 3.015, .shake = 0.3, .seed = 6,
+      .volume = VOLUME_CUT_RAMP, .surface = SURFACE_VOLUME, .shells = SHELLS_ISOTROPIC}, MIXED | BODIES | MATERIALS | CRACKED},
+    {{.space = SPACE_SOLID, .count = {7, 6, 5}, .horizon = 2.015}, 0},
+    {{.space = SPACE_SOLID, .count = {7, 6, 5}, .horizon = 2.015, .shells = SHELLS_ISOTROPIC}, MIXED | CRACKED},
+    {{.space = SPACE_SOLID, .count = {7, 6, 5}, .horizon = 2.015, .shake = 0.3, .seed = 7, .volume = VOLUME_RAMP,
+      .surface = SURFACE_VOLUME}, MIXED | BODIES | MATERIALS | CRACKED},
+};
+
+/* In general position, so that no tie has to be decided: tests of regions own those. */
+static real crack_corner[DIM_MAX + 1][4][DIM_MAX] = {
+    {{0}},
+    {{17.61e-3}},
+    {{-1e-3, 5.13e-3}, {6.37e-3, 5.91e-3}},
+    {{-1e-3, -1e-3, 2.17e-3}, {4.1e-3, -1e-3, 2.23e-3}, {4.1e-3, 3.9e-3, 2.71e-3}, {-1e-3, 3.9e-3, 2.65e-3}},
+};
+static const struct crack crack[DIM_MAX + 1] = {
+    {0, NULL}, {1, crack_corner[1]}, {2, crack_corner[2]}, {4, crack_corner[3]}};
+
+static void case_make(struct cloud *c, const struct rows_case *k)
+{
+    struct particles *p = NULL;
+    uint64_t seed = 11;
+    cloud_make(c, &k->plan);
+    p = &c->p;
+    for (int64_t i = 0; i < p->n; i++) {
+        real x = p->X[0][i] / CLOUD_SPACING / k->plan.count[0];
+        if (k->what & MIXED) p->kind[i] = x > 0.4 && cloud_random(&seed) < 0.8 ? KIND_MPM : KIND_PD;
+        if (k->what & BODIES) p->body[i] = x > 0.55;
+        if (k->what & MATERIALS) p->material[i] = cloud_random(&seed) < 0.3;
+    }
+    for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c->limit[m] = m == 0 ? 0.01 : m == 3 ? 0.03 : 0.02;
+    if (k->what & CRACKED) {
+        c->source.crack = &crack[p->dim];
+        c->source.cracks = 1;
+    }
+    cloud_bonds(c);
+}
+
+static bool case_cut(const struct cloud *c, int64_t i, int64_t j)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    for (int d = 0; d < c->p.dim; d++) a[d] = c->p.X[d][i], b[d] = c->p.X[d][j];
+    return c->source.cracks > 0 && reference_cut(c->source.crack, a, b, c->p.dim);
+}
+
+/* Does the family of i hold a peridynamic particle? */
+static bool touches_pd(const struct cloud *c, int64_t i)
+{
+    for (int64_t j = 0; j < c->p.n; j++)
+        if (c->p.kind[j] == KIND_PD && reference_bonded(&c->p, &c->source.family, i, j)) return true;
+    return false;
+}
+
+static void check_bond(const struct cloud *c, const real *w, const real *volume, int64_t i, int64_t j)
+{
+    const struct particles *p = &c->p;
+    bool stored = !isnan(w[i * p->n + j]), row = c->bonds.row_of[i] >= 0;
+    bool bonded = reference_bonded(p, &c->source.family, i, j) && (p->kind[i] == KIND_PD || p->kind[j] == KIND_PD);
+    assert_int_equal(stored, row && bonded);
+    if (!stored) return;
+    if (case_cut(c, i, j)) {
+        assert_true(w[i * p->n + j] == 0);
+        return;
+    }
+    /* rounding to single precision is at most 2^-24 = 6e-8 of the value; the engine rounds the beta of ramps to 1e-9 */
+    real expected = reference_weight(p, &c->source, volume, i, j), ramp = c->source.family.volume == VOLUME_WHOLE ? 0 : 2e-9;
+    assert_true(fabs(w[i * p->n + j] - expected) <= 1e-7 * expected + ramp);
+    if (c->bonds.row_of[j] >= 0) assert_memory_equal(&w[i * p->n + j], &w[j * p->n + i], sizeof(real));
+}
+
+/* Sums of the row of particle i over all pairs; volumes are kept in single precision: 1e-6 for sums of up to 100. */
+static void check_row(const struct cloud *c, int64_t i)
+{
+    const struct particles *p = &c->p;
+    int64_t row = c->bonds.row_of[i];
+    real whole = 0, cut = 0, smallest = INFINITY;
+    for (int64_t j = 0; j < p->n; j++) {
+        if (!reference_bonded(p, &c->source.family, i, j)) continue;
+        whole += p->volume0[j];
+        if (case_cut(c, i, j)) cut += p->volume0[j];
+        if (p->kind[i] == KIND_PD || p->kind[j] == KIND_PD)
+            smallest = fmin(smallest, c->limit[p->material[i] * CLOUD_MATERIALS + p->material[j]]);
+    }
+    assert_true(fabs(c->bonds.family_volume[row] - whole) <= 1e-6 * whole);
+    if (p->kind[i] == KIND_PD) assert_true(fabs(p->damage[i] - cut / whole) <= 1e-6);
+    assert_true(c->bonds.trigger[row] <= smallest && c->bonds.trigger[row] > 0.999 * smallest);
+}
+
+/* What a slot claims about its lanes is so; no bond stands twice in a row; padding is harmless. */
+static void check_slots(const struct cloud *c)
+{
+    const struct bonds *b = &c->bonds;
+    uint8_t *seen = NEW("test.seen", c->p.n * c->p.n, uint8_t);
+    for (int64_t g = 0; g < b->groups; g++)
+        for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++)
+            for (int l = 0; l < LANES; l++) {
+                int64_t q = slot * LANES + l, row = g * LANES + l;
+                real xi[DIM_MAX];
+                assert_in_range(b->nbr[q], 0, c->p.n_all + LANES - 1);
+                if (b->consecutive[slot]) assert_int_equal(b->nbr[q], b->nbr[slot * LANES] + l);
+                if (b->aligned[g]) assert_int_equal(b->particle[row], b->particle[g * LANES] + l);
+                if (b->inverse_length[q] == 0) assert_true(b->w[q] == 0);
+                if (b->inverse_length[q] == 0) continue;
+                assert_true(row < b->rows);
+                assert_int_equal(seen[b->particle[row] * c->p.n + b->nbr[q]]++, 0);
+                real r = reference_relative(c->p.X, c->p.dim, b->particle[row], b->nbr[q], xi);
+                assert_true(fabs(b->inverse_length[q] * r - 1) <= 4e-16);     /* root and division: two roundings */
+            }
+    memory_free(seen);
+}
+
+static void check_rows(const struct cloud *c)
+{
+    const struct particles *p = &c->p;
+    real *w = reference_table(&c->bonds, p), *volume = NULL;
+    if (c->source.family.surface == SURFACE_VOLUME) {
+        volume = NEW("test.volume", p->n, real);
+        for (int64_t i = 0; i < p->n; i++) volume[i] = reference_neighbour_volume(p, &c->source.family, i);
+        assert_true(cloud_difference(c->neighbour_volume, volume, p->n) <= 1e-9);   /* the engine rounds beta to 1e-9 */
+    }
+    int64_t rows = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        bool wanted = p->kind[i] == KIND_PD || touches_pd(c, i);
+        assert_int_equal(c->bonds.row_of[i] >= 0, wanted);
+        if (wanted) {
+            assert_int_equal(c->bonds.row_of[i], rows);                     /* rows in ascending particle order */
+            assert_int_equal(c->bonds.particle[rows++], i);
+            check_row(c, i);
+        }
+        for (int64_t j = 0; j < p->n; j++) check_bond(c, w, volume, i, j);
+    }
+    assert_int_equal(c->bonds.rows, rows);
+    for (int64_t r = rows; r < c->bonds.groups * LANES; r++) assert_int_equal(c->bonds.particle[r], c->bonds.particle[rows - 1]);
+    check_slots(c);
+    memory_free(volume);
+    memory_free(w);
+}
+
+static void test_rows(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(rows_case); k++) {
+        struct cloud c;
+        case_make(&c, &rows_case[k]);
+        /* stiffness is c V V of two lattice particles; c from the same lattice sum in another order of terms */
+        real expected = reference_modulus(&c.source.family, &c.material[0]) * square(c.source.family.cell_volume);
+        assert_true(fabs(c.bonds.stiffness / expected - 1) <= 1e-9);        /* beta of the ramp is rounded to 1e-9 */
+        check_rows(&c);
+        cloud_free(&c);
+    }
+}
+
+/* Rows made anew when material points have become peridynamic: what load had broken stays broken. */
+static void test_rows_inherit(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(rows_case); k++) {
+        struct cloud c;
+        if (!(rows_case[k].what & MIXED)) continue;
+        case_make(&c, &rows_case[k]);
+        struct particles *p = &c.p;
+        for (int64_t i = 0; i < p->n; i++) p->x[0][i] = p->X[0][i] * (1 + 2 * p->X[0][i]);   /* more strain to the right */
+        assert_true(bond_break_all(&c.bonds, p, &c.source.limit) > 0);
+        real *before = reference_table(&c.bonds, p), energy = bonds_fracture_energy(&c.bonds);
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->X[0][i] < 8e-3) p->kind[i] = KIND_PD;
+        particles_list(p);
+        struct bonds old = c.bonds;
+        bonds_make(&c.bonds, &old, p, &c.source);
+        real *after = reference_table(&c.bonds, p);
+        for (int64_t q = 0; q < p->n * p->n; q++)                /* NAN: was no bond; w = 0: was broken or cut */
+            if (!isnan(before[q])) assert_true(before[q] == after[q]);
+        assert_true(fabs(bonds_fracture_energy(&c.bonds) - energy) <= 1e-14 * energy);
+        for (int64_t i = 0; i < p->n; i++)
+            if (old.row_of[i] >= 0) assert_int_equal(c.bonds.broken[c.bonds.row_of[i]], old.broken[old.row_of[i]]);
+        memory_free(before);
+        memory_free(after);
+        bonds_free(&old);
+        cloud_free(&c);
+    }
+}
+
+static void test_rows_threads(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(rows_case); k++) {
+        struct cloud c[2];
+        for (int t = 0; t < 2; t++) {
+            omp_set_num_threads(t + 1);
+            case_make(&c[t], &rows_case[k]);
+        }
+        size_t entries = (size_t)c[0].bonds.slots * LANES;
+        assert_int_equal(c[0].bonds.slots, c[1].bonds.slots);
+        assert_memory_equal(c[0].bonds.nbr, c[1].bonds.nbr, entries * sizeof(int32_t));
+        assert_memory_equal(c[0].bonds.w, c[1].bonds.w, entries * sizeof(float));
+        assert_memory_equal(c[0].bonds.inverse_length, c[1].bonds.inverse_length, entries * sizeof(real));
+        for (int t = 0; t < 2; t++) cloud_free(&c[t]);
+    }
+}
+
+/* ---- the order of transfers ------------------------------------------------------------------------- */
+
+/* Points spread at random over cells -20 .. 20 round node 0, some of them peridynamic. */
+static void scatter_points(struct cloud *c, int dim, struct grid *g)
+{
+    static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+    uint64_t seed = 5;
+    real from[DIM_MAX], to[DIM_MAX];
+    bool changed;
+    cloud_make(c, &(struct cloud_plan){.space = space[dim], .count = {600}, .horizon = 3});
+    *g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING};
+    for (int d = 0; d < dim; d++) {
+        g->anchor[d] = 0.37 * CLOUD_SPACING;
+        from[d] = g->anchor[d] - 20 * g->h, to[d] = g->anchor[d] + 20 * g->h;
+        for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = cloud_between(&seed, from[d], to[d]);
+    }
+    for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = cloud_random(&seed) < 0.1 ? KIND_PD : KIND_MPM;
+    particles_list(&c->p);
+    assert_int_equal(grid_cover(g, from, to, 1000000, &changed), OK);
+    assert_true(changed);
+}
+
+/* Every node that any point of a block reaches belongs to that block alone among blocks of its colour. The widest
+ * support is the cubic spline's: one node below the point's cell, two above its lower corner. */
+static void check_colour(const struct transfer_order *o, const struct particles *p, const struct grid *g, int colour)
+{
+    int32_t *owner = NEW("test.owner", g->n, int32_t);
+    for (int32_t b = o->blocks_of[colour]; b < o->blocks_of[colour + 1]; b++)
+        for (int32_t k = o->block_start[b]; k < o->block_start[b + 1]; k++)
+            for (int corner = 0; corner < 1 << (2 * g->dim); corner++) {
+                int64_t node = 0;
+                for (int d = 0; d < g->dim; d++) {
+                    int64_t cell = (int64_t)floor((p->x[d][o->particle[k]] - g->anchor[d]) / g->h) - g->first[d];
+                    int64_t at = cell - 1 + (corner >> (2 * d) & 3);
+                    assert_in_range(at, 0, g->count[d] - 1);
+                    node += at * g->stride[d];
+                }
+                assert_true(owner[node] == 0 || owner[node] == b + 1);
+                owner[node] = b + 1;
+            }
+    memory_free(owner);
+}
+
+static void test_transfer_order(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct cloud c;
+        struct grid g;
+        struct transfer_order o = {0};
+        scatter_points(&c, dim, &g);
+        transfer_order_sort(&o, &c.p, &g);
+        assert_int_equal(o.n, c.p.n_of[KIND_MPM]);
+        assert_int_equal(o.block_start[0], 0);
+        assert_int_equal(o.block_start[o.blocks], o.n);
+        uint8_t *seen = NEW("test.seen", c.p.n, uint8_t);
+        for (int64_t k = 0; k < o.n; k++) {
+            assert_int_equal(c.p.kind[o.particle[k]], KIND_MPM);
+            assert_int_equal(seen[o.particle[k]]++, 0);
+        }
+        assert_int_equal(o.blocks_of[0], 0);
+        assert_int_equal(o.blocks_of[COLOURS_MAX], o.blocks);
+        for (int colour = 0; colour < COLOURS_MAX; colour++) check_colour(&o, &c.p, &g, colour);
+        memory_free(seen);
+        transfer_order_free(&o);
+        grid_free(&g);
+        cloud_free(&c);
+    }
+}
+
+/* A grid that grows keeps its nodes, and the order of its points. */
+static void test_transfer_order_growth(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct cloud c;
+        struct grid g;
+        struct transfer_order small = {0}, large = {0};
+        bool changed;
+        scatter_points(&c, dim, &g);
+        transfer_order_sort(&small, &c.p, &g);
+        real from[DIM_MAX], to[DIM_MAX], before = grid_position(&g, 0, -g.first[0]);
+        for (int d = 0; d < dim; d++) from[d] = -27 * g.h, to[d] = 33 * g.h;
+        assert_int_equal(grid_cover(&g, from, to, 1000000, &changed), OK);
+        assert_true(changed && grid_position(&g, 0, -g.first[0]) == before);
+        transfer_order_sort(&large, &c.p, &g);
+        assert_int_equal(small.n, large.n);
+        assert_memory_equal(small.particle, large.particle, (size_t)small.n * sizeof(int32_t));
+        assert_int_equal(grid_cover(&g, from, to, 1000000, &changed), OK);
+        assert_false(changed);
+        transfer_order_free(&small);
+        transfer_order_free(&large);
+        grid_free(&g);
+        cloud_free(&c);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_search),
+        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_rows_inherit),
+        cmocka_unit_test(test_rows_threads),
+        cmocka_unit_test(test_transfer_order),
+        cmocka_unit_test(test_transfer_order_growth),
+    };
+    team_make(2);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
