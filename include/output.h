@@ -37,7 +37,7 @@ void output_close(struct output *o);
 status output_text(const struct output *o, const char *name, const char *text, size_t length);
 
 /* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
- * written in the order of their id. Single precision. */
+ * written in the order of their id. Single precision but for the reference positions. */
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
 /* history.csv: header `name [unit],...` of all `columns`, time and step first among them, then one line per sample

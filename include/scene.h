@@ -86,12 +86,15 @@ struct scene_override { const char *key, *value; };    /* of `-s key=value` */
 /* Reads and checks a file. On REFUSED the message is `file:line:column: what; what would be right`; nothing is
  * left to free. */
 status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides);
-/* The same from memory; no files are opened except particle lists' existence check. `name` stands in messages. */
+/* The same from memory; no file is touched, not even to see whether particle lists exist. `name` stands in messages. */
 status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
                        const struct scene_override *override, int overrides);
 void scene_free(struct scene *s);
 
 /* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
 status scene_help(FILE *out, const char *key);
+
+/* Writes the manual page cleave.1 (troff). */
+status scene_manual(FILE *out);
 
 #endif

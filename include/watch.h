@@ -24,7 +24,7 @@ struct watch {
     real energy_start, energy_scale;     /* [J] */
     real momentum_start[DIM_MAX];
     bool started;
-    real break_time;                     /* first bond broken by load (driven particles' bonds do not count), NAN before [s] */
+    real break_time;                     /* first bond broken by load, driven particles' aside; NAN before [s] */
     real break_place[DIM_MAX];           /* mean reference position of the particles cut in that step [m] */
     int64_t bonds_broken;                /* directed, by load                                         */
 };

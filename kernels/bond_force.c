@@ -25,15 +25,16 @@ static ALWAYS_INLINE lanes own_positions(const real *x, const int32_t *row, bool
     return aligned ? lanes_load(x + row[0]) : lanes_gather(x, row);
 }
 
-static ALWAYS_INLINE void rows_store(real *f, const int32_t *row, int rows, bool aligned, lanes value)
+/* f = new share + f (1 - share) */
+static ALWAYS_INLINE void rows_store(real *f, const int32_t *row, int rows, bool aligned, lanes value, real share)
 {
-    if (aligned) lanes_store(f + row[0], value);
-    else for (int l = 0; l < rows; l++) f[row[l]] = value[l];
+    if (aligned && share == 1) lanes_store(f + row[0], value);
+    else for (int l = 0; l < rows; l++) f[row[l]] = share * value[l] + (share == 1 ? 0 : (1 - share) * f[row[l]]);
 }
 
-/* Force of one group; returns whether a bond may have passed its limit. */
-static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                           const enum pd_model model)
+/* Force of one group, mixed into what f holds by `share`; returns whether a bond may have passed its limit. */
+static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particles *p, int64_t g, const real share,
+                                           const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     const bool aligned = b->aligned[g];
@@ -62,9 +63,9 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
         if (dim > 1) f1 += force * d1;
         if (dim > 2) f2 += force * d2;
     }
-    rows_store(p->f[0], row, rows, aligned, f0 * b->stiffness);
-    if (dim > 1) rows_store(p->f[1], row, rows, aligned, f1 * b->stiffness);
-    if (dim > 2) rows_store(p->f[2], row, rows, aligned, f2 * b->stiffness);
+    rows_store(p->f[0], row, rows, aligned, f0 * b->stiffness, share);
+    if (dim > 1) rows_store(p->f[1], row, rows, aligned, f1 * b->stiffness, share);
+    if (dim > 2) rows_store(p->f[2], row, rows, aligned, f2 * b->stiffness, share);
     return lanes_any(largest > lanes_load(b->trigger + g * LANES));
 }
 
@@ -73,8 +74,12 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
     {                                                                                                    \
         int64_t broken = 0;                                                                              \
         _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                               \
-        for (int64_t g = 0; g < b->groups; g++)                                                          \
-            if (bond_force_group(b, p, g, D, PD_##M)) broken += bond_break_group(b, p, limit, g);        \
+        for (int64_t g = 0; g < b->groups; g++) {                                                        \
+            if (!bond_force_group(b, p, g, 1, D, PD_##M)) continue;                                      \
+            int64_t here = bond_break_group(b, p, limit, g);                                             \
+            if (here > 0) bond_force_group(b, p, g, 0.5, D, PD_##M);                                     \
+            broken += here;                                                                              \
+        }                                                                                                \
         return broken;                                                                                   \
     }
 PD_VARIANTS(INSTANCE)

@@ -42,8 +42,9 @@ static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 static status start(struct gnuplot *g)
 {
     int ends[2];
-    g->complaints = tmpfile();
-    if (g->complaints == NULL) return status_set(FAILED, "%s: no temporary file: %s", g->path, strerror(errno));
+    g->complaints = fopen(g->aside, "w+");           /* a file without a name, beside the picture */
+    if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->aside, strerror(errno));
+    remove(g->aside);
     if (pipe(ends) != 0) return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
     signal(SIGPIPE, SIG_IGN);                        /* a gnuplot that dies is an error, not our death */
     g->process = (int)fork();
@@ -103,7 +104,7 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     *g = (struct gnuplot){0};
     if (strchr(path, '\n') != NULL) return status_set(REFUSED, "a picture's name cannot hold a line break: %s", path);
     g->path = strdup(path);
-    if (g->path == NULL || asprintf(&g->aside, "%s.part", path) < 0) {
+    if (g->path == NULL || asprintf(&g->aside, "%s.tmp", path) < 0) {
         g->aside = NULL;
         release(g);
         return status_set(FAILED, "%s: out of memory", path);

@@ -196,7 +196,8 @@ static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n)
     /* Named, because the XDMF3 reader makes no cells from a count alone. */
     static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL};
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
-    fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">", (long long)n);
+    fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
+            (long long)n);
     xdmf_item(out, frame, &vertices, n);
     fprintf(out, "</Topology>\n<Geometry GeometryType=\"XYZ\">");
     xdmf_item(out, frame, &frame_fields[FIELD_POINTS], n);

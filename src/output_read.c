@@ -14,7 +14,8 @@
 enum { PARTICLES_PER_BYTE_MOST = 1024 };
 
 /* Reads `columns` numbers per particle and hands column from[k] to out[k]. */
-static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from, float **out)
+static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from,
+                         float **out)
 {
     float *data = NEW("frame.columns", n * columns, float);
     hdf_read_rows(h, name, HDF_F32, n * columns, data);
@@ -66,7 +67,8 @@ status frame_read(struct frame *f, const char *path)
     struct hdf h;
     struct stat s;
     *f = (struct frame){0};
-    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode)) return status_set(FAILED, "cannot read %s: there is no such file", path);
+    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode))
+        return status_set(FAILED, "cannot read %s: there is no such file", path);
     hdf_open(&h, path);
     if (!h.failed) read_size(f, &h, s.st_size);
     if (!h.failed) read_fields(f, &h);

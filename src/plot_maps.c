@@ -6,8 +6,11 @@
 #include "plot.h"
 
 /* Room round the panels [pixel]. */
-enum { LEFT = 76, RIGHT = 112, ABOVE = 84, BELOW = 58, GAP_X = 26, GAP_Y = 40 };
-enum { BAR_FROM = 26, BAR_WIDTH = 16, BAR_STEPS = 256 };
+enum { LEFT = 92, RIGHT = 122, ABOVE = 84, BELOW = 70, GAP_X = 26, GAP_Y = 42 };
+/* Tics are at least so far apart: the width and twice the height of their numbers [pixel]. */
+enum { TICS_X = 50, TICS_Y = 36 };
+/* The colour bar; its image is two pixels wide because gnuplot draws none of a single one. */
+enum { BAR_FROM = 26, BAR_WIDTH = 16, BAR_STEPS = 256, BAR_COLUMNS = 2 };
 /* Of the whole picture [pixel]; a single panel needs less. */
 enum { WIDTH = 1640, WIDTH_SINGLE = 1180, HEIGHT_MAX = 1500, PANEL_MIN = 24 };
 static const double SHAPE_WANTED = 0.72;             /* height over width of the picture */
@@ -58,6 +61,13 @@ static void set_box(FILE *to, const struct layout *l, double left, double above,
             1 - (above + height) / l->height);
 }
 
+/* A round distance of tics over `range` that leaves at least `apart` pixels between them. */
+static double tic_distance(double range, int pixels, int apart)
+{
+    double least = range * apart / pixels, decade = pow(10, floor(log10(least))), lead = least / decade;
+    return decade * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
+}
+
 static void send_image(FILE *to, const struct colour *pixel, int width, int height, const double *from, const double *step)
 {
     fprintf(to, "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
@@ -65,13 +75,15 @@ static void send_image(FILE *to, const struct colour *pixel, int width, int heig
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
+/* The panel at a place of the grid; `second` is the unit of time of all panels. */
 static void draw_panel(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c, enum map map,
-                       int column, int row, bool lowest)
+                       const struct unit *second, int place, bool lowest)
 {
+    int column = place % l->columns, row = place / l->columns;
     double from[2], step[2], largest = 0;
     int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) largest = fmax(largest, fmax(fabs(view->from[k]), fabs(view->to[k])));
-    struct unit metre = unit_for_length(largest), second = unit_for(c->t, "s");
+    struct unit metre = unit_for_length(largest);
     set_box(to, l, LEFT + column * (l->panel_width + GAP_X), ABOVE + row * (l->panel_height + GAP_Y), l->panel_width,
             l->panel_height);
     for (int k = 0; k < 2; k++) {
@@ -79,11 +91,13 @@ static void draw_panel(FILE *to, const struct layout *l, const struct view *view
         step[k] = (view->to[k] - view->from[k]) / metre.factor / size[k];
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
         bool labelled = k == 0 ? lowest : column == 0;
-        fprintf(to, "set %ctics %s format '%s'\n", 'x' + k, size[k] < 200 ? "autofreq" : "", labelled ? "%g" : "");
-        if (labelled) fprintf(to, "set %clabel '%c [%s]'\n", 'x' + k, 'x' + c->axis[k], metre.name);
-        else fprintf(to, "unset %clabel\n", 'x' + k);
+        fprintf(to, "set %ctics %.9g format '%s'\n", 'x' + k, tic_distance(view->to[k] / metre.factor - from[k], size[k], k == 0 ? TICS_X : TICS_Y),
+                labelled ? "%g" : "");
+        fprintf(to, "set %clabel '", 'x' + k);
+        if (labelled) fprintf(to, "%c [%s]", 'x' + c->axis[k], metre.name);
+        fputs("'\n", to);
     }
-    fprintf(to, "set title 't = %.3g %s' font ',13' offset 0,-0.5\n", c->t / second.factor, second.name);
+    fprintf(to, "set title 't = %.3g %s' font ',13' offset 0,-0.5\n", c->t / second->factor, second->name);
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     raster_paint(pixel, size[0], size[1], view, c, map);
     send_image(to, pixel, size[0], size[1], from, step);
@@ -93,17 +107,18 @@ static void draw_panel(FILE *to, const struct layout *l, const struct view *view
 /* Colours of damage as a narrow panel on the right, at most a panel's height, beside the first row. */
 static void draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map)
 {
-    struct colour pixel[BAR_STEPS];
-    double from[2] = {0, 0}, step[2] = {1, view->top / BAR_STEPS};
+    struct colour pixel[BAR_STEPS * BAR_COLUMNS];
+    double from[2] = {0, 0}, step[2] = {1.0 / BAR_COLUMNS, view->top / BAR_STEPS};
     int height = l->rows * l->panel_height + (l->rows - 1) * GAP_Y;
-    for (int k = 0; k < BAR_STEPS; k++) pixel[k] = map_colour(map, KIND_PD, (k + 0.5) * step[1], view->top);
+    for (int k = 0; k < BAR_STEPS * BAR_COLUMNS; k++)
+        pixel[k] = map_colour(map, KIND_PD, (k / BAR_COLUMNS + 0.5) * step[1], view->top);
     int shown = height < 360 ? height : 360;
     set_box(to, l, l->width - RIGHT + BAR_FROM, ABOVE, BAR_WIDTH, shown);
     fprintf(to, "unset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\nunset grid\n"
                 "set xrange [0:1]\nset yrange [0:%.9g]\nset y2range [0:%.9g]\nset y2tics out %.9g format '%%.1f'\n"
-                "set y2label '%s' offset 0,0\n",
-            view->top, view->top, view->top > 0.6 ? 0.2 : 0.1, map == MAP_KIND ? "damage of peridynamic particles" : "damage");
-    send_image(to, pixel, 1, BAR_STEPS, from, step);
+                "set y2label '%s' offset -1,0\n",
+            view->top, view->top, view->top > 0.6 ? 0.2 : 0.1, map == MAP_KIND ? "peridynamic damage" : "damage");
+    send_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step);
 }
 
 static void draw_key(FILE *to, const struct layout *l)
@@ -131,8 +146,10 @@ status maps_draw(const char *path, const char *title, enum map map, const struct
     fprintf(g.to, " at screen %.6g,%.6g left font ',16' textcolor rgb '#111111'\n", (double)LEFT / l.width,
             1 - 26.0 / l.height);
     if (map == MAP_KIND) draw_key(g.to, &l);
+    struct unit second = unit_for(cloud[clouds - 1].t, "s");
+    fputs("set ylabel offset 0.4,0\n", g.to);
     for (int k = 0; k < clouds; k++) {
-        draw_panel(g.to, &l, view, &cloud[k], map, k % l.columns, k / l.columns, k + l.columns >= clouds);
+        draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
         fputs("unset label\nunset object\n", g.to);  /* once is enough */
     }
     draw_bar(g.to, &l, view, map);

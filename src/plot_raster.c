@@ -14,8 +14,8 @@ enum { SAMPLES = 200, SAMPLES_MIN = 9 };
 static const double COMPARISONS = 2e7;
 
 /* A square a little larger than the spacing closes the seams of a strained lattice; a disc that reaches the
- * diagonal closes those of a turned or irregular one. */
-static const double SQUARE = 0.55, DISC = 0.8;       /* half width, radius over spacing */
+ * diagonal and more closes those of a turned or irregular one. */
+static const double SQUARE = 0.55, DISC = 0.9;       /* half width, radius over spacing */
 
 static int by_size(const void *a, const void *b)
 {

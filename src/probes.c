@@ -107,7 +107,8 @@ static status bind_line(struct probe *q, const struct observed *o)
 {
     int dim = o->part->dim, inside = 0;
     real X[DIM_MAX];
-    if (q->request.points < 1) return status_set(REFUSED, "probe \"%s\": a line needs at least one station", q->request.name);
+    if (q->request.points < 1)
+        return status_set(REFUSED, "probe \"%s\": a line needs at least one station", q->request.name);
     q->list = NEW("probes.list", q->request.points, int32_t);
     for (; q->n < q->request.points; q->n++) {
         station_position(q, dim, (int)q->n, X);
@@ -193,9 +194,6 @@ void probes_free(struct probes *s)
 
 /* ---- every step -------------------------------------------------------------------------------------- */
 
-/* Bonds of driven particles are cut by their drive, not by the body's own motion. */
-static bool is_cut(const struct particles *p, int64_t i) { return (p->flag[i] & (FLAG_CUT | FLAG_DRIVEN)) == FLAG_CUT; }
-
 static void step_break(struct probe *q, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -203,7 +201,7 @@ static void step_break(struct probe *q, const struct observed *o)
     int64_t cut = 0;
     for (int64_t k = 0; k < q->n; k++) {
         int32_t i = q->list[k];
-        if (!is_cut(p, i)) continue;
+        if (!(p->flag[i] & FLAG_CRACKED)) continue;      /* bonds of driven particles do not count */
         for (int d = 0; d < p->dim; d++) place[d] += p->X[d][i];
         cut++;
     }

@@ -131,7 +131,7 @@ static real fracture_term(const void *context, int64_t k)
     return row >= 0 ? s->o->bonds->fracture_energy[row] : 0;
 }
 
-/* Bonds broken by load; those with a driven particle at this end do not count. */
+/* Bonds broken by load; entries in rows of driven particles do not count. */
 static real broken_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;

@@ -167,7 +167,7 @@ static void write_group(struct writer *w, const char *group, const void *base)
     }
 }
 
-/* ---- solids ------------------------------------------------------------------------------------------------- */
+/* ---- solids --------------------------------------------------------------------------------------------- */
 
 static void write_solid(struct writer *w, const struct solid *s)
 {
@@ -195,12 +195,7 @@ static void write_region(struct writer *w, const struct region *region)
     fputc(']', w->out);
 }
 
-/* ---- lists ---------------------------------------------------------------------------------------------------- */
-
-static void begin_list(struct writer *w, const char *key, int n)
-{
-    fprintf(w->out, "%s:%s\n", key, n ? "" : " []");
-}
+/* ---- lists ---------------------------------------------------------------------------------------------- */
 
 static void begin_item(struct writer *w)
 {
@@ -211,11 +206,13 @@ static void begin_item(struct writer *w)
 static void write_materials(struct writer *w)
 {
     const struct scene *s = w->scene;
-    begin_list(w, "materials", s->materials);
+    bool one = s->materials == 1;        /* so that overrides of material.young work on what is written, too */
+    fprintf(w->out, one ? "material:\n" : "materials:\n");
     for (int k = 0; k < s->materials; k++) {
         struct material m = s->material[k];
         if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN;     /* follows from it */
         begin_item(w);
+        if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
     }
 }
@@ -223,7 +220,7 @@ static void write_materials(struct writer *w)
 static void write_bodies(struct writer *w)
 {
     const struct scene *s = w->scene;
-    begin_list(w, "bodies", s->bodies);
+    fputs("bodies:\n", w->out);
     for (int k = 0; k < s->bodies; k++) {
         begin_item(w);
         write_group(w, "bodies", &s->body[k]);
@@ -238,7 +235,7 @@ static void write_bodies(struct writer *w)
 static void write_cracks(struct writer *w)
 {
     const struct scene *s = w->scene;
-    if (s->cracks) begin_list(w, "cracks", s->cracks);
+    if (s->cracks) fputs("cracks:\n", w->out);
     for (int k = 0; k < s->cracks; k++) {
         const struct crack *c = &s->crack[k];
         fprintf(w->out, "  - {%s: ", s->dim == 1 ? "at" : s->dim == 2 ? "from" : "polygon");
@@ -253,7 +250,7 @@ static void write_cracks(struct writer *w)
 static void write_initials(struct writer *w)
 {
     const struct scene *s = w->scene;
-    if (s->initials) begin_list(w, "initial", s->initials);
+    if (s->initials) fputs("initial:\n", w->out);
     for (int k = 0; k < s->initials; k++) {
         begin_item(w);
         write_group(w, "initial", &s->initial[k]);
@@ -321,7 +318,7 @@ static void write_boundary(struct writer *w, const struct boundary *b)
 static void write_boundaries(struct writer *w)
 {
     const struct scene *s = w->scene;
-    if (s->boundaries) begin_list(w, "boundary", s->boundaries);
+    if (s->boundaries) fputs("boundary:\n", w->out);
     for (int k = 0; k < s->boundaries; k++) {
         begin_item(w);
         write_boundary(w, &s->boundary[k]);
@@ -331,7 +328,7 @@ static void write_boundaries(struct writer *w)
 static void write_probes(struct writer *w)
 {
     const struct scene *s = w->scene;
-    if (s->probes) begin_list(w, "probes", s->probes);
+    if (s->probes) fputs("probes:\n", w->out);
     for (int k = 0; k < s->probes; k++) {
         char group[32] = "probes.";
         strcat(group, probe_names[s->probe[k].kind]);

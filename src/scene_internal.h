@@ -52,13 +52,13 @@ enum unit {
 struct unit_row { const char *name, *symbol, *example; signed char twice[3]; }; /* twice the powers of m, kg, s */
 extern const struct unit_row unit_rows[UNITS];
 
-/* Reads `number [/ number] [unit]`, exactly rounded: units are powers of ten. On failure writes to `what` what is
- * wrong and what would be right. */
+/* Reads `number [/ number] [unit]`, exactly rounded: units are powers of ten. On failure writes to `what` the
+ * sentence that begins with the text: what is wrong and what would be right. */
 bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room);
 /* The shortest text that reads back to the same bits. */
 const char *number_text(char text[32], real value);
 
-/* ---- the table of keys (scene_keys.c) -------------------------------------------------------------------- */
+/* ---- the table of keys (scene_keys.c) ------------------------------------------------------------------- */
 
 enum key_type {
     KEY_REAL, KEY_INT, KEY_SEED, KEY_FLAG, KEY_CHOICE, KEY_NAME, KEY_POINT, KEY_MATRIX, KEY_REGION, KEY_BODY,
@@ -97,7 +97,7 @@ const struct key *key_find(const char *group, const char *leaf);
 const struct key *key_nearest(const char *group, const char *leaf);
 int edit_distance(const char *a, const char *b);
 
-/* ---- values (scene_value.c) -------------------------------------------------------------------------------- */
+/* ---- values (scene_value.c) ----------------------------------------------------------------------------- */
 
 /* REFUSED with `file:line:column: key: ...` or `-s key=value: key: ...`. */
 status fault(const struct reader *r, const struct node *at, const char *format, ...)
@@ -125,7 +125,7 @@ status read_point(struct reader *r, const struct key *k, const struct node *n, r
 /* A list of as many items as the key's range says. */
 status expect_list(struct reader *r, const struct key *k, const struct node *n);
 
-/* ---- parts (scene_solids.c, scene_parts.c, scene_loads.c) ------------------------------------------------------------------ */
+/* ---- parts (scene_solids.c, scene_parts.c, scene_loads.c) ----------------------------------------------- */
 
 status read_region(struct reader *r, const struct node *n, struct region *region);
 status read_materials(struct reader *r, const struct node *root);

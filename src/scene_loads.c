@@ -6,7 +6,7 @@
 
 #include "memory.h"
 
-/* ---- functions of time ------------------------------------------------------------------------------------------ */
+/* ---- functions of time ---------------------------------------------------------------------------------- */
 
 static status read_table(struct reader *r, const struct node *n, struct time_function *f)
 {
@@ -47,7 +47,7 @@ static status read_time(struct reader *r, const struct node *n, struct time_func
     return f->from < f->until ? OK : fault(r, form, "from is not before until; it begins at from and ends at until");
 }
 
-/* ---- boundary conditions ------------------------------------------------------------------------------------------ */
+/* ---- boundary conditions -------------------------------------------------------------------------------- */
 
 static status read_axis(struct reader *r, const struct node *n, const char *text, int *axis)
 {
@@ -180,7 +180,7 @@ status read_boundaries(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* ---- probes ------------------------------------------------------------------------------------------------ */
+/* ---- probes --------------------------------------------------------------------------------------------- */
 
 const char *const probe_names[PROBES] = {"tip",   "break", "reaction", "patch",   "spall",
                                          "point", "line",  "energy",   "momentum"};

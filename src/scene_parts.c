@@ -8,7 +8,7 @@
 
 #include "memory.h"
 
-/* ---- materials ------------------------------------------------------------------------------------------------ */
+/* ---- materials ------------------------------------------------------------------------------------------ */
 
 /* What fracture costs may be said in one of three ways; two could contradict each other. */
 static status read_strength(struct reader *r, const struct node *n, struct material *m)
@@ -78,7 +78,7 @@ status read_materials(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* ---- bodies ----------------------------------------------------------------------------------------------------- */
+/* ---- bodies --------------------------------------------------------------------------------------------- */
 
 /* A list of particles lies in the scene's folder, or where the program was started. */
 static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
@@ -141,7 +141,7 @@ status read_bodies(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* ---- initial states ---------------------------------------------------------------------------------------- */
+/* ---- initial states ------------------------------------------------------------------------------------- */
 
 static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)
 {

@@ -6,7 +6,7 @@
 
 #include "memory.h"
 
-/* ---- solids ------------------------------------------------------------------------------------------------ */
+/* ---- solids --------------------------------------------------------------------------------------------- */
 
 static const struct solid_word { const char *name; enum solid_kind kind; int dim; } solid_words[] = {
     {"box", SOLID_BOX, 0},           {"disc", SOLID_BALL, 2},
@@ -75,7 +75,7 @@ status read_region(struct reader *r, const struct node *n, struct region *region
     return fault(r, n, "subtracts from nothing; the first solid must be added, for a region perhaps all: true");
 }
 
-/* ---- cracks -------------------------------------------------------------------------------------------------- */
+/* ---- cracks --------------------------------------------------------------------------------------------- */
 
 static void crack_make(struct crack *c, int n)
 {

@@ -23,7 +23,7 @@ const struct unit_row unit_rows[UNITS] = {
     [UNIT_RATE] = {"a rate", "1/s", "100 1/s", {0, 0, -2}},
 };
 
-/* ---- units ----------------------------------------------------------------------------------------------- */
+/* ---- units ---------------------------------------------------------------------------------------------- */
 
 /* ten: twice the power of ten that leads to SI. */
 struct measure { int twice[3], ten; };
@@ -138,7 +138,7 @@ static const struct unit_row *unit_of(const int twice[3])
     return NULL;
 }
 
-/* ---- numbers --------------------------------------------------------------------------------------------- */
+/* ---- numbers -------------------------------------------------------------------------------------------- */
 
 /* Length of `[+-] digits [. digits] [e [+-] digits]`, 0 if there is none. */
 static size_t number_length(const char *c)
@@ -193,30 +193,25 @@ static const char *trap(const char *c, size_t length)
 
 struct complaint { char *what; size_t room; };
 
-static bool complain(struct complaint c, const char *text, const char *wrong, enum unit unit)
+static bool complain(struct complaint c, const char *wrong, enum unit unit)
 {
-    const struct unit_row *row = &unit_rows[unit];
-    const char *given = *text ? text : "nothing";
-    snprintf(c.what, c.room, "%.48s %s; %s is expected, as %s", given, wrong, row->name, row->example);
+    snprintf(c.what, c.room, "%s; %s is expected, as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
     return false;
 }
 
-static bool unit_fits(struct complaint c, const char *text, const char *unit_text, enum unit unit, int *ten)
+static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit, int *ten)
 {
     struct measure m;
-    char wrong[128];
+    char wrong[64];
     *ten = 0;
     if (*unit_text == '\0') return true;
-    if (!unit_read(&m, unit_text)) {
-        snprintf(wrong, sizeof wrong, "has the unknown unit %.20s", unit_text);
-        return complain(c, text, wrong, unit);
-    }
+    if (!unit_read(&m, unit_text)) return complain(c, "has an unknown unit", unit);
     const signed char *twice = unit_rows[unit].twice;
     *ten = m.ten / 2;
     if (m.twice[0] == twice[0] && m.twice[1] == twice[1] && m.twice[2] == twice[2]) return true;
     const struct unit_row *row = unit_of(m.twice);
     snprintf(wrong, sizeof wrong, "is %s%s", row ? "" : "not ", row ? row->name : unit_rows[unit].name);
-    return complain(c, text, wrong, unit);
+    return complain(c, wrong, unit);
 }
 
 static bool infinite_read(real *value, const char *text)
@@ -247,22 +242,22 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     struct complaint c = {what, room};
     real divisor;
     int ten;
-    if (infinite_read(value, text)) return infinite || complain(c, text, "is not finite", unit);
+    if (infinite_read(value, text)) return infinite || complain(c, "is not finite", unit);
     size_t length = number_length(text);
-    if (length == 0) return complain(c, text, "is not a number", unit);
-    if (length > NUMBER_LONGEST) return complain(c, text, "has too many digits", unit);
+    if (length == 0) return complain(c, "is not a number", unit);
+    if (length > NUMBER_LONGEST) return complain(c, "has too many digits", unit);
     const char *other = trap(text, length);
     if (other) {
-        snprintf(what, room, "%.40s is not a number: %s", text, other);
+        snprintf(what, room, "is not a number here: %s", other);
         return false;
     }
     const char *rest = text + length;
     rest += divisor_read(rest, &divisor);
     while (*rest == ' ') rest++;
-    if (!unit_fits(c, text, rest, unit, &ten)) return false;
-    if (divisor == 0) return complain(c, text, "divides by 0", unit);
+    if (!unit_fits(c, rest, unit, &ten)) return false;
+    if (divisor == 0) return complain(c, "divides by 0", unit);
     *value = number_value(text, length, ten) / divisor;
-    return isfinite(*value) || complain(c, text, "is not finite", unit);
+    return isfinite(*value) || complain(c, "is not finite", unit);
 }
 
 const char *number_text(char text[32], real value)

@@ -13,7 +13,7 @@
 
 enum { SHOWN_LONGEST = 40 };
 
-/* ---- messages --------------------------------------------------------------------------------------------- */
+/* ---- messages ------------------------------------------------------------------------------------------- */
 
 const char *shown_text(struct reader *r, const char *text)
 {
@@ -128,7 +128,7 @@ int word_index(const char *words, const char *text)
     return -1;
 }
 
-/* ---- keys ---------------------------------------------------------------------------------------------------- */
+/* ---- keys ----------------------------------------------------------------------------------------------- */
 
 static status fault_unknown(const struct reader *r, const struct node *n, const char *group)
 {
@@ -170,7 +170,7 @@ status expect_list(struct reader *r, const struct key *k, const struct node *n)
     return fault(r, n, "has %d items; %d to %d are expected", n->n, least, most);
 }
 
-/* ---- scalars ------------------------------------------------------------------------------------------------- */
+/* ---- scalars -------------------------------------------------------------------------------------------- */
 
 static status check_range(struct reader *r, const struct key *k, const struct node *n, real value)
 {
@@ -200,8 +200,8 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
         return OK;
     }
     bool infinite = k->infinite && !(k->type == KEY_POINT && r->bounded);
-    if (!number_read(value, shown_text(r, n->text), k->unit, infinite, what, sizeof what))
-        return fault(r, n, "%s", what);
+    if (!number_read(value, n->text, k->unit, infinite, what, sizeof what))
+        return fault(r, n, "%s %s", shown(r, n), what);
     return check_range(r, k, n, *value);
 }
 
@@ -277,7 +277,7 @@ static status read_name(struct reader *r, const struct node *n, char *name)
     return OK;
 }
 
-/* ---- lists of numbers ------------------------------------------------------------------------------------------ */
+/* ---- lists of numbers ----------------------------------------------------------------------------------- */
 
 const char *const space_names[] = {"line", "plane stress", "plane strain", "solid"};
 
@@ -308,7 +308,7 @@ static status read_matrix(struct reader *r, const struct key *k, const struct no
     return OK;
 }
 
-/* ---- names of other things --------------------------------------------------------------------------------- */
+/* ---- names of other things ------------------------------------------------------------------------------ */
 
 static status fault_reference(struct reader *r, const struct node *n, const char *what, const char *nearest)
 {
@@ -318,28 +318,30 @@ static status fault_reference(struct reader *r, const struct node *n, const char
 static status read_material(struct reader *r, const struct node *n, int *index)
 {
     const struct scene *s = r->scene;
+    const struct material *m = s->material;
     int nearest = 0;
-    for (int m = 0; m < s->materials; m++) {
-        *index = m;
-        if (strcmp(s->material[m].name, n->text) == 0) return OK;
-        if (edit_distance(s->material[m].name, n->text) < edit_distance(s->material[nearest].name, n->text)) nearest = m;
+    for (int k = 0; k < s->materials; k++) {
+        *index = k;
+        if (strcmp(m[k].name, n->text) == 0) return OK;
+        if (edit_distance(m[k].name, n->text) < edit_distance(m[nearest].name, n->text)) nearest = k;
     }
-    return fault_reference(r, n, "material", s->material[nearest].name);
+    return fault_reference(r, n, "material", m[nearest].name);
 }
 
 static status read_body(struct reader *r, const struct node *n, int *index)
 {
     const struct scene *s = r->scene;
+    const struct scene_body *b = s->body;
     int nearest = 0;
-    for (int b = 0; b < s->bodies; b++) {
-        *index = b;
-        if (strcmp(s->body[b].name, n->text) == 0) return OK;
-        if (edit_distance(s->body[b].name, n->text) < edit_distance(s->body[nearest].name, n->text)) nearest = b;
+    for (int k = 0; k < s->bodies; k++) {
+        *index = k;
+        if (strcmp(b[k].name, n->text) == 0) return OK;
+        if (edit_distance(b[k].name, n->text) < edit_distance(b[nearest].name, n->text)) nearest = k;
     }
-    return fault_reference(r, n, "body", s->body[nearest].name);
+    return fault_reference(r, n, "body", b[nearest].name);
 }
 
-/* ---- groups ------------------------------------------------------------------------------------------------ */
+/* ---- groups --------------------------------------------------------------------------------------------- */
 
 status read_key(struct reader *r, const struct key *k, const struct node *n, void *base)
 {

@@ -112,8 +112,8 @@ static void ledger_balance(struct watch *w)
     struct ledger *l = &w->now;
     real energy = l->kinetic + l->strain + l->plastic + l->fracture;
     if (!w->started) w->energy_start = energy - l->external_work;
-    real largest = real_max(fabs(l->kinetic) + fabs(l->strain) + fabs(l->plastic) + fabs(l->fracture), fabs(l->external_work));
-    w->energy_scale = real_max(w->energy_scale, largest);
+    real stored = fabs(l->kinetic) + fabs(l->strain) + fabs(l->plastic) + fabs(l->fracture);
+    w->energy_scale = real_max(w->energy_scale, real_max(stored, fabs(l->external_work)));
     l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
 }
 
@@ -174,8 +174,10 @@ static status alarm_raise(const struct particles *p, int64_t i, real limit, int6
     if (isfinite(speed2) && speed2 > limit * limit)
         snprintf(what, sizeof what, "moves at %.3g m/s, faster than the wave speed %.4g m/s", sqrt(speed2), limit);
     else snprintf(what, sizeof what, "has a position or velocity that is no finite number");
-    return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s; "
-                      "choose a smaller time.safety (now dt = %.3g s)", (long long)step, t, (int)p->id[i], place, what, dt);
+    return status_set(FAILED,
+                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s; "
+                      "choose a smaller time.safety (now dt = %.3g s)",
+                      (long long)step, t, (int)p->id[i], place, what, dt);
 }
 
 status watch_alarm(const struct particles *p, real limit, int64_t step, real t, real dt)

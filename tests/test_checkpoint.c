@@ -59,7 +59,8 @@ static status toy_archive(void *context, struct archive *a)
     ARCHIVE_VALUE(a, "toy", toy->n);                   /* begins as the others do: no clash */
     if (!a->saving) {
         int64_t size = a->stored_size(a, "toy/value");
-        if (size != toy->n * (int64_t)sizeof(real)) return status_set(FAILED, "toy/value has %lld bytes", (long long)size);
+        if (size != toy->n * (int64_t)sizeof(real))
+            return status_set(FAILED, "toy/value has %lld bytes", (long long)size);
         toy->value = memory_resize("toy.value", toy->value, 0, toy->n, sizeof(real));
     }
     TRY(a->exchange(a, "toy/value", toy->value, (size_t)toy->n * sizeof(real)));
@@ -278,7 +279,7 @@ static void other_scenes_are_refused(void **state)
     output_close(&o);
 }
 
-/* A sound file of a format that is not ours yet: only the footer's maker could tell, so it is made by it. */
+/* Makes a sound file, with the right footer, of a format that is not ours yet. */
 static status future_archive(void *context, struct archive *a)
 {
     int32_t version = 1000;

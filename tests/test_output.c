@@ -1,6 +1,5 @@
 /* floor 5: tests of output.h: frames, indices, history, checkpoints, and what a full disk or damaged bytes do. */
 #include <errno.h>
-#include <fcntl.h>
 #include <ftw.h>
 #include <libgen.h>
 #include <math.h>
@@ -8,9 +7,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -289,6 +286,20 @@ static void history_is_cut_back(void **state)
     output_close(&o);
 }
 
+/* A device that is always full stands in for the file. */
+static void history_on_a_full_disk_fails(void **state)
+{
+    (void)state;
+    static const struct column column = {"time", "s"};
+    struct output o;
+    if (!path_exists("/dev/full")) skip();
+    open_fresh(&o, "history_full", false);
+    assert_int_equal(symlink("/dev/full", "history_full/history.csv"), 0);
+    assert_int_equal(output_history_open(&o, &column, 1, false), FAILED);
+    assert_message("cannot write history_full/history.csv: No space left on device; free space");
+    output_close(&o);
+}
+
 /* ---- the summary ----------------------------------------------------------------------------------- */
 
 static void summary_has_the_figures(void **state)
@@ -320,11 +331,16 @@ static void summary_has_the_figures(void **state)
     assert_null(strstr(text, "inf"));
     assert_null(strstr(text, "message"));
     memory_free(text);
+    remove_tree("summary");                            /* where it cannot be written, the run's own fault stands */
+    assert_int_equal(summary_write(e, status_set(FAILED, "the run's own fault"), 2, 1.5), FAILED);
+    assert_string_equal(status_message(), "the run's own fault");
+    assert_int_equal(summary_write(e, OK, 2, 1.5), FAILED);
+    assert_message("cannot write summary/summary.json: No such file or directory");
     memory_free(e);
     output_close(&o);
 }
 
-static int enter_folder(void **state)
+static int start(void **state)
 {
     (void)state;
     output_start();
@@ -344,13 +360,14 @@ int main(int argc, char **argv)
         cmocka_unit_test(folders_of_others_are_refused),
         cmocka_unit_test(older_run_is_replaced_unless_resumed),
         cmocka_unit_test(history_is_cut_back),
+        cmocka_unit_test(history_on_a_full_disk_fails),
         cmocka_unit_test(summary_has_the_figures),
     };
     (void)argc;
     snprintf(folder.text, sizeof folder.text, "%s", argv[0]);
     if (chdir(dirname(folder.text)) != 0 || (mkdir("test_output.files", 0777) != 0 && errno != EEXIST)) return 1;
     if (chdir("test_output.files") != 0) return 1;
-    int failed = cmocka_run_group_tests(tests, enter_folder, NULL);
+    int failed = cmocka_run_group_tests(tests, start, NULL);
     if (failed == 0 && chdir("..") == 0) remove_tree("test_output.files");
     return failed;
 }

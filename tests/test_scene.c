@@ -1,0 +1,450 @@
+/* Scenes: every key is read, units are exact, overrides lay over, what is written reads back bit by bit, and no bytes
+ * bring the reader down. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <stdio.h>
+#include <math.h>
+#include <cmocka.h>
+
+#include "memory.h"
+#include "scene.h"
+
+static const char plate[] =
+    "name: plate-1\n"
+    "space: plane stress\n"
+    "thickness: 10 mm\n"
+    "duration: 50 us\n"
+    "method: mpm\n"
+    "model: bond\n"
+    "solver: explicit\n"
+    "coupling: handshake\n"
+    "materials:\n"
+    "  - {name: steel, young: 190 GPa, poisson: 0.3, density: 7.8 g/cm^3, energy_release_rate: 69 kJ/m^2}\n"
+    "  - {name: glass, young: 72e9, poisson: 1/4, density: 2440 kg/m3, critical_stretch: 0.1 %}\n"
+    "  - {name: tough, young: 200 GPa, density: 8000, toughness: 60 MPa sqrt(m)}\n"
+    "  - {name: hard, young: 1 MPa, density: 1, critical_stretch: inf}\n"
+    "bodies:\n"
+    "  - {name: bar, material: glass, velocity: [3 mm/us, -1 km/s], shape: {box: {from: [0, 0], to: [0.1, 20 cm]}}}\n"
+    "  - name: plate\n"
+    "    material: steel\n"
+    "    shape:\n"
+    "      - box: {from: [0.2, 0], to: [0.3, 0.2]}\n"
+    "      - subtract: {disc: {centre: [0.25, 0.1], radius: 5 mm}}\n"
+    "      - add: {ball: {centre: [0.25, 0.1], radius: 2500 um}}\n"
+    "      - subtract: {half-space: {point: [0, 0.01], normal: [0, 2]}}\n"
+    "  - {material: tough, particles: grains.csv}\n"
+    "particles: {spacing: 1 mm, horizon: 4.015, irregularity: 0.25, seed: 18446744073709551615}\n"
+    "pd:\n"
+    "  volume: cut-ramp\n"
+    "  calibration: vmpd\n"
+    "  surface: volume\n"
+    "  weights: isotropic\n"
+    "  region: [{all: true}, {subtract: {box: {from: [-inf, 0], to: [0.1, inf]}}}]\n"
+    "mpm: {cell: 1.5, shape: cubic, transfer: apic, frame: current, origin: [0.5 mm, 0]}\n"
+    "conversion: {stress: 3.8 GPa, alpha: 0.9, block: false, criteria: [stress]}\n"
+    "cracks:\n"
+    "  - {from: [0, 25 mm], to: [50 mm, 25 mm]}\n"
+    "  - {from: [0, -25 mm], to: [50 mm, -25 mm]}\n"
+    "crack: {speed_window: 2 us}\n"
+    "initial:\n"
+    "  - {body: bar, velocity: [1, 2], velocity_gradient: [0, 100 1/s, -100 Hz, 0], centre: [1 nm, 0]}\n"
+    "  - {region: {all: true}, displacement_gradient: [[1e-3, 0], [0, 2 %]]}\n"
+    "boundary:\n"
+    "  - {name: impact, region: {box: {from: [0, 0], to: [3 mm, 1]}}, velocity: [22 m/s, free], time: {step: {until: 5 us}}}\n"
+    "  - {body: bar, fixed: [y], time: {pulse: {from: 1 us, until: 2 us}}}\n"
+    "  - {fixed: all, time: {ramp: {until: 1 ms}}}\n"
+    "  - {traction: [1 MPa, 0], face: y-, time: {table: [[0, 0], [1 us, 1], [2 us, 50 %]]}}\n"
+    "  - {body_force: [0, 1e5 N/m^3], time: constant}\n"
+    "  - {mirror: {axis: y, at: 1 mm, tangential: held}}\n"
+    "time: {step: 20 ns, safety: 1.5}\n"
+    "output: {frames: 0, samples: 10, checkpoint: 5 s, compress: true}\n"
+    "probes:\n"
+    "  - tip\n"
+    "  - tip: {name: second, at: [1, 2]}\n"
+    "  - break: {region: {disc: {centre: [0, 0], radius: 1}}}\n"
+    "  - reaction: {boundary: impact}\n"
+    "  - patch:\n"
+    "  - spall\n"
+    "  - point: {name: p, at: [1, 1]}\n"
+    "  - line: {from: [0, 0], to: [1, 1], points: 11}\n"
+    "  - energy: {region: {all: true}}\n"
+    "  - momentum: {}\n";
+
+static const char bar[] =
+    "space: line\n"
+    "duration: 1 ms\n"
+    "material: {young: 1e4, density: 1, critical_stretch: 0.14}\n"
+    "bodies:\n"
+    "  - {name: impactor, velocity: 30, shape: {box: {from: -30 mm, to: 0}}}\n"
+    "  - {name: bar, shape: [{box: {from: [0], to: [70 mm]}}, {subtract: {ball: {centre: 0.03, radius: 1 mm}}}]}\n"
+    "particles: {spacing: 1 mm}\n"
+    "cracks: [{at: 20 mm}, {at: [0.05]}]\n"
+    "boundary: [{velocity: 3, body: bar}, {mirror: {axis: x, at: 0}}, {traction: 1 kPa, face: x+}]\n"
+    "initial: [{velocity_gradient: 3}]\n";
+
+static const char block[] =
+    "space: solid\n"
+    "duration: 1e-5\n"
+    "method: pd\n"
+    "material: {young: 70 GPa, density: 2700, energy_release_rate: 10}\n"
+    "body:\n"
+    "  - cylinder: {from: [0, 0, 0], to: [0, 0, 1 cm], radius: 1 cm}\n"
+    "  - ball: {centre: [0, 0, 0], radius: 0.01}\n"
+    "particles: {spacing: 1 mm}\n"
+    "cracks: [{polygon: [[0, 0, 0], [5 mm, 0, 0], [5 mm, 5 mm, 0], [0, 5 mm, 0]]}]\n"
+    "initial: [{velocity_gradient: [0, 1, 2, 3, 4, 5, 6, 7, 8]}]\n"
+    "boundary: [{velocity: [free, free, 2], region: {half-space: {point: [0, 0, 0], normal: [0, 0, 1]}}}]\n";
+
+static struct scene read_ok(const char *text, const struct scene_override *o, int n)
+{
+    struct scene s;
+    if (scene_read_text(&s, text, strlen(text), "dir/given.yaml", o, n) != OK) fail_msg("%s", status_message());
+    return s;
+}
+
+/* ---- every key ------------------------------------------------------------------------------------------------- */
+
+static void test_plate_scalars(void **state)
+{
+    (void)state;
+    struct scene s = read_ok(plate, NULL, 0);
+    assert_string_equal(s.name, "plate-1");
+    assert_string_equal(s.path, "dir/given.yaml");
+    assert_int_equal(s.space, SPACE_PLANE_STRESS);
+    assert_int_equal(s.dim, 2);
+    assert_true(s.thickness == 0.01 && s.duration == 50e-6 && s.section == 1);
+    assert_int_equal(s.method, METHOD_MPM);
+    assert_int_equal(s.model, PD_BOND);
+    assert_int_equal(s.coupling, COUPLING_HANDSHAKE);
+    assert_true(s.spacing == 1e-3 && s.horizon == 4.015 && s.irregularity == 0.25 && s.seed == UINT64_MAX);
+    assert_true(s.volume == VOLUME_CUT_RAMP && s.calibration == CALIBRATION_VMPD && s.surface == SURFACE_VOLUME);
+    assert_true(s.shells == SHELLS_ISOTROPIC && s.has_pd_region && s.pd_region.n == 2);
+    assert_true(s.pd_region.solid[1].subtract && s.pd_region.solid[1].from[0] == -INFINITY);
+    assert_true(s.cell == 1.5 && s.shape == SHAPE_CUBIC && s.transfer == TRANSFER_APIC);
+    assert_true(s.has_grid_origin && s.grid_origin[0] == 0.5e-3 && s.grid_origin[1] == 0);
+    assert_true(s.conversion.stress == 3.8e9 && s.conversion.alpha == 0.9 && !s.conversion.block);
+    assert_int_equal(s.conversion.criteria, CONVERT_ON_STRESS);
+    assert_true(s.speed_window == 2e-6 && s.time_step == 20e-9 && s.safety == 1.5);
+    assert_true(s.frames == 0 && s.samples == 10 && s.checkpoint_interval == 5 && s.compress);
+    scene_free(&s);
+}
+
+static void test_plate_materials_bodies(void **state)
+{
+    (void)state;
+    struct scene s = read_ok(plate, NULL, 0);
+    const struct material *m = s.material;
+    assert_int_equal(s.materials, 4);
+    assert_string_equal(m[0].name, "steel");
+    assert_true(m[0].young == 190e9 && m[0].poisson == 0.3 && m[0].density == 7800);
+    assert_true(m[0].energy_release_rate == 69e3);
+    assert_true(m[0].critical_stretch == material_critical_stretch(&m[0], s.space, 4.015 * 1e-3));
+    assert_true(m[0].wave_speed > 0);
+    assert_true(m[1].density == 2440 && m[1].critical_stretch == 1e-3 && isnan(m[1].energy_release_rate));
+    assert_true(m[2].energy_release_rate == 60e6 * 60e6 / 200e9);      /* plane stress: K^2 / E */
+    assert_true(m[2].poisson == 1.0 / 3);
+    assert_true(isinf(m[3].critical_stretch));
+    assert_int_equal(s.bodies, 3);
+    assert_true(s.body[0].material == 1 && s.body[0].velocity[0] == 3000 && s.body[0].velocity[1] == -1000);
+    assert_true(s.body[0].shape.n == 1 && s.body[0].shape.solid->kind == SOLID_BOX && s.body[0].file == NULL);
+    const struct solid *solid = s.body[1].shape.solid;
+    assert_int_equal(s.body[1].shape.n, 4);
+    assert_true(solid[1].subtract && solid[1].kind == SOLID_BALL && solid[1].radius == 5e-3 && !solid[2].subtract);
+    assert_true(solid[3].subtract && solid[3].kind == SOLID_HALF_SPACE && solid[3].normal[1] == 2);
+    assert_string_equal(s.body[2].name, "body2");
+    assert_string_equal(s.body[2].file, "grains.csv");
+    assert_int_equal(s.body[2].shape.n, 0);
+    scene_free(&s);
+}
+
+static void test_plate_conditions(void **state)
+{
+    (void)state;
+    struct scene s = read_ok(plate, NULL, 0);
+    assert_true(s.cracks == 2 && s.crack[0].n == 2 && s.crack[1].corner[1][1] == -25e-3);
+    assert_int_equal(s.initials, 2);
+    const struct scene_initial *i = s.initial;
+    assert_true(i[0].body == 0 && i[0].sets_velocity && !i[0].sets_strain && i[0].velocity[1] == 2);
+    assert_true(i[0].velocity_gradient[1] == 100 && i[0].velocity_gradient[2] == -100 && i[0].centre[0] == 1e-9);
+    assert_true(i[1].body == -1 && !i[1].sets_velocity && i[1].sets_strain && i[1].displacement_gradient[3] == 0.02);
+    assert_int_equal(s.boundaries, 6);
+    const struct boundary *b = s.boundary;
+    assert_string_equal(b[0].name, "impact");
+    assert_true(b[0].kind == BOUNDARY_VELOCITY && b[0].components == 1 && b[0].value[0] == 22 && b[0].region.n == 1);
+    assert_true(b[0].time.kind == TIME_STEP && b[0].time.from == 0 && b[0].time.until == 5e-6);
+    assert_string_equal(b[1].name, "boundary1");
+    assert_true(b[1].body == 0 && b[1].components == 2 && b[1].value[1] == 0 && b[1].time.kind == TIME_PULSE);
+    assert_true(b[2].components == 3 && b[2].time.kind == TIME_RAMP && b[2].time.until == 1e-3);
+    assert_true(b[3].kind == BOUNDARY_TRACTION && b[3].face == 1 && b[3].side == -1 && b[3].value[0] == 1e6);
+    assert_true(b[3].time.n == 3 && b[3].time.t[2] == 2e-6 && b[3].time.value[2] == 0.5);
+    assert_true(b[4].kind == BOUNDARY_BODY_FORCE && b[4].value[1] == 1e5 && b[4].time.kind == TIME_CONSTANT);
+    assert_true(b[5].kind == BOUNDARY_MIRROR && b[5].axis == 1 && b[5].at == 1e-3 && b[5].hold_tangential);
+    scene_free(&s);
+}
+
+static void test_plate_probes(void **state)
+{
+    (void)state;
+    static const enum probe_kind kinds[] = {PROBE_TIP,   PROBE_TIP,   PROBE_BREAK, PROBE_REACTION, PROBE_PATCH,
+                                            PROBE_SPALL, PROBE_POINT, PROBE_LINE,  PROBE_ENERGY,   PROBE_MOMENTUM};
+    struct scene s = read_ok(plate, NULL, 0);
+    const struct probe_request *p = s.probe;
+    assert_int_equal(s.probes, COUNT_OF(kinds));
+    for (int k = 0; k < s.probes; k++) assert_int_equal(p[k].kind, kinds[k]);
+    assert_string_equal(p[0].name, "tip");
+    assert_string_equal(p[1].name, "second");
+    assert_true(!p[0].has_at && p[1].has_at && p[1].at[1] == 2 && p[2].region.n == 1);
+    assert_string_equal(p[3].boundary, "impact");
+    assert_true(p[6].has_at && p[7].to[1] == 1 && p[7].points == 11 && p[8].region.n == 1 && p[9].region.n == 0);
+    scene_free(&s);
+}
+
+static void test_bar_and_defaults(void **state)
+{
+    (void)state;
+    struct scene s = read_ok(bar, NULL, 0);
+    assert_string_equal(s.name, "given");
+    assert_true(s.dim == 1 && s.section == 1 && s.thickness == 1 && s.method == METHOD_ADAPTIVE);
+    assert_true(s.horizon == 3.015 && s.irregularity == 0 && s.seed == 1 && s.surface == SURFACE_NONE);
+    assert_true(s.cell == 2 && s.shape == SHAPE_GIMP && s.transfer == TRANSFER_FLIP && !s.has_grid_origin);
+    assert_true(s.coupling == COUPLING_PARTIAL_STRESS && isnan(s.conversion.stress) && s.conversion.alpha == 0.95);
+    assert_true(s.conversion.block && s.conversion.criteria == (CONVERT_ON_CUT | CONVERT_ON_STRESS));
+    assert_true(s.time_step == 0 && s.safety == 0.8 && s.frames == 20 && s.samples == 500 && !s.compress);
+    assert_true(s.checkpoint_interval == 60 && s.speed_window == 1e-3 / 10 && s.probes == 0);
+    assert_true(s.body[0].velocity[0] == 30 && s.body[0].shape.solid->from[0] == -30e-3 && s.body[1].shape.n == 2);
+    assert_true(s.cracks == 2 && s.crack[0].n == 1 && s.crack[0].corner[0][0] == 20e-3);
+    assert_true(s.boundary[0].components == 1 && s.boundary[2].side == 1 && s.initial[0].velocity_gradient[0] == 3);
+    scene_free(&s);
+}
+
+static void test_block(void **state)
+{
+    (void)state;
+    struct scene s = read_ok(block, NULL, 0);
+    assert_true(s.dim == 3 && s.thickness == 1 && s.surface == SURFACE_VOLUME && s.material->poisson == 0.25);
+    assert_string_equal(s.body->name, "body");
+    assert_true(s.body->shape.solid[0].kind == SOLID_CYLINDER && s.body->shape.solid[0].to[2] == 1e-2);
+    assert_true(s.crack->n == 4 && s.crack->corner[2][1] == 5e-3 && s.initial->velocity_gradient[7] == 7);
+    assert_true(s.boundary->components == 4 && s.boundary->value[2] == 2 && s.boundary->region.solid->normal[2] == 1);
+    scene_free(&s);
+}
+
+/* ---- units -------------------------------------------------------------------------------------------------------- */
+
+static void test_units(void **state)
+{
+    (void)state;
+    /* Right to the last bit: a unit only moves the decimal exponent. */
+    static const struct { const char *key, *value; real expected; } cases[] = {
+        {"material.young", "190 GPa", 190e9},       {"material.young", "0.3 MPa", 0.3e6},
+        {"material.young", "200 N/mm^2", 200e6},    {"material.young", "5kPa", 5e3},
+        {"material.young", "1e9", 1e9},             {"material.young", "2E+3", 2000},
+        {"material.young", "1 MN/m\u00b2", 1e6},     {"material.young", "1 kg / m / s^2", 1},
+        {"particles.spacing", "0.3 mm", 0.3e-3},    {"particles.spacing", "1/3 mm", 1e-3 / 3},
+        {"particles.spacing", "0.7 um", 0.7e-6},    {"particles.spacing", "0.7 \u00b5m", 0.7e-6},
+        {"particles.spacing", "0.1 km", 100},       {"particles.spacing", "900 nm", 900e-9},
+        {"particles.spacing", "+.5cm", 0.5e-2},     {"particles.spacing", "\"1 mm\"", 1e-3},
+        {"duration", "20 us", 20e-6},               {"duration", "0.1 ms", 0.1e-3},
+        {"duration", "7 ns", 7e-9},                 {"duration", "3 s", 3},
+        {"material.density", "7.8 g/cm^3", 7800},   {"material.density", "7800 kg/m3", 7800},
+        {"material.density", "7.8e3 kg m^-3", 7800}, {"material.energy_release_rate", "69 kJ/m^2", 69e3},
+        {"material.energy_release_rate", "3 N/mm", 3e3}, {"thickness", "1/8", 0.125},
+        {"conversion.alpha", "95 %", 0.95},         {"conversion.alpha", "19 / 20", 0.95},
+    };
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        struct scene_override o[] = {{"particles.horizon", "2"}, {cases[k].key, cases[k].value}};
+        static const char text[] = "space: plane stress\nthickness: 1\nduration: 1\nmethod: mpm\n"
+                                   "material: {young: 1, density: 1, poisson: 0, energy_release_rate: 1}\n"
+                                   "body: {box: {from: [0, 0], to: [1 mm, 1 mm]}}\nparticles: {spacing: 1 mm}\n";
+        struct scene s = read_ok(text, o, 2);
+        const struct { const char *key; real value; } got[] = {
+            {"material.young", s.material->young},     {"particles.spacing", s.spacing},
+            {"duration", s.duration},                  {"material.density", s.material->density},
+            {"thickness", s.thickness},                {"conversion.alpha", s.conversion.alpha},
+            {"material.energy_release_rate", s.material->energy_release_rate},
+        };
+        for (size_t j = 0; j < COUNT_OF(got); j++)
+            if (strcmp(got[j].key, cases[k].key) == 0 && got[j].value != cases[k].expected)
+                fail_msg("%s is %.17g, not %.17g", cases[k].value, got[j].value, cases[k].expected);
+        scene_free(&s);
+    }
+}
+
+/* ---- overrides ------------------------------------------------------------------------------------------------------ */
+
+static void test_overrides(void **state)
+{
+    (void)state;
+    static const struct scene_override o[] = {
+        {"name", "no"},                             {"materials[1].young", "5 GPa"},
+        {"bodies[0].velocity", "[1, 0]"},           {"boundary[0].velocity", "[0, 20 m/s]"},
+        {"boundary[3].time.table[1][1]", "0.25"},   {"probes[6].point.at", "[2, 3]"},
+        {"conversion.criteria", "none"},            {"cracks", "[]"},
+        {"pd.region", ""},                          {"materials[2].toughness", ""},
+        {"materials[2].critical_stretch", "0.5"},   {"boundary[1].fixed", "[x]"},
+    };
+    struct scene s = read_ok(plate, o, COUNT_OF(o));
+    assert_string_equal(s.name, "no");
+    assert_true(s.material[1].young == 5e9 && s.body[0].velocity[0] == 1);
+    assert_true(s.boundary[0].components == 3 && s.boundary[0].value[1] == 20);
+    assert_true(s.boundary[3].time.value[1] == 0.25 && s.boundary[1].components == 1);
+    assert_true(s.probe[6].at[1] == 3 && s.conversion.criteria == 0 && s.cracks == 0 && !s.has_pd_region);
+    assert_true(s.material[2].critical_stretch == 0.5 && isnan(s.material[2].energy_release_rate));
+    scene_free(&s);
+    static const struct scene_override sections[] = {{"pd.volume", "ramp"}, {"method", "pd"}, {"method", "mpm"}};
+    s = read_ok(bar, sections, 3);       /* a section the file does not have; the later of two wins */
+    assert_true(s.volume == VOLUME_RAMP && s.method == METHOD_MPM);
+    scene_free(&s);
+}
+
+/* ---- round trip ------------------------------------------------------------------------------------------------------ */
+
+/* Name and path aside, the second reading is the first: same text, same numbers. */
+static void check_round_trip(const struct scene *a)
+{
+    struct scene b;
+    if (scene_read_text(&b, a->text, strlen(a->text), "again.yaml", NULL, 0) != OK)
+        fail_msg("%s in\n%s", status_message(), a->text);
+    assert_string_equal(a->text, b.text);
+    assert_true(a->materials == b.materials && a->bodies == b.bodies && a->cracks == b.cracks);
+    assert_true(a->initials == b.initials && a->boundaries == b.boundaries && a->probes == b.probes);
+    for (int k = 0; k < a->materials; k++) assert_memory_equal(&a->material[k], &b.material[k], sizeof *a->material);
+    for (int k = 0; k < a->bodies; k++) {
+        const struct region *p = &a->body[k].shape, *q = &b.body[k].shape;
+        assert_int_equal(p->n, q->n);
+        if (p->n) assert_memory_equal(p->solid, q->solid, (size_t)p->n * sizeof *p->solid);
+    }
+    for (int k = 0; k < a->cracks; k++)
+        assert_memory_equal(a->crack[k].corner, b.crack[k].corner, (size_t)a->crack[k].n * sizeof *a->crack->corner);
+    for (int k = 0; k < a->boundaries; k++) {
+        assert_memory_equal(a->boundary[k].value, b.boundary[k].value, sizeof a->boundary->value);
+        assert_int_equal(a->boundary[k].components, b.boundary[k].components);
+    }
+    assert_true(a->duration == b.duration && a->spacing == b.spacing && a->speed_window == b.speed_window);
+    assert_true(a->surface == b.surface && a->thickness == b.thickness && a->section == b.section);
+    scene_free(&b);
+}
+
+static void test_round_trip(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {plate, bar, block};
+    for (size_t k = 0; k < COUNT_OF(texts); k++) {
+        struct scene s = read_ok(texts[k], NULL, 0);
+        check_round_trip(&s);
+        scene_free(&s);
+    }
+    static const struct scene_override awkward[] = {{"bodies[2].particles", "\"gr\\u00e4 \\\"1\\\\ \\x01.csv\""},
+                                                    {"particles.spacing", "1/3 mm"}, {"name", "\"---\""}};
+    struct scene s = read_ok(plate, awkward, 3);
+    check_round_trip(&s);
+    scene_free(&s);
+}
+
+/* ---- any bytes -------------------------------------------------------------------------------------------------------- */
+
+static unsigned draw(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (unsigned)(*seed >> 33);
+}
+
+/* Some bytes changed, a piece doubled or cut out. Returns the length. */
+static size_t mutate(char *text, size_t length, uint64_t *seed)
+{
+    static const char letters[] = "[]{}:,-&*!|>'\"#%@ \n\t\\0123456789.eE/inf_x\xc3\x00";
+    for (unsigned k = draw(seed) % 4 + 1; k > 0; k--) {
+        size_t at = draw(seed) % length, piece = draw(seed) % 40 + 1;
+        if (at + piece > length) piece = length - at;
+        switch (draw(seed) % 4) {
+        case 0: text[at] = letters[draw(seed) % (sizeof letters - 1)]; break;
+        case 1: text[at] = (char)draw(seed); break;
+        case 2: memmove(text + at + piece, text + at, length - at), length += piece; break;
+        default: if (piece < length) memmove(text + at, text + at + piece, length - at - piece), length -= piece;
+        }
+    }
+    return length;
+}
+
+static void test_mutations(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {plate, bar, block};
+    uint64_t seed = 1;
+    int accepted = 0, line, column;
+    for (int k = 0; k < 20000; k++) {
+        struct scene s;
+        const char *text = texts[k % 3];
+        size_t length = strlen(text);
+        char *copy = test_malloc(length + 1000);
+        memcpy(copy, text, length);
+        length = mutate(copy, length, &seed);
+        char *exact = test_malloc(length);              /* so that reading beyond the end shows */
+        memcpy(exact, copy, length);
+        status result = scene_read_text(&s, exact, length, "m.yaml", NULL, 0);
+        if (result == OK) {
+            if (accepted++ % 10 == 0) check_round_trip(&s);
+            scene_free(&s);
+        } else {
+            assert_int_equal(result, REFUSED);
+            assert_null(s.text);
+            if (sscanf(status_message(), "m.yaml:%d:%d: ", &line, &column) != 2 || line < 1 || column < 1 ||
+                strchr(status_message(), '\n'))
+                fail_msg("no place in: %s", status_message());
+        }
+        test_free(exact);
+        test_free(copy);
+    }
+    assert_true(accepted > 100 && accepted < 19000);
+}
+
+/* ---- help ---------------------------------------------------------------------------------------------------------------- */
+
+static char *help_of(const char *key, status expected)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    assert_int_equal(scene_help(out, key), expected);
+    fclose(out);
+    return text;
+}
+
+static void test_help(void **state)
+{
+    (void)state;
+    char *all = help_of(NULL, OK), *one = help_of("materials[0].young", OK), *some = help_of("mpm", OK);
+    assert_non_null(strstr(all, "particles.horizon"));
+    assert_non_null(strstr(one, "number [Pa]; > 0; required"));
+    assert_null(strstr(one, "density"));
+    assert_non_null(strstr(some, "mpm.cell"));
+    assert_non_null(strstr(some, "number; 1 .. 8; default 2"));
+    assert_null(strstr(some, "output"));
+    free(all), free(one), free(some);
+    free(help_of("yuong", REFUSED));
+    assert_string_equal(status_message(), "yuong: unknown key; the nearest is material.young");
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    assert_int_equal(scene_manual(out), OK);
+    fclose(out);
+    assert_true(strncmp(text, ".TH CLEAVE 1", 12) == 0);
+    assert_non_null(strstr(text, ".B particles.horizon\n"));
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_plate_scalars), cmocka_unit_test(test_plate_materials_bodies),
+        cmocka_unit_test(test_plate_conditions), cmocka_unit_test(test_plate_probes),
+        cmocka_unit_test(test_bar_and_defaults), cmocka_unit_test(test_block),
+        cmocka_unit_test(test_units), cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_mutations),
+        cmocka_unit_test(test_help),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
