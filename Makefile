@@ -1,29 +1,33 @@
 # Cleave: settings
 CC       ?= gcc
 ARCH     ?= native
-REAL     := double
-PREFIX   ?= /usr/local
 OPTIMISE ?= -O3
-WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas
-PACKAGES := hdf5 hwloc yaml-0.1
+PREFIX   ?= /usr/local
 BUILD    ?= build
+THREADS  ?= 2
 VERSION  := 0.1.0
+WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas
+LIBRARIES := hdf5 hwloc yaml-0.1
 
-CPPFLAGS += -Iinclude -Ikernels -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
+CPPFLAGS += -Iinclude -Ikernels -Isrc -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"' -DCLEAVE_FLAGS='"$(OPTIMISE) -march=$(ARCH)"'
 CFLAGS   += -std=c11 $(OPTIMISE) -g -march=$(ARCH) -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
-LIBFLAGS  = $(shell pkg-config --cflags $(PACKAGES))
-LIBS      = $(shell pkg-config --libs $(PACKAGES)) -lm
+LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
+LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
 
-SOURCES  := $(wildcard src/*.c kernels/*.c)
-BENCHES  := $(wildcard bench/*.c)
+SOURCES  := $(wildcard src/*.c kernels/*.c bench/*.c)
 TESTS    := $(wildcard tests/test_*.c)
 OBJECTS  := $(SOURCES:%.c=$(BUILD)/%.o)
-BENCHOBJ := $(BENCHES:%.c=$(BUILD)/%.o)
 ENGINE   := $(filter-out $(BUILD)/src/main.o,$(OBJECTS))
+PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
+SCRIPTS  := $(sort $(wildcard tests/test_*.sh))
+LONG     := $(sort $(wildcard tests/long_*.sh))
+
+.PHONY: all run test test-long bench install packages clean format vec
+.SECONDARY:
 
 all: $(BUILD)/cleave
 
-$(BUILD)/cleave: $(OBJECTS) $(BENCHOBJ)
+$(BUILD)/cleave: $(OBJECTS)
 	$(CC) $(CFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/%.o: %.c Makefile
@@ -32,5 +36,40 @@ $(BUILD)/%.o: %.c Makefile
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(ENGINE)
 	$(CC) $(CFLAGS) -o $@ $^ -lcmocka $(LIBS)
+
+# The main job: installs what is missing, builds, breaks a steel plate, draws it.
+run: packages
+	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) all
+	$(BUILD)/cleave run inputs/kalthoff_winkler.yaml
+	$(BUILD)/cleave plot results/kalthoff_winkler
+
+test: packages
+	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) all $(PROGRAMS)
+	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/run.sh $(PROGRAMS) $(SCRIPTS)
+
+test-long: test
+	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/run.sh $(LONG)
+
+bench: all
+	$(BUILD)/cleave bench kernels efficiency
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1
+	install -m 755 $(BUILD)/cleave $(DESTDIR)$(PREFIX)/bin/cleave
+	$(BUILD)/cleave help --manual > $(BUILD)/cleave.1
+	install -m 644 $(BUILD)/cleave.1 $(DESTDIR)$(PREFIX)/share/man/man1/cleave.1
+
+# Every kernel instance must have been vectorised by the compiler or be written in lanes; prints what was not.
+vec:
+	@for f in kernels/*.c; do $(CC) $(CPPFLAGS) $(CFLAGS) -fopt-info-vec-optimized -c -o /dev/null $$f 2>&1 | sed -n '/vectorized/p'; done | sort | uniq -c
+
+format:
+	clang-format -i src/*.c src/*.h include/*.h kernels/*.c kernels/*.h bench/*.c tests/*.c tests/*.h
+
+clean:
+	rm -rf $(BUILD)
+
+packages:
+	@sh src/packages.sh
 
 -include $(wildcard $(BUILD)/*/*.d)

@@ -55,7 +55,8 @@ struct bonds {
     uint8_t *aligned;                    /* [groups] the eight particles are consecutive                  */
     uint8_t *consecutive;                /* [slots] the eight neighbours are consecutive                  */
     int32_t *nbr;                        /* [slots 8] neighbour                                           */
-    real *inverse_length;                /* [slots 8] 1/|X_j - X_i|; 0: padding                 [1/m]     */
+    real *inverse_length;                /* [slots 8] 1/|X_j - X_i|; negative: broken, so that its stretch is below
+                                            -1 and never looks like breaking; 0: padding        [1/m]     */
     float *w;                            /* [slots 8] symmetric weight: beta x surface x V_i V_j c_ij over
                                             stiffness; 0: broken, cut or padding                [1]       */
     real *trigger;                       /* [groups 8] no bond of the row breaks below this stretch       */

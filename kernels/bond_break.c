@@ -23,8 +23,9 @@ static void set_flag(struct particles *p, int32_t i, int flag)
 
 static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
 {
-    b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * bond_law_energy(PD_BOND, stretch) / b->inverse_length[q];
+    b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * bond_law_energy(PD_BOND, lanes_of(stretch))[0] / b->inverse_length[q];
     b->w[q] = 0;
+    b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
     set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_CUT : FLAG_CUT | FLAG_CRACKED);

@@ -20,11 +20,11 @@ static ALWAYS_INLINE lanes bond_law(const enum pd_model model, lanes stretch)
 }
 
 /* Energy of a bond over stiffness, weight and reference length [1]: integral of the law over the stretch. */
-static ALWAYS_INLINE real bond_law_energy(const enum pd_model model, real stretch)
+static ALWAYS_INLINE lanes bond_law_energy(const enum pd_model model, lanes stretch)
 {
     switch (model) {
     case PD_BOND: return 0.5 * stretch * stretch;
-    default: return 0;
+    default: return lanes_of(0);
     }
 }
 

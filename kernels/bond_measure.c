@@ -17,19 +17,33 @@ static ALWAYS_INLINE real bond_geometry(const struct bonds *b, const struct part
     return sqrt(distance2) * b->inverse_length[q] - 1;
 }
 
+static ALWAYS_INLINE lanes lanes_at(const real *x, const int32_t *index, bool consecutive)
+{
+    return consecutive ? lanes_load(x + index[0]) : lanes_gather(x, index);
+}
+
+/* Energy over half the stiffness (each bond has two rows) of the eight rows of a group. */
 static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                             const enum pd_model model)
 {
-    real sum = 0, relative[DIM_MAX];
-    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
-        for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
-            int64_t q = bond_index(b, g, k, l);
-            if (b->w[q] == 0) continue;
-            real stretch = bond_geometry(b, p, q, b->particle[g * LANES + l], relative, dim);
-            sum += b->w[q] * bond_law_energy(model, stretch) / b->inverse_length[q];
+    const int32_t *row = b->particle + g * LANES;
+    lanes sum = lanes_of(0), x[DIM_MAX];
+    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], row, b->aligned[g]);
+    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
+        const int64_t q = slot * LANES;
+        lanes distance2 = lanes_of(1e-300);
+        for (int d = 0; d < dim; d++) {
+            const lanes relative = lanes_at(p->x[d], b->nbr + q, b->consecutive[slot]) - x[d];
+            distance2 += relative * relative;
         }
+        const lanes w = lanes_load_float(b->w + q), inverse = lanes_load(b->inverse_length + q);
+        const lanes stretch = distance2 * lanes_inverse_root(distance2) * inverse - 1.0;
+        const lanes energy = w * bond_law_energy(model, stretch);
+        sum += lanes_choose(w > 0.0, energy / inverse, lanes_of(0));
     }
-    return 0.5 * b->stiffness * sum;
+    real total = 0;
+    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
+    return total;
 }
 
 /* sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F the force on i. */
@@ -70,7 +84,7 @@ enum { GROUPS_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
                 }                                                                                               \
             for (int block = 0; block < BLOCKS_AT_ONCE; block++) total += part[block];                          \
         }                                                                                                       \
-        return total;                                                                                           \
+        return 0.5 * b->stiffness * total;                                                                      \
     }                                                                                                           \
     static void bond_stress_##D##d_##M(const struct bonds *b, struct particles *p)                              \
     {                                                                                                           \

@@ -109,7 +109,7 @@ static void row_make(struct row *row, const struct bond_source *s, const struct 
         bool cut = s->cracks > 0 && cut_by_crack(s, p, i, j);
         if (cut) row->cut_volume += p->volume0[j];
         row->nbr[kept] = j;
-        row->inverse_length[kept] = 1 / sqrt(r2);
+        row->inverse_length[kept] = (cut ? -1 : 1) / sqrt(r2);
         row->w[kept] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, sqrt(r2));
         row->trigger = real_min(row->trigger, s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]]);
         kept++;
@@ -127,7 +127,7 @@ static void row_inherit(struct row *row, const struct bonds *old, int64_t old_ro
         int64_t q = bond_index(old, group, k, lane);
         if (old->w[q] != 0 || old->inverse_length[q] == 0) continue;
         for (int m = 0; m < row->n; m++)
-            if (row->nbr[m] == old->nbr[q]) row->w[m] = 0;
+            if (row->nbr[m] == old->nbr[q]) row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
     }
 }
 
@@ -427,6 +427,8 @@ status bonds_archive(struct bonds *b, struct particles *p, struct archive *a)
 {
     size_t padded = (size_t)(b->groups * LANES);
     TRY(a->exchange(a, "bonds/w", b->w, (size_t)b->slots * LANES * sizeof *b->w));
+    for (int64_t q = 0; q < b->slots * LANES; q++)
+        if (b->w[q] == 0) b->inverse_length[q] = -fabs(b->inverse_length[q]);
     TRY(a->exchange(a, "bonds/broken_volume", b->broken_volume, padded * sizeof *b->broken_volume));
     TRY(a->exchange(a, "bonds/fracture_energy", b->fracture_energy, padded * sizeof *b->fracture_energy));
     TRY(a->exchange(a, "bonds/broken", b->broken, padded * sizeof *b->broken));

@@ -158,7 +158,8 @@ static void compare_particles(struct pair *p, const struct frame *a, const struc
     }
     struct difference start = field_difference(a->X, b->X, a->dim, a->n);
     if (start.largest > 1e-4 * p->spacing)
-        printf("the same particles start up to %.4g m apart (%.3g spacings)\n", start.largest, start.largest / p->spacing);
+        printf("the same particles start up to %.4g m apart (%.3g spacings)\n", start.largest,
+               start.largest / p->spacing);
     print_fields(a, b);
 }
 
@@ -194,10 +195,16 @@ static double last_of(const struct history *h, const char *name)
 
 static void compare_energies(const struct pair *p)
 {
-    static const struct { const char *name, *label, *unit; } figure[] = {
-        {"time", "time", "s"},           {"kinetic", "kinetic", "J"},   {"strain", "strain", "J"},
-        {"plastic", "plastic", "J"},     {"fracture", "fracture", "J"}, {"external_work", "external work", "J"},
-        {"balance_error", "balance error", ""}, {"momentum_error", "momentum error", ""}, {"pd_share", "peridynamic share", ""}};
+    static const struct { const char *name, *label, *unit;
+    } figure[] = {{"time", "time", "s"},
+                  {"kinetic", "kinetic", "J"},
+                  {"strain", "strain", "J"},
+                  {"plastic", "plastic", "J"},
+                  {"fracture", "fracture", "J"},
+                  {"external_work", "external work", "J"},
+                  {"balance_error", "balance error", ""},
+                  {"momentum_error", "momentum error", ""},
+                  {"pd_share", "peridynamic share", ""}};
     struct history h[2];
     for (int k = 0; k < 2; k++) {
         if (history_read(&h[k], p->folder[k]) == OK) continue;
@@ -297,7 +304,8 @@ static status read_words(struct pair *p, int argc, char **argv)
         if (argv[k][0] == '-')
             return status_set(REFUSED, "compare: unknown option %s; usage: cleave compare DIR DIR", argv[k]);
     if (argc != 3)
-        return status_set(REFUSED, "compare: two folders are expected, not %d; usage: cleave compare DIR DIR", argc - 1);
+        return status_set(REFUSED, "compare: two folders are expected, not %d; usage: cleave compare DIR DIR",
+                          argc - 1);
     for (int k = 0; k < 2; k++) {
         p->folder[k] = argv[k + 1];
         if (holds_run(p->folder[k])) continue;
@@ -316,7 +324,8 @@ static status print_run(const char *letter, const char *folder)
         return OK;
     }
     TRY(summary_string(folder, "name", name, sizeof name));
-    if (summary_string(folder, "method", method, sizeof method) != OK) snprintf(method, sizeof method, "unknown method");
+    if (summary_string(folder, "method", method, sizeof method) != OK)
+        snprintf(method, sizeof method, "unknown method");
     if (summary_string(folder, "status", state, sizeof state) != OK) snprintf(state, sizeof state, "unknown state");
     printf("%s  %s: %s, %s, %s\n", letter, folder, name, method, state);
     return OK;

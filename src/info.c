@@ -71,8 +71,8 @@ static void print_build(void)
     printf("%-18s %s\n", "compiler", compiler());
     printf("%-18s %s, %s precision\n", "build", build_flags(), sizeof(real) == sizeof(double) ? "double" : "single");
     printf("%-18s %s\n", "instruction set", instruction_set());
-    printf("%-18s OpenMP %d, HDF5 %u.%u.%u, libyaml %s, hwloc interface %u.%u\n", "libraries", _OPENMP, major, minor, release,
-           yaml_get_version_string(), hwloc >> 16, hwloc >> 8 & 0xff);
+    printf("%-18s OpenMP %d, HDF5 %u.%u.%u, libyaml %s, hwloc interface %u.%u\n", "libraries", _OPENMP, major, minor,
+           release, yaml_get_version_string(), hwloc >> 16, hwloc >> 8 & 0xff);
 }
 
 static void print_machine(void)

@@ -56,7 +56,8 @@ static status read_frames_option(struct request *r, const char *text)
     if (r->panels == 1) return OK;
     long n = strtol(text, &end, 10);
     if (end == text || *end != '\0' || n < 1 || n > PANELS_MAX)
-        return status_set(REFUSED, "plot: --frames %s: all, last, or a number from 1 to %d is expected", text, PANELS_MAX);
+        return status_set(REFUSED, "plot: --frames %s: all, last, or a number from 1 to %d is expected", text,
+                          PANELS_MAX);
     r->panels = (int)n;
     return OK;
 }
@@ -69,7 +70,8 @@ static status read_request(struct request *r, int argc, char **argv)
             if (k + 1 == argc) return status_set(REFUSED, "plot: --frames needs all, last, or a number");
             TRY(read_frames_option(r, argv[++k]));
         } else if (argv[k][0] == '-') {
-            return status_set(REFUSED, "plot: unknown option %s; usage: cleave plot DIR [--frames all|last|N]", argv[k]);
+            return status_set(REFUSED, "plot: unknown option %s; usage: cleave plot DIR [--frames all|last|N]",
+                              argv[k]);
         } else if (r->folder != NULL) {
             return status_set(REFUSED, "plot: one folder at a time; %s is one too many", argv[k]);
         } else {

@@ -32,7 +32,8 @@ static void send_series(FILE *to, const struct series *s, const int *column, con
 {
     int64_t stride = s->h->rows / POINTS_MAX + 1;
     fputs("$data << EOD\n", to);
-    for (int64_t i = 0; i < s->h->rows; i = i + stride < s->h->rows || i == s->h->rows - 1 ? i + stride : s->h->rows - 1) {
+    for (int64_t i = 0; i < s->h->rows; i++) {
+        if (i % stride != 0 && i != s->h->rows - 1) continue;
         fprintf(to, "%.9g", history_at(s->h, i, s->time) / s->second.factor);
         for (int k = 0; k < columns; k++) {
             double a = history_at(s->h, i, column[k]) / factor[k];
@@ -56,7 +57,8 @@ static void set_title(FILE *to, const char *title, const char *what)
 static void set_time_axis(FILE *to, const struct series *s)
 {
     double end = history_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
-    fprintf(to, "set xrange [0:%.9g]\nset xlabel 'time [%s]' textcolor rgb '#333333'\n", end > 0 ? end : 1, s->second.name);
+    fprintf(to, "set xrange [0:%.9g]\nset xlabel 'time [%s]' textcolor rgb '#333333'\n", end > 0 ? end : 1,
+            s->second.name);
 }
 
 /* ---- crack ----------------------------------------------------------------------------------------- */
@@ -64,7 +66,8 @@ static void set_time_axis(FILE *to, const struct series *s)
 /* An axis that takes the colour of its curve, from zero to a little above the largest value. */
 static void set_axis(FILE *to, const char *axis, const char *label, int colour, double largest)
 {
-    fprintf(to, "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\nset %srange [0:%.9g]\n",
+    fprintf(to, "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\n"
+                "set %srange [0:%.9g]\n",
             axis, label, curve_colour[colour], axis, curve_colour[colour], axis, largest > 0 ? 1.08 * largest : 1);
 }
 
@@ -84,10 +87,11 @@ static status draw_crack(const char *path, const char *title, const struct serie
     snprintf(label, sizeof label, "crack length [%s]", metre.name);
     set_axis(g.to, "y", label, 0, largest[0] / factor[0]);
     set_axis(g.to, "y2", "share of peridynamic particles [%]", 1, largest[1] / factor[1]);
-    fprintf(g.to, "set border 11\nset lmargin at screen 0.1\nset rmargin at screen 0.9\nset tmargin at screen 0.84\n"
-                  "set key at screen 0.1,0.875 left bottom horizontal width 2\n"
-                  "plot $data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length (left)', "
-                  "$data using 1:3 axes x1y2 with lines lw 2.4 dt (12,5) lc rgb '%s' title 'peridynamic share (right)'\n",
+    fprintf(g.to,
+            "set border 11\nset lmargin at screen 0.1\nset rmargin at screen 0.9\nset tmargin at screen 0.84\n"
+            "set key at screen 0.1,0.875 left bottom horizontal width 2\n"
+            "plot $data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length (left)', "
+            "$data using 1:3 axes x1y2 with lines lw 2.4 dt (12,5) lc rgb '%s' title 'peridynamic share (right)'\n",
             curve_colour[0], curve_colour[1]);
     return gnuplot_close(&g);
 }
@@ -163,7 +167,10 @@ static status draw_energy(const char *path, const char *title, const struct seri
     send_series(g.to, s, e.column, e.factor, e.n);
     set_title(g.to, title, "energy");
     set_time_axis(g.to, s);
-    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset key at screen 0.81,0.9 left top\nset ylabel 'energy [%s]'\n", e.joule.name);
+    fprintf(g.to,
+            "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset key at screen 0.81,0.9 left top\nset ylabel "
+            "'energy [%s]'\n",
+            e.joule.name);
     if (balance >= 0)
         fputs("set multiplot\nset tmargin at screen 0.905\nset bmargin at screen 0.32\nset format x ''\nunset xlabel\n",
               g.to);
@@ -279,12 +286,15 @@ status profiles_draw(const char *path, const char *title, const struct frame *fr
     for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, spacing, unit);
     set_title(g.to, title, "");
     fputs("set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
-          "set autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.875,0.92 left top\n", g.to);
+          "set autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.875,0.92 left "
+          "top\n",
+          g.to);
     for (int k = 0; k < 3; k++) {
         double above = 0.915 - 0.285 * k;
         fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n", above, above - 0.255,
                 label[k]);
-        if (k == 2) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\nset offsets\nset yrange [0:1.04]\n", unit[0].name);
+        if (k == 2)
+            fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\nset offsets\nset yrange [0:1.04]\n", unit[0].name);
         plot_profile(g.to, frame, frames, k + 2);
         fputs("unset label\nunset key\n", g.to);
     }

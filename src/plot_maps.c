@@ -61,17 +61,21 @@ static void set_box(FILE *to, const struct layout *l, double left, double above,
             1 - (above + height) / l->height);
 }
 
-/* A round distance of tics over `range` that leaves at least `apart` pixels between them. */
+/* A round distance of tics over `range`: at least `apart` pixels, and about ten tics at most. */
 static double tic_distance(double range, int pixels, int apart)
 {
-    double least = range * apart / pixels, decade = pow(10, floor(log10(least))), lead = least / decade;
+    double least = range * fmax(apart, pixels / 10.0) / pixels, decade = pow(10, floor(log10(least))),
+           lead = least / decade;
     return decade * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
 }
 
-static void send_image(FILE *to, const struct colour *pixel, int width, int height, const double *from, const double *step)
+/* Plots an image whose lower left corner is `from`, with pixels of size `step`. */
+static void send_image(FILE *to, const struct colour *pixel, int width, int height, const double *from,
+                       const double *step)
 {
     fprintf(to, "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
-                "with rgbalpha notitle\n", width, height, step[0], step[1], from[0] + 0.5 * step[0], from[1] + 0.5 * step[1]);
+                "with rgbalpha notitle\n",
+            width, height, step[0], step[1], from[0] + 0.5 * step[0], from[1] + 0.5 * step[1]);
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
@@ -91,7 +95,8 @@ static void draw_panel(FILE *to, const struct layout *l, const struct view *view
         step[k] = (view->to[k] - view->from[k]) / metre.factor / size[k];
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
         bool labelled = k == 0 ? lowest : column == 0;
-        fprintf(to, "set %ctics %.9g format '%s'\n", 'x' + k, tic_distance(view->to[k] / metre.factor - from[k], size[k], k == 0 ? TICS_X : TICS_Y),
+        double range = view->to[k] / metre.factor - from[k];
+        fprintf(to, "set %ctics %.9g format '%s'\n", 'x' + k, tic_distance(range, size[k], k == 0 ? TICS_X : TICS_Y),
                 labelled ? "%g" : "");
         fprintf(to, "set %clabel '", 'x' + k);
         if (labelled) fprintf(to, "%c [%s]", 'x' + c->axis[k], metre.name);
@@ -123,7 +128,8 @@ static void draw_bar(FILE *to, const struct layout *l, const struct view *view, 
 
 static void draw_key(FILE *to, const struct layout *l)
 {
-    const struct { enum kind kind; const char *text; } entry[] = {{KIND_MPM, "material points"}, {KIND_PD, "peridynamics"}};
+    const struct { enum kind kind; const char *text; } entry[] = {{KIND_MPM, "material points"},
+                                                                  {KIND_PD, "peridynamics"}};
     for (int k = 0; k < 2; k++) {
         struct colour c = map_colour(MAP_KIND, entry[k].kind, 0.25, 1);
         double x = l->width - RIGHT - 320 + 160 * k, y = 26;

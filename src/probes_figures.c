@@ -119,7 +119,7 @@ static real bond_term(const void *context, int64_t k)
         real distance2 = 0;
         for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][b->nbr[q]] - p->x[d][s->q->list[k]]);
         real stretch = sqrt(distance2) * b->inverse_length[q] - 1;
-        sum += b->w[q] * bond_law_energy(PD_BOND, stretch) / b->inverse_length[q];
+        sum += b->w[q] * bond_law_energy(PD_BOND, lanes_of(stretch))[0] / b->inverse_length[q];
     }
     return 0.5 * b->stiffness * sum;
 }

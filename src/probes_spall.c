@@ -66,7 +66,7 @@ static void columns_bonds(struct columns *c, const struct observed *o, int body)
             int64_t q = bond_index(b, group, k, (int)(row % LANES));
             if (b->inverse_length[q] == 0) continue;
             int64_t to = column_of(c, p->X[0][b->nbr[q]]);
-            c->longest = real_max(c->longest, 1 / b->inverse_length[q]);
+            c->longest = real_max(c->longest, fabs(1 / b->inverse_length[q]));
             if (b->w[q] != 0) count_across(c->intact, from, to);
             else if (b->broken[row] > 0) count_across(c->cut, from, to);
         }

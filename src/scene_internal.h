@@ -104,7 +104,9 @@ status fault(const struct reader *r, const struct node *at, const char *format, 
     __attribute__((format(printf, 3, 4)));
 status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
-status fault_missing(const struct reader *r, const struct node *map, const struct key *k);
+status fault_missing(struct reader *r, const struct node *map, const struct key *k);
+/* Two keys of which only one may be there; an override is blamed before the file. */
+status fault_both(const struct reader *r, const struct node *a, const struct node *b);
 /* The value as a message may show it: one line, short, printable. */
 const char *shown(struct reader *r, const struct node *n);
 const char *shown_text(struct reader *r, const char *text);

@@ -38,7 +38,7 @@ static struct node *new_entry(struct reader *r, struct node *map, const char *ke
 static status item_of(struct reader *r, struct node *list, int index, int origin, struct node **out)
 {
     struct node at = {.origin = origin, .key = list->key, .parent = list->parent};
-    if (list->kind != NODE_LIST) return fault(r, &at, "not a list; [%d] has no meaning here", index);
+    if (list->kind != NODE_LIST) return fault(r, &at, "is no list in this scene; [%d] has no meaning", index);
     if (index >= list->n)
         return fault(r, &at, "has %d items; [%d] is behind the last (the first is [0])", list->n, index);
     struct node *n = list->first;

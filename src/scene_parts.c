@@ -63,7 +63,7 @@ status read_materials(struct reader *r, const struct node *root)
     struct scene *s = r->scene;
     const struct node *one = node_find(root, "material"), *many = node_find(root, "materials");
     if (!one && !many) return fault_missing(r, root, key_find("", "material"));
-    if (one && many) return fault(r, many, "given beside material; keep one of the two");
+    if (one && many) return fault_both(r, one, many);
     if (many) TRY(expect_list(r, key_find("", "materials"), many));
     s->materials = many ? many->n : 1;
     s->material = NEW("materials", s->materials, struct material);
@@ -109,7 +109,7 @@ static status read_body(struct reader *r, const struct node *n, struct scene_bod
     TRY(read_group(r, n, n, "bodies", b));
     r->bounded = false;
     if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
-    if (shape && file) return fault(r, file, "given beside shape; keep one of the two");
+    if (shape && file) return fault_both(r, shape, file);
     if (file) TRY(read_file(r, file, b));
     if (b->material < 0 && r->scene->materials > 1) return fault_missing(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;
@@ -124,7 +124,7 @@ status read_bodies(struct reader *r, const struct node *root)
     struct scene *s = r->scene;
     const struct node *one = node_find(root, "body"), *many = node_find(root, "bodies");
     if (!one && !many) return fault_missing(r, root, key_find("", "body"));
-    if (one && many) return fault(r, many, "given beside body; keep one of the two");
+    if (one && many) return fault_both(r, one, many);
     if (one && s->materials > 1) return fault(r, one, "which of %d materials is it; use bodies", s->materials);
     if (many) TRY(expect_list(r, key_find("", "bodies"), many));
     s->bodies = many ? many->n : 1;

@@ -30,7 +30,7 @@ const char *shown(struct reader *r, const struct node *n)
 {
     if (n->kind == NODE_LIST) return "a list";
     if (n->kind == NODE_MAP) return "a mapping";
-    return *n->text ? shown_text(r, n->text) : "nothing";
+    return *n->text ? shown_text(r, n->text) : "no value";
 }
 
 /* The name a message gives a node: its key, or that of the list it is in with its place: `velocity[1]`. */
@@ -84,19 +84,35 @@ status fault(const struct reader *r, const struct node *at, const char *format, 
     return fault_mark(r, at->origin, at->line, at->column, "%s%s%s", name, *name ? ": " : "", what);
 }
 
-status fault_missing(const struct reader *r, const struct node *map, const struct key *k)
+status fault_both(const struct reader *r, const struct node *a, const struct node *b)
+{
+    const struct node *late = a->origin > b->origin ? a : b;
+    return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
+}
+
+/* What a missing key would hold. */
+static const char *form_text(struct reader *r, const struct key *k)
+{
+    switch (k->type) {
+    case KEY_REAL: return unit_rows[k->unit].name;
+    case KEY_POINT: return "a list of numbers";
+    case KEY_REGION: return "a solid or a list of solids";
+    case KEY_NAME: return "a name";
+    case KEY_MATERIAL: return "the name of a material";
+    default: return k->words ? word_list(r, k->words) : "a mapping of keys";
+    }
+}
+
+status fault_missing(struct reader *r, const struct node *map, const struct key *k)
 {
     char group[64];
     snprintf(group, sizeof group, "%s", k->path);
     char *dot = strrchr(group, '.');
     if (dot) *dot = '\0';
-    const struct unit_row *unit = &unit_rows[k->unit];
-    const char *form = k->type == KEY_REAL    ? unit->name
-                       : k->type == KEY_POINT ? "a point"
-                       : k->words             ? k->words
-                                              : k->help;
+    bool number = k->type == KEY_REAL;
     return fault_mark(r, map->origin, map->line, map->column, "%s: missing%s%s; %s is expected%s%s", key_leaf(k),
-                      dot ? " in " : "", dot ? group : "", form, k->unit ? ", as " : "", k->unit ? unit->example : "");
+                      dot ? " in " : "", dot ? group : "", form_text(r, k), number ? ", as " : "",
+                      number ? unit_rows[k->unit].example : "");
 }
 
 const char *word_list(struct reader *r, const char *words)
@@ -285,10 +301,10 @@ status read_point(struct reader *r, const struct key *k, const struct node *n, r
 {
     int d = 0;
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
-    if (n->kind != NODE_LIST || n->n != r->dim)
-        return fault(r, n, "%s%s is not a list of %d component%s, which space %s has", shown(r, n),
-                     n->kind == NODE_LIST ? " of another length" : "", r->dim, r->dim > 1 ? "s" : "",
-                     space_names[r->scene->space]);
+    const char *space = space_names[r->scene->space];
+    if (n->kind != NODE_LIST)
+        return fault(r, n, "%s is not a list; %d components are expected in space %s", shown(r, n), r->dim, space);
+    if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in space %s", n->n, r->dim, space);
     for (const struct node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
 }

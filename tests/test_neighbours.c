@@ -186,7 +186,7 @@ static void check_slots(const struct cloud *c)
                 assert_true(row < b->rows);
                 assert_int_equal(seen[b->particle[row] * c->p.n + b->nbr[q]]++, 0);
                 real r = reference_relative(c->p.X, c->p.dim, b->particle[row], b->nbr[q], xi);
-                assert_true(fabs(b->inverse_length[q] * r - 1) <= 4e-16);     /* root and division: two roundings */
+                assert_true(fabs(fabs(b->inverse_length[q]) * r - 1) <= 4e-16);     /* root and division: two roundings */
             }
     memory_free(seen);
 }

@@ -53,7 +53,8 @@ static const char plate[] =
     "  - {body: bar, velocity: [1, 2], velocity_gradient: [0, 100 1/s, -100 Hz, 0], centre: [1 nm, 0]}\n"
     "  - {region: {all: true}, displacement_gradient: [[1e-3, 0], [0, 2 %]]}\n"
     "boundary:\n"
-    "  - {name: impact, region: {box: {from: [0, 0], to: [3 mm, 1]}}, velocity: [22 m/s, free], time: {step: {until: 5 us}}}\n"
+    "  - {name: impact, region: {box: {from: [0, 0], to: [3 mm, 1]}}, velocity: [22 m/s, free],\n"
+    "     time: {step: {until: 5 us}}}\n"
     "  - {body: bar, fixed: [y], time: {pulse: {from: 1 us, until: 2 us}}}\n"
     "  - {fixed: all, time: {ramp: {until: 1 ms}}}\n"
     "  - {traction: [1 MPa, 0], face: y-, time: {table: [[0, 0], [1 us, 1], [2 us, 50 %]]}}\n"
@@ -105,7 +106,7 @@ static struct scene read_ok(const char *text, const struct scene_override *o, in
     return s;
 }
 
-/* ---- every key ------------------------------------------------------------------------------------------------- */
+/* ---- every key ------------------------------------------------------------------------------------------ */
 
 static void test_plate_scalars(void **state)
 {
@@ -232,7 +233,7 @@ static void test_block(void **state)
     scene_free(&s);
 }
 
-/* ---- units -------------------------------------------------------------------------------------------------------- */
+/* ---- units ---------------------------------------------------------------------------------------------- */
 
 static void test_units(void **state)
 {
@@ -273,7 +274,7 @@ static void test_units(void **state)
     }
 }
 
-/* ---- overrides ------------------------------------------------------------------------------------------------------ */
+/* ---- overrides ------------------------------------------------------------------------------------------ */
 
 static void test_overrides(void **state)
 {
@@ -300,7 +301,7 @@ static void test_overrides(void **state)
     scene_free(&s);
 }
 
-/* ---- round trip ------------------------------------------------------------------------------------------------------ */
+/* ---- round trip ----------------------------------------------------------------------------------------- */
 
 /* Name and path aside, the second reading is the first: same text, same numbers. */
 static void check_round_trip(const struct scene *a)
@@ -344,7 +345,7 @@ static void test_round_trip(void **state)
     scene_free(&s);
 }
 
-/* ---- any bytes -------------------------------------------------------------------------------------------------------- */
+/* ---- any bytes ------------------------------------------------------------------------------------------ */
 
 static unsigned draw(uint64_t *seed)
 {
@@ -401,7 +402,7 @@ static void test_mutations(void **state)
     assert_true(accepted > 100 && accepted < 19000);
 }
 
-/* ---- help ---------------------------------------------------------------------------------------------------------------- */
+/* ---- help ----------------------------------------------------------------------------------------------- */
 
 static char *help_of(const char *key, status expected)
 {

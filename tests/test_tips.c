@@ -30,6 +30,14 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
     assert_near(t.tip[1].along[1], sqrt(0.5), 1e-15);
     tips_free(&t);
 
+    /* no tip where the body ends with a single particle */
+    real out[2][DIM_MAX] = {{30, 19.9, 0}, {39.2, 19.9, 0}};
+    struct crack outward = {2, out};
+    tips_make(&t, &b.p, &b.c, &outward, 1, 1, 4);
+    assert_int_equal(t.n, 1);
+    assert_near(t.tip[0].along[0], -1, 0);
+    tips_free(&t);
+
     /* particles that are held cannot crack: no tip before them */
     for (int64_t i = 0; i < b.p.n; i++)
         if (b.p.X[0][i] < 10) b.p.flag[i] |= FLAG_DRIVEN;
@@ -50,6 +58,7 @@ static void tip_speed_is_the_slope_of_growth(void **state)
     for (int k = 0; k <= 16; k++) {
         if (k >= 1 && k <= 10) hurt(&b, 9.5 + k, 10.5, 0);
         tips_sample(&t, &b.p, &b.c, k * dt);
+        assert_true(isnan(t.tip[0].arrest_time) == (k < 2));
     }
     const struct tip *tip = tips_longest(&t);
     assert_ptr_equal(tip, &t.tip[0]);
@@ -141,20 +150,28 @@ static void tip_joins_a_crack_ahead(void **state)
     for (int k = 0; k <= 5; k++) {
         if (k > 0) hurt(&b, 9.5 + k, 10.5, 0);
         for (int m = 0; k == 3 && m < 4; m++) hurt(&b, 16.5 + m, 10.5, 0);
+        if (k > 3) hurt(&b, 30.5, 0.5 + k, 0);
         tips_sample(&t, &b.p, &b.c, k);
     }
-    assert_int_equal(t.n, 2);
+    assert_int_equal(t.n, 3);
     assert_near(t.tip[1].growth, 3, ROUND_OFF);
     assert_near(t.tip[0].growth, 4.5, ROUND_OFF);
     real origin = t.tip[1].origin[0];
     assert_near(origin, 16.5, 0);                 /* equal damage: the lowest index */
     hurt(&b, 15.5, 10.5, 0);
+    hurt(&b, 30.5, 6.5, 0);
     tips_sample(&t, &b.p, &b.c, 6);
-    assert_int_equal(t.n, 1);
+    assert_int_equal(t.n, 2);
     assert_int_equal(t.tip[0].particles, 10);
     assert_near(t.tip[0].growth, 9.5, ROUND_OFF);
     assert_near(t.tip[0].speed_max, 1, 1e-12);
-    for (int64_t i = 0; i < b.p.n; i++) assert_true(t.label[i] <= 1 || t.label[i] == 255);
+    for (int64_t i = 0; i < b.p.n; i++) assert_true(t.label[i] <= 2 || t.label[i] == 255);
+
+    /* the third crack, one particle a second, has kept its record under its new number */
+    hurt(&b, 30.5, 7.5, 0);
+    tips_sample(&t, &b.p, &b.c, 7);
+    assert_near(t.tip[1].growth, 3, ROUND_OFF);
+    assert_near(t.tip[1].speed_max, 1, 1e-12);
     notched_free(&b, &t);
 }
 
