@@ -26,6 +26,19 @@ struct pair {
     int dim;
 };
 
+static bool holds(const char *folder, const char *file)
+{
+    char path[PATH_LENGTH];
+    struct stat found;
+    return snprintf(path, sizeof path, "%s/%s", folder, file) < (int)sizeof path && stat(path, &found) == 0;
+}
+
+/* A folder with at least one of the files that are compared. */
+static bool holds_run(const char *folder)
+{
+    return holds(folder, "summary.json") || holds(folder, "history.csv") || holds(folder, "frames.hdf.series");
+}
+
 /* ---- rows of the table ----------------------------------------------------------------------------- */
 
 static void print_number(double a)
@@ -170,14 +183,13 @@ static status compare_frames(struct pair *p)
     int at[2];
     status s = OK;
     p->frames_differ = true;
-    for (int k = 0; k < 2; k++) {
-        if (frames_list(p->folder[k], &t[k].n, &t[k].time) != OK) t[k].n = 0;
-    }
-    if (t[0].n == 0 || t[1].n == 0) {
+    for (int k = 0; k < 2 && s == OK; k++)
+        if (holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].time);
+    if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
         printf("\nfields are not compared: %s has no frames\n", p->folder[t[0].n == 0 ? 0 : 1]);
-    } else if (!last_common(&t[0], &t[1], &at[0], &at[1])) {
+    } else if (s == OK && !last_common(&t[0], &t[1], &at[0], &at[1])) {
         printf("\nfields are not compared: no frames of the same time\n");
-    } else {
+    } else if (s == OK) {
         for (int k = 0; k < 2 && s == OK; k++) s = frame_of(&f[k], p->folder[k], at[k]);
         if (s == OK) compare_particles(p, &f[0], &f[1]);
         for (int k = 0; k < 2; k++) frame_free(&f[k]);
@@ -193,29 +205,36 @@ static double last_of(const struct history *h, const char *name)
     return h->rows > 0 ? history_at(h, h->rows - 1, history_column(h, name)) : NAN;
 }
 
-static void compare_energies(const struct pair *p)
+static status compare_energies(const struct pair *p)
 {
-    static const struct { const char *name, *label, *unit;
-    } figure[] = {{"time", "time", "s"},
-                  {"kinetic", "kinetic", "J"},
-                  {"strain", "strain", "J"},
-                  {"plastic", "plastic", "J"},
-                  {"fracture", "fracture", "J"},
-                  {"external_work", "external work", "J"},
-                  {"balance_error", "balance error", ""},
-                  {"momentum_error", "momentum error", ""},
-                  {"pd_share", "peridynamic share", ""}};
+    static const struct { const char *name, *label, *unit; } figure[] = {
+        {"time", "time", "s"},
+        {"kinetic", "kinetic", "J"},
+        {"strain", "strain", "J"},
+        {"plastic", "plastic", "J"},
+        {"fracture", "fracture", "J"},
+        {"external_work", "external work", "J"},
+        {"balance_error", "balance error", ""},
+        {"momentum_error", "momentum error", ""},
+        {"pd_share", "peridynamic share", ""},
+    };
     struct history h[2];
     for (int k = 0; k < 2; k++) {
-        if (history_read(&h[k], p->folder[k]) == OK) continue;
-        printf("\nenergies are not compared: %s\n", status_message());
-        if (k == 1) history_free(&h[0]);
-        return;
+        if (holds(p->folder[k], "history.csv")) continue;
+        printf("\nenergies are not compared: %s has no history.csv\n", p->folder[k]);
+        return OK;
+    }
+    TRY(history_read(&h[0], p->folder[0]));
+    status s = history_read(&h[1], p->folder[1]);
+    if (s != OK) {
+        history_free(&h[0]);
+        return s;
     }
     print_head("at the end of history.csv");
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
         print_row(figure[k].label, figure[k].unit, last_of(&h[0], figure[k].name), last_of(&h[1], figure[k].name));
     for (int k = 0; k < 2; k++) history_free(&h[k]);
+    return OK;
 }
 
 /* ---- cracks ---------------------------------------------------------------------------------------- */
@@ -285,19 +304,6 @@ static void compare_time(const struct pair *p)
 
 /* ---- the command ----------------------------------------------------------------------------------- */
 
-/* A folder with at least one of the files that are compared. */
-static bool holds_run(const char *folder)
-{
-    static const char *const file[] = {"summary.json", "history.csv", "frames.hdf.series"};
-    for (int k = 0; k < (int)COUNT_OF(file); k++) {
-        char path[PATH_LENGTH];
-        struct stat found;
-        int length = snprintf(path, sizeof path, "%s/%s", folder, file[k]);
-        if (length < (int)sizeof path && stat(path, &found) == 0) return true;
-    }
-    return false;
-}
-
 static status read_words(struct pair *p, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++)
@@ -317,9 +323,8 @@ static status read_words(struct pair *p, int argc, char **argv)
 /* Name, method and state of a run; what is there must be readable. */
 static status print_run(const char *letter, const char *folder)
 {
-    char path[PATH_LENGTH], name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];
-    struct stat found;
-    if (snprintf(path, sizeof path, "%s/summary.json", folder) >= (int)sizeof path || stat(path, &found) != 0) {
+    char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];
+    if (!holds(folder, "summary.json")) {
         printf("%s  %s: no summary.json yet\n", letter, folder);
         return OK;
     }
@@ -338,7 +343,7 @@ status command_compare(int argc, char **argv)
     TRY(print_run("A", p.folder[0]));
     TRY(print_run("B", p.folder[1]));
     TRY(compare_frames(&p));
-    compare_energies(&p);
+    TRY(compare_energies(&p));
     compare_cracks(&p);
     compare_time(&p);
     printf("\ncomparable particle by particle: %s\n", p.frames_differ ? "no" : "yes");

@@ -139,12 +139,14 @@ static struct view view_of(const struct cloud *cloud, int clouds)
                 v.from[k] = fmin(v.from[k], cloud[c].place[k][i]);
                 v.to[k] = fmax(v.to[k], cloud[c].place[k][i]);
             }
-            if (cloud[c].damage[i] > 0.55F) v.top = 1;
+            v.top = fmax(v.top, fmin(cloud[c].damage[i], 1));
         }
     }
+    v.top = ceil(10 * v.top - 1e-3) / 10;            /* the colour bar ends on a tenth, 0.5 at least */
     double longest = fmax(v.to[0] - v.from[0], v.to[1] - v.from[1]);
     for (int k = 0; k < 2; k++) {
         double margin = fmax(cloud[0].spacing, 0.02 * longest);
+        if (!(margin > 0)) margin = 1e-3;            /* a single particle: a millimetre round it [m] */
         v.from[k] -= margin;
         v.to[k] += margin;
     }
@@ -183,6 +185,8 @@ static status draw_every(const struct request *r, const struct run_frames *frame
 static status draw_maps(const struct request *r, const struct run_frames *frames, const struct cloud *cloud)
 {
     struct view view = view_of(cloud, frames->shown);
+    if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
+        return status_set(FAILED, "%s: the frames hold no particles, or places that are not numbers", r->folder);
     TRY(draw_map(r, "damage", MAP_DAMAGE, &view, cloud, frames->shown));
     TRY(draw_map(r, "kind", MAP_KIND, &view, cloud, frames->shown));
     TRY(draw_map(r, "last", MAP_DAMAGE, &view, cloud + frames->shown - 1, 1));

@@ -63,12 +63,12 @@ static void set_time_axis(FILE *to, const struct series *s)
 
 /* ---- crack ----------------------------------------------------------------------------------------- */
 
-/* An axis that takes the colour of its curve, from zero to a little above the largest value. */
-static void set_axis(FILE *to, const char *axis, const char *label, int colour, double largest)
+/* An axis from zero to `top` that takes the colour of its curve. */
+static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top)
 {
     fprintf(to, "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\n"
                 "set %srange [0:%.9g]\n",
-            axis, label, curve_colour[colour], axis, curve_colour[colour], axis, largest > 0 ? 1.08 * largest : 1);
+            axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
 }
 
 static status draw_crack(const char *path, const char *title, const struct series *s)
@@ -85,8 +85,8 @@ static status draw_crack(const char *path, const char *title, const struct serie
     set_title(g.to, title, "crack");
     set_time_axis(g.to, s);
     snprintf(label, sizeof label, "crack length [%s]", metre.name);
-    set_axis(g.to, "y", label, 0, largest[0] / factor[0]);
-    set_axis(g.to, "y2", "share of peridynamic particles [%]", 1, largest[1] / factor[1]);
+    set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0]);
+    set_axis(g.to, "y2", "share of peridynamic particles [%]", 1, 1.25 * largest[1] / factor[1]);
     fprintf(g.to,
             "set border 11\nset lmargin at screen 0.1\nset rmargin at screen 0.9\nset tmargin at screen 0.84\n"
             "set key at screen 0.1,0.875 left bottom horizontal width 2\n"
@@ -168,8 +168,8 @@ static status draw_energy(const char *path, const char *title, const struct seri
     set_title(g.to, title, "energy");
     set_time_axis(g.to, s);
     fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset key at screen 0.81,0.9 left top\nset ylabel "
-            "'energy [%s]'\n",
+            "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset key at screen 0.81,0.9 left top\n"
+            "set ylabel 'energy [%s]'\n",
             e.joule.name);
     if (balance >= 0)
         fputs("set multiplot\nset tmargin at screen 0.905\nset bmargin at screen 0.32\nset format x ''\nunset xlabel\n",
@@ -286,8 +286,8 @@ status profiles_draw(const char *path, const char *title, const struct frame *fr
     for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, spacing, unit);
     set_title(g.to, title, "");
     fputs("set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
-          "set autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.875,0.92 left "
-          "top\n",
+          "set autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
+          "set key at screen 0.875,0.92 left top\n",
           g.to);
     for (int k = 0; k < 3; k++) {
         double above = 0.915 - 0.285 * k;

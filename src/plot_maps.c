@@ -64,8 +64,8 @@ static void set_box(FILE *to, const struct layout *l, double left, double above,
 /* A round distance of tics over `range`: at least `apart` pixels, and about ten tics at most. */
 static double tic_distance(double range, int pixels, int apart)
 {
-    double least = range * fmax(apart, pixels / 10.0) / pixels, decade = pow(10, floor(log10(least))),
-           lead = least / decade;
+    double least = range * fmax(apart, pixels / 10.0) / pixels, decade = pow(10, floor(log10(least)));
+    double lead = least / decade;
     return decade * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
 }
 
@@ -153,7 +153,6 @@ status maps_draw(const char *path, const char *title, enum map map, const struct
             1 - 26.0 / l.height);
     if (map == MAP_KIND) draw_key(g.to, &l);
     struct unit second = unit_for(cloud[clouds - 1].t, "s");
-    fputs("set ylabel offset 0.4,0\n", g.to);
     for (int k = 0; k < clouds; k++) {
         draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
         fputs("unset label\nunset object\n", g.to);  /* once is enough */

@@ -127,7 +127,7 @@ static inline bool reference_cut(const struct crack *c, const real *a, const rea
 
 /* ==== bonds (bond-based sheet 1.1, 1.3) ============================================================= */
 
-/* The stored weights as a full matrix, w[i n + j]; NAN where no bond is stored. */
+/* The stored weights as a full matrix, w[i n + j]; 0 where the bond is broken, NAN where none is stored. */
 static inline real *reference_table(const struct bonds *b, const struct particles *p)
 {
     real *w = NEW("reference.w", p->n * p->n, real);

@@ -78,7 +78,8 @@ static void unsound_files_are_refused(void **state)
 {
     (void)state;
     const char *unsound[] = {"", "{", "{\"steps\": 12", "{\"steps\": 12}}", "{\"steps\": 12,}", "{\"steps\" 12}",
-                             "{steps: 12}", "{\"steps\": 012}", "{\"steps\": 12.}", "{\"steps\": .5}", "{\"steps\": nan}",
+                             "{steps: 12}", "{\"steps\": 012}", "{\"steps\": 12.}", "{\"steps\": .5}",
+                             "{\"steps\": nan}",
                              "{\"steps\": 12} x", "{\"steps\": 12, \"a\": \"\n\"}", "{\"steps\": 12, \"a\": \"\\q\"}",
                              "{\"steps\": 12, \"a\": \"\\u12g4\"}", "[12", "{\"steps\": 12, \"a\": tru}"};
     mkdir("unsound", 0777);
@@ -155,7 +156,8 @@ static void write_run(const char *folder, double shift, double loop_seconds, dou
     assert_int_equal(output_text(&o, "summary.json", text, strlen(text)), OK);
     output_close(&o);
     snprintf(text, sizeof text, "%s/history.csv", folder);
-    put(text, "time [s],step,kinetic [J],balance_error,pd_share,crack_length [m]\n0,0,0,0,0.1,0\n2e-6,20,2,1e-6,0.2,1e-3\n");
+    put(text, "time [s],step,kinetic [J],balance_error,pd_share,crack_length [m]\n"
+              "0,0,0,0,0.1,0\n2e-6,20,2,1e-6,0.2,1e-3\n");
 }
 
 /* Runs a command and returns what it prints. */
@@ -216,12 +218,29 @@ static void unequal_runs_are_told_apart(void **state)
     assert_non_null(strstr(printed, "comparable particle by particle: no"));
 }
 
+static void damaged_files_are_refused(void **state)
+{
+    (void)state;
+    char printed[TEXT], *compare[] = {"compare", "a", "c"}, *plot[] = {"plot", "c"};
+    write_run("a", 0, 2, 0.010);
+    write_run("c", 0, 2, 0.010);
+    put("c/frames/000002.hdf", "not a frame");
+    assert_int_equal(run(command_compare, 3, compare, printed), FAILED);
+    assert_non_null(strstr(status_message(), "000002.hdf"));
+    assert_int_equal(run(command_plot, 2, plot, printed), FAILED);
+    assert_non_null(strstr(status_message(), "000002.hdf"));
+    write_run("c", 0, 2, 0.010);
+    put("c/summary.json", "{\"name\": ");
+    assert_int_equal(run(command_compare, 3, compare, printed), FAILED);
+    assert_non_null(strstr(status_message(), "summary.json"));
+}
+
 static void wrong_words_are_refused(void **state)
 {
     (void)state;
     char printed[TEXT];
-    char *compare[] = {"compare", "a", "--deep", "b"}, *plot[] = {"plot", "a", "--frames", "0"}, *info[] = {"info", "x"};
-    char *nowhere[] = {"compare", "nowhere", "nowhere"}, *none[] = {"plot", "nowhere"};
+    char *compare[] = {"compare", "a", "--deep", "b"}, *plot[] = {"plot", "a", "--frames", "0"};
+    char *info[] = {"info", "x"}, *nowhere[] = {"compare", "nowhere", "nowhere"}, *none[] = {"plot", "nowhere"};
     write_run("a", 0, 2, 0.010);
     assert_int_equal(run(command_compare, 4, compare, printed), REFUSED);
     assert_int_equal(run(command_compare, 2, compare, printed), REFUSED);
@@ -284,7 +303,7 @@ static void missing_gnuplot_is_named(void **state)
 /* The share of pixels of a rectangle [spacings] that show a body. */
 static double covered(const struct cloud *c, double from_x, double to_x)
 {
-    enum { PIXELS = 96 };
+    enum { PIXELS = 20 * SIDE };                       /* twenty a spacing: a seam of a tenth of it shows */
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     struct view v = {{from_x * SPACING, 0}, {to_x * SPACING, SIDE * SPACING}, 0.5};
     raster_paint(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
@@ -353,8 +372,9 @@ int main(void)
         cmocka_unit_test(figures_are_found),          cmocka_unit_test(absent_figures_are_refused),
         cmocka_unit_test(unsound_files_are_refused),  cmocka_unit_test(history_is_read_by_name),
         cmocka_unit_test(runs_are_compared),          cmocka_unit_test(unequal_runs_are_told_apart),
-        cmocka_unit_test(wrong_words_are_refused),    cmocka_unit_test(missing_gnuplot_is_named),
-        cmocka_unit_test(pictures_are_drawn),         cmocka_unit_test(bodies_are_closed_and_gaps_open),
+        cmocka_unit_test(damaged_files_are_refused),  cmocka_unit_test(wrong_words_are_refused),
+        cmocka_unit_test(missing_gnuplot_is_named),   cmocka_unit_test(pictures_are_drawn),
+        cmocka_unit_test(bodies_are_closed_and_gaps_open),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

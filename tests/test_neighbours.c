@@ -6,6 +6,8 @@
 #include <omp.h>
 
 #include "cloud.h"
+#include "grid.h"
+#include "kernels.h"
 #include "reference.h"
 #include "team.h"
 
@@ -172,6 +174,7 @@ static void check_row(const struct cloud *c, int64_t i)
 static void check_slots(const struct cloud *c)
 {
     const struct bonds *b = &c->bonds;
+    int64_t stored = 0;
     uint8_t *seen = NEW("test.seen", c->p.n * c->p.n, uint8_t);
     for (int64_t g = 0; g < b->groups; g++)
         for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++)
@@ -186,8 +189,12 @@ static void check_slots(const struct cloud *c)
                 assert_true(row < b->rows);
                 assert_int_equal(seen[b->particle[row] * c->p.n + b->nbr[q]]++, 0);
                 real r = reference_relative(c->p.X, c->p.dim, b->particle[row], b->nbr[q], xi);
-                assert_true(fabs(fabs(b->inverse_length[q]) * r - 1) <= 4e-16);     /* root and division: two roundings */
+                /* root and division: two roundings; broken and cut bonds are marked by the sign */
+                assert_true(fabs(fabs(b->inverse_length[q]) * r - 1) <= 4e-16);
+                assert_int_equal(b->inverse_length[q] < 0, b->w[q] == 0);
+                stored++;
             }
+    assert_int_equal(b->n, stored);
     memory_free(seen);
 }
 
@@ -250,6 +257,7 @@ static void test_rows_inherit(void **state)
         struct bonds old = c.bonds;
         bonds_make(&c.bonds, &old, p, &c.source);
         real *after = reference_table(&c.bonds, p);
+        check_slots(&c);
         for (int64_t q = 0; q < p->n * p->n; q++)                /* NAN: was no bond; w = 0: was broken or cut */
             if (!isnan(before[q])) assert_true(before[q] == after[q]);
         assert_true(fabs(bonds_fracture_energy(&c.bonds) - energy) <= 1e-14 * energy);

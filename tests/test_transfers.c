@@ -115,7 +115,7 @@ static void scene_grid(struct scene *s)
 static void scene_make(struct scene *s, const struct choice *k, real spin)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
-    static const int count[DIM_MAX + 1][DIM_MAX] = {{0}, {40}, {9, 8}, {5, 5, 4}};
+    static const int count[DIM_MAX + 1][DIM_MAX] = {{0}, {40}, {9, 8}, {4, 4, 3}};
     uint64_t seed = 77;
     memset(s, 0, sizeof *s);
     s->dim = k->dim;

@@ -1,0 +1,41 @@
+/* floor 5: `cleave bench`: which benches there are and which were asked for. */
+#include <stdio.h>
+#include <string.h>
+
+#include "bench.h"
+#include "commands.h"
+
+struct bench { const char *name; status (*call)(bool quick); };
+
+/* In the order in which they run: kernels first, while the process is still small. */
+static const struct bench benches[] = {{"kernels", bench_kernels}, {"efficiency", bench_efficiency}};
+enum { BENCHES = COUNT_OF(benches) };
+
+static status mark(const char *word, bool *asked)
+{
+    static const char *const later[] = {"coupling", "accuracy", "stability", "threads", "scale", "peers"};
+    for (int k = 0; k < BENCHES; k++)
+        if (!strcmp(word, benches[k].name)) {
+            asked[k] = true;
+            return OK;
+        }
+    for (size_t k = 0; k < COUNT_OF(later); k++)
+        if (!strcmp(word, later[k])) return status_set(REFUSED, "bench %s: not in this version; kernels and efficiency are", word);
+    return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [--quick]", word);
+}
+
+status command_bench(int argc, char **argv)
+{
+    bool asked[BENCHES] = {false}, quick = false, any = false;
+    for (int k = 1; k < argc; k++) {
+        if (!strcmp(argv[k], "--quick")) {
+            quick = true;
+            continue;
+        }
+        TRY(mark(argv[k], asked));
+        any = true;
+    }
+    for (int k = 0; k < BENCHES; k++)
+        if (asked[k] || !any) TRY(benches[k].call(quick));
+    return OK;
+}

@@ -1,0 +1,85 @@
+/* floor 5: what the benches share: tables that become csv and json, the machine's own limits, and engines made for
+ * timing. */
+#ifndef CLEAVE_BENCH_H
+#define CLEAVE_BENCH_H
+
+#include "engine.h"
+
+#define BENCH_FOLDER "results/bench"
+
+/* ---- bench_output.c: tables --------------------------------------------------------------------------- */
+
+/* A text, or a number where `text` is empty. */
+struct bench_cell { char text[NAME_MAX_LENGTH]; double number; };
+
+struct bench_table {
+    const char *name;                    /* "" for the main table of a bench                          */
+    const char *header;                  /* names of the columns, separated by commas                 */
+    int columns;
+    int64_t cells, room;
+    struct bench_cell *cell;             /* row by row                                                */
+};
+
+void bench_table_make(struct bench_table *t, const char *name, const char *header);
+/* Fill cell after cell, row after row. A number that is not finite is left out of the files. */
+void bench_text(struct bench_table *t, const char *text);
+void bench_number(struct bench_table *t, double number);
+void bench_table_free(struct bench_table *t);
+
+/* Writes results/bench/NAME.csv (the table named ""), NAME_<table>.csv and, with all tables, NAME.json. */
+status bench_write(const char *name, const struct bench_table *table, int tables);
+/* Draws results/bench/NAME.png and .svg; `draw` sends gnuplot its commands. */
+status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context), const void *context);
+/* One line about the processor, and one under it about the program. */
+void bench_print_machine(int threads);
+
+/* ---- bench_probe.c: the machine's own limits ---------------------------------------------------------- */
+
+/* Lattice stencil of the bond law: contiguous loads, no bond data, positions in cache. */
+struct stencil_probe;
+/* About 80,000 particles in `dim` dimensions, neighbours within 3.015 spacings. */
+struct stencil_probe *stencil_probe_make(int dim);
+/* One sweep over all bonds: seconds per directed bond. */
+double stencil_probe_run(struct stencil_probe *s);
+void stencil_probe_free(struct stencil_probe *s);
+
+/* STREAM triad a = b + q c over arrays that no cache holds: bytes per second, counted as 24 bytes an entry. */
+struct triad_probe;
+struct triad_probe *triad_probe_make(void);
+double triad_probe_run(struct triad_probe *t);
+void triad_probe_free(struct triad_probe *t);
+
+/* ---- bench_points.c: the plain material point method --------------------------------------------------- */
+
+/* 2D linear MUSL FLIP, 80,000 points sorted by cell, four a cell: seconds per point and step. */
+struct point_probe;
+struct point_probe *point_probe_make(void);
+double point_probe_run(struct point_probe *m);
+void point_probe_free(struct point_probe *m);
+
+/* ---- bench_scene.c: engines made for timing ------------------------------------------------------------- */
+
+/* Reads a scene (`text` NULL: the file `path`) with overrides and makes its engine, without output. The scene must stay
+ * where it is. */
+status bench_engine_make(struct engine *e, struct scene *s, const char *path, const char *text,
+                         const struct scene_override *override, int overrides);
+void bench_engine_free(struct engine *e, struct scene *s);
+/* Goes on to the end of step `until`; the last step is a sample. Adds up laps over calls. */
+status bench_engine_run(struct engine *e, int64_t until, struct laps *spent);
+/* Says in one line that there is no such scene here, if so. */
+bool bench_scene_exists(const char *path);
+/* Runs the scene as a process of its own (`cleave run`) and reads a number of its summary.json; nothing is left. */
+status bench_child_figure(const char *path, const struct scene_override *override, int overrides, const char *key,
+                          double *value);
+
+/* ---- the benches ---------------------------------------------------------------------------------------- */
+
+/* bench_kernels.c, bench_floor.c: repetitions 3 with `quick`. */
+status bench_kernels(bool quick);
+/* Figures asked of inputs/kalthoff_winkler.yaml at 0.5 mm, beside the probes. Adds rows to `floor` and `laps`. */
+status bench_floor(bool quick, struct bench_table *floor, struct bench_table *laps);
+/* Peak memory: before anything large is allocated, since a child process inherits its parent's high-water mark. */
+status bench_floor_memory(struct bench_table *floor);
+status bench_efficiency(bool quick);
+
+#endif

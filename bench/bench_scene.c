@@ -1,0 +1,108 @@
+/* floor 5: engines made for timing: from a file or a text, without output, in pieces; and runs as processes. */
+#define _XOPEN_SOURCE 700
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench.h"
+#include "memory.h"
+#include "output_files.h"
+#include "summary_read.h"
+
+extern char **environ;
+
+bool bench_scene_exists(const char *path)
+{
+    if (path_is_file(path)) return true;
+    printf("  %s is not here: left out (scenes are looked for from the folder in which cleave was started)\n", path);
+    return false;
+}
+
+status bench_engine_make(struct engine *e, struct scene *s, const char *path, const char *text,
+                         const struct scene_override *override, int overrides)
+{
+    *e = (struct engine){0};
+    *s = (struct scene){0};
+    if (text) TRY(scene_read_text(s, text, strlen(text), path, override, overrides));
+    else TRY(scene_read(s, path, override, overrides));
+    status made = engine_make(e, s, NULL);
+    e->quiet = true;
+    if (made != OK) bench_engine_free(e, s);
+    return made;
+}
+
+void bench_engine_free(struct engine *e, struct scene *s)
+{
+    engine_free(e);
+    scene_free(s);
+}
+
+status bench_engine_run(struct engine *e, int64_t until, struct laps *spent)
+{
+    const int64_t steps = e->steps;
+    memory_free(e->record);              /* each call of engine_run makes its own */
+    e->record = NULL;
+    e->steps = until < steps ? until : steps;
+    status ran = engine_run(e);
+    e->steps = steps;
+    for (int k = 0; spent && k < LAPS; k++) spent->spent[k] += e->laps.spent[k];
+    return ran;
+}
+
+/* ---- a process of its own ------------------------------------------------------------------------------- */
+
+/* fork() would copy a team of threads of which only one goes on: the child is started from the program's file. */
+static status spawn_and_wait(char **argv)
+{
+    pid_t child;
+    int ended;
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    int fault = posix_spawn(&child, "/proc/self/exe", &actions, NULL, argv, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (fault) return status_set(FAILED, "bench: cannot start a run as a process of its own: %s", strerror(fault));
+    while (waitpid(child, &ended, 0) < 0)
+        if (errno != EINTR) return status_set(FAILED, "bench: %s", strerror(errno));
+    if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) return status_set(FAILED, "bench: the run of %s failed", argv[2]);
+    return OK;
+}
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
+{
+    (void)info, (void)kind, (void)walk;
+    return remove(path);
+}
+
+enum { WORDS = 64, WORD_LENGTH = 128 };
+
+static status run_child(const char *path, const char *folder, const struct scene_override *override, int overrides)
+{
+    char pair[WORDS / 2][WORD_LENGTH];
+    char *argv[WORDS] = {"cleave", "run", (char *)path, "-q", "-t", "1", "-o", (char *)folder};
+    int words = 8;
+    for (int k = 0; k < overrides && words + 3 < WORDS; k++) {
+        snprintf(pair[k], WORD_LENGTH, "%s=%s", override[k].key, override[k].value);
+        argv[words++] = "-s";
+        argv[words++] = pair[k];
+    }
+    return spawn_and_wait(argv);
+}
+
+status bench_child_figure(const char *path, const struct scene_override *override, int overrides, const char *key,
+                          double *value)
+{
+    char folder[] = "cleave-bench-XXXXXX";
+    if (!mkdtemp(folder)) return file_fault(folder, errno);
+    status s = run_child(path, folder, override, overrides);
+    if (s == OK) s = summary_number(folder, key, value);
+    nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    return s;
+}
