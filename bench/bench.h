@@ -26,6 +26,7 @@ void bench_text(struct bench_table *t, const char *text);
 void bench_number(struct bench_table *t, double number);
 void bench_table_free(struct bench_table *t);
 
+status bench_folder_make(void);          /* results/bench */
 /* Writes results/bench/NAME.csv (the table named ""), NAME_<table>.csv and, with all tables, NAME.json. */
 status bench_write(const char *name, const struct bench_table *table, int tables);
 /* Draws results/bench/NAME.png and .svg; `draw` sends gnuplot its commands. */
@@ -68,18 +69,32 @@ void bench_engine_free(struct engine *e, struct scene *s);
 status bench_engine_run(struct engine *e, int64_t until, struct laps *spent);
 /* Says in one line that there is no such scene here, if so. */
 bool bench_scene_exists(const char *path);
-/* Runs the scene as a process of its own (`cleave run`) and reads a number of its summary.json; nothing is left. */
-status bench_child_figure(const char *path, const struct scene_override *override, int overrides, const char *key,
-                          double *value);
+/* Runs the scene as a process of its own (`cleave run`, one thread) and reads n numbers of its summary.json; nothing is
+ * left of it. */
+status bench_child_figures(const char *path, const struct scene_override *override, int overrides, const char *const *key,
+                           double *value, int n);
 
 /* ---- the benches ---------------------------------------------------------------------------------------- */
 
-/* bench_kernels.c, bench_floor.c: repetitions 3 with `quick`. */
+/* Every kernel instance beside the machine's limits, and the speed floor; few repetitions with `quick`. */
 status bench_kernels(bool quick);
-/* Figures asked of inputs/kalthoff_winkler.yaml at 0.5 mm, beside the probes. Adds rows to `floor` and `laps`. */
-status bench_floor(bool quick, struct bench_table *floor, struct bench_table *laps);
+
+/* bench_floor.c: what is asked of inputs/kalthoff_winkler.yaml at a spacing of 0.5 mm, beside the probes. */
+enum { FLOOR_THREADS = 2 };
+struct floor_figure { const char *name, *unit; double factor, measured, limit, asked; bool at_least; };
+enum { FLOOR_FIGURES_MAX = 8 };
+struct floor {
+    int figures;
+    struct floor_figure figure[FLOOR_FIGURES_MAX];   /* ratio = measured / limit <= asked, or >= asked; SI x factor: as printed */
+    struct bench_table laps;
+};
 /* Peak memory: before anything large is allocated, since a child process inherits its parent's high-water mark. */
-status bench_floor_memory(struct bench_table *floor);
+status bench_floor_memory(struct floor *f);
+status bench_floor_speed(struct floor *f, bool quick);
+void bench_floor_print(const struct floor *f);
+void bench_floor_table(const struct floor *f, struct bench_table *t);
+
+/* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */
 status bench_efficiency(bool quick);
 
 #endif

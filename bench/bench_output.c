@@ -91,7 +91,7 @@ static void put_json(FILE *to, const char *name, const struct bench_table *table
     fputs("\n}\n", to);
 }
 
-static status make_folder(void)
+status bench_folder_make(void)
 {
     if (mkdir("results", 0777) != 0 && errno != EEXIST) return file_fault("results", errno);
     if (mkdir(BENCH_FOLDER, 0777) != 0 && errno != EEXIST) return file_fault(BENCH_FOLDER, errno);
@@ -116,7 +116,7 @@ static status write_file(const char *path, const char *json, const struct bench_
 status bench_write(const char *name, const struct bench_table *table, int tables)
 {
     char path[256];
-    TRY(make_folder());
+    TRY(bench_folder_make());
     for (int k = 0; k < tables; k++) {
         snprintf(path, sizeof path, BENCH_FOLDER "/%s%s%s.csv", name, table[k].name[0] ? "_" : "", table[k].name);
         TRY(write_file(path, NULL, &table[k], 1));
@@ -131,7 +131,7 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
 {
     static const struct { enum picture_format format; const char *ending; } formats[] = {
         {PICTURE_PNG, "png"}, {PICTURE_SVG, "svg"}};
-    TRY(make_folder());
+    TRY(bench_folder_make());
     for (size_t k = 0; k < COUNT_OF(formats); k++) {
         char path[256];
         struct gnuplot g;

@@ -1,5 +1,4 @@
 /* floor 5: engines made for timing: from a file or a text, without output, in pieces; and runs as processes. */
-#define _XOPEN_SOURCE 700
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
@@ -96,13 +95,14 @@ static status run_child(const char *path, const char *folder, const struct scene
     return spawn_and_wait(argv);
 }
 
-status bench_child_figure(const char *path, const struct scene_override *override, int overrides, const char *key,
-                          double *value)
+status bench_child_figures(const char *path, const struct scene_override *override, int overrides, const char *const *key,
+                           double *value, int n)
 {
-    char folder[] = "cleave-bench-XXXXXX";
+    char folder[] = BENCH_FOLDER "/run-XXXXXX";
+    TRY(bench_folder_make());
     if (!mkdtemp(folder)) return file_fault(folder, errno);
     status s = run_child(path, folder, override, overrides);
-    if (s == OK) s = summary_number(folder, key, value);
+    for (int k = 0; k < n && s == OK; k++) s = summary_number(folder, key[k], &value[k]);
     nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
     return s;
 }

@@ -1,0 +1,306 @@
+/* floor 5: `cleave bench efficiency`: full peridynamics against the adaptive run, same spacing, same time step, beside
+ * Table 1 of Zeng et al. 2022: t_r = 1 - t_adaptive / t_PD. Both methods take turns; medians of the loop's time. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "gnuplot.h"
+#include "memory.h"
+
+/* What the paper says of the share of peridynamic particles. */
+struct mark { double time, share; };     /* [s], [1] */
+
+struct scene_case { const char *name, *path; double paper_t_r; int marks; struct mark mark[2]; };
+
+static const struct scene_case cases[] = {
+    {"plate_crack", "inputs/plate_crack.yaml", 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
+    {"plate_hole", "inputs/plate_hole.yaml", 0.342, 0, {{0, 0}}},
+    {"kalthoff_winkler", "inputs/kalthoff_winkler.yaml", 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
+    {"kalthoff_winkler_3d", "inputs/kalthoff_winkler_3d.yaml", NAN, 0, {{0, 0}}},
+};
+enum { CASES = COUNT_OF(cases), REPETITIONS = 3, SAMPLES = 100, WAYS = 2 };
+static const char *const way_name[WAYS] = {"pd", "adaptive"};
+
+/* One run of one method. Figures of the fracture are the same in every repetition. */
+struct run {
+    double seconds[REPETITIONS];
+    struct tip tip[TIPS_MAX];
+    int tips, longest;                   /* longest -1: none grew                        */
+    double start;                        /* first cut bond [s]                           */
+    double time[SAMPLES + 1], share[SAMPLES + 1];
+};
+
+struct result {
+    const struct scene_case *scene;
+    int64_t particles, steps;
+    double dt;
+    struct run run[WAYS];
+    double t[WAYS], t_r, tip_distance, angle_difference, start_difference;   /* [s] [s] [1] [m] [degree] [s] */
+};
+
+struct efficiency { int n; struct result *result; };
+
+/* ---- one run ---------------------------------------------------------------------------------------------- */
+
+static double pd_share(const struct engine *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
+
+static void keep_figures(struct run *r, const struct engine *e)
+{
+    const struct tip *longest = tips_longest(&e->tips);
+    memcpy(r->tip, e->tips.tip, sizeof r->tip);
+    r->tips = e->tips.n;
+    r->longest = longest ? (int)(longest - e->tips.tip) : -1;
+    r->start = e->watch.break_time;
+}
+
+/* The loop in SAMPLES pieces: each ends with a sample, and the share is noted there. */
+static status run_pieces(struct run *r, struct engine *e)
+{
+    r->share[0] = pd_share(e);
+    for (int k = 1; k <= SAMPLES; k++) {
+        TRY(bench_engine_run(e, e->steps * k / SAMPLES, NULL));
+        r->time[k] = e->t, r->share[k] = pd_share(e);
+    }
+    return OK;
+}
+
+static status run_once(struct result *x, int way, int repetition)
+{
+    char step[32];
+    snprintf(step, sizeof step, "%.17g", x->dt);
+    const struct scene_override override[] = {{"method", way_name[way]}, {"output.samples", "1"}, {"time.step", step}};
+    struct scene s;
+    struct engine e;
+    TRY(bench_engine_make(&e, &s, x->scene->path, NULL, override, COUNT_OF(override)));
+    s.samples = 0;                       /* none but the last of each piece */
+    struct run *r = &x->run[way];
+    status ran = run_pieces(r, &e);
+    r->seconds[repetition] = e.loop_seconds;
+    x->particles = e.part.n, x->steps = e.steps;
+    if (ran == OK) keep_figures(r, &e);
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+/* The smaller of both methods' own steps. */
+static status find_step(struct result *x)
+{
+    x->dt = INFINITY;
+    for (int way = 0; way < WAYS; way++) {
+        const struct scene_override override = {"method", way_name[way]};
+        struct scene s;
+        struct engine e;
+        TRY(bench_engine_make(&e, &s, x->scene->path, NULL, &override, 1));
+        x->dt = fmin(x->dt, e.dt);
+        bench_engine_free(&e, &s);
+    }
+    return OK;
+}
+
+/* ---- figures of a scene ----------------------------------------------------------------------------------- */
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(const double *value, int n)
+{
+    double sorted[REPETITIONS];
+    memcpy(sorted, value, (size_t)n * sizeof *value);
+    qsort(sorted, (size_t)n, sizeof *sorted, by_size);
+    return n % 2 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
+}
+
+static double distance(const real *a, const real *b)
+{
+    double sum = 0;
+    for (int d = 0; d < DIM_MAX; d++) sum += square(a[d] - b[d]);
+    return sqrt(sum);
+}
+
+/* The tip of the other method that started nearest to where this one did; NULL without. */
+static const struct tip *partner(const struct run *other, const struct tip *tip)
+{
+    const struct tip *best = NULL;
+    for (int k = 0; k < other->tips; k++)
+        if (other->tip[k].growth > 0 && (!best || distance(other->tip[k].origin, tip->origin) < distance(best->origin, tip->origin)))
+            best = &other->tip[k];
+    return best;
+}
+
+/* The longest crack of full peridynamics and its partner of the adaptive run. */
+static void compare_tips(struct result *x, int dim)
+{
+    const struct run *pd = &x->run[0], *adaptive = &x->run[1];
+    x->tip_distance = x->angle_difference = NAN;
+    x->start_difference = adaptive->start - pd->start;
+    if (pd->longest < 0) return;
+    const struct tip *a = &pd->tip[pd->longest], *b = partner(adaptive, a);
+    if (!b) return;
+    x->tip_distance = distance(a->place, b->place);
+    x->angle_difference = fabs(tip_angle(a, dim) - tip_angle(b, dim));
+}
+
+static status scene_measure(struct result *x, int repetitions)
+{
+    struct scene s;
+    TRY(scene_read(&s, x->scene->path, NULL, 0));
+    const int dim = s.dim;
+    scene_free(&s);
+    TRY(find_step(x));
+    for (int r = 0; r < repetitions; r++)
+        for (int k = 0; k < WAYS; k++) TRY(run_once(x, (r + k) % WAYS, r));      /* none is always first */
+    for (int way = 0; way < WAYS; way++) x->t[way] = median(x->run[way].seconds, repetitions);
+    x->t_r = 1 - x->t[1] / x->t[0];
+    compare_tips(x, dim);
+    return OK;
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------------ */
+
+static void print_header(int repetitions)
+{
+    printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
+           repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
+    printf("  %-20s %9s %6s %10s %10s %7s %7s %8s %8s %9s %14s\n", "", "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "paper", "tips", "angles",
+           "start", "PD share");
+}
+
+static void print_result(const struct result *x)
+{
+    char paper[16] = "-";
+    if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
+    printf("  %-20s %9lld %6lld %10.4f %10.4f %7.3f %7s %5.2f mm %6.2f d %6.2f us %5.1f > %4.1f %%\n", x->scene->name, (long long)x->particles,
+           (long long)x->steps, x->t[0], x->t[1], x->t_r, paper, 1e3 * x->tip_distance, x->angle_difference, 1e6 * x->start_difference,
+           100 * x->run[1].share[0], 100 * x->run[1].share[SAMPLES]);
+    fflush(stdout);
+}
+
+/* Share at a time, from the nearest note. */
+static double share_at(const struct run *r, double t)
+{
+    int best = 0;
+    for (int k = 1; k <= SAMPLES; k++)
+        if (fabs(r->time[k] - t) < fabs(r->time[best] - t)) best = k;
+    return r->share[best];
+}
+
+static void print_marks(const struct efficiency *all)
+{
+    printf("\n  share of peridynamic particles, ours beside the paper's\n");
+    for (int k = 0; k < all->n; k++)
+        for (int m = 0; m < all->result[k].scene->marks; m++) {
+            const struct mark *a = &all->result[k].scene->mark[m];
+            printf("    %-20s at %4.0f us  %5.2f %%   paper %4.1f %%\n", all->result[k].scene->name, 1e6 * a->time,
+                   100 * share_at(&all->result[k].run[1], a->time), 100 * a->share);
+        }
+    printf("  t_r below 0: the adaptive run took longer than full peridynamics\n");
+}
+
+static status write_tables(const struct efficiency *all)
+{
+    struct bench_table table[3];
+    bench_table_make(&table[0], "", "scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference");
+    bench_table_make(&table[1], "share", "scene,time,pd_share");
+    bench_table_make(&table[2], "runs", "scene,particles,steps,time_step,paper_t_r");
+    for (int k = 0; k < all->n; k++) {
+        const struct result *x = &all->result[k];
+        const double main[] = {x->t[1], x->t[0], x->t_r, x->tip_distance, x->angle_difference, x->start_difference};
+        const double run[] = {(double)x->particles, (double)x->steps, x->dt, x->scene->paper_t_r};
+        bench_text(&table[0], x->scene->name), bench_text(&table[0], "bond");
+        for (size_t c = 0; c < COUNT_OF(main); c++) bench_number(&table[0], main[c]);
+        bench_text(&table[2], x->scene->name);
+        for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[2], run[c]);
+        for (int s = 0; s <= SAMPLES; s++) {
+            bench_text(&table[1], x->scene->name);
+            bench_number(&table[1], x->run[1].time[s]), bench_number(&table[1], x->run[1].share[s]);
+        }
+    }
+    status s = bench_write("efficiency", table, COUNT_OF(table));
+    for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
+    return s;
+}
+
+/* ---- picture ------------------------------------------------------------------------------------------------- */
+
+static void draw_bars(FILE *to, const struct efficiency *all)
+{
+    bool below = false;                  /* a loss: its figure stands under the bar */
+    for (int k = 0; k < all->n; k++) below |= all->result[k].t_r < 0;
+    fputs("$bars << EOD\n", to);
+    for (int k = 0; k < all->n; k++) {
+        const struct result *x = &all->result[k];
+        fprintf(to, "\"%s\" %.6g ", x->scene->name, x->t_r);
+        if (isfinite(x->scene->paper_t_r)) fprintf(to, "%.6g\n", x->scene->paper_t_r);
+        else fputs("NaN\n", to);
+    }
+    fprintf(to, "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.58\nset tmargin at screen 0.93\n"
+                "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step'\n"
+                "set style data histograms\nset style histogram clustered gap 1.5\nset style fill solid 0.85\nset boxwidth 0.9\n"
+                "set xtics scale 0\nset ylabel 't_r'\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key outside top right horizontal\n"
+                "set offsets 0, 0, graph 0.12, graph 0.12\n"
+                "plot $bars using 2:xtic(1) lc rgb '%s' title 'here', '' using 3 lc rgb '%s' title 'Zeng et al. 2022, table 1', "
+                "'' using ($0-0.14):2:(sprintf('%%.2f', $2)) with labels offset 0, %s notitle, "
+                "'' using ($0+0.14):3:(sprintf('%%.2f', $3)) with labels offset 0, 0.7 notitle\n",
+            curve_colour[0], curve_colour[4], below ? "-0.8" : "0.7");
+}
+
+static void draw_share(FILE *to, const struct efficiency *all, int panel)
+{
+    const struct result *x = &all->result[panel];
+    const double width = 0.88 / all->n, left = 0.09 + panel * width;
+    const int marks = x->scene->marks;
+    fprintf(to, "$share%d << EOD\n", panel);
+    for (int k = 0; k <= SAMPLES; k++) fprintf(to, "%.6g %.6g\n", 1e6 * x->run[1].time[k], 100 * x->run[1].share[k]);
+    fprintf(to, "EOD\n$mark%d << EOD\n", panel);
+    for (int k = 0; k < marks; k++) fprintf(to, "%.6g %.6g\n", 1e6 * x->scene->mark[k].time, 100 * x->scene->mark[k].share);
+    fprintf(to, "EOD\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset title '%s'\n", left, left + width - 0.045, x->scene->name);
+    if (panel == 0) fputs("set ylabel 'peridynamic particles [%]'\n", to);
+    fprintf(to, "plot $share%d using 1:2 with lines lw 2.4 lc rgb '%s' title '%s'", panel, curve_colour[0], marks ? "here" : "");
+    if (marks) fprintf(to, ", $mark%d using 1:2 with points pt 7 ps 1.4 lc rgb '%s' title 'paper'", panel, curve_colour[4]);
+    fputs("\nset ylabel ''\n", to);
+}
+
+static void draw(FILE *to, const void *context)
+{
+    const struct efficiency *all = context;
+    fputs("set multiplot\n", to);
+    draw_bars(to, all);
+    fputs("set offsets 0, 0, graph 0.1, 0\nset xtics auto scale 0.5\nset style data lines\nset xrange [0:*]\nset yrange [0:*]\nset xlabel 'time [us]'\nset bmargin at screen 0.09\n"
+          "set tmargin at screen 0.46\nset key inside left top\n", to);
+    for (int k = 0; k < all->n; k++) draw_share(to, all, k);
+    fputs("unset multiplot\n", to);
+}
+
+/* ---- all ------------------------------------------------------------------------------------------------------- */
+
+static status measure_all(struct efficiency *all, bool quick)
+{
+    const int repetitions = quick ? 1 : REPETITIONS;
+    print_header(repetitions);
+    for (int k = 0; k < CASES; k++) {
+        if (!bench_scene_exists(cases[k].path)) continue;
+        struct result *x = &all->result[all->n];
+        x->scene = &cases[k];
+        TRY(scene_measure(x, repetitions));
+        print_result(x);
+        all->n++;
+    }
+    if (all->n == 0) return status_set(REFUSED, "bench efficiency: none of its scenes is here; start it where the folder inputs is");
+    print_marks(all);
+    TRY(write_tables(all));
+    return bench_draw("efficiency", 1200, 820, draw, all);
+}
+
+status bench_efficiency(bool quick)
+{
+    struct efficiency all = {.result = NEW("bench.efficiency", CASES, struct result)};
+    printf("efficiency\n");
+    bench_print_machine(team_make(0));
+    status s = measure_all(&all, quick);
+    memory_free(all.result);
+    return s;
+}

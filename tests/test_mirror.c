@@ -1,0 +1,193 @@
+/* floor 4: a quarter of a body between two mirrors against the whole body: forces, energy, surface correction, partial
+ * stresses, conversion. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+#include "cloud.h"
+#include "convert.h"
+#include "kernels.h"
+#include "loads.h"
+#include "team.h"
+
+/* Sums of the same bonds in another order. */
+#define CLOSE 1e-12
+
+/* Planes of symmetry x = 0 and y = 0. */
+struct quarter {
+    struct cloud whole, part;
+    struct loads loads;
+    int32_t *twin;                       /* particle of the whole at the place of a particle of the part */
+};
+
+static const struct boundary mirror[] = {
+    {.name = "left", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 0, .at = 0},
+    {.name = "below", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 0},
+};
+
+/* A deformation and a choice of kinds that the mirrors leave as they are. */
+static void deform(struct particles *p, real pd_radius)
+{
+    for (int64_t i = 0; i < p->n; i++) {
+        real r2 = 0;
+        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] / CLOUD_SPACING);
+        for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] * (1.01 + 0.004 * d + 1e-5 * r2);
+        p->kind[i] = r2 < square(pd_radius) ? KIND_PD : KIND_MPM;
+    }
+    particles_list(p);
+}
+
+static void find_twins(struct quarter *q)
+{
+    q->twin = NEW("test.twin", q->part.p.n, int32_t);
+    for (int64_t i = 0; i < q->part.p.n; i++) {
+        int found = 0;
+        for (int64_t j = 0; j < q->whole.p.n; j++) {
+            real r2 = 0;
+            for (int d = 0; d < q->part.p.dim; d++) r2 += square(q->whole.p.X[d][j] - q->part.p.X[d][i]);
+            if (r2 < 1e-6 * square(CLOUD_SPACING)) q->twin[i] = (int32_t)j, found++;
+        }
+        assert_int_equal(found, 1);
+    }
+}
+
+static void quarter_make(struct quarter *q, enum space space, enum surface_rule surface, real pd_radius)
+{
+    const int dim = space_dim(space), n[2] = {6, 5};
+    struct cloud_plan plan = {.space = space, .count = {n[0], n[1], 4}, .horizon = dim == 3 ? 2.015 : 3.015, .surface = surface};
+    memset(q, 0, sizeof *q);
+    cloud_make(&q->part, &plan);
+    for (int d = 0; d < 2; d++) plan.count[d] *= 2;
+    cloud_make(&q->whole, &plan);
+    for (int64_t i = 0; i < q->whole.p.n; i++)
+        for (int d = 0; d < 2; d++) {
+            int64_t at = d == 0 ? i % plan.count[0] : i / plan.count[0] % plan.count[1];
+            q->whole.p.X[d][i] = ((real)(at - n[d]) + 0.5) * CLOUD_SPACING;
+        }
+    find_twins(q);
+    deform(&q->whole.p, pd_radius);
+    assert_int_equal(loads_make(&q->loads, mirror, COUNT_OF(mirror), &q->part.p, CLOUD_SPACING, q->part.source.family.cutoff, 0), OK);
+    deform(&q->part.p, pd_radius);
+    loads_mirror(&q->loads, &q->part.p);
+    q->part.source.image = q->loads.image;
+    cloud_bonds(&q->whole);
+    cloud_bonds(&q->part);
+}
+
+static void quarter_free(struct quarter *q)
+{
+    memory_free(q->twin);
+    loads_free(&q->loads);
+    cloud_free(&q->whole);
+    cloud_free(&q->part);
+}
+
+/* A field of the part against that of the whole. */
+static real deviation(const struct quarter *q, const real *part, const real *whole)
+{
+    real *twin = NEW("test.field", q->part.p.n, real);
+    for (int64_t i = 0; i < q->part.p.n; i++) twin[i] = whole[q->twin[i]];
+    real result = cloud_difference(part, twin, q->part.p.n);
+    memory_free(twin);
+    return result;
+}
+
+static void check_forces(struct quarter *q)
+{
+    const int dim = q->part.p.dim;
+    struct cloud *both[] = {&q->part, &q->whole};
+    real energy[2];
+    for (int k = 0; k < 2; k++) {
+        bond_force_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p, &both[k]->source.limit);
+        bond_stress_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p);
+        energy[k] = bond_energy_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p);
+    }
+    assert_true(fabs(4 * energy[0] - energy[1]) <= CLOSE * energy[1] && energy[1] > 0);
+    for (int d = 0; d < dim; d++) assert_true(deviation(q, q->part.p.f[d], q->whole.p.f[d]) <= CLOSE);
+    for (int s = 0; s < dim; s++) assert_true(deviation(q, q->part.p.stress[s], q->whole.p.stress[s]) <= CLOSE);
+    for (int64_t i = 0; i < q->part.p.n; i++) {
+        int32_t a = q->part.bonds.row_of[i], b = q->whole.bonds.row_of[q->twin[i]];
+        assert_int_equal(a >= 0, b >= 0);
+        if (a >= 0) assert_true(fabs(q->part.bonds.family_volume[a] / q->whole.bonds.family_volume[b] - 1) <= 1e-6);
+    }
+}
+
+static void check_partial(const struct quarter *q, const struct partial_stress *part, const struct partial_stress *whole)
+{
+    const int size = (int)square(symmetric_count(q->part.p.dim));
+    int entries = 0;
+    for (int64_t i = 0; i < q->part.p.n; i++) {
+        int32_t a = part->index[i], b = whole->index[q->twin[i]];
+        assert_int_equal(a >= 0, b >= 0);
+        if (a < 0) continue;
+        for (int k = 0; k < size; k++)         /* shares of stress: of order one */
+            assert_true(fabs(part->matrix[a * size + k] - whole->matrix[b * size + k]) <= CLOSE);
+        entries++;
+    }
+    assert_true(entries > 0);
+}
+
+static void quarter_case(enum space space, enum surface_rule surface, real pd_radius)
+{
+    struct quarter q;
+    quarter_make(&q, space, surface, pd_radius);
+    check_forces(&q);
+    if (surface == SURFACE_VOLUME) assert_true(deviation(&q, q.part.neighbour_volume, q.whole.neighbour_volume) <= CLOSE);
+    if (q.part.p.n_of[KIND_MPM] > 0) {
+        struct partial_stress part = {0}, whole = {0};
+        partial_stress_make(&part, &q.part.p, &q.part.bonds, &q.part.source, NULL, 0);
+        partial_stress_make(&whole, &q.whole.p, &q.whole.bonds, &q.whole.source, NULL, 0);
+        check_partial(&q, &part, &whole);
+        partial_stress_free(&part);
+        partial_stress_free(&whole);
+    }
+    quarter_free(&q);
+}
+
+static void test_mirror(void **state)
+{
+    (void)state;
+    static const enum space space[] = {SPACE_PLANE_STRESS, SPACE_SOLID};
+    for (size_t k = 0; k < COUNT_OF(space); k++)
+        for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
+            quarter_case(space[k], (enum surface_rule)surface, 3.3);     /* a core of peridynamic particles */
+            quarter_case(space[k], (enum surface_rule)surface, 0.9);     /* so small that all its bonds reach over */
+            quarter_case(space[k], (enum surface_rule)surface, 99);      /* all of them */
+        }
+}
+
+/* A point beside a mirror is converted with its horizon: its images and what they touch go the same way as in the
+ * whole body, where all four twins are marked. */
+static void test_mirror_convert(void **state)
+{
+    (void)state;
+    struct quarter q;
+    struct partial_stress partial[2] = {{0}, {0}};
+    struct conversion conversion[2] = {{.first_time = NAN}, {.first_time = NAN}};
+    const struct conversion_rule rule = {.criteria = CONVERT_ON_STRESS, .stress = NAN, .alpha = 1, .block = true};
+    quarter_make(&q, SPACE_PLANE_STRESS, SURFACE_NONE, 0);
+    struct particles *part = &q.part.p, *whole = &q.whole.p;
+    int32_t marked = 3;                  /* beside the lower mirror, away from the left one */
+    part->flag[marked] |= FLAG_STRESSED;
+    for (int64_t j = 0; j < whole->n; j++)
+        if (fabs(fabs(whole->X[0][j]) - part->X[0][marked]) + fabs(fabs(whole->X[1][j]) - part->X[1][marked]) < 1e-9)
+            whole->flag[j] |= FLAG_STRESSED;
+    int64_t converted = convert(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], 1e-6);
+    assert_int_equal(convert(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], 1e-6), 4 * converted);
+    for (int64_t i = 0; i < part->n; i++) assert_int_equal(part->kind[i], whole->kind[q.twin[i]]);
+    check_forces(&q);
+    check_partial(&q, &partial[0], &partial[1]);
+    for (int k = 0; k < 2; k++) partial_stress_free(&partial[k]);
+    quarter_free(&q);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_mirror),
+        cmocka_unit_test(test_mirror_convert),
+    };
+    team_make(2);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
