@@ -240,7 +240,7 @@ static void draw_bars(FILE *to, const struct efficiency *all)
     fprintf(to, "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.58\nset tmargin at screen 0.93\n"
                 "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step'\n"
                 "set style data histograms\nset style histogram clustered gap 1.5\nset style fill solid 0.85\nset boxwidth 0.9\n"
-                "set xtics scale 0\nset ylabel 't_r'\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key outside top right horizontal\n"
+                "set xtics scale 0\nset ylabel 't_r'\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at screen 0.97,0.525 right center horizontal maxrows 1\n"
                 "set offsets 0, 0, graph 0.12, graph 0.12\n"
                 "plot $bars using 2:xtic(1) lc rgb '%s' title 'here', '' using 3 lc rgb '%s' title 'Zeng et al. 2022, table 1', "
                 "'' using ($0-0.14):2:(sprintf('%%.2f', $2)) with labels offset 0, %s notitle, "
@@ -270,7 +270,7 @@ static void draw(FILE *to, const void *context)
     fputs("set multiplot\n", to);
     draw_bars(to, all);
     fputs("set offsets 0, 0, graph 0.1, 0\nset xtics auto scale 0.5\nset style data lines\nset xrange [0:*]\nset yrange [0:*]\nset xlabel 'time [us]'\nset bmargin at screen 0.09\n"
-          "set tmargin at screen 0.46\nset key inside left top\n", to);
+          "set tmargin at screen 0.46\nset key inside left top vertical maxrows 2\n", to);
     for (int k = 0; k < all->n; k++) draw_share(to, all, k);
     fputs("unset multiplot\n", to);
 }

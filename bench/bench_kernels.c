@@ -306,8 +306,8 @@ static void draw_floor(FILE *to, const struct floor *f)
     fprintf(to, "set title 'speed floor: measured over asked (1 or less is met)'\nset xrange [0:%g]\nset yrange [0.4:%d.6]\nset xtics auto norotate\nset grid noy\n"
                 "set arrow 1 from 1, graph 0 to 1, graph 1 nohead dt (6,4) lw 1.4 lc rgb '#3d3d3d'\nset ylabel ''\n"
                 "plot $floor using (0.5*$2):3:(0.5*$2):(0.36):ytic(1) with boxxy fs solid 0.85 lc rgb '%s' notitle, "
-                "'' using 2:3:(sprintf('%%.2f', $4)) with labels left offset 0.7, 0 notitle\n",
-            1.1 * most, f->figures, curve_colour[0]);
+                "'' using (%g):3:(sprintf('%%.2f', $4)) with labels right notitle\n",
+            1.12 * most, f->figures, curve_colour[0], 1.11 * most);
 }
 
 static void draw(FILE *to, const void *context)
@@ -316,15 +316,15 @@ static void draw(FILE *to, const void *context)
     const struct bench *b = context;
     send_data(to, b);
     fputs("set multiplot\nset style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\n"
-          "set boxwidth 0.9\nset xtics nomirror scale 0\nset yrange [0:*]\n", to);
+          "set boxwidth 0.9\nset xtics nomirror scale 0\nset yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n", to);
     for (int d = 1; d <= DIM_MAX; d++) {
         const double left = 0.07 + 0.315 * (d - 1);
         set_panel(to, left, left + 0.27, 0.74, 0.94);
         fprintf(to, "set title '%dD: ns per bond'\nset arrow 1 from graph 0, first %.6g to graph 1, first %.6g nohead dt (6,4) lw 1.4 lc rgb '%s'\n"
-                    "set key inside right top\nplot $b%d using 2:xtic(1) lc rgb '%s' notitle, NaN with lines dt (6,4) lw 1.4 lc rgb '%s' title '%s'\n",
+                    "set key inside left top\nplot $b%d using 2:xtic(1) lc rgb '%s' notitle, NaN with lines dt (6,4) lw 1.4 lc rgb '%s' title '%s'\n",
                 d, 1e9 * b->limits.stencil[d], 1e9 * b->limits.stencil[d], curve_colour[1], d, curve_colour[0], curve_colour[1],
                 d == 1 ? "stencil limit" : "");
-        fprintf(to, "unset arrow 1\nset xtics rotate by -25\n%s\n", d == 1 ? "set key at screen 0.07,0.645 left bottom horizontal" : "unset key");
+        fprintf(to, "unset arrow 1\nset xtics rotate by -25\n%s\n", d == 1 ? "set key at screen 0.5,0.695 center top vertical maxrows 2" : "unset key");
         set_panel(to, left, left + 0.27, 0.40, 0.60);
         fprintf(to, "set title '%dD: ns per particle'\nplot ", d);
         for (int k = 0; k < 5; k++)

@@ -43,7 +43,10 @@ static inline real cloud_random(uint64_t *seed)
     return (real)(*seed >> 11) * 0x1p-53;
 }
 
-static inline real cloud_between(uint64_t *seed, real low, real high) { return low + (high - low) * cloud_random(seed); }
+static inline real cloud_between(uint64_t *seed, real low, real high)
+{
+    return low + (high - low) * cloud_random(seed);
+}
 
 static inline void cloud_materials(struct cloud *c, enum space space)
 {

@@ -118,7 +118,8 @@ static inline bool reference_cut(const struct crack *c, const real *a, const rea
 {
     if (dim == 1) return (a[0] < c->corner[0][0]) != (b[0] < c->corner[0][0]);
     if (dim == 2)
-        return (reference_turn(c->corner[0], c->corner[1], a) > 0) != (reference_turn(c->corner[0], c->corner[1], b) > 0) &&
+        return (reference_turn(c->corner[0], c->corner[1], a) > 0) !=
+                   (reference_turn(c->corner[0], c->corner[1], b) > 0) &&
                (reference_turn(a, b, c->corner[0]) > 0) != (reference_turn(a, b, c->corner[1]) > 0);
     for (int k = 1; k + 1 < c->n; k++)   /* a convex polygon is a fan of triangles */
         if (reference_pierced(c->corner[0], c->corner[k], c->corner[k + 1], a, b)) return true;
@@ -221,7 +222,8 @@ static inline void reference_partial(const struct particles *p, const real *w, r
                 for (int b = 0; b < p->dim; b++)
                     for (int c = 0; c < p->dim; c++)
                         for (int d = 0; d < p->dim; d++)
-                            T[a][b][c][d] += K * r * r * share * xi[a] * xi[b] * xi[c] * xi[d] / pow(r, 4) / p->volume0[q];
+                            T[a][b][c][d] +=
+                                K * r * r * share * xi[a] * xi[b] * xi[c] * xi[d] / pow(r, 4) / p->volume0[q];
         }
 }
 

@@ -1,5 +1,5 @@
-/* floor 2: plain twins of the transfer kernels, written from the physics sheet of the material point method and not from
- * the kernels: every particle meets every node, one node at a time, whole tensors, no threads. */
+/* floor 2: plain twins of the transfer kernels, written from the physics sheet of the material point method and not
+ * from the kernels: every particle meets every node, one node at a time, whole tensors, no threads. */
 #ifndef CLEAVE_REFERENCE_POINTS_H
 #define CLEAVE_REFERENCE_POINTS_H
 
@@ -29,14 +29,16 @@ static inline struct reference_shape reference_shape(enum shape shape, real r, r
     case SHAPE_LINEAR: return (struct reference_shape){reference_tent(r, h), s < 1 ? -sign / h : 0};
     case SHAPE_GIMP:
     case SHAPE_CPGIMP:
-        return (struct reference_shape){(reference_tent_integral(r + l, h) - reference_tent_integral(r - l, h)) / (2 * l),
+        return (struct reference_shape){(reference_tent_integral(r + l, h) - reference_tent_integral(r - l, h)) /
+                                            (2 * l),
                                         (reference_tent(r + l, h) - reference_tent(r - l, h)) / (2 * l)};
     case SHAPE_QUADRATIC:
         if (s < 0.5) return (struct reference_shape){0.75 - s * s, -2 * s * sign / h};
         if (s < 1.5) return (struct reference_shape){0.5 * (1.5 - s) * (1.5 - s), -(1.5 - s) * sign / h};
         return (struct reference_shape){0, 0};
     case SHAPE_CUBIC:
-        if (s < 1) return (struct reference_shape){2.0 / 3 - s * s + 0.5 * s * s * s, (-2 * s + 1.5 * s * s) * sign / h};
+        if (s < 1)
+            return (struct reference_shape){2.0 / 3 - s * s + 0.5 * s * s * s, (-2 * s + 1.5 * s * s) * sign / h};
         if (s < 2) return (struct reference_shape){pow(2 - s, 3) / 6, -0.5 * (2 - s) * (2 - s) * sign / h};
         return (struct reference_shape){0, 0};
     default: return (struct reference_shape){NAN, NAN};
@@ -124,7 +126,8 @@ static inline void reference_given(const struct reference_step *s, int64_t i, re
     for (int a = 0; a < n; a++) given[a] = sigma[a] = s->p->stress[a][i];
     if (s->partial->index && s->partial->index[i] >= 0)
         for (int a = 0; a < n; a++)
-            for (int b = 0; b < n; b++) given[a] -= s->partial->matrix[(s->partial->index[i] * n + a) * n + b] * sigma[b];
+            for (int b = 0; b < n; b++)
+                given[a] -= s->partial->matrix[(s->partial->index[i] * n + a) * n + b] * sigma[b];
     reference_tensor(given, s->p->dim, tensor);
 }
 
@@ -199,7 +202,8 @@ static inline void reference_remap(struct reference_step *s)
             s->momentum[d][I] = s->mass[I] < s->smallest_mass ? 0 : s->momentum[d][I] / s->mass[I];
 }
 
-static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][DIM_MAX], real c[DIM_MAX][DIM_MAX], int dim)
+static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][DIM_MAX], real c[DIM_MAX][DIM_MAX],
+                                     int dim)
 {
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) {

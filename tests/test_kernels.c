@@ -1,5 +1,5 @@
-/* floor 4: every bond kernel in the tables against its plain twin, and partial stresses against brute force. Transfers have
- * a file of their own. */
+/* floor 4: every bond kernel in the tables against its plain twin, and partial stresses against brute force. Transfers
+ * have a file of their own. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -64,7 +64,8 @@ static void check_force(const struct cloud *c, const struct particles *before, c
     memory_free(got);
 }
 
-/* Every bond of row i: broken if and only if stretched beyond its limit; what the row books for it. Returns how many broke. */
+/* Every bond of row i: broken if and only if stretched beyond its limit; what the row books for it. Returns how many
+ * broke. */
 static int64_t check_breaking(const struct cloud *c, const real *w, const real *after, int64_t i)
 {
     const struct particles *p = &c->p;
@@ -91,8 +92,8 @@ static int64_t check_breaking(const struct cloud *c, const real *w, const real *
     return broken;
 }
 
-/* One call: a bond that breaks in it acts with half its force, which makes breaking second order in time; a second call:
- * without it. */
+/* One call: a bond that breaks in it acts with half its force, which makes breaking second order in time; a second
+ * call: without it. */
 static void force_case(bond_force_fn *bond_force, int dim, int way)
 {
     struct cloud c;
@@ -204,8 +205,9 @@ static void test_bond_stress(void **state)
                     for (int b = a; b < dim; b++) {
                         int s = reference_symmetric(dim, a, b);
                         for (int64_t i = 0; i < c.p.n; i++)
-                            stress[i] = c.p.kind[i] == KIND_PD ? reference_row(&c.p, w, c.bonds.stiffness, i).stress[a][b]
-                                                               : 1e6 * (real)(i + s);
+                            stress[i] = c.p.kind[i] == KIND_PD
+                                            ? reference_row(&c.p, w, c.bonds.stiffness, i).stress[a][b]
+                                            : 1e6 * (real)(i + s);
                         assert_true(cloud_difference(c.p.stress[s], stress, c.p.n) <= CLOSE);
                     }
                 memory_free(stress);

@@ -55,7 +55,8 @@ static void find_twins(struct quarter *q)
 static void quarter_make(struct quarter *q, enum space space, enum surface_rule surface, real pd_radius)
 {
     const int dim = space_dim(space), n[2] = {6, 5};
-    struct cloud_plan plan = {.space = space, .count = {n[0], n[1], 4}, .horizon = dim == 3 ? 2.015 : 3.015, .surface = surface};
+    struct cloud_plan plan = {
+        .space = space, .count = {n[0], n[1], 4}, .horizon = dim == 3 ? 2.015 : 3.015, .surface = surface};
     memset(q, 0, sizeof *q);
     cloud_make(&q->part, &plan);
     for (int d = 0; d < 2; d++) plan.count[d] *= 2;
@@ -67,7 +68,9 @@ static void quarter_make(struct quarter *q, enum space space, enum surface_rule 
         }
     find_twins(q);
     deform(&q->whole.p, pd_radius);
-    assert_int_equal(loads_make(&q->loads, mirror, COUNT_OF(mirror), &q->part.p, CLOUD_SPACING, q->part.source.family.cutoff, 0), OK);
+    assert_int_equal(
+        loads_make(&q->loads, mirror, COUNT_OF(mirror), &q->part.p, CLOUD_SPACING, q->part.source.family.cutoff, 0),
+        OK);
     deform(&q->part.p, pd_radius);
     loads_mirror(&q->loads, &q->part.p);
     q->part.source.image = q->loads.image;
@@ -113,7 +116,8 @@ static void check_forces(struct quarter *q)
     }
 }
 
-static void check_partial(const struct quarter *q, const struct partial_stress *part, const struct partial_stress *whole)
+static void check_partial(const struct quarter *q, const struct partial_stress *part,
+                          const struct partial_stress *whole)
 {
     const int size = (int)square(symmetric_count(q->part.p.dim));
     int entries = 0;
@@ -133,7 +137,8 @@ static void quarter_case(enum space space, enum surface_rule surface, real pd_ra
     struct quarter q;
     quarter_make(&q, space, surface, pd_radius);
     check_forces(&q);
-    if (surface == SURFACE_VOLUME) assert_true(deviation(&q, q.part.neighbour_volume, q.whole.neighbour_volume) <= CLOSE);
+    if (surface == SURFACE_VOLUME)
+        assert_true(deviation(&q, q.part.neighbour_volume, q.whole.neighbour_volume) <= CLOSE);
     if (q.part.p.n_of[KIND_MPM] > 0) {
         struct partial_stress part = {0}, whole = {0};
         partial_stress_make(&part, &q.part.p, &q.part.bonds, &q.part.source, NULL, 0);
@@ -174,7 +179,8 @@ static void test_mirror_convert(void **state)
         if (fabs(fabs(whole->X[0][j]) - part->X[0][marked]) + fabs(fabs(whole->X[1][j]) - part->X[1][marked]) < 1e-9)
             whole->flag[j] |= FLAG_STRESSED;
     int64_t converted = convert(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], 1e-6);
-    assert_int_equal(convert(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], 1e-6), 4 * converted);
+    assert_int_equal(convert(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], 1e-6),
+                     4 * converted);
     for (int64_t i = 0; i < part->n; i++) assert_int_equal(part->kind[i], whole->kind[q.twin[i]]);
     check_forces(&q);
     check_partial(&q, &partial[0], &partial[1]);

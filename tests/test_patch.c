@@ -1,5 +1,6 @@
-/* floor 4: patch tests of each method alone: uniform strain must leave a body at rest and cost the energy of elasticity.
- * Numbers: bond-based sheet 1.2, 1.4, 2.1; material point sheet 1.2. Both methods together: test_coupling.c. */
+/* floor 4: patch tests of each method alone: uniform strain must leave a body at rest and cost the energy of
+ * elasticity. Numbers: bond-based sheet 1.2, 1.4, 2.1; material point sheet 1.2. Both methods together:
+ * test_coupling.c. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -8,7 +9,7 @@
 #include "patch.h"
 #include "team.h"
 
-#define STRAIN 1e-6          /* bonds stretch by finite geometry: relative deviations from linear theory of this order */
+#define STRAIN 1e-6 /* bonds stretch by finite geometry: relative deviations from linear theory of this order */
 
 /* Farther than `reach` spacings from every face of the lattice. */
 static bool inside(const struct particles *p, int64_t i, const int *count, real reach)
@@ -46,7 +47,8 @@ static void test_pd_rest(void **state)
             real weights = c.source.family.full / c.source.family.cell_volume;
             for (int64_t i = 0; i < c.p.n; i++) {
                 if (!inside(&c.p, i, plan.count, plan.horizon + (volume == VOLUME_RAMP))) continue;
-                for (int d = 0; d < c.p.dim; d++) at_most("inner force", c.p.f[d][i] / (c.bonds.stiffness * weights * 0.01), 1e-12);
+                for (int d = 0; d < c.p.dim; d++)
+                    at_most("inner force", c.p.f[d][i] / (c.bonds.stiffness * weights * 0.01), 1e-12);
                 checked++;
             }
             assert_true(checked > 0);
@@ -71,7 +73,8 @@ struct constants { real dilatation, c11, c12, c66; };
 
 static struct constants lattice_constants(const struct cloud_plan *plan)
 {
-    static const real dilatation[DIM_MAX][DIM_MAX] = {{STRAIN}, {0, STRAIN}, {0, 0, STRAIN}}, axial[DIM_MAX][DIM_MAX] = {{STRAIN}};
+    static const real dilatation[DIM_MAX][DIM_MAX] = {{STRAIN}, {0, STRAIN}, {0, 0, STRAIN}},
+                      axial[DIM_MAX][DIM_MAX] = {{STRAIN}};
     static const real shear[DIM_MAX][DIM_MAX] = {{0, STRAIN}, {STRAIN, 0}};
     struct constants result = {1, 1, 1, 1};
     struct cloud c;
@@ -91,7 +94,8 @@ static struct constants lattice_constants(const struct cloud_plan *plan)
     return result;
 }
 
-/* Calibrated on the lattice: dilatation exact, what remains is the lattice's anisotropy (sheet 1.2, printed to 0.1 %). */
+/* Calibrated on the lattice: dilatation exact, what remains is the lattice's anisotropy (sheet 1.2, printed to 0.1 %).
+ */
 static void test_pd_lattice(void **state)
 {
     (void)state;
@@ -126,13 +130,19 @@ static void test_pd_isotropic(void **state)
         }
 }
 
-/* Continuum constants and the volume-modified rule: energy of dilatation over the classical one (sheets 1.2, 1.4, 2.1). */
+/* Continuum constants and the volume-modified rule: energy of dilatation over the classical one (sheets 1.2, 1.4, 2.1).
+ */
 static void test_pd_calibrations(void **state)
 {
     (void)state;
-    static const struct { size_t lattice; enum volume_rule volume; enum calibration calibration; real expected; } rule[] = {
-        {0, VOLUME_WHOLE, CALIBRATION_CONTINUUM, 4.0 / 3}, {0, VOLUME_WHOLE, CALIBRATION_VMPD, 1 - 1.0 / 49},
-        {1, VOLUME_WHOLE, CALIBRATION_CONTINUUM, 1.025},   {1, VOLUME_RAMP, CALIBRATION_CONTINUUM, 1.018},
+    static const struct {
+        size_t lattice;
+        enum volume_rule volume;
+        enum calibration calibration;
+        real expected;
+    } rule[] = {
+        {0, VOLUME_WHOLE, CALIBRATION_CONTINUUM, 4.0 / 3},  {0, VOLUME_WHOLE, CALIBRATION_VMPD, 1 - 1.0 / 49},
+        {1, VOLUME_WHOLE, CALIBRATION_CONTINUUM, 1.025},    {1, VOLUME_RAMP, CALIBRATION_CONTINUUM, 1.018},
         {1, VOLUME_CUT_RAMP, CALIBRATION_CONTINUUM, 0.862}, {3, VOLUME_WHOLE, CALIBRATION_CONTINUUM, 1.099},
         {3, VOLUME_RAMP, CALIBRATION_CONTINUUM, 1.059},
     };
@@ -151,12 +161,14 @@ static void test_pd_calibrations(void **state)
 static void test_mpm_rest(void **state)
 {
     (void)state;
-    static const real from[DIM_MAX] = {4, 4, 4}, to[DIM_MAX] = {8, 8, 8};    /* two cells from the edge: the cubic's reach */
+    static const real from[DIM_MAX] = {4, 4, 4},
+                      to[DIM_MAX] = {8, 8, 8}; /* two cells from the edge: the cubic's reach */
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int shape = 0; shape < SHAPES; shape++) {
             struct patch s = {0};
             const enum space space = dim == 1 ? SPACE_LINE : dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID;
-            cloud_make(&s.c, &(struct cloud_plan){.space = space, .count = {12, 12, 12}, .horizon = 3, .optional = WITH_STRETCH});
+            cloud_make(&s.c, &(struct cloud_plan){
+                                 .space = space, .count = {12, 12, 12}, .horizon = 3, .optional = WITH_STRETCH});
             for (int64_t i = 0; i < s.c.p.n; i++) {
                 s.c.p.kind[i] = KIND_MPM;
                 for (int c = 0; c < symmetric_count(dim); c++) s.c.p.stress[c][i] = 1e6 * (c + 1);
@@ -166,21 +178,23 @@ static void test_mpm_rest(void **state)
             patch_map(&s, (enum shape)shape);
             real face = 1e6 * pow(2 * CLOUD_SPACING, dim - 1) * s.c.source.family.section;
             at_most("inner nodal force", patch_residual(&s, from, to) / face, 1e-12);     /* of about six stresses */
-            assert_true(patch_residual(&s, (real[]){-9, -9, -9}, (real[]){99, 99, 99}) > 0.4 * face);  /* the edge is felt */
+            assert_true(patch_residual(&s, (real[]){-9, -9, -9}, (real[]){99, 99, 99}) >
+                        0.4 * face); /* the edge is felt */
             patch_free(&s);
         }
 }
 
-/* At lambda = 3 a point is wider than a cell: the sheet lets the pieces of cpGIMP run on (0.48), here the width stops at a
- * cell (0.75); neither is exact.
- * Points stretched by lambda under uniform stress: the worst residual of an inner node over sigma A, for the worst
- * position of the points in their cells. 1D, two points per cell before the stretch. Sheet 1.2, printed to two digits. */
+/* At lambda = 3 a point is wider than a cell: the sheet lets the pieces of cpGIMP run on (0.48), here the width stops
+ * at a cell (0.75); neither is exact. Points stretched by lambda under uniform stress: the worst residual of an inner
+ * node over sigma A, for the worst position of the points in their cells. 1D, two points per cell before the stretch.
+ * Sheet 1.2, printed to two digits. */
 static real crossing_residual(enum shape shape, real lambda)
 {
     real worst = 0;
     for (int k = 0; k < 500; k++) {
         struct patch s = {0};
-        cloud_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {30}, .horizon = 3, .optional = WITH_STRETCH});
+        cloud_make(&s.c,
+                   &(struct cloud_plan){.space = SPACE_LINE, .count = {30}, .horizon = 3, .optional = WITH_STRETCH});
         struct particles *p = &s.c.p;
         for (int64_t i = 0; i < p->n; i++) {
             p->kind[i] = KIND_MPM;
@@ -208,7 +222,8 @@ static void test_mpm_crossing(void **state)
         is_near("linear", crossing_residual(SHAPE_LINEAR, row[k].lambda), row[k].linear, 0.02 * row[k].linear + 1e-13);
         is_near("uGIMP", crossing_residual(SHAPE_GIMP, row[k].lambda), row[k].gimp, 0.02 * row[k].gimp + 1e-13);
         is_near("cpGIMP", crossing_residual(SHAPE_CPGIMP, row[k].lambda), row[k].cpgimp, 0.02 * row[k].cpgimp + 1e-13);
-        is_near("quadratic", crossing_residual(SHAPE_QUADRATIC, row[k].lambda), row[k].quadratic, 0.02 * row[k].quadratic + 1e-13);
+        is_near("quadratic", crossing_residual(SHAPE_QUADRATIC, row[k].lambda), row[k].quadratic,
+                0.02 * row[k].quadratic + 1e-13);
     }
 }
 
