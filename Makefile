@@ -6,7 +6,7 @@ PREFIX   ?= /usr/local
 BUILD    ?= build
 THREADS  ?= 2
 VERSION  := 0.1.0
-WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas
+WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas -Wno-psabi
 LIBRARIES := hdf5 hwloc yaml-0.1
 
 CPPFLAGS += -Iinclude -Ikernels -Isrc -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"' -DCLEAVE_FLAGS='"$(OPTIMISE) -march=$(ARCH)"'
@@ -27,15 +27,18 @@ LONG     := $(sort $(wildcard tests/long_*.sh))
 
 all: $(BUILD)/cleave
 
+# Short lines unless V=1.
+Q = $(if $(V),,@echo "  $(if $(filter %.o,$@),CC,LD)  $@";)
+
 $(BUILD)/cleave: $(OBJECTS)
-	$(CC) $(CFLAGS) -o $@ $^ $(LIBS)
+	$(Q)$(CC) $(CFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) $(LIBFLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(LIBFLAGS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(ENGINE)
-	$(CC) $(CFLAGS) -o $@ $^ -lcmocka $(LIBS)
+	$(Q)$(CC) $(CFLAGS) -o $@ $^ -lcmocka $(LIBS)
 
 # The main job: installs what is missing, builds, breaks a steel plate, draws it.
 run: packages

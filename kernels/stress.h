@@ -25,19 +25,36 @@ static ALWAYS_INLINE void stress_rotate_2d(real *s, real w)
     s[0] = mean + turned, s[1] = mean - turned;
 }
 
-/* s + W s - s W with W_xy, W_yz, W_zx. */
+/* a b, 3x3 */
+static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], real c[3][3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+}
+
+/* s + W s - s W with W_xy, W_yz, W_zx; beyond SPIN_SMALL R s R^T with R = exp W (Rodrigues). */
 static ALWAYS_INLINE void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
 {
     const real S[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
     const real W[3][3] = {{0, wxy, -wzx}, {-wxy, 0, wyz}, {wzx, -wyz, 0}};
-    real change[3][3];
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) {
-            change[a][b] = 0;
-            for (int k = 0; k < 3; k++) change[a][b] += W[a][k] * S[k][b] - S[a][k] * W[k][b];
-        }
-    s[0] += change[0][0], s[1] += change[1][1], s[2] += change[2][2];
-    s[3] += change[0][1], s[4] += change[1][2], s[5] += change[2][0];
+    const real angle2 = wxy * wxy + wyz * wyz + wzx * wzx;
+    real WS[3][3], turned[3][3];
+    product_3d(W, S, WS);
+    if (angle2 <= SPIN_SMALL * SPIN_SMALL) {     /* W S - S W = W S + (W S)^T */
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) turned[a][b] = S[a][b] + WS[a][b] + WS[b][a];
+    } else {
+        const real angle = sqrt(angle2), first = sin(angle) / angle, second = (1 - cos(angle)) / angle2;
+        real WW[3][3], R[3][3], RS[3][3];
+        product_3d(W, W, WW);
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) R[a][b] = (a == b) + first * W[a][b] + second * WW[a][b];
+        product_3d(R, S, RS);
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) turned[a][b] = RS[a][0] * R[b][0] + RS[a][1] * R[b][1] + RS[a][2] * R[b][2];
+    }
+    s[0] = turned[0][0], s[1] = turned[1][1], s[2] = turned[2][2];
+    s[3] = turned[0][1], s[4] = turned[1][2], s[5] = turned[2][0];
 }
 
 /* Updates s by the velocity gradient L[a dim + b] = dv_a/dx_b; returns the trace of the strain increment. */

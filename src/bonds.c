@@ -117,17 +117,19 @@ static void row_make(struct row *row, const struct bond_source *s, const struct 
     row->n = kept;
 }
 
-/* What load had broken in the rows before stays broken. Both rows list their neighbours in ascending order of
- * distance in index inside a slot order of their own, so a search is needed; broken rows are few. */
-static void row_inherit(struct row *row, const struct bonds *old, int64_t old_row)
+/* What load had broken in the rows before stays broken. */
+static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t group = old_row / LANES;
     int lane = (int)(old_row % LANES);
     for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
         int64_t q = bond_index(old, group, k, lane);
         if (old->w[q] != 0 || old->inverse_length[q] == 0) continue;
-        for (int m = 0; m < row->n; m++)
-            if (row->nbr[m] == old->nbr[q]) row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
+        for (int m = 0; m < row->n; m++) {
+            if (row->nbr[m] != old->nbr[q] || row->w[m] == 0) continue;
+            row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
+            row->cut_volume += p->volume0[row->nbr[m]];
+        }
     }
 }
 
@@ -282,7 +284,7 @@ static void rows_pass(struct bonds *b, const struct bonds *old, const struct par
             for (int l = 0; l < rows; l++) {
                 int32_t i = b->particle[g * LANES + l];
                 row_make(&room.row[l], s, p, pairs, i, most);
-                if (!count && old && i < p->n && old->row_of[i] >= 0) row_inherit(&room.row[l], old, old->row_of[i]);
+                if (!count && old && i < p->n && old->row_of[i] >= 0) row_inherit(&room.row[l], p, old, old->row_of[i]);
             }
             bool by_offset;
             int slots = group_slots(&room, b->particle + g * LANES, rows, &by_offset);
@@ -300,7 +302,6 @@ static void rows_carry(struct bonds *b, const struct bonds *old)
         if (before < 0) continue;
         b->fracture_energy[r] = old->fracture_energy[before];
         b->broken[r] = old->broken[before];
-        if (old->broken[before] > 0) b->broken_volume[r] = old->broken_volume[before];
     }
 }
 

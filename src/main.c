@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "output.h"
 #include "scene.h"
 
 struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
@@ -37,6 +38,7 @@ status command_help(int argc, char **argv)
 static status call(int argc, char **argv)
 {
     if (argc < 2) return usage(REFUSED);
+    output_start();
     if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) return usage(OK);
     if (!strcmp(argv[1], "--version")) argv[1] = "info";
     for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)

@@ -89,15 +89,28 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     }
 }
 
+static real half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
+}
+
+/* Particles that may end a bond through the cell of point i: writes at most `room`, returns how many there are. */
+static int ends_near(const struct particles *p, const struct bond_source *s, int64_t i, int32_t *found, int room)
+{
+    real X[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    return cells_near(s->cells, p, X, s->family.cutoff + half_edge(p, s, i) * sqrt(p->dim), -1, found, room);
+}
+
 /* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). Returns false if no bond crosses. */
 static bool partial_matrix(real *M, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            int64_t i, int32_t *found, int room)
 {
     const int dim = p->dim, n = symmetric_count(dim);
-    real X[DIM_MAX], T[SYM_MAX * SYM_MAX] = {0}, compliance[SYM_MAX * SYM_MAX];
+    real X[DIM_MAX], T[SYM_MAX * SYM_MAX] = {0}, compliance[SYM_MAX * SYM_MAX], half = half_edge(p, s, i);
     for (int d = 0; d < dim; d++) X[d] = p->X[d][i];
-    real half = 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / dim);
-    int near = cells_near(s->cells, p, X, s->family.cutoff + half * sqrt(dim), -1, found, room);
+    int near = ends_near(p, s, i, found, room);
+    assert(near <= room);
     for (int k = 0; k < near; k++)
         if (p->kind[found[k]] == KIND_MPM && p->body[found[k]] == p->body[i]) tensor_add_row(T, p, b, s, found[k], X, half);
     material_compliance(&s->material[p->material[i]], dim, compliance);
@@ -166,10 +179,13 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         int near = mark_near(p, source, changed ? changed[k] : p->list[KIND_PD][k], radius, NULL, 0, NULL);
         if (near > room) room = near;
     }
-    room *= 2;                                   /* points round a marked one may be a little denser */
     uint8_t *dirty = NEW("partial.dirty", p->n, uint8_t);
     int32_t *list = NEW("partial.list", p->n, int32_t);
     int64_t dirties = mark_dirty(p, source, radius, changed, n, room, dirty, list);
+    for (int64_t k = 0; k < dirties; k++) {      /* a particle in a corner sees an eighth of what the points near it see */
+        int near = ends_near(p, source, list[k], NULL, 0);
+        if (near > room) room = near;
+    }
     real *M = NEW("partial.new", dirties * size, real);
 #pragma omp parallel
     {

@@ -69,7 +69,6 @@ status command_run(int argc, char **argv)
 {
     struct run_arguments a;
     TRY(arguments_read(&a, argc, argv, "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume] [-q]"));
-    output_start();
     int threads = team_make(a.threads);
     struct scene s = {0};
     struct engine e = {0};
@@ -80,10 +79,7 @@ status command_run(int argc, char **argv)
         result = output_open(&out, folder, s.text, a.resume, s.compress);
         free(folder);
     }
-    if (result == OK) {
-        listen_to_signals();
-        result = output_text(&out, "scene.yaml", s.text, strlen(s.text));
-    }
+    listen_to_signals();
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
     engine_free(&e);
     output_close(&out);
