@@ -20,13 +20,12 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
     const int64_t I = w->node;
     w->given = 0;
     if (g->mass[I] < smallest_mass) return;
-    /* velocity = P/m + dv, so P is at hand although momentum is cleared */
-    const real before = g->velocity[d][I] - g->force[d][I];
-    real given = g->mass[I] * (w->change - g->force[d][I]);
-    if (transfer == TRANSFER_APIC) given = g->mass[I] * (w->velocity - before - g->force[d][I]);
+    /* FLIP: points take the change only. APIC: they take the velocity, and with it what replaces P/m = velocity - dv. */
+    const real before = transfer == TRANSFER_APIC ? g->velocity[d][I] - g->force[d][I] : w->velocity - w->change;
+    const real given = g->mass[I] * (w->velocity - before - g->force[d][I]);
     w->given = given;
     impulse[d] += given;
-    *work += given * w->velocity;
+    *work += given * 0.5 * (before + w->velocity);
     g->force[d][I] = w->change;
     g->velocity[d][I] = w->velocity;
 }
