@@ -5,7 +5,10 @@
 #include "bench.h"
 #include "commands.h"
 
-struct bench { const char *name; status (*call)(bool quick); };
+struct bench {
+    const char *name;
+    status (*call)(bool quick);
+};
 
 /* In the order in which they run: kernels first, while the process is still small. */
 static const struct bench benches[] = {{"kernels", bench_kernels}, {"efficiency", bench_efficiency}};
@@ -20,7 +23,8 @@ static status mark(const char *word, bool *asked)
             return OK;
         }
     for (size_t k = 0; k < COUNT_OF(later); k++)
-        if (!strcmp(word, later[k])) return status_set(REFUSED, "bench %s: not in this version; kernels and efficiency are", word);
+        if (!strcmp(word, later[k]))
+            return status_set(REFUSED, "bench %s: not in this version; kernels and efficiency are", word);
     return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [--quick]", word);
 }
 

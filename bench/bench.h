@@ -10,14 +10,17 @@
 /* ---- bench_output.c: tables --------------------------------------------------------------------------- */
 
 /* A text, or a number where `text` is empty. */
-struct bench_cell { char text[NAME_MAX_LENGTH]; double number; };
+struct bench_cell {
+    char text[NAME_MAX_LENGTH];
+    double number;
+};
 
 struct bench_table {
-    const char *name;                    /* "" for the main table of a bench                          */
-    const char *header;                  /* names of the columns, separated by commas                 */
+    const char *name;   /* "" for the main table of a bench                          */
+    const char *header; /* names of the columns, separated by commas                 */
     int columns;
     int64_t cells, room;
-    struct bench_cell *cell;             /* row by row                                                */
+    struct bench_cell *cell; /* row by row                                                */
 };
 
 void bench_table_make(struct bench_table *t, const char *name, const char *header);
@@ -26,11 +29,12 @@ void bench_text(struct bench_table *t, const char *text);
 void bench_number(struct bench_table *t, double number);
 void bench_table_free(struct bench_table *t);
 
-status bench_folder_make(void);          /* results/bench */
+status bench_folder_make(void); /* results/bench */
 /* Writes results/bench/NAME.csv (the table named ""), NAME_<table>.csv and, with all tables, NAME.json. */
 status bench_write(const char *name, const struct bench_table *table, int tables);
 /* Draws results/bench/NAME.png and .svg; `draw` sends gnuplot its commands. */
-status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context), const void *context);
+status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
+                  const void *context);
 /* One line about the processor, and one under it about the program. */
 void bench_print_machine(int threads);
 
@@ -71,8 +75,8 @@ status bench_engine_run(struct engine *e, int64_t until, struct laps *spent);
 bool bench_scene_exists(const char *path);
 /* Runs the scene as a process of its own (`cleave run`, one thread) and reads n numbers of its summary.json; nothing is
  * left of it. */
-status bench_child_figures(const char *path, const struct scene_override *override, int overrides, const char *const *key,
-                           double *value, int n);
+status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
+                           const char *const *key, double *value, int n);
 
 /* ---- the benches ---------------------------------------------------------------------------------------- */
 
@@ -81,11 +85,16 @@ status bench_kernels(bool quick);
 
 /* bench_floor.c: what is asked of inputs/kalthoff_winkler.yaml at a spacing of 0.5 mm, beside the probes. */
 enum { FLOOR_THREADS = 2 };
-struct floor_figure { const char *name, *unit; double factor, measured, limit, asked; bool at_least; };
+struct floor_figure {
+    const char *name, *unit;
+    double factor, measured, limit, asked;
+    bool at_least;
+};
 enum { FLOOR_FIGURES_MAX = 8 };
 struct floor {
     int figures;
-    struct floor_figure figure[FLOOR_FIGURES_MAX];   /* ratio = measured / limit <= asked, or >= asked; SI x factor: as printed */
+    struct floor_figure
+        figure[FLOOR_FIGURES_MAX]; /* ratio = measured / limit <= asked, or >= asked; SI x factor: as printed */
     struct bench_table laps;
 };
 /* Peak memory: before anything large is allocated, since a child process inherits its parent's high-water mark. */

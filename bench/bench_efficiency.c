@@ -9,9 +9,16 @@
 #include "memory.h"
 
 /* What the paper says of the share of peridynamic particles. */
-struct mark { double time, share; };     /* [s], [1] */
+struct mark {
+    double time, share;
+}; /* [s], [1] */
 
-struct scene_case { const char *name, *path; double paper_t_r; int marks; struct mark mark[2]; };
+struct scene_case {
+    const char *name, *path;
+    double paper_t_r;
+    int marks;
+    struct mark mark[2];
+};
 
 static const struct scene_case cases[] = {
     {"plate_crack", "inputs/plate_crack.yaml", 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
@@ -26,8 +33,8 @@ static const char *const way_name[WAYS] = {"pd", "adaptive"};
 struct run {
     double seconds[REPETITIONS];
     struct tip tip[TIPS_MAX];
-    int tips, longest;                   /* longest -1: none grew                        */
-    double start;                        /* first cut bond [s]                           */
+    int tips, longest; /* longest -1: none grew                        */
+    double start;      /* first cut bond [s]                           */
     double time[SAMPLES + 1], share[SAMPLES + 1];
 };
 
@@ -36,10 +43,13 @@ struct result {
     int64_t particles, steps;
     double dt;
     struct run run[WAYS];
-    double t[WAYS], t_r, tip_distance, angle_difference, start_difference;   /* [s] [s] [1] [m] [degree] [s] */
+    double t[WAYS], t_r, tip_distance, angle_difference, start_difference; /* [s] [s] [1] [m] [degree] [s] */
 };
 
-struct efficiency { int n; struct result *result; };
+struct efficiency {
+    int n;
+    struct result *result;
+};
 
 /* ---- one run ---------------------------------------------------------------------------------------------- */
 
@@ -73,7 +83,7 @@ static status run_once(struct result *x, int way, int repetition)
     struct scene s;
     struct engine e;
     TRY(bench_engine_make(&e, &s, x->scene->path, NULL, override, COUNT_OF(override)));
-    s.samples = 0;                       /* none but the last of each piece */
+    s.samples = 0; /* none but the last of each piece */
     struct run *r = &x->run[way];
     status ran = run_pieces(r, &e);
     r->seconds[repetition] = e.loop_seconds;
@@ -126,7 +136,8 @@ static const struct tip *partner(const struct run *other, const struct tip *tip)
 {
     const struct tip *best = NULL;
     for (int k = 0; k < other->tips; k++)
-        if (other->tip[k].growth > 0 && (!best || distance(other->tip[k].origin, tip->origin) < distance(best->origin, tip->origin)))
+        if (other->tip[k].growth > 0 &&
+            (!best || distance(other->tip[k].origin, tip->origin) < distance(best->origin, tip->origin)))
             best = &other->tip[k];
     return best;
 }
@@ -152,7 +163,7 @@ static status scene_measure(struct result *x, int repetitions)
     scene_free(&s);
     TRY(find_step(x));
     for (int r = 0; r < repetitions; r++)
-        for (int k = 0; k < WAYS; k++) TRY(run_once(x, (r + k) % WAYS, r));      /* none is always first */
+        for (int k = 0; k < WAYS; k++) TRY(run_once(x, (r + k) % WAYS, r)); /* none is always first */
     for (int way = 0; way < WAYS; way++) x->t[way] = median(x->run[way].seconds, repetitions);
     x->t_r = 1 - x->t[1] / x->t[0];
     compare_tips(x, dim);
@@ -165,17 +176,17 @@ static void print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
-    printf("  %-20s %9s %6s %10s %10s %7s %7s %8s %8s %9s %14s\n", "", "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "paper", "tips", "angles",
-           "start", "PD share");
+    printf("  %-20s %9s %6s %10s %10s %7s %7s %8s %8s %9s %14s\n", "", "particles", "steps", "t_PD [s]", "t_ad [s]",
+           "t_r", "paper", "tips", "angles", "start", "PD share");
 }
 
 static void print_result(const struct result *x)
 {
     char paper[16] = "-";
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
-    printf("  %-20s %9lld %6lld %10.4f %10.4f %7.3f %7s %5.2f mm %6.2f d %6.2f us %5.1f > %4.1f %%\n", x->scene->name, (long long)x->particles,
-           (long long)x->steps, x->t[0], x->t[1], x->t_r, paper, 1e3 * x->tip_distance, x->angle_difference, 1e6 * x->start_difference,
-           100 * x->run[1].share[0], 100 * x->run[1].share[SAMPLES]);
+    printf("  %-20s %9lld %6lld %10.4f %10.4f %7.3f %7s %5.2f mm %6.2f d %6.2f us %5.1f > %4.1f %%\n", x->scene->name,
+           (long long)x->particles, (long long)x->steps, x->t[0], x->t[1], x->t_r, paper, 1e3 * x->tip_distance,
+           x->angle_difference, 1e6 * x->start_difference, 100 * x->run[1].share[0], 100 * x->run[1].share[SAMPLES]);
     fflush(stdout);
 }
 
@@ -203,7 +214,8 @@ static void print_marks(const struct efficiency *all)
 static status write_tables(const struct efficiency *all)
 {
     struct bench_table table[3];
-    bench_table_make(&table[0], "", "scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference");
+    bench_table_make(&table[0], "",
+                     "scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference");
     bench_table_make(&table[1], "share", "scene,time,pd_share");
     bench_table_make(&table[2], "runs", "scene,particles,steps,time_step,paper_t_r");
     for (int k = 0; k < all->n; k++) {
@@ -228,23 +240,30 @@ static status write_tables(const struct efficiency *all)
 
 static void draw_bars(FILE *to, const struct efficiency *all)
 {
-    bool below = false;                  /* a loss: its figure stands under the bar */
+    bool below = false; /* a loss: its figure stands under the bar */
     for (int k = 0; k < all->n; k++) below |= all->result[k].t_r < 0;
     fputs("$bars << EOD\n", to);
     for (int k = 0; k < all->n; k++) {
         const struct result *x = &all->result[k];
         fprintf(to, "\"%s\" %.6g ", x->scene->name, x->t_r);
-        if (isfinite(x->scene->paper_t_r)) fprintf(to, "%.6g\n", x->scene->paper_t_r);
-        else fputs("NaN\n", to);
+        if (isfinite(x->scene->paper_t_r))
+            fprintf(to, "%.6g\n", x->scene->paper_t_r);
+        else
+            fputs("NaN\n", to);
     }
-    fprintf(to, "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.58\nset tmargin at screen 0.93\n"
-                "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step'\n"
-                "set style data histograms\nset style histogram clustered gap 1.5\nset style fill solid 0.85\nset boxwidth 0.9\n"
-                "set xtics scale 0\nset ylabel 't_r'\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at screen 0.97,0.525 right center horizontal maxrows 1\n"
-                "set offsets 0, 0, graph 0.12, graph 0.12\n"
-                "plot $bars using 2:xtic(1) lc rgb '%s' title 'here', '' using 3 lc rgb '%s' title 'Zeng et al. 2022, table 1', "
-                "'' using ($0-0.14):2:(sprintf('%%.2f', $2)) with labels offset 0, %s notitle, "
-                "'' using ($0+0.14):3:(sprintf('%%.2f', $3)) with labels offset 0, 0.7 notitle\n",
+    fprintf(to,
+            "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.58\nset tmargin at "
+            "screen 0.93\n"
+            "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step'\n"
+            "set style data histograms\nset style histogram clustered gap 1.5\nset style fill solid 0.85\nset boxwidth "
+            "0.9\n"
+            "set xtics scale 0\nset ylabel 't_r'\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at screen 0.97,0.525 "
+            "right center horizontal maxrows 1\n"
+            "set offsets 0, 0, graph 0.12, graph 0.12\n"
+            "plot $bars using 2:xtic(1) lc rgb '%s' title 'here', '' using 3 lc rgb '%s' title 'Zeng et al. 2022, "
+            "table 1', "
+            "'' using ($0-0.14):2:(sprintf('%%.2f', $2)) with labels offset 0, %s notitle, "
+            "'' using ($0+0.14):3:(sprintf('%%.2f', $3)) with labels offset 0, 0.7 notitle\n",
             curve_colour[0], curve_colour[4], below ? "-0.8" : "0.7");
 }
 
@@ -256,11 +275,15 @@ static void draw_share(FILE *to, const struct efficiency *all, int panel)
     fprintf(to, "$share%d << EOD\n", panel);
     for (int k = 0; k <= SAMPLES; k++) fprintf(to, "%.6g %.6g\n", 1e6 * x->run[1].time[k], 100 * x->run[1].share[k]);
     fprintf(to, "EOD\n$mark%d << EOD\n", panel);
-    for (int k = 0; k < marks; k++) fprintf(to, "%.6g %.6g\n", 1e6 * x->scene->mark[k].time, 100 * x->scene->mark[k].share);
-    fprintf(to, "EOD\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset title '%s'\n", left, left + width - 0.045, x->scene->name);
+    for (int k = 0; k < marks; k++)
+        fprintf(to, "%.6g %.6g\n", 1e6 * x->scene->mark[k].time, 100 * x->scene->mark[k].share);
+    fprintf(to, "EOD\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset title '%s'\n", left,
+            left + width - 0.045, x->scene->name);
     if (panel == 0) fputs("set ylabel 'peridynamic particles [%]'\n", to);
-    fprintf(to, "plot $share%d using 1:2 with lines lw 2.4 lc rgb '%s' title '%s'", panel, curve_colour[0], marks ? "here" : "");
-    if (marks) fprintf(to, ", $mark%d using 1:2 with points pt 7 ps 1.4 lc rgb '%s' title 'paper'", panel, curve_colour[4]);
+    fprintf(to, "plot $share%d using 1:2 with lines lw 2.4 lc rgb '%s' title '%s'", panel, curve_colour[0],
+            marks ? "here" : "");
+    if (marks)
+        fprintf(to, ", $mark%d using 1:2 with points pt 7 ps 1.4 lc rgb '%s' title 'paper'", panel, curve_colour[4]);
     fputs("\nset ylabel ''\n", to);
 }
 
@@ -269,8 +292,10 @@ static void draw(FILE *to, const void *context)
     const struct efficiency *all = context;
     fputs("set multiplot\n", to);
     draw_bars(to, all);
-    fputs("set offsets 0, 0, graph 0.1, 0\nset xtics auto scale 0.5\nset style data lines\nset xrange [0:*]\nset yrange [0:*]\nset xlabel 'time [us]'\nset bmargin at screen 0.09\n"
-          "set tmargin at screen 0.46\nset key inside left top vertical maxrows 2\n", to);
+    fputs("set offsets 0, 0, graph 0.1, 0\nset xtics auto scale 0.5\nset style data lines\nset xrange [0:*]\nset "
+          "yrange [0:*]\nset xlabel 'time [us]'\nset bmargin at screen 0.09\n"
+          "set tmargin at screen 0.46\nset key inside left top vertical maxrows 2\n",
+          to);
     for (int k = 0; k < all->n; k++) draw_share(to, all, k);
     fputs("unset multiplot\n", to);
 }
@@ -289,7 +314,8 @@ static status measure_all(struct efficiency *all, bool quick)
         print_result(x);
         all->n++;
     }
-    if (all->n == 0) return status_set(REFUSED, "bench efficiency: none of its scenes is here; start it where the folder inputs is");
+    if (all->n == 0)
+        return status_set(REFUSED, "bench efficiency: none of its scenes is here; start it where the folder inputs is");
     print_marks(all);
     TRY(write_tables(all));
     return bench_draw("efficiency", 1200, 820, draw, all);

@@ -10,24 +10,36 @@
 
 enum { STEPS_WARM = 4, STEPS_TIMED = 40 };
 
-/* A way to run the scene. `sampled`: as often as the scene asks, else one sample in STEPS_TIMED. */
-struct way { const char *name; bool sampled; int overrides; struct scene_override override[4]; };
+/* A way to run the scene at 0.5 mm. `sampled`: as often as the scene asks, else one sample in STEPS_TIMED. */
+struct way {
+    const char *name;
+    bool sampled;
+    int overrides;
+    struct scene_override override[4];
+};
+
+#define SPACING {"particles.spacing", "0.5mm"}
+#define POINTS(SHAPE) SPACING, {"method", "mpm"}, {"mpm.shape", SHAPE}, {"mpm.transfer", "flip"}
 
 enum { WAY_PD, WAY_POINTS, WAY_GIMP, WAY_ADAPTIVE, WAY_PD_SAMPLED, WAY_ADAPTIVE_SAMPLED, WAYS };
 static const struct way ways[WAYS] = {
-    [WAY_PD] = {"pd", false, 2, {{"particles.spacing", "0.5mm"}, {"method", "pd"}}},
-    [WAY_POINTS] = {"mpm linear flip", false, 4, {{"particles.spacing", "0.5mm"}, {"method", "mpm"}, {"mpm.shape", "linear"}, {"mpm.transfer", "flip"}}},
-    [WAY_GIMP] = {"mpm gimp flip", false, 4, {{"particles.spacing", "0.5mm"}, {"method", "mpm"}, {"mpm.shape", "gimp"}, {"mpm.transfer", "flip"}}},
-    [WAY_ADAPTIVE] = {"adaptive", false, 2, {{"particles.spacing", "0.5mm"}, {"method", "adaptive"}}},
-    [WAY_PD_SAMPLED] = {"pd sampled as the scene asks", true, 2, {{"particles.spacing", "0.5mm"}, {"method", "pd"}}},
-    [WAY_ADAPTIVE_SAMPLED] = {"adaptive sampled as the scene asks", true, 2, {{"particles.spacing", "0.5mm"}, {"method", "adaptive"}}},
+    [WAY_PD] = {"pd", false, 2, {SPACING, {"method", "pd"}}},
+    [WAY_POINTS] = {"mpm linear flip", false, 4, {POINTS("linear")}},
+    [WAY_GIMP] = {"mpm gimp flip", false, 4, {POINTS("gimp")}},
+    [WAY_ADAPTIVE] = {"adaptive", false, 2, {SPACING, {"method", "adaptive"}}},
+    [WAY_PD_SAMPLED] = {"pd sampled as the scene asks", true, 2, {SPACING, {"method", "pd"}}},
+    [WAY_ADAPTIVE_SAMPLED] = {"adaptive sampled as the scene asks", true, 2, {SPACING, {"method", "adaptive"}}},
 };
 
 /* The fastest repetition of a way, by threads - 1. */
-struct timing { double seconds[FLOOR_THREADS]; struct laps laps[FLOOR_THREADS]; double particles, bonds; };
+struct timing {
+    double seconds[FLOOR_THREADS];
+    struct laps laps[FLOOR_THREADS];
+    double particles, bonds;
+};
 
 struct floor_bench {
-    int threads;                         /* 1 or 2 */
+    int threads; /* 1 or 2 */
     struct timing way[WAYS];
     double stencil[FLOOR_THREADS], points[FLOOR_THREADS];
 };
@@ -57,14 +69,14 @@ static status time_way(struct floor_bench *b, int which)
     struct engine e;
     team_make(1);
     TRY(bench_engine_make(&e, &s, SCENE, NULL, w->override, w->overrides));
-    const real rate = w->sampled ? (real)s.samples / (real)e.steps : 0;      /* samples a step */
+    const real rate = w->sampled ? (real)s.samples / (real)e.steps : 0; /* samples a step */
     s.samples = 0;
     t->particles = (double)e.part.n, t->bonds = (double)e.bonds.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int threads = 1; threads <= b->threads && ran == OK; threads++) {
         struct laps spent = {0};
         team_make(threads);
-        s.samples = (int)(rate * (real)(e.step + STEPS_TIMED));             /* of the piece, as the engine counts them */
+        s.samples = (int)(rate * (real)(e.step + STEPS_TIMED)); /* of the piece, as the engine counts them */
         ran = bench_engine_run(&e, e.step + STEPS_TIMED, &spent);
         if (ran == OK) keep_fastest(t, threads, &spent);
     }
@@ -99,7 +111,8 @@ static status time_everything(struct floor_bench *b, int repetitions)
     return s;
 }
 
-/* ---- figures ------------------------------------------------------------------------------------------------------ */
+/* ---- figures ------------------------------------------------------------------------------------------------------
+ */
 
 static void add_figure(struct floor *f, struct floor_figure figure)
 {
@@ -109,12 +122,17 @@ static void add_figure(struct floor *f, struct floor_figure figure)
 static void add_speed(struct floor *f, const struct floor_bench *b)
 {
     const struct timing *pd = &b->way[WAY_PD], *sampled = &b->way[WAY_PD_SAMPLED], *points = &b->way[WAY_POINTS];
-    add_figure(f, (struct floor_figure){"full PD, whole step, per directed bond", "ns", 1e9, pd->seconds[0] / pd->bonds, b->stencil[0], 2.5, false});
-    add_figure(f, (struct floor_figure){"the same with all samples of the scene", "ns", 1e9, sampled->seconds[0] / sampled->bonds, b->stencil[0], 2.5, false});
-    add_figure(f, (struct floor_figure){"all MPM (linear, FLIP), per particle", "ns", 1e9, points->seconds[0] / points->particles, b->points[0], 3, false});
+    add_figure(f, (struct floor_figure){"full PD, whole step, per directed bond", "ns", 1e9, pd->seconds[0] / pd->bonds,
+                                        b->stencil[0], 2.5, false});
+    add_figure(f, (struct floor_figure){"the same with all samples of the scene", "ns", 1e9,
+                                        sampled->seconds[0] / sampled->bonds, b->stencil[0], 2.5, false});
+    add_figure(f, (struct floor_figure){"all MPM (linear, FLIP), per particle", "ns", 1e9,
+                                        points->seconds[0] / points->particles, b->points[0], 3, false});
     if (b->threads < 2) return;
-    add_figure(f, (struct floor_figure){"gain of two threads, full PD", "", 1, pd->seconds[0] / pd->seconds[1], b->stencil[0] / b->stencil[1], 0.9, true});
-    add_figure(f, (struct floor_figure){"gain of two threads, all MPM", "", 1, points->seconds[0] / points->seconds[1], b->points[0] / b->points[1], 0.9, true});
+    add_figure(f, (struct floor_figure){"gain of two threads, full PD", "", 1, pd->seconds[0] / pd->seconds[1],
+                                        b->stencil[0] / b->stencil[1], 0.9, true});
+    add_figure(f, (struct floor_figure){"gain of two threads, all MPM", "", 1, points->seconds[0] / points->seconds[1],
+                                        b->points[0] / b->points[1], 0.9, true});
 }
 
 static void add_laps(struct floor *f, const struct floor_bench *b)
@@ -125,7 +143,8 @@ static void add_laps(struct floor *f, const struct floor_bench *b)
             const struct timing *t = &b->way[w];
             bench_text(&f->laps, ways[w].name);
             bench_number(&f->laps, threads);
-            for (int k = 0; k < LAP_OUTPUT; k++) bench_number(&f->laps, t->laps[threads - 1].spent[k] / STEPS_TIMED / t->particles);
+            for (int k = 0; k < LAP_OUTPUT; k++)
+                bench_number(&f->laps, t->laps[threads - 1].spent[k] / STEPS_TIMED / t->particles);
             bench_number(&f->laps, t->seconds[threads - 1] / t->particles);
         }
 }
@@ -144,7 +163,8 @@ status bench_floor_speed(struct floor *f, bool quick)
     return OK;
 }
 
-/* ---- memory --------------------------------------------------------------------------------------------------------- */
+/* ---- memory ---------------------------------------------------------------------------------------------------------
+ */
 
 static status peak_per_particle(const struct way *w, double *peak)
 {
@@ -159,18 +179,25 @@ static status peak_per_particle(const struct way *w, double *peak)
 
 status bench_floor_memory(struct floor *f)
 {
-    static const struct { int way; const char *name; double asked; } asked[] = {
-        {WAY_PD, "peak memory per particle, full PD", 1200}, {WAY_POINTS, "peak memory per particle, all MPM", 500}};
+    static const struct {
+        int way;
+        const char *name;
+        double asked;
+    } asked[] = {{WAY_PD, "peak memory per particle, full PD", 1200},
+                 {WAY_POINTS, "peak memory per particle, all MPM", 500}};
     if (!bench_scene_exists(SCENE)) return OK;
     for (size_t k = 0; k < COUNT_OF(asked); k++) {
         double peak;
-        if (peak_per_particle(&ways[asked[k].way], &peak) != OK) printf("  %s: not measured: %s\n", asked[k].name, status_message());
-        else add_figure(f, (struct floor_figure){asked[k].name, "B", 1, peak, 1, asked[k].asked, false});
+        if (peak_per_particle(&ways[asked[k].way], &peak) != OK)
+            printf("  %s: not measured: %s\n", asked[k].name, status_message());
+        else
+            add_figure(f, (struct floor_figure){asked[k].name, "B", 1, peak, 1, asked[k].asked, false});
     }
     return OK;
 }
 
-/* ---- what is said ----------------------------------------------------------------------------------------------------- */
+/* ---- what is said
+ * ----------------------------------------------------------------------------------------------------- */
 
 static bool met(const struct floor_figure *a)
 {
@@ -180,7 +207,8 @@ static bool met(const struct floor_figure *a)
 
 static void print_laps(const struct bench_table *t)
 {
-    printf("  where a step goes, ns per particle (0.5 mm; one sample in %d steps unless said otherwise)\n    %-36s", STEPS_TIMED, "threads");
+    printf("  where a step goes, ns per particle (0.5 mm; one sample in %d steps unless said otherwise)\n    %-36s",
+           STEPS_TIMED, "threads");
     for (int k = 0; k < LAP_OUTPUT; k++) printf(" %8s", lap_name[k]);
     printf(" %8s\n", "step");
     for (int64_t row = 0; row < t->cells; row += t->columns) {
@@ -194,11 +222,13 @@ static void print_laps(const struct bench_table *t)
 void bench_floor_print(const struct floor *f)
 {
     printf("  speed floor: " SCENE " at 0.5 mm spacing, one thread; gains against the probes' own\n"
-           "    %-42s %10s %10s %8s %8s\n", "", "measured", "limit", "ratio", "asked");
+           "    %-42s %10s %10s %8s %8s\n",
+           "", "measured", "limit", "ratio", "asked");
     for (int k = 0; k < f->figures; k++) {
         const struct floor_figure *a = &f->figure[k];
-        char beside[32] = "";            /* memory has no limit to stand beside */
-        if (a->limit != 1) snprintf(beside, sizeof beside, "%10.3f %8.3f", a->limit * a->factor, a->measured / a->limit);
+        char beside[32] = ""; /* memory has no limit to stand beside */
+        if (a->limit != 1)
+            snprintf(beside, sizeof beside, "%10.3f %8.3f", a->limit * a->factor, a->measured / a->limit);
         printf("    %-42s %7.3f %-2s %19s  %s %5.4g  %s\n", a->name, a->measured * a->factor, a->unit, beside,
                a->at_least ? ">=" : "<=", a->asked, met(a) ? "ok" : "NOT MET");
     }
@@ -214,7 +244,7 @@ void bench_floor_table(const struct floor *f, struct bench_table *t)
         const double number[] = {a->measured, a->limit, a->measured / a->limit, a->asked, met(a)};
         char name[NAME_MAX_LENGTH];
         snprintf(name, sizeof name, "%s", a->name);
-        for (char *c = name; *c; c++) *c = *c == ',' ? ';' : *c;      /* a csv field */
+        for (char *c = name; *c; c++) *c = *c == ',' ? ';' : *c; /* a csv field */
         bench_text(t, name);
         for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(t, number[c]);
     }

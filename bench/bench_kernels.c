@@ -9,10 +9,24 @@
 #include "memory.h"
 #include "variants.h"
 
-enum job_kind { BOND_FORCE, BOND_ENERGY, BOND_STRESS, PD_MOVE, P2G, REMAP, G2P, SPREAD, GRID_CLEAR, GRID_MOVE, GRID_REMAPPED, JOB_KINDS };
+enum job_kind {
+    BOND_FORCE,
+    BOND_ENERGY,
+    BOND_STRESS,
+    PD_MOVE,
+    P2G,
+    REMAP,
+    G2P,
+    SPREAD,
+    GRID_CLEAR,
+    GRID_MOVE,
+    GRID_REMAPPED,
+    JOB_KINDS
+};
 
-static const char *const job_name[JOB_KINDS] = {"bond_force", "bond_energy", "bond_stress", "pd_move", "p2g", "remap", "g2p",
-                                                "spread", "grid_clear", "grid_move", "grid_remapped"};
+static const char *const job_name[JOB_KINDS] = {"bond_force", "bond_energy", "bond_stress",  "pd_move",
+                                                "p2g",        "remap",       "g2p",          "spread",
+                                                "grid_clear", "grid_move",   "grid_remapped"};
 
 /* One instance to be timed. */
 struct job {
@@ -22,56 +36,70 @@ struct job {
     enum shape shape;
     enum transfer transfer;
     const char *variant;
-    double seconds;                      /* of the fastest call                     */
-    double bytes, limit;                 /* moved a particle; least time it would take a particle [s] */
+    double seconds;      /* of the fastest call                     */
+    double bytes, limit; /* moved a particle; least time it would take a particle [s] */
 };
 
-#define BOND_JOBS(D, M) {BOND_FORCE, D, .model = PD_##M, .variant = #M}, {BOND_ENERGY, D, .model = PD_##M, .variant = #M}, \
-                        {BOND_STRESS, D, .model = PD_##M, .variant = #M},
-#define DIM_JOBS(D) {PD_MOVE, D, .variant = "-"}, {GRID_CLEAR, D, .variant = "-"}, {GRID_MOVE, D, .variant = "-"}, \
-                    {GRID_REMAPPED, D, .variant = "-"},
-#define SHAPE_JOBS(D, S) {REMAP, D, .shape = SHAPE_##S, .variant = #S " FLIP"}, {SPREAD, D, .shape = SHAPE_##S, .variant = #S},
-#define TRANSFER_JOB(D, S, T) {P2G, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T}, \
-                              {G2P, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},
+#define BOND_JOBS(D, M)                                                                                                \
+    {BOND_FORCE, D, .model = PD_##M, .variant = #M}, {BOND_ENERGY, D, .model = PD_##M, .variant = #M},                 \
+        {BOND_STRESS, D, .model = PD_##M, .variant = #M},
+#define DIM_JOBS(D)                                                                                                    \
+    {PD_MOVE, D, .variant = "-"}, {GRID_CLEAR, D, .variant = "-"}, {GRID_MOVE, D, .variant = "-"},                     \
+        {GRID_REMAPPED, D, .variant = "-"},
+#define SHAPE_JOBS(D, S)                                                                                               \
+    {REMAP, D, .shape = SHAPE_##S, .variant = #S " FLIP"}, {SPREAD, D, .shape = SHAPE_##S, .variant = #S},
+#define TRANSFER_JOB(D, S, T)                                                                                          \
+    {P2G, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},                                      \
+        {G2P, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},
 #define TRANSFER_JOBS(D, S) TRANSFER_VARIANTS(TRANSFER_JOB, D, S)
 
-static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS) SHAPE_VARIANTS(TRANSFER_JOBS)};
+static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS)
+                                          SHAPE_VARIANTS(TRANSFER_JOBS)};
 enum { JOBS = COUNT_OF(all_jobs) };
 
 /* What is timed on: for each dimension a peridynamic body, and one of material points. */
 struct ground {
     struct scene scene[2];
-    struct engine engine[2];             /* [0] bonds, [1] points */
+    struct engine engine[2]; /* [0] bonds, [1] points */
     int32_t *list;
-    real *value, *field;                 /* of spread */
+    real *value, *field; /* of spread */
 };
 
-struct limits { double stencil[DIM_MAX + 1], triad, points; };   /* [s/bond], [B/s], [s/point] */
+struct limits {
+    double stencil[DIM_MAX + 1], triad, points;
+}; /* [s/bond], [B/s], [s/point] */
 
-struct bench { struct ground ground[DIM_MAX + 1]; struct job job[JOBS]; struct limits limits; struct floor floor; };
+struct bench {
+    struct ground ground[DIM_MAX + 1];
+    struct job job[JOBS];
+    struct limits limits;
+    struct floor floor;
+};
 
 /* ---- ground ------------------------------------------------------------------------------------------------ */
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
 static status body_make(struct engine *e, struct scene *s, int dim, const char *method)
 {
-    static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm", "solid"};
+    static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
+                                                   "solid"};
     static const char *const size[DIM_MAX + 1] = {NULL, "[40 m]", "[100 mm, 200 mm]", "[20 mm, 20 mm, 25 mm]"};
     static const char *const poisson[DIM_MAX + 1] = {NULL, "", "poisson: 1/3, ", "poisson: 1/4, "};
     static const char *const corner[DIM_MAX + 1] = {NULL, "[0]", "[0, 0]", "[0, 0, 0]"};
     char text[1024];
-    snprintf(text, sizeof text,
-             "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800}\n"
-             "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
-             "mpm: {shape: cpgimp, transfer: apic}\noutput: {samples: 1, frames: 0}\n",
-             space[dim], method, poisson[dim], corner[dim], size[dim]);
+    snprintf(
+        text, sizeof text,
+        "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800}\n"
+        "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
+        "mpm: {shape: cpgimp, transfer: apic}\noutput: {samples: 1, frames: 0}\n",
+        space[dim], method, poisson[dim], corner[dim], size[dim]);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < e->part.n; i++) {
             e->part.v[d][i] = 1e-3 * sin((real)i);
             e->part.x[d][i] += 1e-8 * sin((real)(i + d));
         }
-    return bench_engine_run(e, 1, NULL);     /* sorts the points and covers them with a grid */
+    return bench_engine_run(e, 1, NULL); /* sorts the points and covers them with a grid */
 }
 
 static status ground_make(struct ground *g, int dim)
@@ -79,7 +107,7 @@ static status ground_make(struct ground *g, int dim)
     TRY(body_make(&g->engine[0], &g->scene[0], dim, "pd"));
     TRY(body_make(&g->engine[1], &g->scene[1], dim, "mpm"));
     struct engine *points = &g->engine[1];
-    points->transfer.dt = points->transfer.dt_velocity = 1e-12;     /* repeated calls leave the state as it is */
+    points->transfer.dt = points->transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
     g->list = NEW("bench.list", points->part.n, int32_t);
     g->value = NEW("bench.value", points->part.n, real);
     g->field = NEW("bench.field", points->grid.n, real);
@@ -102,17 +130,39 @@ static void job_call(const struct job *j, struct ground *g)
     struct engine *pd = &g->engine[0], *e = &g->engine[1];
     real impulse[DIM_MAX] = {0}, work = 0;
     switch (j->kind) {
-    case BOND_FORCE: bond_force_table[j->dim][j->model](&pd->bonds, &pd->part, &pd->source.limit); break;
-    case BOND_ENERGY: bond_energy_table[j->dim][j->model](&pd->bonds, &pd->part); break;
-    case BOND_STRESS: bond_stress_table[j->dim][j->model](&pd->bonds, &pd->part); break;
-    case PD_MOVE: pd_move_table[j->dim](&pd->part, 1e-12, 1e-12); break;
-    case P2G: p2g_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer); break;
-    case REMAP: remap_table[j->dim][j->shape](&e->grid, &e->part, &e->transfer); break;
-    case G2P: g2p_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer); break;
-    case SPREAD: spread_table[j->dim][j->shape](&e->grid, &e->part, e->transfer.half_width, g->list, e->part.n, g->value, g->field); break;
-    case GRID_CLEAR: grid_clear(&e->grid); break;
-    case GRID_MOVE: grid_move(&e->grid, TRANSFER_FLIP, 1e-12, e->smallest_mass, impulse, &work); break;
-    default: grid_remapped(&e->grid, e->smallest_mass);
+    case BOND_FORCE:
+        bond_force_table[j->dim][j->model](&pd->bonds, &pd->part, &pd->source.limit);
+        break;
+    case BOND_ENERGY:
+        bond_energy_table[j->dim][j->model](&pd->bonds, &pd->part);
+        break;
+    case BOND_STRESS:
+        bond_stress_table[j->dim][j->model](&pd->bonds, &pd->part);
+        break;
+    case PD_MOVE:
+        pd_move_table[j->dim](&pd->part, 1e-12, 1e-12);
+        break;
+    case P2G:
+        p2g_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer);
+        break;
+    case REMAP:
+        remap_table[j->dim][j->shape](&e->grid, &e->part, &e->transfer);
+        break;
+    case G2P:
+        g2p_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer);
+        break;
+    case SPREAD:
+        spread_table[j->dim][j->shape](&e->grid, &e->part, e->transfer.half_width, g->list, e->part.n, g->value,
+                                       g->field);
+        break;
+    case GRID_CLEAR:
+        grid_clear(&e->grid);
+        break;
+    case GRID_MOVE:
+        grid_move(&e->grid, TRANSFER_FLIP, 1e-12, e->smallest_mass, impulse, &work);
+        break;
+    default:
+        grid_remapped(&e->grid, e->smallest_mass);
     }
 }
 
@@ -135,7 +185,8 @@ static void time_all(struct bench *b, int repetitions)
     for (int d = 1; d <= DIM_MAX; d++) stencil[d] = stencil_probe_make(d);
     for (int r = 0; r < repetitions; r++) {
         for (int k = 0; k < 3; k++) {
-            for (int d = 1; d <= DIM_MAX; d++) b->limits.stencil[d] = fmin(b->limits.stencil[d], stencil_probe_run(stencil[d]));
+            for (int d = 1; d <= DIM_MAX; d++)
+                b->limits.stencil[d] = fmin(b->limits.stencil[d], stencil_probe_run(stencil[d]));
             b->limits.points = fmin(b->limits.points, point_probe_run(points));
         }
         b->limits.triad = fmax(b->limits.triad, triad_probe_run(triad));
@@ -156,24 +207,40 @@ static double job_bytes(const struct job *j, const struct ground *g)
     const struct engine *e = &g->engine[1], *pd = &g->engine[0];
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
     const double node = r * (double)e->grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
-    const double bond = 16.0 * LANES * (double)pd->bonds.slots / (double)pd->part.n, apic = j->transfer == TRANSFER_APIC;
+    const double bond = 16.0 * LANES * (double)pd->bonds.slots / (double)pd->part.n,
+                 apic = j->transfer == TRANSFER_APIC;
     switch (j->kind) {
-    case BOND_FORCE: return bond + 4 + r * (2 * dim + 1);                       /* x; f; trigger */
-    case BOND_ENERGY: return bond + 4 + r * dim;
-    case BOND_STRESS: return bond + 4 + r * (dim + 1 + symmetric);              /* x, volume; stress */
-    case PD_MOVE: return r * (5 * dim + 1);                                     /* x v f mass; x v */
-    case P2G: return 4 + r * (3 * dim + 2 + symmetric + stretch + apic * dim * dim) + node * 2 * (1 + 2 * dim);
-    case REMAP: return 4 + r * (3 * dim + 1 + stretch) + node * 3 * dim;
-    case G2P: return 6 + r * (2 * dim + 2 + 2 * symmetric + 2 * stretch + apic * (dim + dim * dim)) + node * dim * (apic ? 1 : 2);
-    case SPREAD: return 4 + r * (dim + 1 + stretch) + node * 2;
-    case GRID_CLEAR: return node * (1 + 2 * dim);
-    case GRID_MOVE: return node * (1 + 5 * dim);
-    default: return node * (1 + 2 * dim);
+    case BOND_FORCE:
+        return bond + 4 + r * (2 * dim + 1); /* x; f; trigger */
+    case BOND_ENERGY:
+        return bond + 4 + r * dim;
+    case BOND_STRESS:
+        return bond + 4 + r * (dim + 1 + symmetric); /* x, volume; stress */
+    case PD_MOVE:
+        return r * (5 * dim + 1); /* x v f mass; x v */
+    case P2G:
+        return 4 + r * (3 * dim + 2 + symmetric + stretch + apic * dim * dim) + node * 2 * (1 + 2 * dim);
+    case REMAP:
+        return 4 + r * (3 * dim + 1 + stretch) + node * 3 * dim;
+    case G2P:
+        return 6 + r * (2 * dim + 2 + 2 * symmetric + 2 * stretch + apic * (dim + dim * dim)) +
+               node * dim * (apic ? 1 : 2);
+    case SPREAD:
+        return 4 + r * (dim + 1 + stretch) + node * 2;
+    case GRID_CLEAR:
+        return node * (1 + 2 * dim);
+    case GRID_MOVE:
+        return node * (1 + 5 * dim);
+    default:
+        return node * (1 + 2 * dim);
     }
 }
 
 static bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
-static int64_t job_particles(const struct job *j, const struct ground *g) { return g->engine[j->kind > PD_MOVE].part.n; }
+static int64_t job_particles(const struct job *j, const struct ground *g)
+{
+    return g->engine[j->kind > PD_MOVE].part.n;
+}
 
 /* Bonds of a particle; NAN where a kernel visits none. */
 static double job_bonds(const struct job *j, const struct ground *g)
@@ -198,7 +265,8 @@ static void find_limits(struct bench *b)
 static void print_limits(const struct limits *l)
 {
     printf("  limits of this machine, one thread\n");
-    for (int d = 1; d <= DIM_MAX; d++) printf("    lattice stencil of the bond law, %dD      %8.3f ns per directed bond\n", d, 1e9 * l->stencil[d]);
+    for (int d = 1; d <= DIM_MAX; d++)
+        printf("    lattice stencil of the bond law, %dD      %8.3f ns per directed bond\n", d, 1e9 * l->stencil[d]);
     printf("    STREAM triad                             %8.1f GB/s\n", 1e-9 * l->triad);
     printf("    plain cell-sorted MPM, 2D linear FLIP    %8.1f ns per particle and step\n\n", 1e9 * l->points);
 }
@@ -212,15 +280,18 @@ static void print_jobs(const struct bench *b)
         const double each = j->seconds / (double)job_particles(j, g);
         char bond[16] = "";
         if (on_bonds(j)) snprintf(bond, sizeof bond, "%.3f", 1e9 * each / job_bonds(j, g));
-        printf("  %-14s  %d  %-16s %10.2f %9s %13.0f %8.1f %10.2f\n", job_name[j->kind], j->dim, j->variant, 1e9 * each, bond, j->bytes,
-               1e-9 * j->bytes / each, j->limit / each);
+        printf("  %-14s  %d  %-16s %10.2f %9s %13.0f %8.1f %10.2f\n", job_name[j->kind], j->dim, j->variant, 1e9 * each,
+               bond, j->bytes, 1e-9 * j->bytes / each, j->limit / each);
     }
-    printf("  limit: the longer of bytes at the triad's rate and, for bonds, the stencil; above 1 the data stayed in cache\n\n");
+    printf("  limit: the longer of bytes at the triad's rate and, for bonds, the stencil; above 1 the data stayed in "
+           "cache\n\n");
 }
 
 static void fill_tables(const struct bench *b, struct bench_table *rows, struct bench_table *limits)
 {
-    bench_table_make(rows, "", "kernel,dim,variant,particles,seconds_per_particle,seconds_per_bond,bytes_per_particle,limit_seconds_per_particle,share_of_limit");
+    bench_table_make(rows, "",
+                     "kernel,dim,variant,particles,seconds_per_particle,seconds_per_bond,bytes_per_particle,limit_"
+                     "seconds_per_particle,share_of_limit");
     for (int k = 0; k < JOBS; k++) {
         const struct job *j = &b->job[k];
         const struct ground *g = &b->ground[j->dim];
@@ -231,7 +302,9 @@ static void fill_tables(const struct bench *b, struct bench_table *rows, struct 
         const double number[] = {n, each, each / job_bonds(j, g), j->bytes, j->limit, j->limit / each};
         for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(rows, number[c]);
     }
-    bench_table_make(limits, "limits", "stencil_1d_seconds_per_bond,stencil_2d_seconds_per_bond,stencil_3d_seconds_per_bond,triad_bytes_per_second,points_seconds_per_particle");
+    bench_table_make(limits, "limits",
+                     "stencil_1d_seconds_per_bond,stencil_2d_seconds_per_bond,stencil_3d_seconds_per_bond,triad_bytes_"
+                     "per_second,points_seconds_per_particle");
     for (int d = 1; d <= DIM_MAX; d++) bench_number(limits, b->limits.stencil[d]);
     bench_number(limits, b->limits.triad);
     bench_number(limits, b->limits.points);
@@ -273,7 +346,8 @@ static void send_data(FILE *to, const struct bench *b)
         for (int shape = 0; shape < SHAPES; shape++) {
             for (int k = 0; k < JOBS; k++) {
                 const struct job *j = &b->job[k];
-                if (j->dim != d || (int)j->shape != shape || (j->kind != P2G && j->kind != G2P && j->kind != REMAP)) continue;
+                if (j->dim != d || (int)j->shape != shape || (j->kind != P2G && j->kind != G2P && j->kind != REMAP))
+                    continue;
                 if (j->kind == REMAP) put_shape(to, j->variant);
                 fprintf(to, " %.6g", 1e9 * j->seconds / (double)job_particles(j, &b->ground[d]));
             }
@@ -285,15 +359,16 @@ static void send_data(FILE *to, const struct bench *b)
 
 static void set_panel(FILE *to, double left, double right, double below, double above)
 {
-    fprintf(to, "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n", left, right,
-            below, above);
+    fprintf(to,
+            "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n",
+            left, right, below, above);
 }
 
 /* Asked figures as shares of what is asked. */
 static void draw_floor(FILE *to, const struct floor *f)
 {
     if (!f->figures) return;
-    const double most = 4;               /* longer bars are cut; their figure tells */
+    const double most = 4; /* longer bars are cut; their figure tells */
     fputs("$floor << EOD\n", to);
     for (int k = 0; k < f->figures; k++) {
         const struct floor_figure *a = &f->figure[k];
@@ -303,10 +378,12 @@ static void draw_floor(FILE *to, const struct floor *f)
     }
     fputs("EOD\n", to);
     set_panel(to, 0.30, 0.97, 0.05, 0.26);
-    fprintf(to, "set title 'speed floor: measured over asked (1 or less is met)'\nset xrange [0:%g]\nset yrange [0.4:%d.6]\nset xtics auto norotate\nset grid noy\n"
-                "set arrow 1 from 1, graph 0 to 1, graph 1 nohead dt (6,4) lw 1.4 lc rgb '#3d3d3d'\nset ylabel ''\n"
-                "plot $floor using (0.5*$2):3:(0.5*$2):(0.36):ytic(1) with boxxy fs solid 0.85 lc rgb '%s' notitle, "
-                "'' using (%g):3:(sprintf('%%.2f', $4)) with labels right notitle\n",
+    fprintf(to,
+            "set title 'speed floor: measured over asked (1 or less is met)'\nset xrange [0:%g]\nset yrange "
+            "[0.4:%d.6]\nset xtics auto norotate\nset grid noy\n"
+            "set arrow 1 from 1, graph 0 to 1, graph 1 nohead dt (6,4) lw 1.4 lc rgb '#3d3d3d'\nset ylabel ''\n"
+            "plot $floor using (0.5*$2):3:(0.5*$2):(0.36):ytic(1) with boxxy fs solid 0.85 lc rgb '%s' notitle, "
+            "'' using (%g):3:(sprintf('%%.2f', $4)) with labels right notitle\n",
             1.12 * most, f->figures, curve_colour[0], 1.11 * most);
 }
 
@@ -316,26 +393,33 @@ static void draw(FILE *to, const void *context)
     const struct bench *b = context;
     send_data(to, b);
     fputs("set multiplot\nset style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\n"
-          "set boxwidth 0.9\nset xtics nomirror scale 0\nset yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n", to);
+          "set boxwidth 0.9\nset xtics nomirror scale 0\nset yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n",
+          to);
     for (int d = 1; d <= DIM_MAX; d++) {
         const double left = 0.07 + 0.315 * (d - 1);
         set_panel(to, left, left + 0.27, 0.74, 0.94);
-        fprintf(to, "set title '%dD: ns per bond'\nset arrow 1 from graph 0, first %.6g to graph 1, first %.6g nohead dt (6,4) lw 1.4 lc rgb '%s'\n"
-                    "set key inside left top\nplot $b%d using 2:xtic(1) lc rgb '%s' notitle, NaN with lines dt (6,4) lw 1.4 lc rgb '%s' title '%s'\n",
-                d, 1e9 * b->limits.stencil[d], 1e9 * b->limits.stencil[d], curve_colour[1], d, curve_colour[0], curve_colour[1],
-                d == 1 ? "stencil limit" : "");
-        fprintf(to, "unset arrow 1\nset xtics rotate by -25\n%s\n", d == 1 ? "set key at screen 0.5,0.695 center top vertical maxrows 2" : "unset key");
+        fprintf(to,
+                "set title '%dD: ns per bond'\nset arrow 1 from graph 0, first %.6g to graph 1, first %.6g nohead dt "
+                "(6,4) lw 1.4 lc rgb '%s'\n"
+                "set key inside left top\nplot $b%d using 2:xtic(1) lc rgb '%s' notitle, NaN with lines dt (6,4) lw "
+                "1.4 lc rgb '%s' title '%s'\n",
+                d, 1e9 * b->limits.stencil[d], 1e9 * b->limits.stencil[d], curve_colour[1], d, curve_colour[0],
+                curve_colour[1], d == 1 ? "stencil limit" : "");
+        fprintf(to, "unset arrow 1\nset xtics rotate by -25\n%s\n",
+                d == 1 ? "set key at screen 0.5,0.695 center top vertical maxrows 2" : "unset key");
         set_panel(to, left, left + 0.27, 0.40, 0.60);
         fprintf(to, "set title '%dD: ns per particle'\nplot ", d);
         for (int k = 0; k < 5; k++)
-            fprintf(to, "%s$p%d using %d:xtic(1) lc rgb '%s' title '%s'", k ? ", " : "", d, k + 2, curve_colour[k], d == 1 ? transfer[k] : "");
+            fprintf(to, "%s$p%d using %d:xtic(1) lc rgb '%s' title '%s'", k ? ", " : "", d, k + 2, curve_colour[k],
+                    d == 1 ? transfer[k] : "");
         fputs("\nset xtics norotate\n", to);
     }
     draw_floor(to, &b->floor);
     fputs("unset multiplot\n", to);
 }
 
-/* ---- all ----------------------------------------------------------------------------------------------------------- */
+/* ---- all -----------------------------------------------------------------------------------------------------------
+ */
 
 static status run(struct bench *b, bool quick)
 {

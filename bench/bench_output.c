@@ -49,8 +49,10 @@ static void put_csv(FILE *to, const struct bench_table *t)
     fprintf(to, "%s\n", t->header);
     for (int64_t k = 0; k < t->cells; k++) {
         const struct bench_cell *c = &t->cell[k];
-        if (c->text[0]) fputs(c->text, to);
-        else if (isfinite(c->number)) fprintf(to, "%.9g", c->number);
+        if (c->text[0])
+            fputs(c->text, to);
+        else if (isfinite(c->number))
+            fprintf(to, "%.9g", c->number);
         fputc((k + 1) % t->columns ? ',' : '\n', to);
     }
 }
@@ -69,11 +71,16 @@ static void put_rows(FILE *to, const struct bench_table *t)
     for (int64_t k = 0; k < t->cells; k++) {
         const struct bench_cell *c = &t->cell[k];
         column_name(t, k % t->columns, name, sizeof name);
-        if (k % t->columns == 0) fprintf(to, "%s\n    {", k ? "}," : "");
-        else fputs(", ", to);
-        if (c->text[0]) fprintf(to, "\"%s\": \"%s\"", name, c->text);
-        else if (isfinite(c->number)) fprintf(to, "\"%s\": %.9g", name, c->number);
-        else fprintf(to, "\"%s\": null", name);
+        if (k % t->columns == 0)
+            fprintf(to, "%s\n    {", k ? "}," : "");
+        else
+            fputs(", ", to);
+        if (c->text[0])
+            fprintf(to, "\"%s\": \"%s\"", name, c->text);
+        else if (isfinite(c->number))
+            fprintf(to, "\"%s\": %.9g", name, c->number);
+        else
+            fprintf(to, "\"%s\": null", name);
     }
     fputs(t->cells ? "}\n  " : "", to);
 }
@@ -81,8 +88,8 @@ static void put_rows(FILE *to, const struct bench_table *t)
 static void put_json(FILE *to, const char *name, const struct bench_table *table, int tables)
 {
     struct machine m = team_machine();
-    fprintf(to, "{\n  \"name\": \"%s\",\n  \"version\": \"%s\",\n  \"machine\": \"%s\",\n  \"cores\": %d", name, CLEAVE_VERSION,
-            m.model, m.cores);
+    fprintf(to, "{\n  \"name\": \"%s\",\n  \"version\": \"%s\",\n  \"machine\": \"%s\",\n  \"cores\": %d", name,
+            CLEAVE_VERSION, m.model, m.cores);
     for (int k = 0; k < tables; k++) {
         fprintf(to, ",\n  \"%s\": [", table[k].name[0] ? table[k].name : "rows");
         put_rows(to, &table[k]);
@@ -105,8 +112,10 @@ static status write_file(const char *path, const char *json, const struct bench_
     size_t length = 0;
     FILE *to = open_memstream(&text, &length);
     if (!to) return status_set(FAILED, "cannot write %s: out of memory", path);
-    if (json) put_json(to, json, table, tables);
-    else put_csv(to, table);
+    if (json)
+        put_json(to, json, table, tables);
+    else
+        put_csv(to, table);
     bool whole = fclose(to) == 0;
     status s = whole ? file_put(path, text, length) : status_set(FAILED, "cannot write %s: out of memory", path);
     free(text);
@@ -127,10 +136,13 @@ status bench_write(const char *name, const struct bench_table *table, int tables
 
 /* ---- pictures ---------------------------------------------------------------------------------------------- */
 
-status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context), const void *context)
+status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
+                  const void *context)
 {
-    static const struct { enum picture_format format; const char *ending; } formats[] = {
-        {PICTURE_PNG, "png"}, {PICTURE_SVG, "svg"}};
+    static const struct {
+        enum picture_format format;
+        const char *ending;
+    } formats[] = {{PICTURE_PNG, "png"}, {PICTURE_SVG, "svg"}};
     TRY(bench_folder_make());
     for (size_t k = 0; k < COUNT_OF(formats); k++) {
         char path[256];
@@ -148,5 +160,6 @@ void bench_print_machine(int threads)
 {
     struct machine m = team_machine();
     printf("  %s, %d cores, %lld kB L2, %lld MB L3; cleave %s, %d thread%s unless said otherwise\n", m.model, m.cores,
-           (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION, threads, threads > 1 ? "s" : "");
+           (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION, threads,
+           threads > 1 ? "s" : "");
 }

@@ -14,13 +14,15 @@ enum { CELLS_X = 100, CELLS_Y = 200, CORNERS = 4, NODES_X = CELLS_X + 1, NODES =
 struct point_probe {
     int64_t n;
     real h, dt, c11, c12, shear;
-    int32_t *start;                      /* points of cell c: start[c] .. start[c+1]-1 */
+    int32_t *start; /* points of cell c: start[c] .. start[c+1]-1 */
     real *x, *y, *vx, *vy, *mass, *volume, *sxx, *syy, *sxy;
-    real *m, *px, *py, *fx, *fy, *ux, *uy;   /* nodes: mass, momentum, force, velocity */
+    real *m, *px, *py, *fx, *fy, *ux, *uy; /* nodes: mass, momentum, force, velocity */
 };
 
 /* Hat functions and their slopes at the corners of the point's cell. */
-struct corner { real N[CORNERS], gx[CORNERS], gy[CORNERS]; };
+struct corner {
+    real N[CORNERS], gx[CORNERS], gy[CORNERS];
+};
 
 static ALWAYS_INLINE struct corner corner_make(const struct point_probe *p, int64_t i, int cx, int cy)
 {
@@ -101,15 +103,15 @@ static void cell_gather(struct point_probe *p, int cx, int cy)
 }
 
 /* One map over all cells: even rows, then odd rows. */
-#define MAP(NAME)                                                                                                    \
-    static void map_##NAME(struct point_probe *p)                                                                    \
-    {                                                                                                                \
-        _Pragma("omp parallel")                                                                                      \
-        for (int colour = 0; colour < 2; colour++) {                                                                 \
-            _Pragma("omp for schedule(static)")                                                                      \
-            for (int cy = colour; cy < CELLS_Y; cy += 2)                                                             \
-                for (int cx = 0; cx < CELLS_X; cx++) cell_##NAME(p, cx, cy);                                         \
-        }                                                                                                            \
+#define MAP(NAME)                                                                                                      \
+    static void map_##NAME(struct point_probe *p)                                                                      \
+    {                                                                                                                  \
+        _Pragma("omp parallel") for (int colour = 0; colour < 2; colour++)                                             \
+        {                                                                                                              \
+            _Pragma("omp for schedule(static)") for (int cy = colour; cy < CELLS_Y; cy += 2) for (int cx = 0;          \
+                                                                                                  cx < CELLS_X; cx++)  \
+                cell_##NAME(p, cx, cy);                                                                                \
+        }                                                                                                              \
     }
 MAP(scatter)
 MAP(remap)
@@ -182,8 +184,8 @@ struct point_probe *point_probe_make(void)
 
 void point_probe_free(struct point_probe *p)
 {
-    real *const arrays[] = {p->x, p->y, p->vx, p->vy, p->mass, p->volume, p->sxx, p->syy, p->sxy,
-                            p->m, p->px, p->py, p->fx, p->fy, p->ux, p->uy};
+    real *const arrays[] = {p->x,   p->y, p->vx, p->vy, p->mass, p->volume, p->sxx, p->syy,
+                            p->sxy, p->m, p->px, p->py, p->fx,   p->fy,     p->ux,  p->uy};
     for (size_t k = 0; k < COUNT_OF(arrays); k++) memory_free(arrays[k]);
     memory_free(p->start);
     memory_free(p);

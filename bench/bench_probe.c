@@ -16,7 +16,7 @@ enum { STENCIL_MOST = 128, MARGIN = 3 };
 
 struct stencil_probe {
     int dim;
-    int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all;  /* particles, index of the first, with margins */
+    int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all; /* particles, index of the first, with margins */
     int neighbours;
     int64_t offset[STENCIL_MOST];
     real inverse_length[STENCIL_MOST];
@@ -48,15 +48,15 @@ static ALWAYS_INLINE void stencil_group(const struct stencil_probe *s, int64_t i
     if (dim > 2) lanes_store(s->f[2] + i, f2);
 }
 
-#define SWEEP(D)                                                                                                     \
-    static void stencil_sweep_##D##d(struct stencil_probe *s)                                                        \
-    {                                                                                                                \
-        const int64_t rows = s->count[1] * s->count[2];                                                              \
-        _Pragma("omp parallel for schedule(static)")                                                                 \
-        for (int64_t row = 0; row < rows; row++) {                                                                   \
-            const int64_t i = s->first + row % s->count[1] * s->stride[1] + row / s->count[1] * s->stride[2];        \
-            for (int64_t k = 0; k < s->count[0]; k += LANES) stencil_group(s, i + k, D);                             \
-        }                                                                                                            \
+#define SWEEP(D)                                                                                                       \
+    static void stencil_sweep_##D##d(struct stencil_probe *s)                                                          \
+    {                                                                                                                  \
+        const int64_t rows = s->count[1] * s->count[2];                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t row = 0; row < rows; row++)                          \
+        {                                                                                                              \
+            const int64_t i = s->first + row % s->count[1] * s->stride[1] + row / s->count[1] * s->stride[2];          \
+            for (int64_t k = 0; k < s->count[0]; k += LANES) stencil_group(s, i + k, D);                               \
+        }                                                                                                              \
     }
 DIM_VARIANTS(SWEEP)
 
@@ -80,7 +80,8 @@ static void find_neighbours(struct stencil_probe *s)
 static void place_lattice(struct stencil_probe *s)
 {
     for (int64_t i = 0; i < s->all; i++) {
-        const int64_t place[DIM_MAX] = {i % s->stride[1], i / s->stride[1] % (s->stride[2] / s->stride[1]), i / s->stride[2]};
+        const int64_t place[DIM_MAX] = {i % s->stride[1], i / s->stride[1] % (s->stride[2] / s->stride[1]),
+                                        i / s->stride[2]};
         for (int d = 0; d < s->dim; d++) s->x[d][i] = (real)place[d] * (1 + 1e-4 * (d + 1)) + 1e-4 * sin((real)i);
     }
 }
@@ -126,7 +127,10 @@ void stencil_probe_free(struct stencil_probe *s)
 
 /* ---- triad -------------------------------------------------------------------------------------------------- */
 
-struct triad_probe { int64_t n; real *a, *b, *c; };
+struct triad_probe {
+    int64_t n;
+    real *a, *b, *c;
+};
 
 /* Each array twice the last-level cache, at least 64 MB. */
 struct triad_probe *triad_probe_make(void)

@@ -29,8 +29,10 @@ status bench_engine_make(struct engine *e, struct scene *s, const char *path, co
 {
     *e = (struct engine){0};
     *s = (struct scene){0};
-    if (text) TRY(scene_read_text(s, text, strlen(text), path, override, overrides));
-    else TRY(scene_read(s, path, override, overrides));
+    if (text)
+        TRY(scene_read_text(s, text, strlen(text), path, override, overrides));
+    else
+        TRY(scene_read(s, path, override, overrides));
     status made = engine_make(e, s, NULL);
     e->quiet = true;
     if (made != OK) bench_engine_free(e, s);
@@ -46,7 +48,7 @@ void bench_engine_free(struct engine *e, struct scene *s)
 status bench_engine_run(struct engine *e, int64_t until, struct laps *spent)
 {
     const int64_t steps = e->steps;
-    memory_free(e->record);              /* each call of engine_run makes its own */
+    memory_free(e->record); /* each call of engine_run makes its own */
     e->record = NULL;
     e->steps = until < steps ? until : steps;
     status ran = engine_run(e);
@@ -95,8 +97,8 @@ static status run_child(const char *path, const char *folder, const struct scene
     return spawn_and_wait(argv);
 }
 
-status bench_child_figures(const char *path, const struct scene_override *override, int overrides, const char *const *key,
-                           double *value, int n)
+status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
+                           const char *const *key, double *value, int n)
 {
     char folder[] = BENCH_FOLDER "/run-XXXXXX";
     TRY(bench_folder_make());

@@ -52,6 +52,7 @@ struct bonds {
     int32_t *particle;                   /* [groups 8] particle of a row; padding rows repeat the last    */
     int32_t *row_of;                     /* [n_all] row of a particle, -1 without                         */
     int64_t *slot;                       /* [groups + 1] first slot of a group                            */
+    uint8_t *whole;                      /* [groups 8] the row holds the whole family: its particle is peridynamic */
     uint8_t *aligned;                    /* [groups] the eight particles are consecutive                  */
     uint8_t *consecutive;                /* [slots] the eight neighbours are consecutive                  */
     int32_t *nbr;                        /* [slots 8] neighbour                                           */
@@ -77,6 +78,7 @@ struct bond_source {
     const struct crack *crack;
     int cracks;
     const struct image *image;           /* of loads                                                  */
+    int room;                            /* most neighbours of a particle (bonds_room); 0: counted when needed */
     const real *neighbour_volume;        /* [n_all] V_i^H = sum V_j beta, for the surface correction; NULL without */
 };
 
@@ -86,6 +88,9 @@ void family_make(struct family *f, enum space space, real spacing, real horizon_
 real family_micro_modulus(const struct family *f, const struct material *m);
 /* beta x shell weight of a reference bond of components xi and length r [1]. */
 real family_weight(const struct family *f, const real *xi, real r);
+
+/* Most particles within the cutoff of any; reference positions do not move, so once is enough. */
+int bonds_room(const struct particles *p, const struct bond_source *s);
 
 /* V_i^H = sum V_j beta of every particle, uncracked [m^3], n_all entries. */
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);

@@ -72,7 +72,7 @@ void loads_free(struct loads *l);
 /* Moves images to the mirror image of their sources (x, v, kind). */
 void loads_mirror(const struct loads *l, struct particles *p);
 
-/* Before bonds: f = 0 on every loaded particle. After bonds: adds applied forces; for driven peridynamic
+/* Before bonds: f = 0 on every loaded particle. After bonds: books what mirror images gave, adds applied forces; for driven peridynamic
  * particles replaces f by what gives them their velocity. t is the middle of the step. */
 void loads_clear(struct loads *l, struct particles *p);
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);

@@ -7,6 +7,9 @@
 
 #include "memory.h"
 
+/* Vectors look for bonds above this share of their limit, the scalar rule decides: a margin for their round-off. */
+#define TRIGGER_MARGIN 1e-9
+
 /* One row while it is made. */
 struct row {
     int n;
@@ -40,9 +43,9 @@ static int family_search(const struct bond_source *s, const struct particles *p,
     return kept;
 }
 
-/* Most neighbours any particle has within the cutoff. */
-static int family_room(const struct bond_source *s, const struct particles *p)
+int bonds_room(const struct particles *p, const struct bond_source *s)
 {
+    if (s->room > 0) return s->room;
     int most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t i = 0; i < p->n_all; i++) {
@@ -94,30 +97,35 @@ static float bond_weight(const struct bond_source *s, const struct particles *p,
     return (float)weight;
 }
 
-static void row_make(struct row *row, const struct bond_source *s, const struct particles *p,
-                     const struct pair_table *pairs, int32_t i, int room)
+/* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */
+static void row_search(struct row *row, const struct bond_source *s, const struct particles *p, int32_t i, int room)
 {
     int n = family_search(s, p, i, row->nbr, room), kept = 0;
-    row->trigger = INFINITY, row->family_volume = row->cut_volume = 0;
+    row->family_volume = 0;
     for (int k = 0; k < n; k++) {
-        int32_t j = row->nbr[k];
-        bool whole = p->kind[i] == KIND_PD || p->kind[j] == KIND_PD;
-        real xi[DIM_MAX], r2 = 0;
-        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
-        row->family_volume += p->volume0[j];
-        if (!whole) continue;
-        bool cut = s->cracks > 0 && cut_by_crack(s, p, i, j);
-        if (cut) row->cut_volume += p->volume0[j];
-        row->nbr[kept] = j;
-        row->inverse_length[kept] = (cut ? -1 : 1) / sqrt(r2);
-        row->w[kept] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, sqrt(r2));
-        row->trigger = real_min(row->trigger, s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]]);
-        kept++;
+        row->family_volume += p->volume0[row->nbr[k]];
+        if (p->kind[i] == KIND_PD || p->kind[row->nbr[k]] == KIND_PD) row->nbr[kept++] = row->nbr[k];
     }
     row->n = kept;
 }
 
-/* What load had broken in the rows before stays broken. */
+static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int32_t i)
+{
+    row->trigger = INFINITY, row->cut_volume = 0;
+    for (int k = 0; k < row->n; k++) {
+        int32_t j = row->nbr[k];
+        real xi[DIM_MAX], r2 = 0;
+        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
+        bool cut = s->cracks > 0 && cut_by_crack(s, p, i, j);
+        if (cut) row->cut_volume += p->volume0[j];
+        row->inverse_length[k] = (cut ? -1 : 1) / sqrt(r2);
+        row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, sqrt(r2));
+        real limit = s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]];
+        row->trigger = real_min(row->trigger, limit * (1 - TRIGGER_MARGIN));
+    }
+}
+
+/* What load had broken in the row before stays broken. */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t group = old_row / LANES;
@@ -131,6 +139,39 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
             row->cut_volume += p->volume0[row->nbr[m]];
         }
     }
+}
+
+/* A row that held its whole family before is the same row now. */
+static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
+{
+    int64_t group = old_row / LANES;
+    int lane = (int)(old_row % LANES);
+    row->n = 0;
+    for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
+        int64_t q = bond_index(old, group, k, lane);
+        if (old->inverse_length[q] == 0) continue;
+        row->nbr[row->n] = old->nbr[q];
+        row->inverse_length[row->n] = old->inverse_length[q];
+        row->w[row->n++] = old->w[q];
+    }
+    row->trigger = old->trigger[old_row];
+    row->family_volume = old->family_volume[old_row];
+    row->cut_volume = old->broken_volume[old_row];
+}
+
+/* `weigh` false: only who the neighbours are, to count them. */
+static void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
+                     const struct pair_table *pairs, int32_t i, int room, bool weigh)
+{
+    int64_t before = old ? old->row_of[i] : -1;
+    if (before >= 0 && old->whole[before]) {
+        row_copy(row, old, before);
+        return;
+    }
+    row_search(row, s, p, i, room);
+    if (!weigh) return;
+    row_weigh(row, s, p, pairs, i);
+    if (before >= 0) row_inherit(row, p, old, before);
 }
 
 /* ---- one group ------------------------------------------------------------------------------------- */
@@ -205,7 +246,7 @@ static void group_note(struct bonds *b, const struct group_room *room, int64_t g
     b->aligned[g] = aligned;
     for (int l = 0; l < rows; l++) {
         int64_t r = g * LANES + l;
-        b->trigger[r] = room->row[l].trigger * (1 - 1e-9);
+        b->trigger[r] = room->row[l].trigger;
         b->family_volume[r] = (float)room->row[l].family_volume;
         b->broken_volume[r] = (float)room->row[l].cut_volume;
     }
@@ -263,6 +304,7 @@ static void rows_arrays(struct bonds *b)
     int64_t padded = b->groups * LANES;
     b->slot = NEW("bonds.slot", b->groups + 1, int64_t);
     b->aligned = NEW("bonds.aligned", b->groups, uint8_t);
+    b->whole = NEW("bonds.whole", padded, uint8_t);
     b->trigger = NEW("bonds.trigger", padded, real);
     b->family_volume = NEW("bonds.family_volume", padded, float);
     b->broken_volume = NEW("bonds.broken_volume", padded, float);
@@ -283,8 +325,7 @@ static void rows_pass(struct bonds *b, const struct bonds *old, const struct par
             int rows = group_rows(b, g);
             for (int l = 0; l < rows; l++) {
                 int32_t i = b->particle[g * LANES + l];
-                row_make(&room.row[l], s, p, pairs, i, most);
-                if (!count && old && i < p->n && old->row_of[i] >= 0) row_inherit(&room.row[l], p, old, old->row_of[i]);
+                row_make(&room.row[l], old, s, p, pairs, i, most, !count);
             }
             bool by_offset;
             int slots = group_slots(&room, b->particle + g * LANES, rows, &by_offset);
@@ -308,7 +349,7 @@ static void rows_carry(struct bonds *b, const struct bonds *old)
 void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
-    int most = family_room(s, p);
+    int most = bonds_room(p, s);
     uint8_t *wanted = NEW("bonds.wanted", p->n, uint8_t);
     mark_rows(s, p, most, wanted);
     rows_list(b, p, wanted);
@@ -329,9 +370,11 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     if (old) rows_carry(b, old);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
-    for (int64_t r = 0; r < b->rows; r++)
-        if (p->kind[b->particle[r]] == KIND_PD)
+    for (int64_t r = 0; r < b->rows; r++) {
+        b->whole[r] = p->kind[b->particle[r]] == KIND_PD;
+        if (b->whole[r])
             p->damage[b->particle[r]] = b->family_volume[r] > 0 ? b->broken_volume[r] / b->family_volume[r] : 0;
+    }
 }
 
 void bonds_free(struct bonds *b)
@@ -340,6 +383,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->row_of);
     memory_free(b->slot);
     memory_free(b->aligned);
+    memory_free(b->whole);
     memory_free(b->consecutive);
     memory_free(b->nbr);
     memory_free(b->inverse_length);
@@ -356,7 +400,7 @@ void bonds_free(struct bonds *b)
 
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
 {
-    int most = family_room(s, p);
+    int most = bonds_room(p, s);
     struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
 #pragma omp parallel
@@ -399,7 +443,7 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
 
 real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 {
-    int most = family_room(s, p);
+    int most = bonds_room(p, s);
     real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
     struct pair_table pairs = pairs_make(s);
     uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);
@@ -412,7 +456,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
         rooms_make(&room, most);
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
-            row_make(&room.row[0], s, &all, &pairs, (int32_t)i, most);
+            row_make(&room.row[0], NULL, s, &all, &pairs, (int32_t)i, most, true);
             largest = real_max(largest, row_stiffness(&room.row[0], &all, (int32_t)i, stiffness) / p->mass[i]);
         }
         rooms_free(&room);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "memory.h"
+#include "team.h"
 
 #define PLACE_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it */
 
@@ -176,8 +177,31 @@ static void drive(struct loads *l, struct load *load, struct particles *p, real 
     }
 }
 
+struct force_sum { const struct particles *p; int component; };
+
+static real force_term(const void *context, int64_t i)
+{
+    const struct force_sum *s = context;
+    return s->p->f[s->component][i];
+}
+
+/* Bonds between particles add up to no force; what is left across a mirror is what its images gave, the support's
+ * impulse. Along a mirror that leaves tangential motion free the images' forces cancel in pairs, so there the
+ * account of momentum stays a check. */
+static void mirror_impulse(struct loads *l, const struct particles *p, real dt_velocity)
+{
+    bool held[DIM_MAX] = {false};
+    for (int b = 0; b < l->n; b++)
+        for (int d = 0; d < p->dim; d++)
+            if (l->load[b].boundary->kind == BOUNDARY_MIRROR)
+                held[d] = held[d] || d == l->load[b].boundary->axis || l->load[b].boundary->hold_tangential;
+    for (int d = 0; d < p->dim; d++)
+        if (held[d]) l->impulse[d] += dt_velocity * team_sum(p->n, force_term, &(struct force_sum){p, d});
+}
+
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
+    if (l->images > 0) mirror_impulse(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         const struct boundary *b = load->boundary;
