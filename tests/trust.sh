@@ -1,0 +1,70 @@
+#!/bin/sh
+# floor 5: what test_trust.sh and long_trust.sh share: small scenes, and runs that are disturbed and must not show it.
+# Sourced after summary.sh.
+
+# A small plate whose notches crack, a bar that spalls, a solid plate: name, scene and the arguments that make it small.
+flat="inputs/kalthoff_winkler.yaml -s particles.spacing=2mm -s time.step=0.1us -s output.frames=10 -s output.samples=100"
+line="inputs/hopkinson_bar.yaml -s output.frames=10 -s output.samples=200"
+solid="inputs/kalthoff_winkler_3d.yaml -s duration=24us -s output.frames=4 -s output.samples=50"
+
+# calm FOLDER ARGUMENTS: a run that must succeed and say nothing.
+calm()
+{
+    to=$1; shift
+    "$cleave" run -q -o "$to" "$@" >"$work/out" 2>"$work/err" || { fail "$to: status $?: $(cat "$work/err")"; return; }
+    if [ -s "$work/err" ] || [ -s "$work/out" ]; then fail "$to: says $(cat "$work/err" "$work/out")"; else pass; fi
+}
+
+# physical FOLDER: the figures of its summary that do not depend on the machine.
+physical() { sed '/"threads"/,$d' "$1/summary.json"; }
+
+# same WHAT A B: two folders hold the same frames, samples, scene and figures, byte for byte, and nothing half-written.
+same()
+{
+    physical "$2" >"$work/figures_a"
+    physical "$3" >"$work/figures_b"
+    if cmp "$work/figures_a" "$work/figures_b" && diff -r -q "$2/frames" "$3/frames" && cmp "$2/history.csv" "$3/history.csv" &&
+        cmp "$2/scene.yaml" "$3/scene.yaml" && cmp "$2/frames.xdmf" "$3/frames.xdmf" &&
+        cmp "$2/frames.hdf.series" "$3/frames.hdf.series"; then pass
+    else fail "$1: $2 and $3 differ"; fi
+    bare "$1" "$3"
+}
+
+# bare WHAT FOLDER: no temporary file is left.
+bare() { is "$1: temporary files" "$(find "$2" -name '*.tmp')" ""; }
+
+# random LOW HIGH: a number of seconds, another at every call; the seed is the script's.
+draw=0
+random() { draw=$((draw + 1)); awk -v s="$seed" -v k=$draw -v low="$1" -v high="$2" 'BEGIN {
+    srand(s * 1000 + k); rand(); printf "%.3f", low + (high - low) * rand() }'; }
+
+# await FOLDER LINES PID: until history.csv is that long or the process has ended.
+await()
+{
+    while kill -0 "$3" 2>/dev/null && [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -lt "$2" ]; do sleep 0.01; done
+}
+
+# kills HOW MANY REFERENCE ARGUMENTS: kills at random moments, on a random number of threads, each followed by --resume; every
+# time the run gets to its end it must equal the reference, and starts anew.
+kills()
+{
+    wanted=$1 reference=$2 killed=0 ended=0; shift 2
+    rm -rf "$work/killed"
+    while [ $killed -lt "$wanted" ] || [ $ended -eq 0 ]; do
+        threads=$((1 + (killed + ended) % 3))
+        "$cleave" run -q -o "$work/killed" -t $threads --resume "$@" >"$work/out" 2>"$work/err" &
+        process=$!
+        if [ $killed -lt "$wanted" ]; then
+            sleep "$(random 0.01 0.5)"
+            kill -KILL $process 2>/dev/null
+        fi
+        wait $process 2>/dev/null
+        result=$?
+        if [ $result -eq 137 ]; then killed=$((killed + 1)); continue; fi
+        if [ $result -ne 0 ]; then fail "after $killed kills: status $result: $(cat "$work/err")"; return; fi
+        ended=$((ended + 1))
+        same "after $killed kills" "$reference" "$work/killed"
+        rm -rf "$work/killed"
+    done
+    echo "$killed kills, $ended runs to the end"
+}
