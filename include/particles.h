@@ -59,6 +59,12 @@ extern const int particle_fields_count;
 /* Component array k of a field. */
 void *particle_array(const struct particles *p, const struct particle_field *f, int k);
 
+/* Reference position of particle i [m]. */
+static inline void particle_place(const struct particles *p, int64_t i, real *X)
+{
+    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+}
+
 /* Makes n zeroed particles with room for `images` more; optional is a sum of WITH_*. */
 void particles_make(struct particles *p, int dim, int64_t n, int optional);
 /* Grows every array by `images` entries behind the body; pointers change. Called once, at set-up. */

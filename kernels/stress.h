@@ -109,4 +109,20 @@ static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
     return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
 }
 
+/* The stress a point gives to the grid: all of it, or what the crossing bonds leave (sheet 2.3). */
+static ALWAYS_INLINE void stress_given(const struct particles *p, const struct partial_stress *partial, int64_t i,
+                                       real *stress, const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    for (int s = 0; s < n; s++) stress[s] = p->stress[s][i];
+    if (!partial || !partial->index || partial->index[i] < 0) return;
+    const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
+    real carried[SYM_MAX];
+    for (int a = 0; a < n; a++) {
+        carried[a] = 0;
+        for (int b = 0; b < n; b++) carried[a] += M[a * n + b] * stress[b];
+    }
+    for (int a = 0; a < n; a++) stress[a] -= carried[a];
+}
+
 #endif

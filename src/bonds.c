@@ -35,7 +35,7 @@ struct pair_table { real *ratio; int materials; };
 static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
 {
     real X[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    particle_place(p, i, X);
     int n = cells_near(s->cells, p, X, s->family.cutoff, i, found, room), kept = 0;
     if (n > room) return n;
     for (int k = 0; k < n; k++)
@@ -50,7 +50,7 @@ int bonds_room(const struct particles *p, const struct bond_source *s)
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[DIM_MAX];
-        for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+        particle_place(p, i, X);
         int n = cells_near(s->cells, p, X, s->family.cutoff, (int32_t)i, NULL, 0);
         if (n > most) most = n;
     }

@@ -21,11 +21,6 @@ static int64_t cell_of(const struct cells *c, const real *X)
     return index;
 }
 
-static void point_of(const struct particles *p, int64_t i, real *X)
-{
-    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
-}
-
 /* A box far larger than its particles would need more cells than particles: coarser cells search as well. */
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
@@ -58,12 +53,12 @@ void cells_make(struct cells *c, const struct particles *p, real edge)
     c->order = NEW("cells.order", p->n_all, int32_t);
     real X[DIM_MAX];
     for (int64_t i = 0; i < p->n_all; i++) {
-        point_of(p, i, X);
+        particle_place(p, i, X);
         c->start[cell_of(c, X) + 2]++;
     }
     for (int64_t k = 0; k < c->n; k++) c->start[k + 2] += c->start[k + 1];
     for (int64_t i = 0; i < p->n_all; i++) {
-        point_of(p, i, X);
+        particle_place(p, i, X);
         c->order[c->start[cell_of(c, X) + 1]++] = (int32_t)i;
     }
 }

@@ -59,6 +59,9 @@ static void say_warnings(const struct engine *e)
     if (e->dt > e->dt_critical) printf("warning: the time step is above the critical one: expect a run that blows up\n");
     if (s->method == METHOD_MPM && s->cracks > 0)
         printf("warning: method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them\n");
+    if (s->method == METHOD_PD && s->bodies > 1)
+        printf("warning: peridynamic bodies do not meet in this version: bodies pass through each other; mpm and adaptive let material "
+               "points meet through the grid\n");
     if (s->method != METHOD_PD && s->cell < 1.5)
         printf("warning: one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual\n", s->cell);
     for (int m = 0; m < s->materials; m++)

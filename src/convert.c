@@ -23,7 +23,7 @@ static void list_add(struct index_list *l, int64_t i)
 static int near_particle(const struct bond_source *s, const struct particles *p, int64_t i, struct index_list *found)
 {
     real X[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    particle_place(p, i, X);
     for (;;) {
         int n = cells_near(s->cells, p, X, s->family.cutoff, (int32_t)i, found->at, (int)found->room);
         if (n <= found->room) return n;
@@ -67,7 +67,7 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
             real X[DIM_MAX];
-            for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+            particle_place(p, i, X);
             if (region && region_contains(region, X, p->dim, 1e-9 * source->family.spacing)) p->kind[i] = KIND_PD;
             if (source->cracks == 0) continue;
             int n = near_particle(source, p, i, &found);

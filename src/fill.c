@@ -242,11 +242,6 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
     }
 }
 
-static void point_of(const struct particles *p, int64_t i, real *X)
-{
-    for (int a = 0; a < p->dim; a++) X[a] = p->X[a][i];
-}
-
 static status check_values(const struct particles *p, const struct draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -269,11 +264,11 @@ static status check_distances(const struct particles *p, const struct draft *d, 
     for (int64_t i = 0; i < p->n; i++) {
         real here[DIM_MAX];
         int32_t found;
-        point_of(p, i, here);
+        particle_place(p, i, here);
         if (cells_near(&cells, p, here, too_close * spacing, (int32_t)i, &found, 1) > 0 && i < first) first = i;
     }
     if (first < p->n) {
-        point_of(p, first, X);
+        particle_place(p, first, X);
         cells_near(&cells, p, X, too_close * spacing, (int32_t)first, &other, 1);
     }
     cells_free(&cells);
@@ -334,7 +329,7 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
 static void start_particle(struct particles *p, int64_t i, const struct scene *s, real tolerance)
 {
     real X[DIM_MAX], arm[DIM_MAX];
-    point_of(p, i, X);
+    particle_place(p, i, X);
     for (const struct scene_initial *k = s->initial; k < s->initial + s->initials; k++) {
         if ((k->body >= 0 && k->body != p->body[i]) || !region_contains(&k->region, X, p->dim, tolerance)) continue;
         for (int a = 0; a < p->dim; a++) arm[a] = X[a] - k->centre[a];

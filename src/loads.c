@@ -10,17 +10,12 @@
 
 #define PLACE_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it */
 
-static void point_of(const struct particles *p, int64_t i, real *X)
-{
-    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
-}
-
 /* ---- who is loaded --------------------------------------------------------------------------------- */
 
 static bool load_selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     real X[DIM_MAX];
-    point_of(p, i, X);
+    particle_place(p, i, X);
     if (b->body >= 0 && p->body[i] != b->body) return false;
     return region_contains(&b->region, X, p->dim, PLACE_TOLERANCE * spacing);
 }

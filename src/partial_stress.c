@@ -98,7 +98,7 @@ static real half_edge(const struct particles *p, const struct bond_source *s, in
 static int ends_near(const struct particles *p, const struct bond_source *s, int64_t i, int32_t *found, int room)
 {
     real X[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    particle_place(p, i, X);
     return cells_near(s->cells, p, X, s->family.cutoff + half_edge(p, s, i) * sqrt(p->dim), -1, found, room);
 }
 
@@ -130,7 +130,7 @@ static int mark_near(const struct particles *p, const struct bond_source *s, int
                      int room, uint8_t *dirty)
 {
     real X[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    particle_place(p, i, X);
     int n = cells_near(s->cells, p, X, radius, -1, found, room);
     for (int k = 0; k < n && k < room; k++) {
         int64_t j = reflection_of(s, p, found[k]).root;

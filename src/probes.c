@@ -126,7 +126,7 @@ static status bind_region(struct probe *q, const struct observed *o)
     real X[DIM_MAX];
     q->list = NEW("probes.list", p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++) {
-        for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+        particle_place(p, i, X);
         if (region_contains(&q->request.region, X, p->dim, 1e-9 * o->spacing)) q->list[q->n++] = (int32_t)i;
     }
     if (q->n > 0) return OK;

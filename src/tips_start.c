@@ -12,7 +12,7 @@
 
 void tip_point(const struct particles *p, int64_t i, real *X)
 {
-    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    particle_place(p, i, X);
 }
 
 int tip_search_near(struct tip_search *s, const real *X, real radius)

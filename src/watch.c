@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "memory.h"
+#include "stress.h"
 #include "team.h"
 
 void watch_make(struct watch *w) { *w = (struct watch){.break_time = NAN, .break_place = {NAN, NAN, NAN}}; }
@@ -46,16 +47,6 @@ struct strain_sum {
     real (*compliance)[SYM_MAX * SYM_MAX];   /* by material */
 };
 
-/* The part of the stress that the point does not leave to its crossing bonds: sigma - M sigma [Pa]. */
-static void stress_given(const struct partial_stress *partial, int64_t i, const real *stress, int n, real *given)
-{
-    for (int a = 0; a < n; a++) given[a] = stress[a];
-    if (partial == NULL || partial->index == NULL || partial->index[i] < 0) return;
-    const real *matrix = partial->matrix + (int64_t)partial->index[i] * n * n;
-    for (int a = 0; a < n; a++)
-        for (int b = 0; b < n; b++) given[a] -= matrix[a * n + b] * stress[b];
-}
-
 static real strain_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
@@ -65,7 +56,7 @@ static real strain_term(const void *context, int64_t k)
     if (p->kind[i] != KIND_MPM) return 0;
     real stress[SYM_MAX], given[SYM_MAX], sum = 0;
     for (int a = 0; a < n; a++) stress[a] = p->stress[a][i];
-    stress_given(s->partial, i, stress, n, given);
+    stress_given(p, s->partial, i, given, p->dim);
     for (int a = 0; a < n; a++) {
         real strain = 0, times = a < p->dim ? 1 : 2;         /* a shear component stands for two */
         for (int b = 0; b < n; b++) strain += s->compliance[p->material[i]][a * n + b] * stress[b];

@@ -92,6 +92,6 @@ is() { if [ "$2" = "$3" ]; then pass; else fail "$1: '$2', not '$3'"; fi; }
 # holds WHAT COMMAND...: the command succeeds.
 holds()
 {
-    what=$1; shift
-    if "$@"; then pass; else fail "$what"; fi
+    claim=$1; shift
+    if "$@"; then pass; else fail "$claim"; fi
 }

@@ -44,6 +44,18 @@ await()
     while kill -0 "$3" 2>/dev/null && [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -lt "$2" ]; do sleep 0.01; done
 }
 
+# interrupted FOLDER LINES ARGUMENTS: a fresh run, stopped by SIGINT when history.csv has that many lines.
+interrupted()
+{
+    to=$1 length=$2; shift 2
+    "$cleave" run -q -o "$to" -t 2 "$@" 2>"$work/err" &
+    process=$!
+    await "$to" "$length" $process
+    kill -INT $process
+    wait $process
+    is "$to: interrupted" $? 130
+}
+
 # kills HOW MANY REFERENCE ARGUMENTS: kills at random moments, on a random number of threads, each followed by --resume; every
 # time the run gets to its end it must equal the reference, and starts anew.
 kills()
