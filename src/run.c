@@ -44,10 +44,27 @@ static void print_summary(const struct engine *e, const char *folder, double wal
     printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", folder, folder, folder);
 }
 
+static char *default_folder(const struct scene *s)
+{
+    char *folder = malloc(strlen(s->name) + 16);
+    if (folder) sprintf(folder, "results/%s", s->name);
+    return folder;
+}
+
+static status open_folder(struct output *out, const struct scene *s, const struct run_arguments *a)
+{
+    char *folder = a->folder ? strdup(a->folder) : default_folder(s);
+    status result = output_open(out, folder, s->text, a->resume, s->compress);
+    free(folder);
+    return result;
+}
+
 static status run_engine(struct engine *e, const struct scene *s, struct output *out, const struct run_arguments *a, int threads)
 {
     double start = team_clock();
-    TRY(engine_make(e, s, out));
+    TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
+    TRY(open_folder(out, s, a));
+    listen_to_signals();
     e->quiet = a->quiet;
     e->stop = &stop_asked;
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
@@ -59,13 +76,6 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     return OK;
 }
 
-static char *default_folder(const struct scene *s)
-{
-    char *folder = malloc(strlen(s->name) + 16);
-    if (folder) sprintf(folder, "results/%s", s->name);
-    return folder;
-}
-
 status command_run(int argc, char **argv)
 {
     struct run_arguments a;
@@ -75,12 +85,6 @@ status command_run(int argc, char **argv)
     struct engine e = {0};
     struct output out = {0};
     status result = scene_read(&s, a.scene, a.override, a.overrides);
-    if (result == OK) {
-        char *folder = a.folder ? strdup(a.folder) : default_folder(&s);
-        result = output_open(&out, folder, s.text, a.resume, s.compress);
-        free(folder);
-    }
-    listen_to_signals();
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
     engine_free(&e);
     output_close(&out);
