@@ -22,8 +22,12 @@ double team_clock(void);
 
 /* Adds `n` terms in fixed blocks of SUM_BLOCK and the blocks in their order: the same bits on any number
  * of threads. `term(context, i)` must not write. */
-enum { SUM_BLOCK = 1024 };
+enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
 real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
+
+/* Several sums in one pass: `block` adds the terms of first .. end-1 to the `terms` <= TERMS_MAX sums it is handed. */
+void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+               const void *context, real *sum);
 
 /* Where the time of a step goes. */
 enum lap { LAP_BONDS, LAP_SCATTER, LAP_GRID, LAP_GATHER, LAP_CONVERT, LAP_WATCH, LAP_OUTPUT, LAPS };

@@ -64,7 +64,6 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     double start = team_clock();
     TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
     TRY(open_folder(out, s, a));
-    listen_to_signals();
     e->quiet = a->quiet;
     e->stop = &stop_asked;
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
@@ -85,6 +84,7 @@ status command_run(int argc, char **argv)
     struct engine e = {0};
     struct output out = {0};
     status result = scene_read(&s, a.scene, a.override, a.overrides);
+    listen_to_signals();
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
     engine_free(&e);
     output_close(&out);

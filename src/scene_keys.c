@@ -213,7 +213,7 @@ const struct key keys[] = {
     KEY("output", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "what is written, and how often"),
     KEY("output.frames", KEY_INT, UNIT_NONE, AT(scene, frames), BETWEEN(0, 100000), "20",
         "frames after the one at t = 0"),
-    KEY("output.samples", KEY_INT, UNIT_NONE, AT(scene, samples), BETWEEN(1, 10000000), "500",
+    KEY("output.samples", KEY_INT, UNIT_NONE, AT(scene, samples), BETWEEN(1, 10000000), "200",
         "lines of history.csv after the one at t = 0"),
     KEY("output.checkpoint", KEY_REAL, UNIT_TIME, AT(scene, checkpoint_interval), FROM(0), "60 s",
         "wall clock between checkpoints; 0: after every sample"),

@@ -19,6 +19,7 @@ struct place {
 
 static bool place_make(struct place *place)
 {
+    setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
     if (hwloc_topology_init(&place->topology) != 0) return false;
     if (hwloc_topology_load(place->topology) != 0) {
         hwloc_topology_destroy(place->topology);
@@ -105,18 +106,21 @@ static void bind_helpers(const struct place *place, int threads)
     }
 }
 
+static bool user_binds(void) { return getenv("OMP_PROC_BIND") != NULL || getenv("OMP_PLACES") != NULL; }
+
 int team_make(int threads)
 {
     struct place place;
     bool known = place_make(&place);
     if (threads <= 0) {
-        if (getenv("OMP_NUM_THREADS") != NULL) threads = omp_get_max_threads();
+        /* a user who binds has left this thread one place of many: the mask does not tell how many threads are wanted */
+        if (getenv("OMP_NUM_THREADS") != NULL || user_binds()) threads = omp_get_max_threads();
         else threads = known ? core_count(&place) : omp_get_num_procs();
     }
     omp_set_dynamic(0);                  /* always this many: partitions must not change between loops */
     omp_set_num_threads(threads);
     if (known) {
-        if (getenv("OMP_PROC_BIND") == NULL && getenv("OMP_PLACES") == NULL) bind_helpers(&place, threads);
+        if (!user_binds()) bind_helpers(&place, threads);
         place_free(&place);
     }
     return threads;
@@ -124,25 +128,37 @@ int team_make(int threads)
 
 /* ---- sums ------------------------------------------------------------------------------------------ */
 
-static real block_sum(int64_t first, int64_t end, real (*term)(const void *context, int64_t i), const void *context)
+void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+               const void *context, real *sum)
 {
-    real sum = 0;
-    for (int64_t i = first; i < end; i++) sum += term(context, i);
-    return sum;
+    int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
+    real *part = NEW("team.sums", blocks * terms, real);
+    assert(terms <= TERMS_MAX);
+#pragma omp parallel for schedule(static)
+    for (int64_t b = 0; b < blocks; b++) {
+        int64_t first = b * SUM_BLOCK, end = first + SUM_BLOCK;
+        real own[TERMS_MAX] = {0};
+        block(context, first, end < n ? end : n, own);
+        for (int k = 0; k < terms; k++) part[b * terms + k] = own[k];
+    }
+    for (int k = 0; k < terms; k++) sum[k] = 0;
+    for (int64_t b = 0; b < blocks; b++)
+        for (int k = 0; k < terms; k++) sum[k] += part[b * terms + k];
+    memory_free(part);
+}
+
+struct single { real (*term)(const void *context, int64_t i); const void *context; };
+
+static void single_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct single *s = context;
+    for (int64_t i = first; i < end; i++) sum[0] += s->term(s->context, i);
 }
 
 real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context)
 {
-    int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
-    if (blocks <= 1) return block_sum(0, n, term, context);
-    real *part = NEW("team.sum", blocks, real), sum = 0;
-#pragma omp parallel for schedule(static)
-    for (int64_t b = 0; b < blocks; b++) {
-        int64_t first = b * SUM_BLOCK, end = first + SUM_BLOCK;
-        part[b] = block_sum(first, end < n ? end : n, term, context);
-    }
-    for (int64_t b = 0; b < blocks; b++) sum += part[b];
-    memory_free(part);
+    real sum;
+    team_sums(n, 1, single_block, &(struct single){term, context}, &sum);
     return sum;
 }
 

@@ -12,30 +12,36 @@ void watch_make(struct watch *w) { *w = (struct watch){.break_time = NAN, .break
 
 /* ---- sums over particles ----------------------------------------------------------------------------- */
 
-static real kinetic_term(const void *context, int64_t i)
+/* Of a block of particles: kinetic energy. */
+static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
-    real speed2 = 0;
-    for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
-    return 0.5 * p->mass[i] * speed2;
+    for (int64_t i = first; i < end; i++) {
+        real speed2 = 0;
+        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
+        sum[0] += 0.5 * p->mass[i] * speed2;
+    }
 }
 
-real watch_kinetic(const struct particles *p) { return team_sum(p->n, kinetic_term, p); }
-
-struct momentum_sum { const struct particles *p; int component; };
-
-static real momentum_term(const void *context, int64_t i)
+real watch_kinetic(const struct particles *p)
 {
-    const struct momentum_sum *s = context;
-    return s->p->mass[i] * s->p->v[s->component][i];
+    real kinetic;
+    team_sums(p->n, 1, kinetic_block, p, &kinetic);
+    return kinetic;
 }
 
-static real speed_term(const void *context, int64_t i)
+/* Momentum by component, and behind them the sum of |m v|. */
+static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
-    real speed2 = 0;
-    for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
-    return p->mass[i] * sqrt(speed2);
+    for (int64_t i = first; i < end; i++) {
+        real speed2 = 0;
+        for (int d = 0; d < p->dim; d++) {
+            sum[d] += p->mass[i] * p->v[d][i];
+            speed2 += square(p->v[d][i]);
+        }
+        sum[p->dim] += p->mass[i] * sqrt(speed2);
+    }
 }
 
 /* ---- strain energy of material points ---------------------------------------------------------------- */
@@ -89,13 +95,14 @@ real watch_strain(const struct particles *p, const struct material *m, const str
 /* Momentum that neither was there at the start nor was given since, over all that moves. */
 static void ledger_momentum(struct watch *w, const struct particles *p, const real *impulse)
 {
-    real missing2 = 0, moving = team_sum(p->n, speed_term, p);
+    real sum[DIM_MAX + 1], missing2 = 0;
+    team_sums(p->n, p->dim + 1, momentum_block, p, sum);
     for (int d = 0; d < p->dim; d++) {
-        w->now.momentum[d] = team_sum(p->n, momentum_term, &(struct momentum_sum){p, d});
+        w->now.momentum[d] = sum[d];
         if (!w->started) w->momentum_start[d] = w->now.momentum[d] - impulse[d];
         missing2 += square(w->now.momentum[d] - w->momentum_start[d] - impulse[d]);
     }
-    if (moving > 0) w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / moving);
+    if (sum[p->dim] > 0) w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / sum[p->dim]);
 }
 
 static void ledger_balance(struct watch *w)

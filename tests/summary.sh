@@ -3,10 +3,11 @@
 # Sourced from the project's root, after `test_name` is set. Gives $cleave, $root and $work, a folder that goes at the end.
 set -u
 root=$(pwd)
-cleave=$(cd "${BUILD:-build}" && pwd)/cleave
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
+cleave=$work/cleave                      # a copy: a build in the meantime must not mix two programs in one test
+cp "${BUILD:-build}/cleave" "$cleave" || exit 1
 checks=0 failures=0
 
 fail() { echo "$test_name: $1" >&2; failures=$((failures + 1)); }
