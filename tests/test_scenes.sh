@@ -106,10 +106,10 @@ between "plate_hole: all material points at the start" "$(f hole_adaptive conver
 # with a look at the mid-line above the notches' ends
 sed 's/^probes: .*/probes: [tip, {point: {name: middle, at: [50.5 mm, 0.5 mm]}}, {point: {name: edge, at: [99.5 mm, 0.5 mm]}}]/' \
     inputs/kalthoff_winkler.yaml >"$work/kalthoff.yaml"
-start kalthoff_adaptive "$work/kalthoff.yaml" -s method=adaptive
-start kalthoff_pd "$work/kalthoff.yaml" -s method=pd
+start kalthoff_adaptive "$work/kalthoff.yaml" -s output.samples=500 -s method=adaptive
+start kalthoff_pd "$work/kalthoff.yaml" -s output.samples=500 -s method=pd
 wait
-start kalthoff_mpm "$work/kalthoff.yaml" -s method=mpm
+start kalthoff_mpm "$work/kalthoff.yaml" -s output.samples=500 -s method=mpm
 start kalthoff_handshake "$work/kalthoff.yaml" -s coupling=handshake
 wait
 sound kalthoff_pd $pd_balance
