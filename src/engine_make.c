@@ -155,7 +155,7 @@ struct observed engine_observed(const struct engine *e)
         .strain_stress = e->strain_stress, .residual = e->residual, .residual_step0 = e->residual_step0, .t = e->t};
 }
 
-status engine_make(struct engine *e, const struct scene *s, struct output *out)
+static status make_all(struct engine *e, const struct scene *s, struct output *out)
 {
     memset(e, 0, sizeof *e);
     e->scene = s;
@@ -178,6 +178,17 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     watch_make(&e->watch);
     struct observed o = engine_observed(e);
     return probes_make(&e->probes, s->probe, s->probes, &o);
+}
+
+status engine_make(struct engine *e, const struct scene *s, struct output *out)
+{
+    status made = make_all(e, s, out);
+    if (made == REFUSED) {                       /* what only shows with particles has no line, but it has a file */
+        char why[512];
+        snprintf(why, sizeof why, "%s", status_message());
+        return status_set(REFUSED, "%s: %s", s->path, why);
+    }
+    return made;
 }
 
 void engine_free(struct engine *e)
