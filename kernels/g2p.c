@@ -41,18 +41,22 @@ static ALWAYS_INLINE bool g2p_particle(const struct grid *g, struct particles *p
 {
     struct stencil s;
     stencil_make(&s, g, p, i, t->half_width, dim, shape);
-    real velocity[DIM_MAX] = {0}, L[DIM_MAX * DIM_MAX] = {0};
-    FOR_NODES(dim, shape) {
-        const int64_t I = stencil_index(&s, g, k0, k1, k2, dim);
-        const real N = stencil_weight(&s, k0, k1, k2, dim);
-        real grad[DIM_MAX];
-        stencil_gradient(&s, k0, k1, k2, grad, dim);
+    row_of_nodes velocities[DIM_MAX] = {{0}}, gradients[DIM_MAX * DIM_MAX] = {{0}};
+    FOR_ROWS(dim, shape) {
+        const int64_t I = stencil_row(&s, g, k1, k2, dim);
+        const row_of_nodes N = stencil_weight(&s, k1, k2, dim);
+        row_of_nodes grad[DIM_MAX];
+        stencil_gradient(&s, k1, k2, grad, dim);
         for (int d = 0; d < dim; d++) {
-            velocity[d] += N * g->velocity[d][I];
-            const real straining = transfer == TRANSFER_APIC ? g->velocity[d][I] : g->momentum[d][I];
-            for (int e = 0; e < dim; e++) L[d * dim + e] += straining * grad[e];
+            const row_of_nodes moving = row_load(g->velocity[d] + I);
+            const row_of_nodes straining = transfer == TRANSFER_APIC ? moving : row_load(g->momentum[d] + I);
+            velocities[d] += N * moving;
+            for (int e = 0; e < dim; e++) gradients[d * dim + e] += straining * grad[e];
         }
     }
+    real velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
+    for (int d = 0; d < dim; d++) velocity[d] = row_sum(velocities[d]);
+    for (int c = 0; c < dim * dim; c++) L[c] = row_sum(gradients[c]);
     if (transfer == TRANSFER_APIC) {
         for (int d = 0; d < dim; d++) p->v[d][i] = velocity[d];
         for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = L[c];
@@ -67,9 +71,15 @@ static ALWAYS_INLINE bool g2p_particle(const struct grid *g, struct particles *p
     {                                                                                                               \
         const struct transfer_order *o = t->order;                                                                  \
         int64_t moved = 0;                                                                                          \
-        _Pragma("omp parallel for schedule(static) reduction(+ : moved)")                                           \
-        for (int64_t k = 0; k < o->n; k++)                                                                          \
-            moved += g2p_particle(g, p, t, o->particle[k], D, SHAPE_##S, TRANSFER_##T);                             \
+        _Pragma("omp parallel reduction(+ : moved)")                                                                \
+        {                                                                                                           \
+            struct grid nodes = *g;            /* as in p2g.c */                                                    \
+            struct particles points = *p;                                                                           \
+            struct transfer_data data = *t;                                                                         \
+            _Pragma("omp for schedule(static)")                                                                     \
+            for (int64_t k = 0; k < o->n; k++)                                                                      \
+                moved += g2p_particle(&nodes, &points, &data, o->particle[k], D, SHAPE_##S, TRANSFER_##T);          \
+        }                                                                                                           \
         return moved;                                                                                               \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)

@@ -10,8 +10,8 @@
 #include "stress.h"
 #include "variants.h"
 
-/* -V sigma . grad for component d. */
-static ALWAYS_INLINE real stress_force(const real *s, const real *grad, int d, const int dim)
+/* sigma . grad, component d. */
+static ALWAYS_INLINE row_of_nodes stress_force(const real *s, const row_of_nodes *grad, int d, const int dim)
 {
     if (dim == 1) return s[0] * grad[0];
     if (dim == 2) return d == 0 ? s[0] * grad[0] + s[2] * grad[1] : s[2] * grad[0] + s[1] * grad[1];
@@ -28,6 +28,7 @@ static ALWAYS_INLINE void p2g_particle(struct grid *g, const struct particles *p
     real stress[SYM_MAX], momentum[DIM_MAX], force[DIM_MAX], gradient[DIM_MAX * DIM_MAX];
     stress_given(p, t->partial, i, stress, dim);
     const real mass = p->mass[i], volume = p->volume[i];
+    const row_of_nodes along = (row_of_nodes){0, 1, 2, 3} * g->h;      /* distance from the lowest node */
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] *= volume;
     for (int d = 0; d < dim; d++) {
         momentum[d] = mass * p->v[d][i];
@@ -38,19 +39,21 @@ static ALWAYS_INLINE void p2g_particle(struct grid *g, const struct particles *p
                 momentum[d] -= gradient[d * dim + e] * s.r[e];
             }
     }
-    FOR_NODES(dim, shape) {
-        const int64_t I = stencil_index(&s, g, k0, k1, k2, dim);
-        const real N = stencil_weight(&s, k0, k1, k2, dim);
-        const int place[DIM_MAX] = {k0, k1, k2};
-        real grad[DIM_MAX];
-        stencil_gradient(&s, k0, k1, k2, grad, dim);
-        g->mass[I] += mass * N;
+    FOR_ROWS(dim, shape) {
+        const int64_t I = stencil_row(&s, g, k1, k2, dim);
+        const row_of_nodes N = stencil_weight(&s, k1, k2, dim);
+        row_of_nodes grad[DIM_MAX];
+        stencil_gradient(&s, k1, k2, grad, dim);
+        row_add(g->mass + I, mass * N);
         for (int d = 0; d < dim; d++) {
-            real carried = momentum[d];
-            if (transfer == TRANSFER_APIC)
-                for (int e = 0; e < dim; e++) carried += gradient[d * dim + e] * (g->h * place[e]);
-            g->momentum[d][I] += carried * N;
-            g->force[d][I] += force[d] * N - stress_force(stress, grad, d, dim);
+            row_of_nodes carried = momentum[d] + (row_of_nodes){0};
+            if (transfer == TRANSFER_APIC) {
+                carried += gradient[d * dim] * along;
+                if (dim > 1) carried += gradient[d * dim + 1] * (g->h * k1);
+                if (dim > 2) carried += gradient[d * dim + 2] * (g->h * k2);
+            }
+            row_add(g->momentum[d] + I, carried * N);
+            row_add(g->force[d] + I, force[d] * N - stress_force(stress, grad, d, dim));
         }
     }
 }
@@ -60,11 +63,15 @@ static ALWAYS_INLINE void p2g_particle(struct grid *g, const struct particles *p
     {                                                                                                               \
         const struct transfer_order *o = t->order;                                                                  \
         _Pragma("omp parallel")                                                                                     \
-        for (int colour = 0; colour < 1 << D; colour++) {                                                           \
-            _Pragma("omp for schedule(static)")                                                                     \
-            for (int block = o->blocks_of[colour]; block < o->blocks_of[colour + 1]; block++)                       \
-                for (int32_t k = o->block_start[block]; k < o->block_start[block + 1]; k++)                         \
-                    p2g_particle(g, p, t, o->particle[k], D, SHAPE_##S, TRANSFER_##T);                              \
+        {                                                                                                           \
+            struct grid nodes = *g;            /* copies nobody else writes: what they hold stays in registers */   \
+            struct particles points = *p;                                                                           \
+            for (int colour = 0; colour < 1 << D; colour++) {                                                       \
+                _Pragma("omp for schedule(static)")                                                                 \
+                for (int block = o->blocks_of[colour]; block < o->blocks_of[colour + 1]; block++)                   \
+                    for (int32_t k = o->block_start[block]; k < o->block_start[block + 1]; k++)                     \
+                        p2g_particle(&nodes, &points, t, o->particle[k], D, SHAPE_##S, TRANSFER_##T);               \
+            }                                                                                                       \
         }                                                                                                           \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
@@ -81,7 +88,7 @@ static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct par
 {
     struct stencil s;
     stencil_make(&s, g, p, i, half_width, dim, shape);
-    FOR_NODES(dim, shape) field[stencil_index(&s, g, k0, k1, k2, dim)] += value * stencil_weight(&s, k0, k1, k2, dim);
+    FOR_ROWS(dim, shape) row_add(field + stencil_row(&s, g, k1, k2, dim), value * stencil_weight(&s, k1, k2, dim));
 }
 
 #define SPREAD(D, S)                                                                                            \

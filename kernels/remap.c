@@ -9,20 +9,21 @@ static ALWAYS_INLINE void remap_particle(struct grid *g, struct particles *p, co
 {
     struct stencil s;
     stencil_make(&s, g, p, i, t->half_width, dim, shape);
-    real change[DIM_MAX] = {0}, momentum[DIM_MAX];
-    FOR_NODES(dim, shape) {
-        const int64_t I = stencil_index(&s, g, k0, k1, k2, dim);
-        const real N = stencil_weight(&s, k0, k1, k2, dim);
-        for (int d = 0; d < dim; d++) change[d] += N * g->force[d][I];
+    row_of_nodes change[DIM_MAX] = {{0}};
+    real momentum[DIM_MAX];
+    FOR_ROWS(dim, shape) {
+        const int64_t I = stencil_row(&s, g, k1, k2, dim);
+        const row_of_nodes N = stencil_weight(&s, k1, k2, dim);
+        for (int d = 0; d < dim; d++) change[d] += N * row_load(g->force[d] + I);
     }
     for (int d = 0; d < dim; d++) {
-        p->v[d][i] += change[d];
+        p->v[d][i] += row_sum(change[d]);
         momentum[d] = p->mass[i] * p->v[d][i];
     }
-    FOR_NODES(dim, shape) {
-        const int64_t I = stencil_index(&s, g, k0, k1, k2, dim);
-        const real N = stencil_weight(&s, k0, k1, k2, dim);
-        for (int d = 0; d < dim; d++) g->momentum[d][I] += momentum[d] * N;
+    FOR_ROWS(dim, shape) {
+        const int64_t I = stencil_row(&s, g, k1, k2, dim);
+        const row_of_nodes N = stencil_weight(&s, k1, k2, dim);
+        for (int d = 0; d < dim; d++) row_add(g->momentum[d] + I, momentum[d] * N);
     }
 }
 
@@ -31,11 +32,15 @@ static ALWAYS_INLINE void remap_particle(struct grid *g, struct particles *p, co
     {                                                                                                               \
         const struct transfer_order *o = t->order;                                                                  \
         _Pragma("omp parallel")                                                                                     \
-        for (int colour = 0; colour < 1 << D; colour++) {                                                           \
-            _Pragma("omp for schedule(static)")                                                                     \
-            for (int block = o->blocks_of[colour]; block < o->blocks_of[colour + 1]; block++)                       \
-                for (int32_t k = o->block_start[block]; k < o->block_start[block + 1]; k++)                         \
-                    remap_particle(g, p, t, o->particle[k], D, SHAPE_##S);                                          \
+        {                                                                                                           \
+            struct grid nodes = *g;            /* copies nobody else writes: what they hold stays in registers */   \
+            struct particles points = *p;                                                                           \
+            for (int colour = 0; colour < 1 << D; colour++) {                                                       \
+                _Pragma("omp for schedule(static)")                                                                 \
+                for (int block = o->blocks_of[colour]; block < o->blocks_of[colour + 1]; block++)                   \
+                    for (int32_t k = o->block_start[block]; k < o->block_start[block + 1]; k++)                     \
+                        remap_particle(&nodes, &points, t, o->particle[k], D, SHAPE_##S);                           \
+            }                                                                                                       \
         }                                                                                                           \
     }
 SHAPE_VARIANTS(INSTANCE)

@@ -83,17 +83,38 @@ static ALWAYS_INLINE int64_t shape_1d(const enum shape shape, real r, real l, re
     }
 }
 
-/* Weights of one particle over its box of nodes. */
+/* ---- the nodes of one particle ---------------------------------------------------------------------- */
+
+/* Four nodes in a row along x, from the node below the particle's cell: wide enough for every shape, and the same four for
+ * all particles of a cell, so that a row just written is read again whole. */
+enum { ROW = 4 };
+typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
+typedef real row_anywhere __attribute__((vector_size(ROW * sizeof(real)), aligned(sizeof(real)), may_alias));
+
+static ALWAYS_INLINE row_of_nodes row_load(const real *from) { return (row_of_nodes) * (const row_anywhere *)from; }
+static ALWAYS_INLINE void row_add(real *to, row_of_nodes a) { *(row_anywhere *)to = row_load(to) + a; }
+static ALWAYS_INLINE real row_sum(row_of_nodes a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+
+/* Weights of one particle: a row along x, and the rows of its box in the other directions. */
 struct stencil {
-    int64_t node;                                        /* index of its lowest node          */
-    real N[DIM_MAX][SHAPE_NODES_MAX];                    /* weights per direction         [1] */
-    real dN[DIM_MAX][SHAPE_NODES_MAX];                   /* slopes per direction        [1/m] */
-    real r[DIM_MAX];                                     /* distance to its lowest node   [m] */
+    int64_t node;                                        /* index of the lowest node            */
+    row_of_nodes N0, dN0;                                /* weights [1] and slopes [1/m] along x */
+    real N[DIM_MAX][SHAPE_NODES_MAX];                    /* weights per direction y, z      [1] */
+    real dN[DIM_MAX][SHAPE_NODES_MAX];                   /* slopes per direction y, z     [1/m] */
+    real r[DIM_MAX];                                     /* distance to the lowest node     [m] */
 };
 
 /* Largest half width over h that GIMP's pieces allow; a particle stretched further keeps it (numerical fracture then
  * starts, sheet 1.2). */
 #define HALF_WIDTH_MOST 0.5
+
+/* Weights from `base` as a row from the node below the cell. */
+static ALWAYS_INLINE row_of_nodes row_shifted(const enum shape shape, const real *N, bool from_cell)
+{
+    if (shape == SHAPE_LINEAR) return (row_of_nodes){0, N[0], N[1], 0};
+    if (shape == SHAPE_CUBIC) return (row_of_nodes){N[0], N[1], N[2], N[3]};
+    return from_cell ? (row_of_nodes){0, N[0], N[1], N[2]} : (row_of_nodes){N[0], N[1], N[2], 0};
+}
 
 static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, const struct particles *p, int64_t i,
                                        real half_width, const int dim, const enum shape shape)
@@ -108,41 +129,42 @@ static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, 
         }
         int64_t base = shape_1d(shape, r, l, s->N[d], s->dN[d]);
         for (int k = 0; k < shape_nodes(shape); k++) s->dN[d][k] *= inverse;
+        if (d == 0) {
+            const int64_t cell = floor_to_int(r);
+            s->N0 = row_shifted(shape, s->N[0], base == cell);
+            s->dN0 = row_shifted(shape, s->dN[0], base == cell);
+            base = cell - 1;
+        }
         s->r[d] = (r - (real)base) * g->h;
         s->node += (base - g->first[d]) * g->stride[d];
     }
 }
 
-/* Loops over the nodes of a stencil by their places k0 k1 k2; unused directions fold away. */
-#define FOR_NODES(dim, shape)                                                                                     \
-    for (int k2 = 0; k2 < ((dim) > 2 ? shape_nodes(shape) : 1); k2++)                                           \
-        for (int k1 = 0; k1 < ((dim) > 1 ? shape_nodes(shape) : 1); k1++)                                       \
-            for (int k0 = 0; k0 < shape_nodes(shape); k0++)
+/* Loops over the rows of a stencil by their places k1 k2; unused directions fold away. */
+#define FOR_ROWS(dim, shape)                                                        \
+    for (int k2 = 0; k2 < ((dim) > 2 ? shape_nodes(shape) : 1); k2++)               \
+        for (int k1 = 0; k1 < ((dim) > 1 ? shape_nodes(shape) : 1); k1++)
 
-static ALWAYS_INLINE int64_t stencil_index(const struct stencil *s, const struct grid *g, int k0, int k1, int k2, const int dim)
+/* First node of a row. */
+static ALWAYS_INLINE int64_t stencil_row(const struct stencil *s, const struct grid *g, int k1, int k2, const int dim)
 {
-    int64_t I = s->node + k0;
-    if (dim > 1) I += k1 * g->stride[1];
-    if (dim > 2) I += k2 * g->stride[2];
-    return I;
+    return s->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
-static ALWAYS_INLINE real stencil_weight(const struct stencil *s, int k0, int k1, int k2, const int dim)
+static ALWAYS_INLINE row_of_nodes stencil_weight(const struct stencil *s, int k1, int k2, const int dim)
 {
-    real N = s->N[0][k0];
-    if (dim > 1) N *= s->N[1][k1];
-    if (dim > 2) N *= s->N[2][k2];
-    return N;
+    real across = 1;
+    if (dim > 1) across *= s->N[1][k1];
+    if (dim > 2) across *= s->N[2][k2];
+    return s->N0 * across;
 }
 
-static ALWAYS_INLINE void stencil_gradient(const struct stencil *s, int k0, int k1, int k2, real *grad, const int dim)
+static ALWAYS_INLINE void stencil_gradient(const struct stencil *s, int k1, int k2, row_of_nodes *grad, const int dim)
 {
-    grad[0] = s->dN[0][k0];
-    if (dim > 1) grad[0] *= s->N[1][k1], grad[1] = s->N[0][k0] * s->dN[1][k1];
-    if (dim > 2) {
-        grad[0] *= s->N[2][k2], grad[1] *= s->N[2][k2];
-        grad[2] = s->N[0][k0] * s->N[1][k1] * s->dN[2][k2];
-    }
+    const real N1 = dim > 1 ? s->N[1][k1] : 1, N2 = dim > 2 ? s->N[2][k2] : 1;
+    grad[0] = s->dN0 * (N1 * N2);
+    if (dim > 1) grad[1] = s->N0 * (s->dN[1][k1] * N2);
+    if (dim > 2) grad[2] = s->N0 * (N1 * s->dN[2][k2]);
 }
 
 #endif

@@ -61,13 +61,14 @@ interrupted()
 kills()
 {
     wanted=$1 reference=$2 killed=0 ended=0; shift 2
+    longest=$(compute "0.9 * $(figure "$reference" wall_seconds)")
     rm -rf "$work/killed"
     while [ $killed -lt "$wanted" ] || [ $ended -eq 0 ]; do
         threads=$((1 + (killed + ended) % 3))
         "$cleave" run -q -o "$work/killed" -t $threads --resume "$@" >"$work/out" 2>"$work/err" &
         process=$!
         if [ $killed -lt "$wanted" ]; then
-            sleep "$(random 0.01 0.5)"
+            sleep "$(random 0.01 "$longest")"
             kill -KILL $process 2>/dev/null
         fi
         wait $process 2>/dev/null
