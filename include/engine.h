@@ -46,6 +46,7 @@ struct engine {
     real residual, residual_step0;       /* largest nodal force of the last and first step [N]        */
     real strain_stress;                  /* largest component of the initial stress [Pa]              */
     real smallest_mass;                  /* of a node that moves [kg]                                 */
+    real mass;                           /* of the body [kg]                                          */
     bool sort_needed;                    /* material points moved to other cells or converted         */
     bool uses_partial;                   /* coupling by partial stress                                */
     real *record;                        /* one line of history.csv                                   */
@@ -55,7 +56,7 @@ struct engine {
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
     struct {                             /* a sample in the making (engine_report.h)                  */
         bool due;
-        real kinetic, potential, fracture, work, work_before;
+        real kinetic, potential, fracture, work, held_work;
     } sampling;
     status history_status;               /* of the last line written                                  */
     double started, last_progress, last_checkpoint;   /* wall clock [s]                               */
@@ -71,6 +72,8 @@ status engine_run(struct engine *e);
 void engine_free(struct engine *e);
 /* Saves or restores the state between two steps. */
 status engine_archive(void *engine, struct archive *a);
+/* Prints a line for everything about the scene that is allowed but probably not meant. */
+void engine_warn(const struct engine *e, FILE *out);
 /* What probes may look at. */
 struct observed engine_observed(const struct engine *e);
 

@@ -26,7 +26,7 @@ struct wall {
     int32_t node;
     int16_t component, load;             /* load: who holds it                                      */
     real velocity, change;               /* in this step; since the step before            [m/s]    */
-    real given;                          /* impulse it gave in this step                   [N s]    */
+    real reaction;                       /* impulse of this step, without that of the prescribed change [N s] */
 };
 
 /* Sets the box to cover positions from..to with a margin of three cells, rounded outwards to whole blocks;

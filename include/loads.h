@@ -39,7 +39,9 @@ struct load {
     int64_t n;
     int32_t *particle;                   /* ascending                                                 */
     real *share;                         /* TRACTION, BODY_FORCE: area or volume  [m^2], [m^3]        */
-    real reaction[DIM_MAX];              /* VELOCITY: force the support gave in the last step [N]     */
+    real *before;                        /* [n dim] TRACTION, BODY_FORCE: where they were in this step [m] */
+    real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
+                                            moves the driven particles themselves             [N]     */
     real displacement[DIM_MAX];          /* of the driven particles, accumulated              [m]     */
     int outside;                         /* MIRROR: side of the plane without body, -1 or +1          */
 };
@@ -53,7 +55,8 @@ struct loads {
     int64_t images;
     struct image *image;
     real impulse[DIM_MAX];               /* given by loads and supports since the start       [N s]   */
-    real work;                           /* done by them                                      [J]     */
+    real work;                           /* done by applied forces, up to where particles are [J]     */
+    real held_work;                      /* done by supports, up to the velocities, half a step behind [J] */
     real spacing;                        /* [m]                                                       */
     real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
     int64_t share_room;

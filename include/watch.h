@@ -11,18 +11,18 @@
 
 struct ledger {
     real time;                           /* [s]                                                       */
-    real kinetic;                        /* mean of before and after the step's velocity update  [J]  */
+    real kinetic;                        /* 1/2 m v_before . v_after of the velocity update      [J]  */
     real strain, plastic, fracture;      /* bonds and material points; 0 here; bonds broken      [J]  */
     real external_work;                  /* of loads and supports since the start                [J]  */
     real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far     [1]  */
     real momentum[DIM_MAX];              /* [kg m/s]                                                  */
-    real momentum_error;                 /* |p - p_0 - impulse| / sum |m v|, largest so far      [1]  */
+    real momentum_error;                 /* |p - p_0 - impulse| / largest sum |m v|, most so far [1]  */
 };
 
 struct watch {
     struct ledger now;
     real energy_start, energy_scale;     /* [J] */
-    real momentum_start[DIM_MAX];
+    real momentum_start[DIM_MAX], momentum_scale;   /* [kg m/s] */
     bool started;
     real break_time;                     /* first bond broken by load, driven particles' aside; NAN before [s] */
     real break_place[DIM_MAX];           /* mean reference position of the particles cut in that step [m] */
@@ -41,10 +41,15 @@ real watch_strain(const struct particles *p, const struct material *m, const str
 real watch_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
                      const int32_t *list, int64_t n);
 
-/* Fills `now` for time t: energies [J] and work [J] as they stood then, impulse [N s] of loads and supports up to the
- * velocities that p holds. */
-void watch_ledger(struct watch *w, const struct particles *p, real t, real kinetic, real strain, real fracture,
-                  real work, const real *impulse);
+/* What the mean of 1/2 m v^2 before and after a leap-frog kick has too much over 1/2 m v_before . v_after, the kinetic energy
+ * that the scheme conserves: 1/4 sum m (dt f/m)^2 of peridynamic particles, f as it was [J]. */
+real watch_kick(const struct particles *p, real dt);
+
+/* Momentum of p beside the impulse [N s] of loads and supports up to the same velocities. */
+void watch_momentum(struct watch *w, const struct particles *p, const real *impulse);
+
+/* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After watch_momentum. */
+void watch_ledger(struct watch *w, real t, real kinetic, real strain, real fracture, real work);
 
 /* Books the first break of the run from FLAG_CRACKED. */
 void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, real t);

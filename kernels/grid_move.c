@@ -18,12 +18,12 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
 {
     const int d = w->component;
     const int64_t I = w->node;
-    w->given = 0;
+    w->reaction = 0;
     if (g->mass[I] < smallest_mass) return;
     /* FLIP: points take the change only. APIC: they take the velocity, and with it what replaces P/m = velocity - dv. */
     const real before = transfer == TRANSFER_APIC ? g->velocity[d][I] - g->force[d][I] : w->velocity - w->change;
     const real given = g->mass[I] * (w->velocity - before - g->force[d][I]);
-    w->given = given;
+    w->reaction = given - g->mass[I] * w->change;
     impulse[d] += given;
     *work += given * 0.5 * (before + w->velocity);
     g->force[d][I] = w->change;

@@ -52,24 +52,6 @@ static void say_materials(const struct engine *e)
     }
 }
 
-/* What a person would want to hear before the run, with the numbers it rests on. */
-static void say_warnings(const struct engine *e)
-{
-    const struct scene *s = e->scene;
-    if (e->dt > e->dt_critical) printf("warning: the time step is above the critical one: expect a run that blows up\n");
-    if (s->method == METHOD_MPM && s->cracks > 0)
-        printf("warning: method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them\n");
-    if (s->method == METHOD_PD && s->bodies > 1)
-        printf("warning: peridynamic bodies do not meet in this version: bodies pass through each other; mpm and adaptive let material "
-               "points meet through the grid\n");
-    if (s->method != METHOD_PD && s->cell < 1.5)
-        printf("warning: one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual\n", s->cell);
-    for (int m = 0; m < s->materials; m++)
-        if (e->elastic[m].trigger > s->material[m].young * s->material[m].critical_stretch)
-            printf("warning: material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the strain at which "
-                   "bonds break\n", s->material[m].name, e->elastic[m].trigger, s->material[m].young * s->material[m].critical_stretch);
-}
-
 status command_check(int argc, char **argv)
 {
     struct run_arguments a;
@@ -84,7 +66,7 @@ status command_check(int argc, char **argv)
         say_particles(&e);
         say_materials(&e);
         say_steps(&e, threads);
-        say_warnings(&e);
+        engine_warn(&e, stdout);
     }
     engine_free(&e);
     scene_free(&s);

@@ -51,7 +51,7 @@ static status step_points(struct engine *e, real middle)
     lap(&e->laps, LAP_SCATTER);
     engine_residual(e);
     loads_walls(&e->loads, g, p, k, t->half_width, middle, e->dt);
-    grid_move(g, transfer, t->dt_velocity, e->smallest_mass, e->loads.impulse, &e->loads.work);   /* 3: nodes move */
+    grid_move(g, transfer, t->dt_velocity, e->smallest_mass, e->loads.impulse, &e->loads.held_work);   /* 3: nodes move */
     lap(&e->laps, LAP_GRID);
     if (transfer == TRANSFER_FLIP) {
         k->remap(g, p, t);                                                  /* 4, 6: velocity; momentum back to nodes */
@@ -75,11 +75,14 @@ static status step(struct engine *e)
     const real dt_velocity = e->step == 0 ? 0.5 * e->dt : e->dt;           /* velocities stand half a step behind */
     e->transfer.dt_velocity = dt_velocity;
 
+    engine_sample_begin(e);
+    lap(&e->laps, LAP_WATCH);
     loads_clear(&e->loads, p);
     int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit);         /* 2, 5: bond forces on both kinds; breaking */
     loads_apply(&e->loads, p, middle, e->dt, dt_velocity);
     lap(&e->laps, LAP_BONDS);
-    engine_sample_begin(e);
+    engine_sample_energy(e);
+    lap(&e->laps, LAP_WATCH);
     k->pd_move(p, e->dt, dt_velocity);                                      /* peridynamic particles move */
     lap(&e->laps, LAP_BONDS);
     if (p->n_of[KIND_MPM] > 0) TRY(step_points(e, middle));                 /* 1, 3, 4, 6, 7: material points move */

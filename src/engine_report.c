@@ -10,6 +10,8 @@
 
 #define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
 #define PROGRESS_SECONDS_FILE 60.0       /* and elsewhere                        */
+#define ENERGY_STEPS 50                  /* before the alarm of energies listens */
+#define ENERGY_OF_ROUND_OFF 1e-24        /* of a body's energy at its wave speed */
 #define ENERGY_FROM_NOWHERE 0.5          /* share of all energies that no sound run gains: the first steps of a jump in
                                           * velocity show 0.1, unstable runs that break all their bonds 0.9 and stay slow */
 
@@ -18,12 +20,10 @@
 /* Step of event k of n evenly spread over the run. */
 static int64_t due_step(const struct engine *e, int64_t k, int64_t n) { return n > 0 ? (k * e->steps + n / 2) / n : e->steps; }
 
-/* The last sample of a run is that of its last step. */
 static bool sample_due(const struct engine *e)
 {
-    const int64_t n = e->scene->samples;
-    if (e->step == e->steps - 1) return true;
-    return n > 0 && due_step(e, (e->step * n + e->steps / 2) / e->steps, n) == e->step;
+    const int64_t n = e->scene->samples < e->steps ? e->scene->samples : e->steps;
+    return due_step(e, (e->step * n + e->steps / 2) / e->steps, n) == e->step;
 }
 
 /* ---- columns ----------------------------------------------------------------------------------------------- */
@@ -63,31 +63,60 @@ static status history_start(struct engine *e, bool resume)
 
 /* ---- samples ------------------------------------------------------------------------------------------------ */
 
+/* What stands still while the energies of a sample are gathered. */
+static void sample_state(struct engine *e)
+{
+    watch_momentum(&e->watch, &e->part, e->loads.impulse);
+    tips_sample(&e->tips, &e->part, &e->cells, e->t);
+    struct observed o = engine_observed(e);
+    probes_sample(&e->probes, &o);
+}
+
+static void sample_energy(struct engine *e)
+{
+    e->sampling.potential = e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, e->scene->material, &e->partial);
+    e->sampling.fracture = bonds_fracture_energy(&e->bonds);
+}
+
+static void sample_write(struct engine *e, real kinetic, real work)
+{
+    watch_ledger(&e->watch, e->t, kinetic, e->sampling.potential, e->sampling.fracture, work);
+    fill_record(e);
+    if (e->out && e->history_status == OK) e->history_status = output_history(e->out, e->record);
+}
+
 void engine_sample_begin(struct engine *e)
 {
     e->sampling.due = sample_due(e);
-    if (!e->sampling.due) return;
-    e->sampling.kinetic = watch_kinetic(&e->part);
-    e->sampling.potential = e->kernels.bond_energy(&e->bonds, &e->part) +
-                            watch_strain(&e->part, e->scene->material, &e->partial);
-    e->sampling.fracture = bonds_fracture_energy(&e->bonds);
-    e->sampling.work = e->sampling.work_before;
+    e->sampling.work = e->loads.work;
+    e->sampling.held_work = e->loads.held_work;
+    if (e->sampling.due) sample_state(e);
+    if (e->sampling.due || e->step == e->steps - 1) e->sampling.kinetic = watch_kinetic(&e->part);
+}
+
+void engine_sample_energy(struct engine *e)
+{
+    if (e->sampling.due) sample_energy(e);
 }
 
 void engine_sample_end(struct engine *e)
 {
-    if (e->sampling.due) {
-        /* the first step moves velocities from t = 0, not from half a step before it */
-        real kinetic = e->step == 0 ? e->sampling.kinetic : 0.5 * (e->sampling.kinetic + watch_kinetic(&e->part));
-        watch_ledger(&e->watch, &e->part, e->t, kinetic, e->sampling.potential, e->sampling.fracture, e->sampling.work,
-                     e->loads.impulse);
-        tips_sample(&e->tips, &e->part, &e->cells, e->t);
-        struct observed o = engine_observed(e);
-        probes_sample(&e->probes, &o);
-        fill_record(e);
-        if (e->out && e->history_status == OK) e->history_status = output_history(e->out, e->record);
+    if (!e->sampling.due) return;
+    if (e->step == 0) {                      /* velocities of t = 0, not of half a step before */
+        sample_write(e, e->sampling.kinetic, e->sampling.work);
+        return;
     }
-    e->sampling.work_before = e->loads.work;
+    real kinetic = 0.5 * (e->sampling.kinetic + watch_kinetic(&e->part)) - watch_kick(&e->part, e->dt);
+    sample_write(e, kinetic, e->sampling.work + 0.5 * (e->sampling.held_work + e->loads.held_work));
+}
+
+/* After the last step no force follows: kinetic energy and the supports' work go on as in that step. */
+static void sample_last(struct engine *e)
+{
+    sample_state(e);
+    sample_energy(e);
+    real kinetic = watch_kinetic(&e->part);
+    sample_write(e, 1.5 * kinetic - 0.5 * e->sampling.kinetic, e->loads.work + 1.5 * e->loads.held_work - 0.5 * e->sampling.held_work);
 }
 
 void engine_breaks(struct engine *e, int64_t broken)
@@ -147,7 +176,6 @@ status engine_report_start(struct engine *e)
     e->started = e->last_progress = e->last_checkpoint = team_clock();
     e->step_started = e->step;
     e->loop_before = e->loop_seconds;
-    e->sampling.work_before = e->loads.work;
     if (!e->out) return OK;
     bool resumed = e->out->frames > 0;       /* the first checkpoint, of step 0, already counts the first frame */
     TRY(history_start(e, resumed));
@@ -196,11 +224,14 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
-/* watch_alarm sees what moves too fast; a body that shakes itself to dust does not. */
+/* watch_alarm sees what moves too fast; a body that shakes itself to dust does not. The first steps are left out, where
+ * half a step more or less of a load is much of all energy there is; so is a body at rest, whose energy is round-off. */
 static status energy_alarm(const struct engine *e)
 {
     const struct particles *p = &e->part;
-    if (!e->sampling.due || e->watch.now.balance_error <= ENERGY_FROM_NOWHERE) return OK;
+    const struct watch *w = &e->watch;
+    if (!e->sampling.due || w->now.balance_error <= ENERGY_FROM_NOWHERE || e->step < ENERGY_STEPS) return OK;
+    if (w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->wave_speed)) return OK;
     int64_t i = fastest_particle(p);
     char place[96];
     int used = 0;
@@ -209,7 +240,7 @@ static status energy_alarm(const struct engine *e)
     return status_set(FAILED,
                       "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of its "
                       "energy from nowhere; choose a smaller time.safety (now dt = %.3g s)",
-                      (long long)e->step, e->t, (int)p->id[i], place, 100 * e->watch.now.balance_error, e->dt);
+                      (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, e->dt);
 }
 
 /* ---- after a step ---------------------------------------------------------------------------------------------- */
@@ -223,9 +254,8 @@ status engine_report(struct engine *e)
     TRY(e->history_status);
     TRY(energy_alarm(e));
     if (e->out) {
-        while (e->out->frames <= e->scene->frames && e->scene->frames > 0 &&
-               e->step >= due_step(e, e->out->frames, e->scene->frames) && e->step > 0)
-            TRY(write_frame(e));
+        const int64_t frames = e->scene->frames < e->steps ? e->scene->frames : e->steps;
+        if (e->out->frames <= frames && e->step >= due_step(e, e->out->frames, frames)) TRY(write_frame(e));
         bool stop = e->stop && *e->stop;
         if (stop || team_clock() - e->last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
         if (stop && e->step < e->steps)
@@ -241,6 +271,8 @@ status engine_report(struct engine *e)
 status engine_report_end(struct engine *e)
 {
     progress(e, true);
-    if (!e->out) return OK;
-    return write_checkpoint(e);
+    if (e->step == e->step_started) return OK;   /* a finished run, asked to go on */
+    sample_last(e);
+    TRY(e->history_status);
+    return e->out ? write_checkpoint(e) : OK;
 }

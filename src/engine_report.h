@@ -7,9 +7,11 @@
 /* Before the first step of this process: history file, frame 0, first checkpoint (a restart finds them there). */
 status engine_report_start(struct engine *e);
 
-/* A sample describes t_n: energies at the positions of step n's forces, kinetic energy as the mean of before and after
- * the velocity update. `begin` stands between forces and motion, `end` after conversion. */
+/* A sample describes t_n. `begin`, before the step: positions, damage, and velocities half a step behind (of t = 0 in
+ * the first). `energy`, between forces and motion: energies at the positions of t_n. `end`: the kinetic energy between
+ * the velocities before and after, the work up to t_n, and the line of history.csv. */
 void engine_sample_begin(struct engine *e);
+void engine_sample_energy(struct engine *e);
 void engine_sample_end(struct engine *e);
 
 /* Books broken bonds: the run's first break, and the probes that watch. */

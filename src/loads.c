@@ -48,6 +48,7 @@ static void load_make(struct load *l, const struct boundary *b, struct particles
     for (int64_t i = 0; i < p->n; i++) l->n += selected[i];
     l->particle = NEW("loads.particle", l->n, int32_t);
     l->share = NEW("loads.share", l->n, real);
+    l->before = NEW("loads.before", l->n * p->dim, real);
     for (int64_t i = 0, k = 0; i < p->n; i++) {
         if (!selected[i]) continue;
         l->particle[k] = (int32_t)i;
@@ -98,6 +99,20 @@ void loads_mirror(const struct loads *l, struct particles *p)
     }
 }
 
+/* A mirror with body on both sides would lay images upon particles. */
+static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
+{
+    bool below = false, above = false;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (b->body >= 0 && p->body[i] != b->body) continue;
+        below = below || p->X[b->axis][i] < b->at - PLACE_TOLERANCE * spacing;
+        above = above || p->X[b->axis][i] > b->at + PLACE_TOLERANCE * spacing;
+    }
+    if (!(below && above)) return OK;
+    return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border", b->name,
+                      "xyz"[b->axis], b->at);
+}
+
 /* The side of a mirror that holds no body: -1 below, +1 above. */
 static int mirror_outside(const struct boundary *b, const struct particles *p)
 {
@@ -119,6 +134,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     for (int b = 0; b < n; b++) {
         load_make(&l->load[b], &boundary[b], p, spacing);
         if (boundary[b].kind == BOUNDARY_MIRROR) {
+            TRY(mirror_checked(&boundary[b], p, spacing));
             l->load[b].outside = mirror_outside(&boundary[b], p);
             mirror_make(l, b, &boundary[b], p, reach, optional);
         }
@@ -135,6 +151,7 @@ void loads_free(struct loads *l)
     for (int b = 0; b < l->n; b++) {
         memory_free(l->load[b].particle);
         memory_free(l->load[b].share);
+        memory_free(l->load[b].before);
     }
     memory_free(l->load);
     memory_free(l->image);
@@ -164,10 +181,10 @@ static void drive(struct loads *l, struct load *load, struct particles *p, real 
             if (!(b->components >> d & 1)) continue;
             real target = factor * b->value[d], before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
+            load->reaction[d] -= p->f[d][i];     /* without the driven particles' own inertia: what a load cell reads */
             p->f[d][i] = needed;
-            load->reaction[d] += reaction;
             l->impulse[d] += reaction * dt_velocity;
-            l->work += reaction * dt_velocity * 0.5 * (before + target);
+            l->held_work += reaction * dt_velocity * 0.5 * (before + target);
         }
     }
 }
@@ -206,6 +223,7 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
                 real force = factor * b->value[d] * load->share[k];
+                load->before[k * p->dim + d] = p->x[d][load->particle[k]];
                 p->f[d][load->particle[k]] += force;
                 l->impulse[d] += force * dt_velocity;
             }
@@ -322,7 +340,7 @@ void loads_walls(struct loads *l, struct grid *g, const struct particles *p, con
 
 /* ---- after the gather ------------------------------------------------------------------------------- */
 
-static void hold(struct loads *l, struct load *load, struct particles *p, real factor, real dt_velocity)
+static void hold(struct loads *l, const struct load *load, struct particles *p, real factor)
 {
     const struct boundary *b = load->boundary;
     for (int64_t k = 0; k < load->n; k++) {
@@ -332,30 +350,30 @@ static void hold(struct loads *l, struct load *load, struct particles *p, real f
             if (!(b->components >> d & 1)) continue;
             real target = factor * b->value[d], given = p->mass[i] * (target - p->v[d][i]);
             l->impulse[d] += given;
-            l->work += given * 0.5 * (target + p->v[d][i]);
-            load->reaction[d] += given / dt_velocity;
+            l->held_work += given * 0.5 * (target + p->v[d][i]);
             p->v[d][i] = target;
         }
     }
 }
 
-/* Work of applied forces, with the velocity the step gave. */
-static void applied_work(struct loads *l, const struct load *load, const struct particles *p, real factor, real dt_velocity)
+/* Work of applied forces over the way their particles went. */
+static void applied_work(struct loads *l, const struct load *load, const struct particles *p, real factor)
 {
     for (int64_t k = 0; k < load->n; k++)
         for (int d = 0; d < p->dim; d++)
-            l->work += factor * load->boundary->value[d] * load->share[k] * p->v[d][load->particle[k]] * dt_velocity;
+            l->work += factor * load->boundary->value[d] * load->share[k] *
+                       (p->x[d][load->particle[k]] - load->before[k * p->dim + d]);
 }
 
 void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt_velocity)
 {
     for (int64_t q = 0; q < g->walls; q++)
-        l->load[g->wall[q].load].reaction[g->wall[q].component] += g->wall[q].given / dt_velocity;
+        l->load[g->wall[q].load].reaction[g->wall[q].component] += g->wall[q].reaction / dt_velocity;
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         real factor = time_function_at(&load->boundary->time, t);
-        if (load->boundary->kind == BOUNDARY_VELOCITY) hold(l, load, p, factor, dt_velocity);
-        else if (load->boundary->kind != BOUNDARY_MIRROR) applied_work(l, load, p, factor, dt_velocity);
+        if (load->boundary->kind == BOUNDARY_VELOCITY) hold(l, load, p, factor);
+        else if (load->boundary->kind != BOUNDARY_MIRROR) applied_work(l, load, p, factor);
     }
 }
 
@@ -363,6 +381,7 @@ status loads_archive(struct loads *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "loads/impulse", l->impulse);
     ARCHIVE_VALUE(a, "loads/work", l->work);
+    ARCHIVE_VALUE(a, "loads/held_work", l->held_work);
     for (int b = 0; b < l->n; b++) {
         char name[48];
         snprintf(name, sizeof name, "loads/displacement%d", b);

@@ -160,10 +160,10 @@ while IFS='|' read -r line text start words; do
     "$cleave" run bad.yaml >out 2>err
     ended "$text" $? "$start" "$words"
 done <<'END'
-16|    traction: [1, 0]^    face: x-|probe|has no reaction
-20|probes: [{point: {at: [1, 1]}}]|probe|outside the bodies
-20|probes: [{energy: {region: {box: {from: [1, 1], to: [2, 2]}}}}]|probe|no particle
-14|boundary:^  - {name: push, body_force: [0, 1], region: {box: {from: [1, 1], to: [2, 2]}}}|boundary push|no particle
+16|    traction: [1, 0]^    face: x-|bad.yaml: probe|has no reaction
+20|probes: [{point: {at: [1, 1]}}]|bad.yaml: probe|outside the bodies
+20|probes: [{energy: {region: {box: {from: [1, 1], to: [2, 2]}}}}]|bad.yaml: probe|no particle
+14|boundary:^  - {name: push, body_force: [0, 1], region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml: boundary push|no particle
 8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml: body body|holds no particle
 END
 

@@ -350,7 +350,7 @@ static void conserved(const struct choice *k)
             assert_true(fabs(after.momentum[d] - before.momentum[d] - given[d] - impulse[d]) <=
                         CONSERVED * before.size);
         }
-        for (int64_t w = 0; w < s.g.walls; w++) expected_work += s.g.wall[w].given * mean[w];
+        for (int64_t w = 0; w < s.g.walls; w++) expected_work += (s.g.wall[w].reaction + s.g.mass[s.g.wall[w].node] * s.g.wall[w].change) * mean[w];
         assert_true(fabs(work - expected_work) <= CONSERVED * 250 * before.size);
         for (int64_t w = 0; w < s.g.walls; w++) {
             int64_t I = s.g.wall[w].node;
