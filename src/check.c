@@ -66,6 +66,8 @@ status command_check(int argc, char **argv)
         say_particles(&e);
         say_materials(&e);
         say_steps(&e, threads);
+        if (s.method != METHOD_PD && s.bodies > 1)
+            printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two cells opens\n");
         engine_warn(&e, stdout);
     }
     engine_free(&e);

@@ -136,6 +136,37 @@ static void make_time_step(struct engine *e)
     e->dt = s->duration / (real)e->steps;
 }
 
+/* ---- what the machine can hold -------------------------------------------------------------------------- */
+
+#define BYTES_PER_PARTICLE 250.0         /* fields, cells, lists, its part of the grid */
+#define BYTES_PER_BOND 18.0              /* with padding                               */
+
+/* Upper bound of the lattice particles: boxes round the bodies. */
+static real particles_bound(const struct scene *s)
+{
+    real n = 0, from[DIM_MAX], to[DIM_MAX];
+    for (int b = 0; b < s->bodies; b++) {
+        if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
+        real count = 1;
+        for (int d = 0; d < s->dim; d++) count *= (to[d] - from[d]) / s->spacing;
+        n += count;
+    }
+    return n;
+}
+
+/* A scene far beyond the machine is refused before it fills the memory; half as much again is left for solids that are
+ * smaller than their boxes. */
+static status make_affordable(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real n = particles_bound(s), memory = (real)team_machine().memory;
+    real bonds = s->method == METHOD_PD ? e->source.family.full / e->source.family.cell_volume : 1;
+    real bytes = n * (BYTES_PER_PARTICLE + bonds * BYTES_PER_BOND);
+    if (memory <= 0 || bytes < 1.5 * memory) return OK;
+    return status_set(REFUSED, "about %.2g particles would need some %.2g GB, and this machine has %.2g; choose a larger "
+                               "particles.spacing", n, bytes * 1e-9, memory * 1e-9);
+}
+
 /* ---- all ------------------------------------------------------------------------------------------------ */
 
 static real largest_stress(const struct particles *p)
@@ -155,7 +186,16 @@ struct observed engine_observed(const struct engine *e)
         .strain_stress = e->strain_stress, .residual = e->residual, .residual_step0 = e->residual_step0, .t = e->t};
 }
 
-static status make_all(struct engine *e, const struct scene *s, struct output *out)
+/* What shows only with particles has no line, but it has a file; fill_particles names its own. */
+static status named(const struct scene *s, status made)
+{
+    if (made != REFUSED) return made;
+    char why[512];
+    snprintf(why, sizeof why, "%s", status_message());
+    return status_set(REFUSED, "%s: %s", s->path, why);
+}
+
+status engine_make(struct engine *e, const struct scene *s, struct output *out)
 {
     memset(e, 0, sizeof *e);
     e->scene = s;
@@ -163,8 +203,9 @@ static status make_all(struct engine *e, const struct scene *s, struct output *o
     e->optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
     make_materials(e);
     make_family(e);
+    TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
-    TRY(loads_make(&e->loads, s->boundary, s->boundaries, &e->part, s->spacing, e->source.family.cutoff, e->optional));
+    TRY(named(s, loads_make(&e->loads, s->boundary, s->boundaries, &e->part, s->spacing, e->source.family.cutoff, e->optional)));
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     make_bonds(e);
@@ -178,18 +219,7 @@ static status make_all(struct engine *e, const struct scene *s, struct output *o
     tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     watch_make(&e->watch);
     struct observed o = engine_observed(e);
-    return probes_make(&e->probes, s->probe, s->probes, &o);
-}
-
-status engine_make(struct engine *e, const struct scene *s, struct output *out)
-{
-    status made = make_all(e, s, out);
-    if (made == REFUSED) {                       /* what only shows with particles has no line, but it has a file */
-        char why[512];
-        snprintf(why, sizeof why, "%s", status_message());
-        return status_set(REFUSED, "%s: %s", s->path, why);
-    }
-    return made;
+    return named(s, probes_make(&e->probes, s->probe, s->probes, &o));
 }
 
 void engine_free(struct engine *e)
