@@ -207,7 +207,7 @@ static double job_bytes(const struct job *j, const struct ground *g)
     const struct engine *e = &g->engine[1], *pd = &g->engine[0];
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
     const double node = r * (double)e->grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
-    const double bond = 16.0 * LANES * (double)pd->bonds.slots / (double)pd->part.n,
+    const double bond = 12.5 * LANES * (double)pd->bonds.slots / (double)pd->part.n,
                  apic = j->transfer == TRANSFER_APIC;
     switch (j->kind) {
     case BOND_FORCE:

@@ -10,7 +10,7 @@
  *
  * Rows shorter than their group are padded with w = 0. Where the rows of a group see neighbours at the same
  * index distances (a lattice), a slot holds one distance, its eight neighbours are consecutive in memory
- * (`consecutive`), and one load replaces the gather. */
+ * from `first` on, and one load replaces the gather; nbr is then not even read. */
 #ifndef CLEAVE_BONDS_H
 #define CLEAVE_BONDS_H
 
@@ -54,7 +54,7 @@ struct bonds {
     int64_t *slot;                       /* [groups + 1] first slot of a group                            */
     uint8_t *whole;                      /* [groups 8] the row holds the whole family: its particle is peridynamic */
     uint8_t *aligned;                    /* [groups] the eight particles are consecutive                  */
-    uint8_t *consecutive;                /* [slots] the eight neighbours are consecutive                  */
+    int32_t *first;                      /* [slots] neighbour of lane 0 where the eight are consecutive, else -1 */
     int32_t *nbr;                        /* [slots 8] neighbour                                           */
     real *inverse_length;                /* [slots 8] 1/|X_j - X_i|; negative: broken, so that its stretch is below
                                             -1 and never looks like breaking; 0: padding        [1/m]     */

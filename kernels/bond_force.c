@@ -14,17 +14,6 @@
 
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
 
-/* Relative positions of the eight neighbours of a slot. */
-static ALWAYS_INLINE lanes slot_relative(const real *x, lanes own, const int32_t *nbr, bool consecutive)
-{
-    return (consecutive ? lanes_load(x + nbr[0]) : lanes_gather(x, nbr)) - own;
-}
-
-static ALWAYS_INLINE lanes own_positions(const real *x, const int32_t *row, bool aligned)
-{
-    return aligned ? lanes_load(x + row[0]) : lanes_gather(x, row);
-}
-
 /* f = new share + f (1 - share) */
 static ALWAYS_INLINE void rows_store(real *f, const int32_t *row, int rows, bool aligned, lanes value, real share)
 {
@@ -39,18 +28,19 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
     const int32_t *row = b->particle + g * LANES;
     const bool aligned = b->aligned[g];
     const int rows = b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
-    const lanes x0 = own_positions(p->x[0], row, aligned);
-    const lanes x1 = dim > 1 ? own_positions(p->x[1], row, aligned) : x0;
-    const lanes x2 = dim > 2 ? own_positions(p->x[2], row, aligned) : x0;
+    const int32_t own = aligned ? row[0] : -1;
+    const lanes x0 = lanes_at(p->x[0], own, row);
+    const lanes x1 = dim > 1 ? lanes_at(p->x[1], own, row) : x0;
+    const lanes x2 = dim > 2 ? lanes_at(p->x[2], own, row) : x0;
     lanes f0 = lanes_of(0), f1 = f0, f2 = f0, largest = lanes_of(-1);
 
     for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
         const int64_t q = slot * LANES;
         const int32_t *nbr = b->nbr + q;
-        const bool consecutive = b->consecutive[slot];
-        const lanes d0 = slot_relative(p->x[0], x0, nbr, consecutive);
-        const lanes d1 = dim > 1 ? slot_relative(p->x[1], x1, nbr, consecutive) : d0;
-        const lanes d2 = dim > 2 ? slot_relative(p->x[2], x2, nbr, consecutive) : d0;
+        const int32_t first = b->first[slot];
+        const lanes d0 = lanes_at(p->x[0], first, nbr) - x0;
+        const lanes d1 = dim > 1 ? lanes_at(p->x[1], first, nbr) - x1 : d0;
+        const lanes d2 = dim > 2 ? lanes_at(p->x[2], first, nbr) - x2 : d0;
         lanes distance2 = d0 * d0 + TINY;
         if (dim > 1) distance2 += d1 * d1;
         if (dim > 2) distance2 += d2 * d2;

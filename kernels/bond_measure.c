@@ -17,23 +17,18 @@ static ALWAYS_INLINE real bond_geometry(const struct bonds *b, const struct part
     return sqrt(distance2) * b->inverse_length[q] - 1;
 }
 
-static ALWAYS_INLINE lanes lanes_at(const real *x, const int32_t *index, bool consecutive)
-{
-    return consecutive ? lanes_load(x + index[0]) : lanes_gather(x, index);
-}
-
 /* Energy over half the stiffness (each bond has two rows) of the eight rows of a group. */
 static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                             const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes sum = lanes_of(0), x[DIM_MAX];
-    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], row, b->aligned[g]);
+    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
     for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
         const int64_t q = slot * LANES;
         lanes distance2 = lanes_of(1e-300);
         for (int d = 0; d < dim; d++) {
-            const lanes relative = lanes_at(p->x[d], b->nbr + q, b->consecutive[slot]) - x[d];
+            const lanes relative = lanes_at(p->x[d], b->first[slot], b->nbr + q) - x[d];
             distance2 += relative * relative;
         }
         const lanes w = lanes_load_float(b->w + q), inverse = lanes_load(b->inverse_length + q);

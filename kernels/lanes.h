@@ -37,6 +37,12 @@ static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 #endif
 }
 
+/* Eight values: consecutive from `first` on, or where that is negative those of `index`. */
+static ALWAYS_INLINE lanes lanes_at(const real *from, int32_t first, const int32_t *index)
+{
+    return first >= 0 ? lanes_load(from + first) : lanes_gather(from, index);
+}
+
 /* a where the mask is set, else b. */
 static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
 {

@@ -235,7 +235,7 @@ static void group_fill(struct bonds *b, struct group_room *room, int64_t g, int 
         }
         bool consecutive = true;
         for (int l = 1; l < LANES; l++) consecutive = consecutive && b->nbr[q + l] == b->nbr[q] + l;
-        b->consecutive[b->slot[g] + k] = consecutive;
+        b->first[b->slot[g] + k] = consecutive ? b->nbr[q] : -1;
     }
 }
 
@@ -360,7 +360,7 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     rows_pass(b, old, p, s, &pairs, most, true);
     for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
     b->slots = b->slot[b->groups];
-    b->consecutive = NEW("bonds.consecutive", b->slots, uint8_t);
+    b->first = NEW("bonds.first", b->slots, int32_t);
     b->nbr = NEW("bonds.nbr", b->slots * LANES, int32_t);
     b->inverse_length = NEW("bonds.inverse_length", b->slots * LANES, real);
     b->w = NEW("bonds.w", b->slots * LANES, float);
@@ -384,7 +384,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->slot);
     memory_free(b->aligned);
     memory_free(b->whole);
-    memory_free(b->consecutive);
+    memory_free(b->first);
     memory_free(b->nbr);
     memory_free(b->inverse_length);
     memory_free(b->w);

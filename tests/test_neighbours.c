@@ -197,7 +197,7 @@ static void check_slots(const struct cloud *c)
                 int64_t q = slot * LANES + l, row = g * LANES + l;
                 real xi[DIM_MAX];
                 assert_in_range(b->nbr[q], 0, c->p.n_all + LANES - 1);
-                if (b->consecutive[slot]) assert_int_equal(b->nbr[q], b->nbr[slot * LANES] + l);
+                if (b->first[slot] >= 0) assert_int_equal(b->nbr[q], b->first[slot] + l);
                 if (b->aligned[g]) assert_int_equal(b->particle[row], b->particle[g * LANES] + l);
                 if (b->inverse_length[q] == 0) assert_true(b->w[q] == 0);
                 if (b->inverse_length[q] == 0) continue;
