@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "memory.h"
 
@@ -74,6 +75,7 @@ static const char *processor_name(hwloc_topology_t topology)
 struct machine team_machine(void)
 {
     struct machine m = {.cores = omp_get_num_procs(), .threads_allowed = omp_get_num_procs()};
+    m.memory = (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
     struct place place;
     snprintf(m.model, sizeof m.model, "unknown processor");
     if (!place_make(&place)) return m;
@@ -82,7 +84,8 @@ struct machine team_machine(void)
     m.cache[1] = cache_size(place.topology, HWLOC_OBJ_L1CACHE);
     m.cache[2] = cache_size(place.topology, HWLOC_OBJ_L2CACHE);
     m.cache[3] = cache_size(place.topology, HWLOC_OBJ_L3CACHE);
-    m.memory = (int64_t)hwloc_get_root_obj(place.topology)->total_memory;
+    int64_t memory = (int64_t)hwloc_get_root_obj(place.topology)->total_memory;
+    if (memory > 0) m.memory = memory;       /* hwloc may not see it in a container */
     snprintf(m.model, sizeof m.model, "%s", processor_name(place.topology));
     place_free(&place);
     return m;
