@@ -315,7 +315,7 @@ static status read_words(struct pair *p, int argc, char **argv)
     for (int k = 0; k < 2; k++) {
         p->folder[k] = argv[k + 1];
         if (holds_run(p->folder[k])) continue;
-        return status_set(FAILED, "%s: no run there: no summary.json, history.csv or frames", p->folder[k]);
+        return status_set(REFUSED, "%s: no run there: no summary.json, history.csv or frames", p->folder[k]);
     }
     return OK;
 }

@@ -254,7 +254,7 @@ status command_plot(int argc, char **argv)
     char pictures[PATH_LENGTH], title[TITLE_LENGTH];
     TRY(read_request(&r, argc, argv));
     bool frames = exists(r.folder, "frames.hdf.series"), history = exists(r.folder, "history.csv");
-    if (!frames && !history) return status_set(FAILED, "%s: no run there: neither frames nor history.csv", r.folder);
+    if (!frames && !history) return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", r.folder);
     if (snprintf(pictures, sizeof pictures, "%s/pictures", r.folder) >= (int)sizeof pictures)
         return status_set(FAILED, "%s: the name is too long", r.folder);
     if (mkdir(pictures, 0777) != 0 && errno != EEXIST) return status_set(FAILED, "%s: %s", pictures, strerror(errno));

@@ -244,11 +244,11 @@ static void wrong_words_are_refused(void **state)
     write_run("a", 0, 2, 0.010);
     assert_int_equal(run(command_compare, 4, compare, printed), REFUSED);
     assert_int_equal(run(command_compare, 2, compare, printed), REFUSED);
-    assert_int_equal(run(command_compare, 3, nowhere, printed), FAILED);
+    assert_int_equal(run(command_compare, 3, nowhere, printed), REFUSED);
     assert_int_equal(run(command_plot, 4, plot, printed), REFUSED);
     assert_int_equal(run(command_plot, 3, plot, printed), REFUSED);
     assert_int_equal(run(command_plot, 1, plot, printed), REFUSED);
-    assert_int_equal(run(command_plot, 2, none, printed), FAILED);
+    assert_int_equal(run(command_plot, 2, none, printed), REFUSED);
     assert_int_equal(run(command_info, 2, info, printed), REFUSED);
     assert_int_equal(run(command_info, 1, info, printed), OK);
     assert_non_null(strstr(printed, CLEAVE_VERSION));
