@@ -22,7 +22,7 @@ PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
 SCRIPTS  := $(sort $(wildcard tests/test_*.sh))
 LONG     := $(sort $(wildcard tests/long_*.sh))
 
-.PHONY: all run test test-long bench install packages clean format vec
+.PHONY: all run test test-long bench install packages clean
 .SECONDARY:
 
 all: $(BUILD)/cleave
@@ -61,13 +61,6 @@ install: all
 	install -m 755 $(BUILD)/cleave $(DESTDIR)$(PREFIX)/bin/cleave
 	$(BUILD)/cleave help --manual > $(BUILD)/cleave.1
 	install -m 644 $(BUILD)/cleave.1 $(DESTDIR)$(PREFIX)/share/man/man1/cleave.1
-
-# Every kernel instance must have been vectorised by the compiler or be written in lanes; prints what was not.
-vec:
-	@for f in kernels/*.c; do $(CC) $(CPPFLAGS) $(CFLAGS) -fopt-info-vec-optimized -c -o /dev/null $$f 2>&1 | sed -n '/vectorized/p'; done | sort | uniq -c
-
-format:
-	clang-format -i src/*.c src/*.h include/*.h kernels/*.c kernels/*.h bench/*.c tests/*.c tests/*.h
 
 clean:
 	rm -rf $(BUILD)
