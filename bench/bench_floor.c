@@ -45,7 +45,7 @@ struct floor_bench {
     double stencil[FLOOR_THREADS], points[FLOOR_THREADS];
 };
 
-/* ---- timing ----------------------------------------------------------------------------------------------------- */
+/* ---- timing -------------------------------------------------------------------------------------------- */
 
 static double loop_of(const struct laps *l)
 {
@@ -113,8 +113,7 @@ static status time_everything(struct floor_bench *b, int repetitions)
     return s;
 }
 
-/* ---- figures ------------------------------------------------------------------------------------------------------
- */
+/* ---- figures ------------------------------------------------------------------------------------------- */
 
 static void add_figure(struct floor *f, struct floor_figure figure)
 {
@@ -165,8 +164,7 @@ status bench_floor_speed(struct floor *f, bool quick)
     return OK;
 }
 
-/* ---- memory ---------------------------------------------------------------------------------------------------------
- */
+/* ---- memory -------------------------------------------------------------------------------------------- */
 
 static status peak_per_particle(const struct way *w, double *peak)
 {
@@ -198,8 +196,7 @@ status bench_floor_memory(struct floor *f)
     return OK;
 }
 
-/* ---- what is said
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- what is said -------------------------------------------------------------------------------------- */
 
 static bool met(const struct floor_figure *a)
 {

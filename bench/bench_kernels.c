@@ -76,7 +76,7 @@ struct bench {
     struct floor floor;
 };
 
-/* ---- ground ------------------------------------------------------------------------------------------------ */
+/* ---- ground -------------------------------------------------------------------------------------------- */
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
 static status body_make(struct engine *e, struct scene *s, int dim, const char *method)
@@ -123,7 +123,7 @@ static void ground_free(struct ground *g)
     memory_free(g->field);
 }
 
-/* ---- timing -------------------------------------------------------------------------------------------------- */
+/* ---- timing -------------------------------------------------------------------------------------------- */
 
 static void job_call(const struct job *j, struct ground *g)
 {
@@ -198,7 +198,7 @@ static void time_all(struct bench *b, int repetitions)
     point_probe_free(points);
 }
 
-/* ---- bytes --------------------------------------------------------------------------------------------------- */
+/* ---- bytes --------------------------------------------------------------------------------------------- */
 
 /* Bytes that a kernel must move a particle, counted from the arrays it reads and writes once; nodes shared among the
  * points of their cell. */
@@ -260,7 +260,7 @@ static void find_limits(struct bench *b)
     }
 }
 
-/* ---- what is said ---------------------------------------------------------------------------------------------- */
+/* ---- what is said -------------------------------------------------------------------------------------- */
 
 static void print_limits(const struct limits *l)
 {
@@ -321,7 +321,7 @@ static status write_tables(const struct bench *b)
     return s;
 }
 
-/* ---- picture ----------------------------------------------------------------------------------------------------- */
+/* ---- picture ------------------------------------------------------------------------------------------- */
 
 /* The first word in small letters, quoted. */
 static void put_shape(FILE *to, const char *variant)
@@ -418,8 +418,7 @@ static void draw(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* ---- all -----------------------------------------------------------------------------------------------------------
- */
+/* ---- all ----------------------------------------------------------------------------------------------- */
 
 static status run(struct bench *b, bool quick)
 {

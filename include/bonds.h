@@ -10,7 +10,7 @@
  *
  * Rows shorter than their group are padded with w = 0. Where the rows of a group see neighbours at the same
  * index distances (a lattice), a slot holds one distance, its eight neighbours are consecutive in memory
- * from `first` on, and one load replaces the gather; nbr is then not even read. */
+ * from `first` on, and one load replaces the gather; the hot loop then does not even read nbr. */
 #ifndef CLEAVE_BONDS_H
 #define CLEAVE_BONDS_H
 
@@ -82,9 +82,10 @@ struct bond_source {
     const real *neighbour_volume;        /* [n_all] V_i^H = sum V_j beta, for the surface correction; NULL without */
 };
 
-/* Sums over a full family on the lattice, shell weights, horizon and cutoff; c for material m follows from
- * family_micro_modulus. `material` [0] fixes the elastic constants that isotropic shell weights aim at. */
+/* Horizon and cutoff, shell weights, and the sum over a full family on the lattice. The rules (volume, calibration,
+ * surface, shells) must be set before. */
 void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
+/* c of a material in this family [N/m^6]. */
 real family_micro_modulus(const struct family *f, const struct material *m);
 /* beta x shell weight of a reference bond of components xi and length r [1]. */
 real family_weight(const struct family *f, const real *xi, real r);
@@ -96,7 +97,8 @@ int bonds_room(const struct particles *p, const struct bond_source *s);
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
 
 /* Makes the rows of all peridynamic and hand-shake particles. With `old` (rows made before) what was broken stays
- * broken, and counts are carried over. Bonds cut by a crack have w = 0 and count as damage. Sets damage of all rows' peridynamic particles. */
+ * broken, and counts are carried over. Bonds cut by a crack have w = 0 and count as damage. Sets damage of all rows'
+ * peridynamic particles. */
 void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s);
 void bonds_free(struct bonds *b);
 

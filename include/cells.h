@@ -31,6 +31,9 @@ int cells_near(const struct cells *c, const struct particles *p, const real *X, 
  * number of threads. Blocks are counted from the grid's absolute node 0, so that growing the grid keeps them. */
 enum { BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 
+/* Block of node or cell k in one direction. */
+static inline int64_t block_of(int64_t k) { return k >= 0 ? k / BLOCK_EDGE : -((-k + BLOCK_EDGE - 1) / BLOCK_EDGE); }
+
 struct transfer_order {
     int64_t n;                           /* material points                                          */
     int32_t *particle;                   /* by colour, then block, then cell, then index             */

@@ -24,16 +24,14 @@ struct conversion {
     real first_place[DIM_MAX];           /* reference position of the first triggered particle [m]    */
     int64_t start, converted, events;    /* peridynamic particles at t = 0; converted since; passes   */
     int64_t peak_bonds;                  /* directed bonds stored, most at any time                   */
-    real released;                       /* energy of bonds that were past their limit when made [J]  */
 };
 
 /* Converts every material point flagged FLAG_STRESSED or FLAG_CUT (as the criteria say), both ends of a bond that
  * broke, and with `block` their neighbours within the horizon; clears the flags of the step. Rows of bonds and partial
- * stresses (`partial` NULL: hand-shake without them) are rebuilt only if something converted. Bonds that are past their limit when made are cut at once
- * and their energy is booked as fracture. Returns the number of particles converted. */
+ * stresses (`partial` NULL: hand-shake without them) are rebuilt only if something converted. Bonds that are past their
+ * limit when made are cut at once and their energy is booked as fracture. Returns the number of particles converted. */
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-                const struct bond_source *source, struct partial_stress *partial,
-                real t);
+                const struct bond_source *source, struct partial_stress *partial, real t);
 
 /* Marks as peridynamic, before step 0, every particle one of whose bonds a pre-crack cuts (Zeng et al. 2022,
  * eq. 28), and those in `region` (NULL: none). */

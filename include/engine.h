@@ -7,6 +7,7 @@
 #include "bonds.h"
 #include "cells.h"
 #include "convert.h"
+#include "fill.h"
 #include "grid.h"
 #include "kernels.h"
 #include "loads.h"
@@ -25,7 +26,6 @@ struct engine {
     struct cells cells;                  /* search over reference positions                           */
     struct bond_source source;
     struct bonds bonds;
-    struct bond_limit limit;
     real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
     real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */
     struct elastic *elastic;             /* [materials]                                               */
@@ -43,7 +43,7 @@ struct engine {
     real t, dt, dt_critical;             /* [s]                                                       */
     int64_t step, steps;
     real wave_speed;                     /* fastest of the materials [m/s]                            */
-    real residual, residual_step0;       /* largest nodal force of the last and first step [N]        */
+    real residual_step0;                 /* largest nodal force of the first step, for patch probes [N] */
     real strain_stress;                  /* largest component of the initial stress [Pa]              */
     real smallest_mass;                  /* of a node that moves [kg]                                 */
     real mass;                           /* of the body [kg]                                          */
@@ -79,9 +79,5 @@ struct observed engine_observed(const struct engine *e);
 
 /* summary.json of the run so far; s is its status, `threads` and `wall_seconds` as measured by the caller. */
 status summary_write(const struct engine *e, status s, int threads, double wall_seconds);
-
-/* fill.c: particles, positions, volumes, masses, initial state, from the scene. REFUSED: empty bodies, unreadable
- * lists, two particles in one place. */
-status fill_particles(struct particles *p, const struct scene *s, int optional);
 
 #endif

@@ -35,11 +35,16 @@ struct wall {
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
 void grid_free(struct grid *g);
 void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load);
+
 /* Nodes lighter than this share of a full one are left at rest. The sheet (1.3) names 1e-9; but such a node may carry a
  * force, and what it carries would be lost: momentum is kept to 1e-12 only if just empty nodes are left out, and with the
  * re-map light nodes do no harm (their velocity is that of their particle). */
 #define GRID_MASS_SMALLEST 1e-30
 
-static inline real grid_position(const struct grid *g, int d, int64_t k) { return g->anchor[d] + g->h * (real)(g->first[d] + k); }
+/* Place of node k of the box in direction d [m]. */
+static inline real grid_position(const struct grid *g, int d, int64_t k)
+{
+    return g->anchor[d] + g->h * (real)(g->first[d] + k);
+}
 
 #endif

@@ -72,11 +72,11 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
                   real reach, int optional);
 void loads_free(struct loads *l);
 
-/* Moves images to the mirror image of their sources (x, v, kind). */
+/* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. */
 void loads_mirror(const struct loads *l, struct particles *p);
 
-/* Before bonds: f = 0 on every loaded particle. After bonds: books what mirror images gave, adds applied forces; for driven peridynamic
- * particles replaces f by what gives them their velocity. t is the middle of the step. */
+/* Before bonds: f = 0 on every loaded particle. After bonds: books what mirror images gave, adds applied forces; for
+ * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step. */
 void loads_clear(struct loads *l, struct particles *p);
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
@@ -91,6 +91,6 @@ void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, re
 
 status loads_archive(struct loads *l, struct archive *a);
 
-enum { BOUNDARIES_MAX = 255 };
+enum { BOUNDARIES_MAX = 255 };           /* their number fits the byte of struct held and struct image; scene_keys.c */
 
 #endif

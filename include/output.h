@@ -1,6 +1,7 @@
-/* floor 4: what a run leaves in its folder: frames, their indices, history, checkpoints. Only output*.c and
- * checkpoint.c know HDF5. Every file but history.csv, which grows, is written aside, synced and renamed: a file that
- * is there is whole. After a failed write of HDF5 all that needs it returns FAILED and lets the first message stand. */
+/* floor 4: what a run leaves in its folder: frames, their indices, history, checkpoints. Only output*.c,
+ * checkpoint.c and particle_list.c know HDF5 (info.c asks for its version). Every file but history.csv, which grows, is
+ * written aside, synced and renamed: a file that is there is whole. After a failed write of HDF5 all that needs it
+ * returns FAILED and lets the first message stand. */
 #ifndef CLEAVE_OUTPUT_H
 #define CLEAVE_OUTPUT_H
 

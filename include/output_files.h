@@ -1,5 +1,4 @@
-/* floor 4: how the files of a run are made: paths, and whole files written aside, synced and renamed. Only the
- * output files include this. */
+/* floor 4: how the files of a run are made: paths, and whole files written aside, synced and renamed. */
 #ifndef CLEAVE_OUTPUT_FILES_H
 #define CLEAVE_OUTPUT_FILES_H
 

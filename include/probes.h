@@ -67,10 +67,10 @@ struct probes {
 /* Binds requests to particles. Refuses a point outside the body or an unknown boundary name. */
 status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
 void probes_free(struct probes *s);
-/* Fills value[]. FLAG_CUT of the particles marks bonds cut since the last call of probes_step. */
+/* Fills value[]. */
 void probes_sample(struct probes *s, const struct observed *o);
-/* Called every step in which a bond broke, before flags are cleared (BREAK), and at every step if any probe
- * integrates in time (REACTION: largest and rms force). */
+/* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_CUT marks that bonds
+ * broke, REACTION adds up its largest and rms force. */
 void probes_step(struct probes *s, const struct observed *o);
 /* Calls `emit` for every figure of every probe: probe name, quantity, value (SI). Figures a run does not have
  * (NAN) are left out. */

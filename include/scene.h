@@ -1,4 +1,5 @@
-/* floor 4: a scene: everything a run needs, as read and checked. Only scene*.c know libyaml. Every length is in
+/* floor 4: a scene: everything a run needs, as read and checked. Only scene_yaml.c knows libyaml (info.c asks for
+ * its version). Every length is in
  * metres, every time in seconds: units are gone. */
 #ifndef CLEAVE_SCENE_H
 #define CLEAVE_SCENE_H

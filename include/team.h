@@ -1,4 +1,5 @@
-/* floor 0: threads, and sums that do not depend on how many there are. Only team.c knows hwloc. */
+/* floor 0: threads, and sums that do not depend on how many there are. Only team.c knows hwloc (info.c
+ * asks for its version). */
 #ifndef CLEAVE_TEAM_H
 #define CLEAVE_TEAM_H
 

@@ -41,8 +41,8 @@ real watch_strain(const struct particles *p, const struct material *m, const str
 real watch_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
                      const int32_t *list, int64_t n);
 
-/* What the mean of 1/2 m v^2 before and after a leap-frog kick has too much over 1/2 m v_before . v_after, the kinetic energy
- * that the scheme conserves: 1/4 sum m (dt f/m)^2 of peridynamic particles, f as it was [J]. */
+/* What the mean of 1/2 m v^2 before and after a leap-frog kick has too much over 1/2 m v_before . v_after, the kinetic
+ * energy that the scheme conserves: 1/4 sum m (dt f/m)^2 of peridynamic particles, f as it was [J]. */
 real watch_kick(const struct particles *p, real dt);
 
 /* Momentum of p beside the impulse [N s] of loads and supports up to the same velocities. */

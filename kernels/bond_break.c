@@ -5,7 +5,7 @@
 #include "bond_laws.h"
 #include "kernels.h"
 
-/* Reference and current geometry of stored bond q between i and j. */
+/* Stretch of stored bond q between i and j [1]. */
 static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
 {
     real distance2 = 0;
@@ -15,7 +15,11 @@ static real bond_stretch(const struct bonds *b, const struct particles *p, int64
 
 /* Flags are set by the owner of a row and read by its neighbours' owners at the same time; the bit they read does not
  * change, the atomics only say so. */
-static bool is_driven(const struct particles *p, int32_t i) { return __atomic_load_n(&p->flag[i], __ATOMIC_RELAXED) & FLAG_DRIVEN; }
+static bool is_driven(const struct particles *p, int32_t i)
+{
+    return __atomic_load_n(&p->flag[i], __ATOMIC_RELAXED) & FLAG_DRIVEN;
+}
+
 static void set_flag(struct particles *p, int32_t i, int flag)
 {
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
@@ -23,7 +27,8 @@ static void set_flag(struct particles *p, int32_t i, int flag)
 
 static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
 {
-    b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * bond_law_energy(PD_BOND, lanes_of(stretch))[0] / b->inverse_length[q];
+    const real energy = bond_law_energy(PD_BOND, lanes_of(stretch))[0];
+    b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * energy / b->inverse_length[q];
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]++;

@@ -21,11 +21,13 @@ static ALWAYS_INLINE void point_strain(struct particles *p, const struct transfe
     for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) p->stretch[d][i] *= 1 + t->dt * L[d * dim + d];
-    if (stress_bound(stress, dim) > m->trigger && stress_principal(stress, dim) > m->trigger) p->flag[i] |= FLAG_STRESSED;
+    if (stress_bound(stress, dim) > m->trigger && stress_principal(stress, dim) > m->trigger)
+        p->flag[i] |= FLAG_STRESSED;
 }
 
 /* Returns whether the point entered another cell. */
-static ALWAYS_INLINE bool point_move(const struct grid *g, struct particles *p, int64_t i, const real *step, const int dim)
+static ALWAYS_INLINE bool point_move(const struct grid *g, struct particles *p, int64_t i, const real *step,
+                                     const int dim)
 {
     bool moved = false;
     for (int d = 0; d < dim; d++) {

@@ -37,15 +37,16 @@ struct transfer_data {
     real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
 };
 
-/* Force of all intact bonds on every row's particle (overwrites f there), then breaks what is stretched beyond its limit. A
- * bond acts with half its force in the step in which it breaks: a leap-frog kick stands half before and half after that
+/* Force of all intact bonds on every row's particle (overwrites f there), then breaks what is stretched beyond its limit.
+ * A bond acts with half its force in the step in which it breaks: a leap-frog kick stands half before and half after that
  * instant, so the energy of breaking is second order in the time step (all or nothing of it is first order). Sets
- * FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves 12.5 bytes per
- * bond from memory on a lattice (inverse_length 8, w 4, first 1/2), 16 elsewhere; positions come from cache. Returns the directed bonds broken. */
+ * FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves 12.5 bytes
+ * per bond from memory on a lattice (inverse_length 8, w 4, first 1/2), 16.5 elsewhere (nbr 4); positions come from
+ * cache. Returns the directed bonds broken. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit);
 
-/* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then may
- * be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
+/* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then
+ * may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
 int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group);
 int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit);
 
@@ -102,7 +103,8 @@ void grid_clear(struct grid *g);         /* mass, momentum, force = 0 */
  * the second map. At walls the velocity is prescribed and the change is that of the prescribed motion. Nodes
  * lighter than `smallest_mass` [kg] are left at rest. Adds what the walls gave to impulse [N s] and work [J]; with
  * APIC, where particles take the nodal velocity itself, that includes the momentum they replaced. */
-void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX], real *work);
+void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
+               real *work);
 
 /* Step 6: momentum of the second map becomes its velocity, in place; walls prescribe. */
 void grid_remapped(struct grid *g, real smallest_mass);

@@ -85,8 +85,8 @@ static ALWAYS_INLINE int64_t shape_1d(const enum shape shape, real r, real l, re
 
 /* ---- the nodes of one particle ---------------------------------------------------------------------- */
 
-/* Four nodes in a row along x, from the node below the particle's cell: wide enough for every shape, and the same four for
- * all particles of a cell, so that a row just written is read again whole. */
+/* Four nodes in a row along x, from the node below the particle's cell: wide enough for every shape, and the same four
+ * for all particles of a cell, so that a row just written is read again whole. */
 enum { ROW = 4 };
 typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
 typedef real row_anywhere __attribute__((vector_size(ROW * sizeof(real)), aligned(sizeof(real)), may_alias));

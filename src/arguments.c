@@ -11,7 +11,8 @@ static status add_override(struct run_arguments *a, const char *text)
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
         return status_set(REFUSED, "-s %s: a key and its value are wanted, as in -s particles.spacing=0.5mm", text);
-    char *copy = strdup(text);
+    char *copy = NEW("arguments.text", strlen(text) + 1, char);
+    strcpy(copy, text);
     copy[equals - text] = '\0';
     a->override[a->overrides++] = (struct scene_override){copy, copy + (equals - text) + 1};
     return OK;
@@ -38,7 +39,8 @@ static status read_all(struct run_arguments *a, int argc, char **argv, const cha
         else if (!strcmp(word, "-t")) TRY(read_threads(a, argv[++k]));
         else if (!strcmp(word, "--resume")) a->resume = true;
         else if (!strcmp(word, "-q")) a->quiet = true;
-        else if (word[0] == '-' && word[1]) return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
+        else if (word[0] == '-' && word[1])
+            return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->scene) return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
         else a->scene = word;
     }
@@ -56,7 +58,7 @@ status arguments_read(struct run_arguments *a, int argc, char **argv, const char
 
 void arguments_free(struct run_arguments *a)
 {
-    for (int k = 0; k < a->overrides; k++) free((char *)a->override[k].key);
+    for (int k = 0; k < a->overrides; k++) memory_free((char *)a->override[k].key);
     memory_free(a->override);
     memset(a, 0, sizeof *a);
 }

@@ -109,7 +109,9 @@ static void row_search(struct row *row, const struct bond_source *s, const struc
     row->n = kept;
 }
 
-static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int32_t i)
+/* Lengths, weights and what cracks cut, of the bonds that row_search has found. */
+static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
+                      const struct pair_table *pairs, int32_t i)
 {
     row->trigger = INFINITY, row->cut_volume = 0;
     for (int k = 0; k < row->n; k++) {
@@ -176,7 +178,10 @@ static void row_make(struct row *row, const struct bonds *old, const struct bond
 
 /* ---- one group ------------------------------------------------------------------------------------- */
 
-static int group_rows(const struct bonds *b, int64_t g) { return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES; }
+static int group_rows(const struct bonds *b, int64_t g)
+{
+    return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
+}
 
 /* Distinct index distances of the group's bonds, ascending. */
 static int group_offsets(struct group_room *g, const int32_t *particle, int rows)

@@ -115,33 +115,32 @@ int cells_near(const struct cells *c, const struct particles *p, const real *X, 
 
 /* ---- transfer order --------------------------------------------------------------------------------- */
 
-/* Key of the grid cell of a material point: colour, block, cell inside the block. */
+/* The blocks that a grid's box touches. */
 struct block_shape {
     int64_t first[DIM_MAX], blocks[DIM_MAX];   /* in blocks, counted from node 0 */
     int64_t cells_in_block, n;
 };
 
-static int64_t floor_divide(int64_t a, int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
-
 static struct block_shape block_shape_of(const struct grid *g)
 {
     struct block_shape s = {.cells_in_block = 1, .n = 1};
     for (int d = 0; d < g->dim; d++) {
-        s.first[d] = floor_divide(g->first[d], BLOCK_EDGE);
-        s.blocks[d] = floor_divide(g->first[d] + g->count[d] - 1, BLOCK_EDGE) - s.first[d] + 1;
+        s.first[d] = block_of(g->first[d]);
+        s.blocks[d] = block_of(g->first[d] + g->count[d] - 1) - s.first[d] + 1;
         s.cells_in_block *= BLOCK_EDGE;
         s.n *= s.blocks[d];
     }
     return s;
 }
 
+/* Block of a material point, and the cell in it. */
 static int64_t block_key(const struct block_shape *s, const struct grid *g, const struct particles *p, int64_t i,
                          int64_t *inside)
 {
     int64_t block = 0, cell = 0;
     for (int d = g->dim - 1; d >= 0; d--) {
         int64_t k = (int64_t)floor((p->x[d][i] - g->anchor[d]) / g->h);
-        int64_t b = floor_divide(k, BLOCK_EDGE);
+        int64_t b = block_of(k);
         block = block * s->blocks[d] + (b - s->first[d]);
         cell = cell * BLOCK_EDGE + (k - b * BLOCK_EDGE);
     }
@@ -171,7 +170,7 @@ static void order_room(struct transfer_order *o, int64_t n, int64_t blocks)
     o->n = n;
 }
 
-/* Counting sort by block (blocks numbered colour by colour), then by cell inside each block. */
+/* By cell inside the block; equal cells keep their order. */
 static void sort_in_block(int32_t *particle, uint8_t *inside, int32_t n)
 {
     for (int32_t k = 1; k < n; k++) {
@@ -183,6 +182,7 @@ static void sort_in_block(int32_t *particle, uint8_t *inside, int32_t n)
     }
 }
 
+/* Counting sort by block (blocks numbered colour by colour), then by cell inside each block. */
 void transfer_order_sort(struct transfer_order *o, const struct particles *p, const struct grid *g)
 {
     struct block_shape s = block_shape_of(g);
@@ -220,7 +220,8 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
     }
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t b = 0; b < s.n; b++)
-        sort_in_block(o->particle + o->block_start[b], sorted + o->block_start[b], o->block_start[b + 1] - o->block_start[b]);
+        sort_in_block(o->particle + o->block_start[b], sorted + o->block_start[b],
+                      o->block_start[b + 1] - o->block_start[b]);
     memory_free(rank);
     memory_free(key);
     memory_free(inside);

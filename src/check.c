@@ -34,8 +34,8 @@ static void say_steps(const struct engine *e, int threads)
 {
     printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->dt, e->dt / e->dt_critical,
            e->dt_critical, (long long)e->steps, e->scene->duration);
-    printf("run time       about %.2g s on %d thread%s without output\n", (double)e->steps * step_seconds(e) / threads, threads,
-           threads > 1 ? "s" : "");
+    printf("run time       about %.2g s on %d thread%s without output\n", (double)e->steps * step_seconds(e) / threads,
+           threads, threads > 1 ? "s" : "");
     printf("memory         about %.0f MB\n", 16 + 1e-6 * (260.0 * (double)e->part.n + 18.0 * (double)e->bonds.n));
 }
 
@@ -67,7 +67,8 @@ status command_check(int argc, char **argv)
         say_materials(&e);
         say_steps(&e, threads);
         if (s.method != METHOD_PD && s.bodies > 1)
-            printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two cells opens\n");
+            printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
+                   "cells opens\n");
         engine_warn(&e, stdout);
     }
     engine_free(&e);

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "commands.h"
 #include "history.h"
@@ -13,7 +12,7 @@
 #include "plot.h"
 #include "summary_read.h"
 
-enum { PATH_LENGTH = 4096, KEY_LENGTH = 64 };
+enum { KEY_LENGTH = 64 };
 
 /* Two frames count as taken at one time if they are closer than this share of the time between frames: runs with
  * different steps do not hit the same instant. */
@@ -26,17 +25,11 @@ struct pair {
     int dim;
 };
 
-static bool holds(const char *folder, const char *file)
-{
-    char path[PATH_LENGTH];
-    struct stat found;
-    return snprintf(path, sizeof path, "%s/%s", folder, file) < (int)sizeof path && stat(path, &found) == 0;
-}
-
 /* A folder with at least one of the files that are compared. */
 static bool holds_run(const char *folder)
 {
-    return holds(folder, "summary.json") || holds(folder, "history.csv") || holds(folder, "frames.hdf.series");
+    return run_holds(folder, "summary.json") || run_holds(folder, "history.csv") ||
+           run_holds(folder, "frames.hdf.series");
 }
 
 /* ---- rows of the table ----------------------------------------------------------------------------- */
@@ -84,14 +77,6 @@ static bool last_common(const struct times *a, const struct times *b, int *i, in
         else (*j)--;
     }
     return false;
-}
-
-static status frame_of(struct frame *f, const char *folder, int number)
-{
-    char path[PATH_LENGTH];
-    if (snprintf(path, sizeof path, "%s/frames/%06d.hdf", folder, number) >= (int)sizeof path)
-        return status_set(FAILED, "%s: the name is too long", folder);
-    return frame_read(f, path);
 }
 
 /* ---- fields ---------------------------------------------------------------------------------------- */
@@ -184,13 +169,13 @@ static status compare_frames(struct pair *p)
     status s = OK;
     p->frames_differ = true;
     for (int k = 0; k < 2 && s == OK; k++)
-        if (holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].time);
+        if (run_holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].time);
     if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
         printf("\nfields are not compared: %s has no frames\n", p->folder[t[0].n == 0 ? 0 : 1]);
     } else if (s == OK && !last_common(&t[0], &t[1], &at[0], &at[1])) {
         printf("\nfields are not compared: no frames of the same time\n");
     } else if (s == OK) {
-        for (int k = 0; k < 2 && s == OK; k++) s = frame_of(&f[k], p->folder[k], at[k]);
+        for (int k = 0; k < 2 && s == OK; k++) s = run_frame(&f[k], p->folder[k], at[k]);
         if (s == OK) compare_particles(p, &f[0], &f[1]);
         for (int k = 0; k < 2; k++) frame_free(&f[k]);
     }
@@ -220,7 +205,7 @@ static status compare_energies(const struct pair *p)
     };
     struct history h[2];
     for (int k = 0; k < 2; k++) {
-        if (holds(p->folder[k], "history.csv")) continue;
+        if (run_holds(p->folder[k], "history.csv")) continue;
         printf("\nenergies are not compared: %s has no history.csv\n", p->folder[k]);
         return OK;
     }
@@ -324,7 +309,7 @@ static status read_words(struct pair *p, int argc, char **argv)
 static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];
-    if (!holds(folder, "summary.json")) {
+    if (!run_holds(folder, "summary.json")) {
         printf("%s  %s: no summary.json yet\n", letter, folder);
         return OK;
     }

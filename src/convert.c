@@ -83,9 +83,9 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
 
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
-    unsigned wanted = (rule->criteria & CONVERT_ON_CUT ? FLAG_CUT : 0u) | (rule->criteria & CONVERT_ON_STRESS ? FLAG_STRESSED : 0u);
     /* a material point that lost a bond is peridynamic whatever the criteria say: damage lives in bonds only */
-    return p->kind[i] == KIND_MPM && (p->flag[i] & (wanted | FLAG_CUT));
+    unsigned wanted = FLAG_CUT | (rule->criteria & CONVERT_ON_STRESS ? FLAG_STRESSED : 0u);
+    return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
 static bool any_flag(const struct particles *p)
@@ -131,17 +131,14 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
 }
 
 /* Rows for the new who-is-what; bonds made past their limit break at once. */
-static int64_t rebuild(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source)
+static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
 {
     struct bonds old = *b;
     images_follow(source, p);
     particles_list(p);
-    real before = bonds_fracture_energy(&old);
     bonds_make(b, &old, p, source);
     bonds_free(&old);
-    int64_t broken = bond_break_all(b, p, &source->limit);
-    c->released += bonds_fracture_energy(b) - before;
-    return broken;
+    return bond_break_all(b, p, &source->limit);
 }
 
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
@@ -153,7 +150,7 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
     do {                                 /* a bond that breaks when made takes its other end along, in the same step */
         had = changed.n;
         convert_marked(c, rule, p, source, &changed, t);
-    } while (changed.n > had && rebuild(c, p, b, source) > 0);
+    } while (changed.n > had && rebuild(p, b, source) > 0);
     if (changed.n > 0) {
         if (partial) partial_stress_make(partial, p, b, source, changed.at, changed.n);
         c->converted += changed.n;

@@ -31,7 +31,8 @@ static status points_sort(struct engine *e)
     points_bounds(&e->part, from, to);
     for (int d = 0; d < e->part.dim; d++)
         if (!isfinite(to[d] - from[d])) return watch_alarm(&e->part, e->wave_speed, e->step, e->t, e->dt);
-    TRY(grid_cover(&e->grid, from, to, 64 * e->part.n + 1000000, &changed));
+    int64_t most = 64 * e->part.n + 1000000;     /* far more than any sound run needs; an index is 32 bits */
+    TRY(grid_cover(&e->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
     transfer_order_sort(&e->order, &e->part, &e->grid);
     e->sort_needed = false;
     return OK;
@@ -64,6 +65,13 @@ static status step_points(struct engine *e, real middle)
     return OK;
 }
 
+/* Nothing is left to move on the grid: its walls hold nobody any more, and residuals are those of particles. */
+static void step_without_points(struct engine *e)
+{
+    e->grid.walls = 0;
+    engine_residual(e);
+}
+
 /* ---- the step ------------------------------------------------------------------------------------------- */
 
 static status step(struct engine *e)
@@ -78,7 +86,7 @@ static status step(struct engine *e)
     engine_sample_begin(e);
     lap(&e->laps, LAP_WATCH);
     loads_clear(&e->loads, p);
-    int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit);         /* 2, 5: bond forces on both kinds; breaking */
+    int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit);         /* 2, 5: forces of bonds; breaking */
     loads_apply(&e->loads, p, middle, e->dt, dt_velocity);
     lap(&e->laps, LAP_BONDS);
     engine_sample_energy(e);
@@ -86,6 +94,7 @@ static status step(struct engine *e)
     k->pd_move(p, e->dt, dt_velocity);                                      /* peridynamic particles move */
     lap(&e->laps, LAP_BONDS);
     if (p->n_of[KIND_MPM] > 0) TRY(step_points(e, middle));                 /* 1, 3, 4, 6, 7: material points move */
+    else step_without_points(e);
     loads_hold(&e->loads, &e->grid, p, middle, dt_velocity);
     loads_mirror(&e->loads, p);
     lap(&e->laps, LAP_GRID);

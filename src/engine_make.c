@@ -120,8 +120,10 @@ static real fastest(const struct engine *e)
     return sqrt(speed2);
 }
 
+#define STEPS_MOST 1e12                  /* as scene_check.c: more than any machine will ever do */
+
 /* The smaller of both methods' limits, whichever kinds are present now: particles convert. */
-static void make_time_step(struct engine *e)
+static status make_time_step(struct engine *e)
 {
     const struct scene *s = e->scene;
     e->dt_critical = INFINITY;
@@ -131,9 +133,13 @@ static void make_time_step(struct engine *e)
         e->dt_critical = real_min(e->dt_critical, share * e->grid.h / (e->wave_speed + fastest(e)));
     }
     real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
-    e->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));
+    if (!(s->duration / dt <= STEPS_MOST))
+        return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
+                          s->duration / dt, dt);
+    e->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a hair less: round-off adds no step */
     if (e->steps < 1) e->steps = 1;
     e->dt = s->duration / (real)e->steps;
+    return OK;
 }
 
 /* ---- what the machine can hold -------------------------------------------------------------------------- */
@@ -183,7 +189,7 @@ struct observed engine_observed(const struct engine *e)
     return (struct observed){
         .part = &e->part, .cells = &e->cells, .bonds = &e->bonds, .loads = &e->loads, .grid = &e->grid, .tips = &e->tips,
         .material = s->material, .partial = &e->partial, .spacing = s->spacing, .thickness = e->source.family.section,
-        .strain_stress = e->strain_stress, .residual = e->residual, .residual_step0 = e->residual_step0, .t = e->t};
+        .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t};
 }
 
 /* What shows only with particles has no line, but it has a file; fill_particles names its own. */
@@ -205,13 +211,14 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     make_family(e);
     TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
-    TRY(named(s, loads_make(&e->loads, s->boundary, s->boundaries, &e->part, s->spacing, e->source.family.cutoff, e->optional)));
+    TRY(named(s, loads_make(&e->loads, s->boundary, s->boundaries, &e->part, s->spacing, e->source.family.cutoff,
+                            e->optional)));
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     make_bonds(e);
     make_partial(e);
     make_grid(e);
-    make_time_step(e);
+    TRY(named(s, make_time_step(e)));
     kernels_choose(&e->kernels, s->dim, s->model, s->shape, s->transfer);
     e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt};
     e->strain_stress = largest_stress(&e->part);

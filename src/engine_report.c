@@ -12,13 +12,16 @@
 #define PROGRESS_SECONDS_FILE 60.0       /* and elsewhere                        */
 #define ENERGY_STEPS 50                  /* before the alarm of energies listens */
 #define ENERGY_OF_ROUND_OFF 1e-24        /* of a body's energy at its wave speed */
-#define ENERGY_FROM_NOWHERE 0.5          /* share of all energies that no sound run gains: the first steps of a jump in
-                                          * velocity show 0.1, unstable runs that break all their bonds 0.9 and stay slow */
+#define ENERGY_FROM_NOWHERE 0.5          /* share of all energies that no sound run gains: the first steps of a jump
+                                          * in velocity show 0.1, unstable runs that break all bonds 0.9 and stay slow */
 
 /* ---- when ------------------------------------------------------------------------------------------------ */
 
 /* Step of event k of n evenly spread over the run. */
-static int64_t due_step(const struct engine *e, int64_t k, int64_t n) { return n > 0 ? (k * e->steps + n / 2) / n : e->steps; }
+static int64_t due_step(const struct engine *e, int64_t k, int64_t n)
+{
+    return n > 0 ? (k * e->steps + n / 2) / n : e->steps;
+}
 
 static bool sample_due(const struct engine *e)
 {
@@ -42,10 +45,11 @@ static void fill_record(struct engine *e)
     const struct tip *tip = tips_longest(&e->tips);
     real *r = e->record;
     const real fixed[RECORD_FIXED] = {
-        e->watch.now.time, (real)e->step, l->kinetic, l->strain, l->plastic, l->fracture, l->external_work, l->balance_error,
+        l->time, (real)e->step, l->kinetic, l->strain, l->plastic, l->fracture, l->external_work, l->balance_error,
         l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, (real)e->part.n_of[KIND_PD],
         (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->bonds.n, tip ? tip->growth : 0,
-        tip ? tip->place[0] : NAN, tip && e->part.dim > 1 ? tip->place[1] : NAN, tip && e->part.dim > 2 ? tip->place[2] : NAN};
+        tip ? tip->place[0] : NAN, tip && e->part.dim > 1 ? tip->place[1] : NAN,
+        tip && e->part.dim > 2 ? tip->place[2] : NAN};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probes.columns; c++) r[RECORD_FIXED + c] = e->probes.value[c];
 }
@@ -63,9 +67,18 @@ static status history_start(struct engine *e, bool resume)
 
 /* ---- samples ------------------------------------------------------------------------------------------------ */
 
+/* Stresses of peridynamic particles are made only where somebody looks. */
+static bool wants_stress(const struct engine *e)
+{
+    for (int k = 0; k < e->scene->probes; k++)
+        if (e->scene->probe[k].kind == PROBE_POINT) return true;
+    return false;
+}
+
 /* What stands still while the energies of a sample are gathered. */
 static void sample_state(struct engine *e)
 {
+    if (wants_stress(e)) e->kernels.bond_stress(&e->bonds, &e->part);
     watch_momentum(&e->watch, &e->part, e->loads.impulse);
     tips_sample(&e->tips, &e->part, &e->cells, e->t);
     struct observed o = engine_observed(e);
@@ -74,7 +87,8 @@ static void sample_state(struct engine *e)
 
 static void sample_energy(struct engine *e)
 {
-    e->sampling.potential = e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, e->scene->material, &e->partial);
+    e->sampling.potential = e->kernels.bond_energy(&e->bonds, &e->part);
+    e->sampling.potential += watch_strain(&e->part, e->scene->material, &e->partial);
     e->sampling.fracture = bonds_fracture_energy(&e->bonds);
 }
 
@@ -116,7 +130,8 @@ static void sample_last(struct engine *e)
     sample_state(e);
     sample_energy(e);
     real kinetic = watch_kinetic(&e->part);
-    sample_write(e, 1.5 * kinetic - 0.5 * e->sampling.kinetic, e->loads.work + 1.5 * e->loads.held_work - 0.5 * e->sampling.held_work);
+    real work = e->loads.work + 1.5 * e->loads.held_work - 0.5 * e->sampling.held_work;
+    sample_write(e, 1.5 * kinetic - 0.5 * e->sampling.kinetic, work);
 }
 
 void engine_breaks(struct engine *e, int64_t broken)
@@ -129,7 +144,8 @@ void engine_breaks(struct engine *e, int64_t broken)
 static bool in_patch(const struct engine *e, const real *x)
 {
     for (int k = 0; k < e->scene->probes; k++)
-        if (e->scene->probe[k].kind == PROBE_PATCH && region_contains(&e->scene->probe[k].region, x, e->part.dim, 0)) return true;
+        if (e->scene->probe[k].kind == PROBE_PATCH && region_contains(&e->scene->probe[k].region, x, e->part.dim, 0))
+            return true;
     return false;
 }
 
@@ -204,8 +220,9 @@ static void progress(struct engine *e, bool last)
     char left[32];
     duration_text(left, sizeof left, rate > 0 ? (double)(e->steps - e->step) / rate : 0);
     const struct tip *tip = tips_longest(&e->tips);
-    fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left  PD %.1f %%  crack %.3g mm%s", terminal ? "\r" : "",
-            (long long)e->step, (long long)e->steps, e->t, rate, left, 100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n,
+    fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left  PD %.1f %%  crack %.3g mm%s",
+            terminal ? "\r" : "", (long long)e->step, (long long)e->steps, e->t, rate, left,
+            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n,
             tip ? 1e3 * tip->growth : 0.0, terminal && !last ? "\033[K" : "\n");
     fflush(stderr);
 }
@@ -238,8 +255,8 @@ static status energy_alarm(const struct engine *e)
     for (int d = 0; d < p->dim; d++)
         used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
     return status_set(FAILED,
-                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of its "
-                      "energy from nowhere; choose a smaller time.safety (now dt = %.3g s)",
+                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of "
+                      "its energy from nowhere; choose a smaller time.safety (now dt = %.3g s)",
                       (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, e->dt);
 }
 
@@ -251,6 +268,7 @@ status engine_report(struct engine *e)
     e->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
     e->bond_visits += e->bonds.n;
     lap(&e->laps, LAP_WATCH);
+    if (e->step == e->steps) sample_last(e);     /* before any checkpoint: a finished run has nothing left to write */
     TRY(e->history_status);
     TRY(energy_alarm(e));
     if (e->out) {
@@ -259,7 +277,8 @@ status engine_report(struct engine *e)
         bool stop = e->stop && *e->stop;
         if (stop || team_clock() - e->last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
         if (stop && e->step < e->steps)
-            return status_set(INTERRUPTED, "interrupted at step %lld of %lld; go on with --resume", (long long)e->step, (long long)e->steps);
+            return status_set(INTERRUPTED, "interrupted at step %lld of %lld; go on with --resume", (long long)e->step,
+                              (long long)e->steps);
     }
     progress(e, false);
     lap(&e->laps, LAP_OUTPUT);
@@ -271,8 +290,5 @@ status engine_report(struct engine *e)
 status engine_report_end(struct engine *e)
 {
     progress(e, true);
-    if (e->step == e->step_started) return OK;   /* a finished run, asked to go on */
-    sample_last(e);
-    TRY(e->history_status);
-    return e->out ? write_checkpoint(e) : OK;
+    return e->out && e->step > e->step_started ? write_checkpoint(e) : OK;
 }

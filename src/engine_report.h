@@ -17,7 +17,8 @@ void engine_sample_end(struct engine *e);
 /* Books broken bonds: the run's first break, and the probes that watch. */
 void engine_breaks(struct engine *e, int64_t broken);
 
-/* Largest nodal force of the first step, for patch probes. Called between the first map and the motion of the nodes. */
+/* Largest nodal force of the first step, for patch probes. Called between the first map and the motion of the nodes; in
+ * a body without material points it looks at the particles only. */
 void engine_residual(struct engine *e);
 
 /* After every step: frame, checkpoint and progress line if due; INTERRUPTED after a checkpoint if asked to stop. */

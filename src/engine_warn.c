@@ -14,14 +14,17 @@ static int64_t bonds_cut(const struct engine *e)
 static void warn_of_method(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
-    if (e->dt > e->dt_critical) fprintf(out, "warning: the time step is above the critical one: expect a run that blows up\n");
+    if (e->dt > e->dt_critical)
+        fprintf(out, "warning: the time step is above the critical one: expect a run that blows up\n");
     if (s->method == METHOD_MPM && s->cracks > 0)
-        fprintf(out, "warning: method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them\n");
+        fprintf(out, "warning: method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent "
+                     "them\n");
     if (s->method == METHOD_PD && s->bodies > 1)
-        fprintf(out, "warning: peridynamic bodies do not meet in this version: they pass through each other; with mpm and adaptive "
-                     "material points meet through the grid\n");
+        fprintf(out, "warning: peridynamic bodies do not meet in this version: they pass through each other; with mpm "
+                     "and adaptive material points meet through the grid\n");
     if (s->method != METHOD_PD && s->cell < 1.5)
-        fprintf(out, "warning: one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual\n", s->cell);
+        fprintf(out, "warning: one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; "
+                     "2 is usual\n", s->cell);
 }
 
 static void warn_of_materials(const struct engine *e, FILE *out)
@@ -29,8 +32,8 @@ static void warn_of_materials(const struct engine *e, FILE *out)
     for (int m = 0; m < e->scene->materials; m++) {
         const struct material *a = &e->scene->material[m];
         if (isfinite(e->elastic[m].trigger) && e->elastic[m].trigger > a->young * a->critical_stretch)
-            fprintf(out, "warning: material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the strain at which "
-                         "bonds break\n", a->name, e->elastic[m].trigger, a->young * a->critical_stretch);
+            fprintf(out, "warning: material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the "
+                         "strain at which bonds break\n", a->name, e->elastic[m].trigger, a->young * a->critical_stretch);
     }
 }
 
@@ -40,7 +43,8 @@ static void warn_of_empty(const struct engine *e, FILE *out)
         if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
             fprintf(out, "warning: boundary %s holds no particle%s\n", e->scene->boundary[b].name,
                     e->scene->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
-    if (e->source.cracks > 0 && bonds_cut(e) == 0) fprintf(out, "warning: the pre-cracks cut no bond: do they lie in the body?\n");
+    if (e->source.cracks > 0 && bonds_cut(e) == 0)
+        fprintf(out, "warning: the pre-cracks cut no bond: do they lie in the body?\n");
 }
 
 void engine_warn(const struct engine *e, FILE *out)

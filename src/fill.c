@@ -7,9 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine.h"
+#include "cells.h"
+#include "fill.h"
 #include "memory.h"
 #include "particle_list.h"
+#include "team.h"
 
 /* Points this close to a surface count as on it, and so inside [spacings]. */
 static const real on_surface = 1e-9;

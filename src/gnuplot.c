@@ -45,7 +45,8 @@ static status start(struct gnuplot *g)
     g->complaints = fopen(g->aside, "w+");           /* a file without a name, beside the picture */
     if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->aside, strerror(errno));
     remove(g->aside);
-    if (pipe(ends) != 0) return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
+    if (pipe(ends) != 0)
+        return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
     signal(SIGPIPE, SIG_IGN);                        /* a gnuplot that dies is an error, not our death */
     g->process = (int)fork();
     if (g->process == 0) become_gnuplot(ends, fileno(g->complaints));
@@ -55,7 +56,10 @@ static status start(struct gnuplot *g)
         return status_set(FAILED, "%s: gnuplot cannot be started: %s", g->path, strerror(errno));
     }
     g->to = fdopen(ends[1], "w");
-    return g->to != NULL ? OK : status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
+    if (g->to != NULL) return OK;
+    int cause = errno;
+    close(ends[1]);                                  /* or the child would wait for ever, and we for it */
+    return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(cause));
 }
 
 static void set_style(FILE *to)

@@ -7,7 +7,8 @@
 #include "cells.h"
 #include "memory.h"
 
-enum { MARGIN = 3 };                     /* nodes beyond the outermost point: reach of the widest shape and one cell of motion */
+/* Nodes beyond the outermost point: reach of the widest shape and one cell of motion. */
+enum { MARGIN = 3 };
 
 static void grid_arrays_free(struct grid *g)
 {
@@ -34,7 +35,8 @@ static void grid_arrays_make(struct grid *g)
     }
 }
 
-static int64_t block_floor(int64_t k) { return (k >= 0 ? k / BLOCK_EDGE : -((-k + BLOCK_EDGE - 1) / BLOCK_EDGE)) * BLOCK_EDGE; }
+/* First node of the block that holds node k. */
+static int64_t block_floor(int64_t k) { return block_of(k) * BLOCK_EDGE; }
 
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
 {

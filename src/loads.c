@@ -62,7 +62,8 @@ static void load_make(struct load *l, const struct boundary *b, struct particles
 
 /* Adds the images of one mirror: of everything near its plane, images of earlier mirrors included, so that corners get
  * theirs. Nothing on the plane itself: such a particle is its own image. */
-static void mirror_make(struct loads *l, int which, const struct boundary *b, struct particles *p, real reach, int optional)
+static void mirror_make(struct loads *l, int which, const struct boundary *b, struct particles *p, real reach,
+                        int optional)
 {
     int64_t before = p->n_all, images = 0, have = l->images;
     for (int pass = 0; pass < 2; pass++) {
@@ -96,6 +97,7 @@ void loads_mirror(const struct loads *l, struct particles *p)
             p->v[d][g] = sign * p->v[d][i];
         }
         p->kind[g] = p->kind[i];
+        p->flag[g] = p->flag[i] & FLAG_DRIVEN;
     }
 }
 
@@ -109,8 +111,8 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
         above = above || p->X[b->axis][i] > b->at + PLACE_TOLERANCE * spacing;
     }
     if (!(below && above)) return OK;
-    return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border", b->name,
-                      "xyz"[b->axis], b->at);
+    return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border",
+                      b->name, "xyz"[b->axis], b->at);
 }
 
 /* The side of a mirror that holds no body: -1 below, +1 above. */
@@ -127,6 +129,7 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
 status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
                   real reach, int optional)
 {
+    assert(n <= BOUNDARIES_MAX);
     memset(l, 0, sizeof *l);
     l->n = n;
     l->spacing = spacing;
@@ -174,6 +177,7 @@ void loads_clear(struct loads *l, struct particles *p)
 static void drive(struct loads *l, struct load *load, struct particles *p, real factor, real dt_velocity)
 {
     const struct boundary *b = load->boundary;
+    real given[DIM_MAX] = {0}, work = 0;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
         if (p->kind[i] != KIND_PD) continue;
@@ -183,10 +187,12 @@ static void drive(struct loads *l, struct load *load, struct particles *p, real 
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
             load->reaction[d] -= p->f[d][i];     /* without the driven particles' own inertia: what a load cell reads */
             p->f[d][i] = needed;
-            l->impulse[d] += reaction * dt_velocity;
-            l->held_work += reaction * dt_velocity * 0.5 * (before + target);
+            given[d] += reaction * dt_velocity;
+            work += reaction * dt_velocity * 0.5 * (before + target);
         }
     }
+    for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d];
+    l->held_work += work;
 }
 
 struct force_sum { const struct particles *p; int component; };
@@ -211,6 +217,21 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
         if (held[d]) l->impulse[d] += dt_velocity * team_sum(p->n, force_term, &(struct force_sum){p, d});
 }
 
+/* Adds an applied force. What a step gives is summed before it joins what all steps gave: round-off then grows with the
+ * number of steps, not of steps times particles. */
+static void apply(struct loads *l, struct load *load, struct particles *p, real factor, real dt_velocity)
+{
+    real given[DIM_MAX] = {0};
+    for (int64_t k = 0; k < load->n; k++)
+        for (int d = 0; d < p->dim; d++) {
+            real force = factor * load->boundary->value[d] * load->share[k];
+            load->before[k * p->dim + d] = p->x[d][load->particle[k]];
+            p->f[d][load->particle[k]] += force;
+            given[d] += force;
+        }
+    for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d] * dt_velocity;
+}
+
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
@@ -219,14 +240,7 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
         const struct boundary *b = load->boundary;
         memset(load->reaction, 0, sizeof load->reaction);
         if (b->kind != BOUNDARY_TRACTION && b->kind != BOUNDARY_BODY_FORCE) continue;
-        real factor = time_function_at(&b->time, t);
-        for (int64_t k = 0; k < load->n; k++)
-            for (int d = 0; d < p->dim; d++) {
-                real force = factor * b->value[d] * load->share[k];
-                load->before[k * p->dim + d] = p->x[d][load->particle[k]];
-                p->f[d][load->particle[k]] += force;
-                l->impulse[d] += force * dt_velocity;
-            }
+        apply(l, load, p, time_function_at(&b->time, t), dt_velocity);
     }
     for (int c = 0; c < l->n; c++) {         /* after all forces: what holds a particle sees them */
         struct load *load = &l->load[c];
@@ -311,7 +325,8 @@ static void driven_walls(struct loads *l, int which, struct grid *g, real veloci
     for (int64_t I = 0; I < g->n; I++) {
         if (l->share[I] <= 0 || l->share[I] < 0.5 * (1 - 1e-9) * g->mass[I]) continue;
         for (int d = 0; d < g->dim; d++)
-            if (b->components >> d & 1) grid_add_wall(g, I, d, velocity_factor * b->value[d], change_factor * b->value[d], which);
+            if (b->components >> d & 1)
+                grid_add_wall(g, I, d, velocity_factor * b->value[d], change_factor * b->value[d], which);
     }
 }
 
@@ -321,7 +336,7 @@ void loads_walls(struct loads *l, struct grid *g, const struct particles *p, con
     g->walls = 0;
     if (l->n == 0) return;
     if (!held_is_current(l, g)) held_find(l, g);
-    real velocity[256], change[256];
+    real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
     for (int b = 0; b < l->n; b++) {
         velocity[b] = time_function_at(&l->load[b].boundary->time, t);
         change[b] = t > dt ? velocity[b] - time_function_at(&l->load[b].boundary->time, t - dt) : 0;
@@ -359,10 +374,12 @@ static void hold(struct loads *l, const struct load *load, struct particles *p, 
 /* Work of applied forces over the way their particles went. */
 static void applied_work(struct loads *l, const struct load *load, const struct particles *p, real factor)
 {
+    real work = 0;
     for (int64_t k = 0; k < load->n; k++)
         for (int d = 0; d < p->dim; d++)
-            l->work += factor * load->boundary->value[d] * load->share[k] *
-                       (p->x[d][load->particle[k]] - load->before[k * p->dim + d]);
+            work += factor * load->boundary->value[d] * load->share[k] *
+                    (p->x[d][load->particle[k]] - load->before[k * p->dim + d]);
+    l->work += work;
 }
 
 void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt_velocity)

@@ -47,8 +47,8 @@ static status call(int argc, char **argv)
     return status_set(REFUSED, "unknown command %s; cleave --help lists them", argv[1]);
 }
 
-/* OpenMP's threads wait for each other by spinning, for milliseconds: on a machine that is busy otherwise that slows a run
- * many times over. A short spin is asked for before the library starts, unless the user has an opinion. */
+/* OpenMP's threads wait for each other by spinning, for milliseconds: on a machine that is busy otherwise that slows a
+ * run many times over. A short spin is asked for before the library starts, unless the user has an opinion. */
 static void wait_politely(char **argv)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;

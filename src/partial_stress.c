@@ -102,7 +102,7 @@ static int ends_near(const struct particles *p, const struct bond_source *s, int
     return cells_near(s->cells, p, X, s->family.cutoff + half_edge(p, s, i) * sqrt(p->dim), -1, found, room);
 }
 
-/* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). Returns false if no bond crosses. */
+/* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). False if no bond crosses. */
 static bool partial_matrix(real *M, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            int64_t i, int32_t *found, int room)
 {
@@ -112,13 +112,15 @@ static bool partial_matrix(real *M, const struct particles *p, const struct bond
     int near = ends_near(p, s, i, found, room);
     assert(near <= room);
     for (int k = 0; k < near; k++)
-        if (p->kind[found[k]] == KIND_MPM && p->body[found[k]] == p->body[i]) tensor_add_row(T, p, b, s, found[k], X, half);
+        if (p->kind[found[k]] == KIND_MPM && p->body[found[k]] == p->body[i])
+            tensor_add_row(T, p, b, s, found[k], X, half);
     material_compliance(&s->material[p->material[i]], dim, compliance);
     real largest = 0;
     for (int a = 0; a < n; a++)
         for (int c = 0; c < n; c++) {
             M[a * n + c] = 0;
-            for (int k = 0; k < n; k++) M[a * n + c] += T[a * n + k] * (k < dim ? 1 : 2) * compliance[k * n + c] / p->volume0[i];
+            for (int k = 0; k < n; k++)
+                M[a * n + c] += T[a * n + k] * (k < dim ? 1 : 2) * compliance[k * n + c] / p->volume0[i];
             largest = real_max(largest, fabs(M[a * n + c]));
         }
     return largest > 0;
@@ -144,7 +146,8 @@ static int64_t mark_dirty(const struct particles *p, const struct bond_source *s
 {
     int32_t *found = NEW("partial.found", room, int32_t);
     int64_t count = changed ? n : p->n_of[KIND_PD], dirties = 0;
-    for (int64_t k = 0; k < count; k++) mark_near(p, s, changed ? changed[k] : p->list[KIND_PD][k], radius, found, room, dirty);
+    for (int64_t k = 0; k < count; k++)
+        mark_near(p, s, changed ? changed[k] : p->list[KIND_PD][k], radius, found, room, dirty);
     for (int64_t i = 0; i < p->n; i++)
         if (dirty[i]) list[dirties++] = (int32_t)i;
     memory_free(found);
@@ -156,7 +159,8 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     if (partial->index[i] < 0) {
         if (partial->entries == partial->room) {
             int64_t room = partial->room ? 2 * partial->room : 256;
-            partial->matrix = memory_resize("partial.matrix", partial->matrix, partial->room * size, room * size, sizeof(real));
+            partial->matrix =
+                memory_resize("partial.matrix", partial->matrix, partial->room * size, room * size, sizeof(real));
             partial->room = room;
         }
         partial->index[i] = (int32_t)partial->entries++;
@@ -182,7 +186,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     uint8_t *dirty = NEW("partial.dirty", p->n, uint8_t);
     int32_t *list = NEW("partial.list", p->n, int32_t);
     int64_t dirties = mark_dirty(p, source, radius, changed, n, room, dirty, list);
-    for (int64_t k = 0; k < dirties; k++) {      /* a particle in a corner sees an eighth of what the points near it see */
+    for (int64_t k = 0; k < dirties; k++) {      /* a particle in a corner sees an eighth of what points near it see */
         int near = ends_near(p, source, list[k], NULL, 0);
         if (near > room) room = near;
     }
@@ -192,7 +196,8 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         int32_t *found = NEW("partial.found", room, int32_t);
 #pragma omp for schedule(dynamic, 16)
         for (int64_t k = 0; k < dirties; k++)    /* dirty becomes: 2 if a bond crosses the cell */
-            if (p->kind[list[k]] == KIND_MPM && partial_matrix(M + k * size, p, b, source, list[k], found, room)) dirty[list[k]] = 2;
+            if (p->kind[list[k]] == KIND_MPM && partial_matrix(M + k * size, p, b, source, list[k], found, room))
+                dirty[list[k]] = 2;
         memory_free(found);
     }
     for (int64_t k = 0; k < dirties; k++) {

@@ -84,14 +84,14 @@ static status read_request(struct request *r, int argc, char **argv)
 
 /* ---- frames ---------------------------------------------------------------------------------------- */
 
-static bool exists(const char *folder, const char *name)
+bool run_holds(const char *folder, const char *name)
 {
     char path[PATH_LENGTH];
     struct stat found;
     return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path && stat(path, &found) == 0;
 }
 
-static status read_frame(struct frame *f, const char *folder, int number)
+status run_frame(struct frame *f, const char *folder, int number)
 {
     char path[PATH_LENGTH];
     if (snprintf(path, sizeof path, "%s/frames/%06d.hdf", folder, number) >= (int)sizeof path)
@@ -169,7 +169,7 @@ static status draw_every(const struct request *r, const struct run_frames *frame
         struct frame f;
         struct cloud c;
         char file[NAME_MAX_LENGTH];
-        TRY(read_frame(&f, r->folder, k));
+        TRY(run_frame(&f, r->folder, k));
         cloud_make(&c, &f);
         frame_free(&f);
         snprintf(file, sizeof file, "damage_%06d", k);
@@ -200,7 +200,7 @@ static status draw_profiles(const struct request *r, const struct run_frames *fr
     status s = OK;
     int read = 0;
     while (s == OK && read < frames->shown) {
-        s = read_frame(&f[read], r->folder, frames->number[read]);
+        s = run_frame(&f[read], r->folder, frames->number[read]);
         if (s == OK) read++;
     }
     compose_title(title, r->folder, "profiles", NULL);
@@ -218,7 +218,7 @@ static status draw_clouds(const struct request *r, const struct run_frames *fram
     status s = OK;
     for (int k = 0; s == OK && k < frames->shown; k++) {
         struct frame f;
-        s = read_frame(&f, r->folder, frames->number[k]);
+        s = run_frame(&f, r->folder, frames->number[k]);
         if (s != OK) break;
         cloud_make(&cloud[k], &f);
         frame_free(&f);
@@ -236,7 +236,7 @@ static status draw_frames(const struct request *r)
     if (frames.listed > 0) {
         struct frame last;
         spread_frames(&frames, r->panels);
-        status s = read_frame(&last, r->folder, frames.listed - 1);
+        status s = run_frame(&last, r->folder, frames.listed - 1);
         int dim = s == OK ? last.dim : 0;
         if (s == OK) frame_free(&last);
         if (s == OK) s = dim == 1 ? draw_profiles(r, &frames) : draw_clouds(r, &frames);
@@ -253,7 +253,7 @@ status command_plot(int argc, char **argv)
     struct request r;
     char pictures[PATH_LENGTH], title[TITLE_LENGTH];
     TRY(read_request(&r, argc, argv));
-    bool frames = exists(r.folder, "frames.hdf.series"), history = exists(r.folder, "history.csv");
+    bool frames = run_holds(r.folder, "frames.hdf.series"), history = run_holds(r.folder, "history.csv");
     if (!frames && !history) return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", r.folder);
     if (snprintf(pictures, sizeof pictures, "%s/pictures", r.folder) >= (int)sizeof pictures)
         return status_set(FAILED, "%s: the name is too long", r.folder);

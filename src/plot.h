@@ -1,9 +1,14 @@
-/* floor 5: what the files of `cleave plot` share. */
+/* floor 5: what the files of `cleave plot` share, and what `cleave compare` shares with them. */
 #ifndef CLEAVE_PLOT_H
 #define CLEAVE_PLOT_H
 
 #include "gnuplot.h"
 #include "output.h"
+
+/* Is there a file of this name in the folder of a run? */
+bool run_holds(const char *folder, const char *name);
+/* Frame `number` of a run. */
+status run_frame(struct frame *f, const char *folder, int number);
 
 /* A unit for display: shown = SI / factor. */
 struct unit { double factor; char name[8]; };

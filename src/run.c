@@ -2,14 +2,11 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "arguments.h"
 #include "commands.h"
 #include "engine.h"
-#include "memory.h"
 
 /* The one variable that a signal may reach. */
 static volatile sig_atomic_t stop_asked;
@@ -34,32 +31,31 @@ static void listen_to_signals(void)
 static void print_summary(const struct engine *e, const char *folder, double wall)
 {
     const struct tip *tip = tips_longest(&e->tips);
-    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n, (long long)e->step, e->dt, wall);
-    if (!isnan(e->watch.break_time)) printf("  first bond cut at %.4g s", e->watch.break_time);
-    if (tip) printf(", longest crack grew %.4g mm at %.3g degrees", 1e3 * tip->growth, tip_angle(tip, e->part.dim));
-    if (!isnan(e->watch.break_time)) printf("\n");
-    printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n", 100.0 * (double)e->conversion.start / (double)e->part.n,
+    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n, (long long)e->step,
+           e->dt, wall);
+    bool broke = !isnan(e->watch.break_time);
+    if (broke) printf("  first bond cut at %.4g s", e->watch.break_time);
+    if (tip)
+        printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
+               tip_angle(tip, e->part.dim));
+    if (broke || tip) printf("\n");
+    printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n",
+           100.0 * (double)e->conversion.start / (double)e->part.n,
            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n);
     printf("  energy balance %.2g, momentum %.2g\n", e->watch.now.balance_error, e->watch.now.momentum_error);
-    printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", folder, folder, folder);
-}
-
-static char *default_folder(const struct scene *s)
-{
-    char *folder = malloc(strlen(s->name) + 16);
-    if (folder) sprintf(folder, "results/%s", s->name);
-    return folder;
+    printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", folder, folder,
+           folder);
 }
 
 static status open_folder(struct output *out, const struct scene *s, const struct run_arguments *a)
 {
-    char *folder = a->folder ? strdup(a->folder) : default_folder(s);
-    status result = output_open(out, folder, s->text, a->resume, s->compress);
-    free(folder);
-    return result;
+    char folder[sizeof s->name + sizeof "results/"];
+    snprintf(folder, sizeof folder, "results/%s", s->name);
+    return output_open(out, a->folder ? a->folder : folder, s->text, a->resume, s->compress);
 }
 
-static status run_engine(struct engine *e, const struct scene *s, struct output *out, const struct run_arguments *a, int threads)
+static status run_engine(struct engine *e, const struct scene *s, struct output *out, const struct run_arguments *a,
+                         int threads)
 {
     double start = team_clock();
     TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */

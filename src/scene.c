@@ -63,7 +63,7 @@ static status read_all(struct reader *r, const char *text, size_t length)
     TRY(tree_override(r, root));
     TRY(read_nodes(r, root));
     s->text = scene_echo(s);
-    return OK;
+    return s->text ? OK : status_set(FAILED, "%s: no memory to write it out", r->name);
 }
 
 static status read_scene(struct reader *r, const char *text, size_t length)

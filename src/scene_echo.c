@@ -346,6 +346,7 @@ char *scene_echo(const struct scene *s)
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
     struct writer w = {.out = open_memstream(&text, &length), .scene = s};
+    if (!w.out) return NULL;
     write_group(&w, "", &head);
     write_materials(&w);
     write_bodies(&w);
@@ -353,7 +354,11 @@ char *scene_echo(const struct scene *s)
     write_initials(&w);
     write_boundaries(&w);
     write_probes(&w);
-    fclose(w.out);
+    bool whole = !ferror(w.out);
+    if (fclose(w.out) != 0 || !whole) {
+        free(text);
+        return NULL;
+    }
     kept = NEW("scene text", length + 1, char);
     memcpy(kept, text, length + 1);
     free(text);

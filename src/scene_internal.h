@@ -144,7 +144,7 @@ status check_size(struct reader *r, const struct node *root);
 extern const char *const space_names[];
 extern const char *const probe_names[PROBES];
 
-/* The scene as run (scene_echo.c); freed with memory_free. */
+/* The scene as run (scene_echo.c); freed with memory_free. NULL: no memory. */
 char *scene_echo(const struct scene *s);
 
 #endif

@@ -67,7 +67,7 @@ static void flood_run(struct flood *f)
     real X[DIM_MAX];
     for (int64_t head = 0; head < f->queued; head++) {
         int32_t i = f->queue[head];
-        tip_point(p, i, X);
+        particle_place(p, i, X);
         int tip = f->t->label[i] - 1, n = tip_search_near(&f->search, X, (TOUCH + EQUAL) * f->t->spacing);
         for (int k = 0; k < n; k++) {
             int32_t j = f->search.found[k];
@@ -84,7 +84,7 @@ static int start_near(const struct tips *t, const struct particles *p, int64_t i
 {
     int nearest = -1;
     real X[DIM_MAX], offset[DIM_MAX], least = (START_REACH + EQUAL) * t->spacing;
-    tip_point(p, i, X);
+    particle_place(p, i, X);
     for (int k = 0; k < t->n; k++) {
         const struct tip *tip = &t->tip[k];
         if (!tip->from_crack || tip->body != p->body[i]) continue;
@@ -100,7 +100,7 @@ static int crack_touched(struct flood *f, int64_t i)
 {
     const struct particles *p = f->search.p;
     real X[DIM_MAX];
-    tip_point(p, i, X);
+    particle_place(p, i, X);
     int lowest = -1, n = tip_search_near(&f->search, X, (TOUCH + EQUAL) * f->t->spacing);
     for (int k = 0; k < n; k++) {
         int32_t j = f->search.found[k];
@@ -137,7 +137,7 @@ static bool flood_nucleate(struct flood *f)
     int tip = f->t->n;
     if (tip < TIPS_MAX) {
         real X[DIM_MAX];
-        tip_point(p, best, X);
+        particle_place(p, best, X);
         tip_add(f->t, p->body[best], X, NULL);
         f->into[tip] = tip, f->grown_by[tip] = false;
     } else {
@@ -212,7 +212,7 @@ static real reach_of(const struct tips *t, const struct particles *p, int64_t i)
 {
     const struct tip *tip = &t->tip[t->label[i] - 1];
     real X[DIM_MAX], offset[DIM_MAX];
-    tip_point(p, i, X);
+    particle_place(p, i, X);
     real distance = tip_offset(tip->origin, tip->edge, X, t->dim, offset);
     bool behind = tip->from_crack && dot(offset, tip->along, t->dim) < -EQUAL * t->spacing;
     return behind && distance <= (START_REACH + EQUAL) * t->spacing ? -1 : distance;

@@ -15,7 +15,6 @@ struct tip_search {
 
 /* Particles within `radius` of X into s->found, whose room follows; free s->found at the end. */
 int tip_search_near(struct tip_search *s, const real *X, real radius);
-void tip_point(const struct particles *p, int64_t i, real *X);
 
 /* Vector from the nearest point of the segment centre -+ half to X, and its length. */
 real tip_offset(const real *centre, const real *half, const real *X, int dim, real *offset);

@@ -10,11 +10,6 @@
 
 /* ---- search ----------------------------------------------------------------------------------------- */
 
-void tip_point(const struct particles *p, int64_t i, real *X)
-{
-    particle_place(p, i, X);
-}
-
 int tip_search_near(struct tip_search *s, const real *X, real radius)
 {
     radius = real_min(radius, s->c->edge);

@@ -122,7 +122,8 @@ void watch_momentum(struct watch *w, const struct particles *p, const real *impu
         missing2 += square(w->now.momentum[d] - w->momentum_start[d] - impulse[d]);
     }
     w->momentum_scale = real_max(w->momentum_scale, sum[p->dim]);
-    if (w->momentum_scale > 0) w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
+    if (w->momentum_scale > 0)
+        w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
 }
 
 static void ledger_balance(struct watch *w)

@@ -1,0 +1,105 @@
+#!/bin/sh
+# floor 5: what test_physics.sh needs besides: scenes written on the spot, means and fronts of series and profiles.
+# Sourced after summary.sh and scenes.sh.
+
+# scene NAME: standard input becomes the scene NAME.
+scene() { cat >"$work/$1.yaml"; }
+
+# go FOLDER NAME [ARGUMENT...]: a run of such a scene in the background, two at a time; `landed` waits for the last.
+going=0
+go()
+{
+    folder=$1 name=$2; shift 2
+    start "$folder" "$work/$name.yaml" "$@"
+    going=$((going + 1))
+    if [ $going -eq 2 ]; then landed; fi
+}
+
+landed() { wait; going=0; }
+
+# forced FOLDER BALANCE: what holds for a run under body forces, as in sound().
+forced()
+{
+    is "$1 status" "$(f "$1" status)" done
+    between "$1 momentum" "$(f "$1" momentum_error)" 0 1e-12
+    between "$1 energy balance" "$(f "$1" energy.balance_error)" "-$2" "$2"
+}
+
+# read_csv: how every awk program here begins: `at` is the number of the column called `name`, x that of places.
+read_csv='FNR == 1 {
+    for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k; if ($k == "x") x = k }
+    next
+}'
+
+# ---- series: a column of history.csv over time ---------------------------------------------------------------------
+
+# mean FOLDER COLUMN FROM TO: its mean over these times [s].
+mean()
+{
+    awk -F, -v name="$2" -v from="$3" -v to="$4" "$read_csv"'
+        at && $1 >= from + 0 && $1 <= to + 0 { sum += $at; n++ }
+        END { if (n) printf "%.9g", sum / n }' "$work/$1/history.csv"
+}
+
+# most FOLDER COLUMN [FROM]: its largest size at any sample, or from this time [s] on.
+most()
+{
+    awk -F, -v name="$2" -v from="${3:-0}" "$read_csv"'
+        at && $1 >= from + 0 { size = $at < 0 ? -$at : $at; if (size >= largest) largest = size; n++ }
+        END { if (n) printf "%.9g", largest }' "$work/$1/history.csv"
+}
+
+# rises FOLDER COLUMN VALUE: when it first reaches the value [s], between two samples.
+rises()
+{
+    awk -F, -v name="$2" -v value="$3" "$read_csv"'
+        at && $at >= value + 0 && n { printf "%.9g", t + ($1 - t) * (value - v) / ($at - v); exit }
+        { t = $1; v = $at; n++ }' "$work/$1/history.csv"
+}
+
+# ---- profiles: a line probe called `bar` at the end of the run, one station for each particle ----------------------
+
+# along FOLDER COLUMN FROM TO: its mean over the stations between two places [m].
+along()
+{
+    awk -F, -v name="$2" -v from="$3" -v to="$4" "$read_csv"'
+        at && $x >= from + 0 && $x <= to + 0 { sum += $at; n++ }
+        END { if (n) printf "%.9g", sum / n }' "$work/$1/bar_000001.csv"
+}
+
+# strain FOLDER FROM TO: mean of du/dx between two places [m].
+strain()
+{
+    awk -F, -v name=displacement_x -v from="$2" -v to="$3" "$read_csv"'
+        at && $x >= from + 0 && $x <= to + 0 { if (!n++) { x0 = $x; u0 = $at } x1 = $x; u1 = $at }
+        END { if (n > 1) printf "%.9g", (u1 - u0) / (x1 - x0) }' "$work/$1/bar_000001.csv"
+}
+
+# front FOLDER VALUE: where du/dx, half-way between stations, first passes the value on the way up x [m].
+front()
+{
+    awk -F, -v name=displacement_x -v value="$2" "$read_csv"'
+        at && n++ {
+            slope = ($at - u) / ($x - place); middle = ($x + place) / 2
+            if (n > 2 && slope >= value + 0 && before < value + 0) {
+                printf "%.9g", last + (middle - last) * (value - before) / (slope - before); exit }
+            before = slope; last = middle
+        }
+        { place = $x; u = $at }' "$work/$1/bar_000001.csv"
+}
+
+# astray FOLDER COLUMN A B C: its largest distance from A + B x + C x^2.
+astray()
+{
+    awk -F, -v name="$2" -v a="$3" -v b="$4" -v c="$5" "$read_csv"'
+        at { d = $at - (a + b * $x + c * $x * $x); if (d < 0) d = -d; if (d > largest) largest = d; n++ }
+        END { if (n) printf "%.9g", largest }' "$work/$1/bar_000001.csv"
+}
+
+# extreme FOLDER COLUMN: its largest size in the last profiles of all lines.
+extreme()
+{
+    awk -F, -v name="$2" "$read_csv"'
+        at { size = $at < 0 ? -$at : $at; if (size > largest) largest = size; n++ }
+        END { if (n) printf "%.9g", largest }' "$work/$1"/*_000001.csv
+}
