@@ -102,8 +102,8 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
 void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s);
 void bonds_free(struct bonds *b);
 
-/* Critical time step of the peridynamic side [s]: 2 / omega_max with the block-Gershgorin bound (bond-based sheet
- * 1.6) over all particles of the body as if all were peridynamic. */
+/* Critical time step of the peridynamic side [s]: 2 / omega_max with the block-Gershgorin bound over
+ * all particles of the body as if all were peridynamic. */
 real bonds_critical_step(const struct particles *p, const struct bond_source *s);
 
 /* The state that rows made anew do not know: what load has broken. */

@@ -37,7 +37,7 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
  * eq. 28), and those in `region` (NULL: none). */
 void convert_start(struct particles *p, const struct bond_source *source, const struct region *region);
 
-/* Partial stress (coupling sheet 2.3) of every material point whose cell a bond between a peridynamic particle and a
+/* Partial stress (partial_stress.c) of every material point whose cell a bond between a peridynamic particle and a
  * material point crosses: T = (1/V) sum K xi^2 l e e e e, l the share of the bond's reference segment inside the cell.
  * `changed`: particles converted since the last call, only their surroundings are made anew; NULL: everything. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,

@@ -36,7 +36,7 @@ status grid_cover(struct grid *g, const real *from, const real *to, int64_t most
 void grid_free(struct grid *g);
 void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load);
 
-/* Nodes lighter than this share of a full one are left at rest. The sheet (1.3) names 1e-9; but such a node may carry a
+/* Nodes lighter than this share of a full one are left at rest. 1e-9 is usual; but such a node may carry a
  * force, and what it carries would be lost: momentum is kept to 1e-12 only if just empty nodes are left out, and with the
  * re-map light nodes do no harm (their velocity is that of their particle). */
 #define GRID_MASS_SMALLEST 1e-30

@@ -1,5 +1,5 @@
-/* floor 1: one material: what the scene gives and what the methods derive from it (physics sheets:
- * bond-based peridynamics 1.2, 1.3; elastic constants 1.1 of the material point method). */
+/* floor 1: one material: what the scene gives and what the methods derive from it: wave speeds, elastic constants of the
+ * space, and the constants of bond-based peridynamics. */
 #ifndef CLEAVE_MATERIAL_H
 #define CLEAVE_MATERIAL_H
 
@@ -25,14 +25,15 @@ struct material {
 real material_bond_poisson(enum space space);
 
 /* Micro-modulus c [N/m^6] from the weighted sum Sigma = sum_j r V_j beta [m^4] over a full family:
- * 2E/Sigma, 8 k2/Sigma, 18 K/Sigma (bond-based sheet 1.2). */
+ * 2E/Sigma, 8 k2/Sigma, 18 K/Sigma (energy of uniform dilatation, Silling & Askari 2005). */
 real material_micro_modulus(const struct material *m, enum space space, real sigma);
 
 /* Continuum value of the same: 2E/(A d^2), 12 k2/(pi h d^3), 18 K/(pi d^4); `section` is the cross-section
  * A [m^2] in 1D, the thickness h [m] in 2D, ignored in 3D. */
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section);
 
-/* Critical stretch from G_c (sheet 1.3) for the continuum micro-modulus; horizon [m]. */
+/* Critical stretch from G_c, the energy of all bonds that cross a unit plane, for the continuum micro-modulus;
+ * horizon [m]. */
 real material_critical_stretch(const struct material *m, enum space space, real horizon);
 
 /* Fills the derived constants. */

@@ -1,5 +1,6 @@
 /* floor 2: nodes to points at the end of the step: position, velocity gradient, stress, volume, and the mark of a point
- * whose largest principal stress passed the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49, corrected; sheet 1.1).
+ * whose largest principal stress passed the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49, corrected:
+ * L from the second map, rotation W sigma - sigma W).
  *     FLIP (MUSL)  x += dt sum N v_I,  L = sum v2_I (x) grad N  with the velocity v2 of the second map
  *     APIC         v = sum N v_I, x += dt v,  L = sum v_I (x) grad N
  * Every point is written by one thread. */

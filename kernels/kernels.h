@@ -19,7 +19,7 @@ struct elastic {
     real trigger;                        /* sigma_1 that marks a point for conversion; INFINITY [Pa] */
 };
 
-/* Partial stress (coupling sheet 2.3): the share of its stress that a material point leaves to the crossing
+/* Partial stress (src/partial_stress.c): the share of its stress that a material point leaves to the crossing
  * bonds. sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. */
 struct partial_stress {
     int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does   */
@@ -59,7 +59,7 @@ typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 /* v += dt_velocity f/m, x += dt v of all peridynamic particles. */
 typedef void pd_move_fn(struct particles *p, real dt, real dt_velocity);
 
-/* First map: mass, momentum, and force -V sigma_given . grad N + N f (material point sheet 1.1, steps 1 and 3). */
+/* First map: mass, momentum, and force -V sigma_given . grad N + N f (Zeng et al. 2022, eqs. 33-38). */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
 
 /* v_p += sum N (f/m dt), then momentum of the second map, with the same weights (steps 4 and 6; MUSL, FLIP only). */

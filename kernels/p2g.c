@@ -3,8 +3,8 @@
  *
  *     m_I = sum m N,   P_I = sum m v N   (APIC: m (v + L (x_I - x_p)) N),   f_I = sum (N f - V sigma_given . grad N)
  *
- * Zeng et al. 2022, eqs. 33-36, corrected (sheet 1.1). Reads about 120 bytes a point in 2D; nodes of a block stay in
- * cache. */
+ * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes a point in
+ * 2D; nodes of a block stay in cache. */
 #include "kernels.h"
 #include "shape.h"
 #include "stress.h"

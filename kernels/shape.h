@@ -105,7 +105,7 @@ struct stencil {
 };
 
 /* Largest half width over h that GIMP's pieces allow; a particle stretched further keeps it (numerical fracture then
- * starts, sheet 1.2). */
+ * starts). */
 #define HALF_WIDTH_MOST 0.5
 
 /* Weights from `base` as a row from the node below the cell. */

@@ -1,4 +1,4 @@
-/* floor 2: constitutive update of a material point: linear elasticity in the rate form of Jaumann (sheet 1.1):
+/* floor 2: constitutive update of a material point: linear elasticity in the rate form of Jaumann:
  *     sigma += C : eps + W sigma - sigma W,   eps = sym(L) dt,  W = skew(L) dt
  * Components as in base.h; plane stress and plane strain differ in their constants only. */
 #ifndef CLEAVE_STRESS_H
@@ -8,7 +8,7 @@
 
 #include "kernels.h"
 
-/* Half the angle above which the first-order rotation is replaced by the exact one (sheet 1.1) [rad]. */
+/* Half the angle above which the exact rotation replaces the first-order one, whose error grows with its square [rad]. */
 #define SPIN_SMALL 1e-3
 
 static ALWAYS_INLINE void stress_rotate_2d(real *s, real w)
@@ -109,7 +109,7 @@ static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
     return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
 }
 
-/* The stress a point gives to the grid: all of it, or what the crossing bonds leave (sheet 2.3). */
+/* The stress a point gives to the grid: all of it, or what the crossing bonds leave (src/partial_stress.c). */
 static ALWAYS_INLINE void stress_given(const struct particles *p, const struct partial_stress *partial, int64_t i,
                                        real *stress, const int dim)
 {

@@ -92,7 +92,7 @@ static float bond_weight(const struct bond_source *s, const struct particles *p,
     /* Written so that i and j may be exchanged without changing a bit. */
     real weight = family_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
     weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
-    if (s->neighbour_volume)             /* volume method (sheet 1.5) */
+    if (s->neighbour_volume)             /* volume method, Le & Bobaru 2018 */
         weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
     return (float)weight;
 }

@@ -1,4 +1,4 @@
-/* floor 3: conversion of material points to peridynamic particles (Zeng et al. 2022, eqs. 28, 31, 32; sheet 3). */
+/* floor 3: conversion of material points to peridynamic particles (Zeng et al. 2022, eqs. 28, 31, 32). */
 #include "convert.h"
 
 #include <math.h>

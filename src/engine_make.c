@@ -5,7 +5,7 @@
 #include "engine.h"
 #include "memory.h"
 
-/* Critical steps of the material point method in h/(c + |v|), below every limit the sheet measured (1.4): MUSL 1.03 at
+/* Critical steps of the material point method in h/(c + |v|), below the limits of the linearised step in 1D: MUSL 1.03 at
  * the worst with one point a cell; strain from the updated velocity (APIC) 0.73 at the worst with GIMP. */
 #define STEP_FLIP 1.0
 #define STEP_APIC 0.6
@@ -25,7 +25,8 @@ static void make_limits(struct engine *e)
     e->source.limit = (struct bond_limit){e->pair_stretch, s->materials};
 }
 
-/* sigma_max = E s_c unless the scene says otherwise (sheet 3); only adaptive runs convert. */
+/* sigma_max = E s_c unless the scene says otherwise: a larger one lets points pass the strain at which bonds break. Only
+ * adaptive runs convert. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;

@@ -1,5 +1,5 @@
 /* floor 1: the family of a peridynamic particle: who belongs to it, with what weight, and the sums over a full
- * family on the lattice that calibrate the micro-modulus (bond-based sheet 1.2, 1.4). */
+ * family on the lattice that calibrate the micro-modulus (Silling & Askari 2005; partial volumes: Seleson 2014). */
 #include <math.h>
 #include <string.h>
 
@@ -85,7 +85,7 @@ void family_make(struct family *f, enum space space, real spacing, real horizon_
     f->cell_volume = pow(spacing, space_dim(space)) * section;
     f->horizon = horizon_in_spacings * spacing;
     f->shell_weight[0] = f->shell_weight[1] = 1;
-    if (f->calibration == CALIBRATION_VMPD)      /* whole neighbours cover (m + 1/2) spacings exactly (sheet 2.1) */
+    if (f->calibration == CALIBRATION_VMPD)      /* whole neighbours cover (m + 1/2) spacings exactly (Zeng et al. 2021) */
         f->horizon = (floor(horizon_in_spacings * (1 + DISTANCE_TOLERANCE)) + 0.5) * spacing;
     f->cutoff = f->volume == VOLUME_RAMP ? f->horizon + 0.5 * spacing : f->horizon;
     f->cutoff *= 1 + DISTANCE_TOLERANCE;

@@ -1,5 +1,5 @@
-/* floor 3: partial stress: the share of its stress that a material point leaves to the bonds that cross its cell
- * (coupling sheet 2.3). The bonds between a peridynamic particle and a material point already carry, in uniform strain,
+/* floor 3: partial stress: the share of its stress that a material point leaves to the bonds that cross its cell.
+ * The bonds between a peridynamic particle and a material point already carry, in uniform strain,
  *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
  * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives the
  * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Symmetric, geometric, exact in one dimension. */

@@ -1,4 +1,4 @@
-/* floor 2: plain twins of the bond kernels, written from the physics sheets and not from the kernels: all pairs, one
+/* floor 2: plain twins of the bond kernels, written from the formulas and not from the kernels: all pairs, one
  * particle at a time, whole tensors, no vectors, no threads. Slow and obvious, so that they can be believed. */
 #ifndef CLEAVE_REFERENCE_H
 #define CLEAVE_REFERENCE_H
@@ -9,7 +9,7 @@
 #include "bonds.h"
 #include "memory.h"
 
-/* ==== families (bond-based sheet 1.2, 1.4, 1.5) ===================================================== */
+/* ==== families ===================================================== */
 
 static inline real reference_relative(real *const *x, int dim, int64_t i, int64_t j, real *relative)
 {
@@ -40,7 +40,7 @@ static inline real reference_shell(const struct family *f, const real *xi, real 
     return f->shell_weight[fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1];
 }
 
-/* Sum of r V beta over a full family on the lattice [m^4], and c of sheet 1.2 from it [N/m^6]. */
+/* Sum of r V beta over a full family on the lattice [m^4], and c from it [N/m^6]. */
 static inline real reference_sigma(const struct family *f)
 {
     int dim = space_dim(f->space), reach = (int)ceil(f->horizon / f->spacing) + 1;
@@ -126,7 +126,7 @@ static inline bool reference_cut(const struct crack *c, const real *a, const rea
     return false;
 }
 
-/* ==== bonds (bond-based sheet 1.1, 1.3) ============================================================= */
+/* ==== bonds ============================================================= */
 
 /* The stored weights as a full matrix, w[i n + j]; 0 where the bond is broken, NAN where none is stored. */
 static inline real *reference_table(const struct bonds *b, const struct particles *p)
@@ -174,7 +174,7 @@ static inline struct reference_row reference_row(const struct particles *p, cons
     return row;
 }
 
-/* ==== partial stress (material point sheet 2.3) ===================================================== */
+/* ==== partial stress ===================================================== */
 
 /* Places of the symmetric components: xx yy zz xy yz zx in 3D. */
 static inline int reference_symmetric(int dim, int a, int b)

@@ -1,4 +1,4 @@
-/* floor 2: plain twins of the transfer kernels, written from the physics sheet of the material point method and not
+/* floor 2: plain twins of the transfer kernels, written from the formulas of the material point method and not
  * from the kernels: every particle meets every node, one node at a time, whole tensors, no threads. */
 #ifndef CLEAVE_REFERENCE_POINTS_H
 #define CLEAVE_REFERENCE_POINTS_H
@@ -7,7 +7,7 @@
 #include "kernels.h"
 #include "reference.h"
 
-/* ==== shape functions (sheet 1.2) ==================================================== */
+/* ==== shape functions ==================================================== */
 
 struct reference_shape { real value, slope; };
 
@@ -45,7 +45,7 @@ static inline struct reference_shape reference_shape(enum shape shape, real r, r
     }
 }
 
-/* ==== one step of the material point method (sheet 1.1; APIC: 1.3) =================================== */
+/* ==== one step of the material point method  =================================== */
 
 struct reference_step {
     enum shape shape;

@@ -1,5 +1,5 @@
 /* floor 4: both methods together: the patch residual of a flat interface, and the energy of conversion. Numbers:
- * material point sheet 2.1 - 2.3 and 3. */
+ * measured with an independent prototype. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -62,7 +62,7 @@ static real interface_residual(const struct interface *k, const real strain[DIM_
 
 static const struct cloud_plan bar = {.space = SPACE_LINE, .count = {32}, .horizon = 3};
 
-/* The interface, half-way between two particles, lies on a node, as in the prototype that the sheet's table is from. */
+/* The interface, half-way between two particles, lies on a node, as in the prototype that the table is from. */
 static void test_interface_1d(void **state)
 {
     (void)state;
@@ -81,12 +81,12 @@ static void test_interface_1d(void **state)
         }
 }
 
-/* h = 2D, linear shapes. S is sigma_xx (axial: uniaxial strain), C11 strain (biaxial), sigma_xy (shear). Of the sheet's
+/* h = 2D, linear shapes. S is sigma_xx (axial: uniaxial strain), C11 strain (biaxial), sigma_xy (shear). Of the prototype's
  * table the hand-shake's 0.50 and 0.63 are found with the interface on a node; its 0.38 for shear lies between the 0.42
  * found on a node and the 0.33 in the middle of a cell, its 0.017 for shear with partial stress is found in the middle
  * of a cell (0.034 on a node). What partial stress leaves is no fault of the coupling: the lattice transmits 1.1 % more
  * (axial), as much (biaxial), 3.4 % less (shear) than the points, all of it at one node or half of it at two. The
- * sheet's 0.0007 and 0.007 (axial, biaxial) were not found at any position of the interface; 0.0007 is less than half
+ * prototype's 0.0007 and 0.007 (axial, biaxial) were not found at any position of the interface; 0.0007 is less than half
  * of what C11 of this lattice is off. */
 static void test_interface_2d(void **state)
 {
@@ -125,7 +125,7 @@ static void test_interface_3d(void **state)
     assert_true(interface_residual(&i, strain, S) / S[0] > 0.2);
 }
 
-/* The part of its stress that a point gives: 1/4, 2/3, 11/12 for N = 3, by distance from the interface (sheet 2.3). */
+/* The part of its stress that a point gives: 1/4, 2/3, 11/12 for N = 3, by distance from the interface. */
 static void test_share_given(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* floor 4: patch tests of each method alone: uniform strain must leave a body at rest and cost the energy of
- * elasticity. Numbers: bond-based sheet 1.2, 1.4, 2.1; material point sheet 1.2. Both methods together:
+ * elasticity. Numbers from closed forms on the lattice. Both methods together:
  * test_coupling.c. */
 #include <stdarg.h>
 #include <setjmp.h>
@@ -94,7 +94,7 @@ static struct constants lattice_constants(const struct cloud_plan *plan)
     return result;
 }
 
-/* Calibrated on the lattice: dilatation exact, what remains is the lattice's anisotropy (sheet 1.2, printed to 0.1 %).
+/* Calibrated on the lattice: dilatation exact, what remains is the lattice's anisotropy.
  */
 static void test_pd_lattice(void **state)
 {
@@ -130,7 +130,7 @@ static void test_pd_isotropic(void **state)
         }
 }
 
-/* Continuum constants and the volume-modified rule: energy of dilatation over the classical one (sheets 1.2, 1.4, 2.1).
+/* Continuum constants and the volume-modified rule: energy of dilatation over the classical one.
  */
 static void test_pd_calibrations(void **state)
 {
@@ -184,7 +184,7 @@ static void test_mpm_rest(void **state)
         }
 }
 
-/* At lambda = 3 a point is wider than a cell: the sheet lets the pieces of cpGIMP run on (0.48), here the width stops
+/* At lambda = 3 a point is wider than a cell: a prototype lets the pieces of cpGIMP run on (0.48), here the width stops
  * at a cell (0.75); neither is exact. Points stretched by lambda under uniform stress: the worst residual of an inner
  * node over sigma A, for the worst position of the points in their cells. 1D, two points per cell before the stretch.
  * Sheet 1.2, printed to two digits. */

@@ -12,7 +12,7 @@ near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
 
 # d'Alembert: a step of traction F at x = L sends the stress F inwards at c = sqrt(E/rho) = 100 m/s, the end moves by
 # c t F/E; the clamped end sends back twice the stress. Bar of Zeng et al. (CPM 2021), section 5.1; figures of our
-# material point sheet, 4a.
+# Closed form: d'Alembert.
 scene pulled <<'END'
 space: line
 section: 1 m^2
@@ -36,7 +36,7 @@ go late_gimp pulled -s method=mpm -s duration=12.5ms
 go late_pd pulled -s method=pd -s duration=12.5ms
 landed
 # Stiffness of the lattice over E, N = 3 neighbours a side: 1 where it is calibrated; N (N + 1)/(N + 1/2)^2 = 48/49
-# with the volume rule; (N + 1)/N = 4/3 with the constant of the continuum (sheet 2.2, derived). Strain is
+# with the volume rule; (N + 1)/N = 4/3 with the constant of the continuum. Strain is
 # F/stiffness, speed its root.
 while read -r run stiffness place; do
     run=pulled_$run
@@ -61,8 +61,8 @@ pd 1 0.5
 vmpd 48/49 0.5
 plain 4/3 0.43
 END
-# Half-height of plain peridynamics: 1 - sqrt(4/3)/2 = 0.423 for long waves, 0.432 with its dispersion (sheet 4a,
-# measured).
+# Half-height of plain peridynamics: 1 - sqrt(4/3)/2 = 0.423 for long waves, 0.432 with its dispersion
+# (measured).
 for run in late_gimp late_pd; do
     sound $run 0.01
     between "$run: stress sent back by the clamp" "$(along $run stress_xx 0 0.2)" 1.96 2.04
@@ -149,7 +149,7 @@ between "column: when it is largest" "$(rises column_whole base.stress_xx 1.9)" 
 # ---- a spinning square ---------------------------------------------------------------------------------------------
 
 # 20 mm x 20 mm, corners at 10 m/s, a tenth of a turn: nothing may happen but the turn, beside centrifugal stress of
-# rho v^2 = 0.8 MPa. FLIP with linear shapes sees a false gradient at free edges (sheet 1.3): it must show what the
+# rho v^2 = 0.8 MPa. FLIP with linear shapes sees a false gradient at free edges: it must show what the
 # others are spared.
 {
     cat <<'END'
@@ -249,7 +249,7 @@ stress 9/8 1/3
 strain 6/5 1/3
 solid 6/5 1/3
 END
-# With one weight for all bonds C11 of the cubic lattice is 5.7 % short (sheet 2.2): sqrt(0.943) = 0.971, and the test
+# With one weight for all bonds C11 of the cubic lattice is 5.7 % short: sqrt(0.943) = 0.971, and the test
 # sees it.
 between "wave_solid_uniform: speed over sqrt(C11/rho)" \
     "$(pace wave_solid_uniform "$(compute "sqrt(1.2 * 190e9 / 7800)")")" 0.965 0.979
@@ -325,7 +325,7 @@ done
 # ---- the patch test of the coupling --------------------------------------------------------------------------------
 
 # Uniform strain, peridynamic on the left: the largest nodal force over stress times cell face. Of the hand-shake
-# exactly 13/24 at h = 2D and 3/4 at h = D in a bar with N = 3 (printed 0.54, 0.75 in sheet 2.1); of partial stress
+# exactly 13/24 at h = 2D and 3/4 at h = D in a bar with N = 3 (printed 0.54, 0.75 by the prototype); of partial stress
 # nothing in the limit of small strain: what is left is of first order in it.
 scene patch_line <<'END'
 space: line
@@ -358,8 +358,8 @@ for shape in linear gimp; do
     done
 done
 
-# In the plane bonds with isotropic weights leave nothing; with one weight C11 is 1.1 % and C66 3.4 % off (sheet 2.2),
-# which shows. Of the hand-shake 0.50 for axial load with the interface on a node (sheet 2.1).
+# In the plane bonds with isotropic weights leave nothing; with one weight C11 is 1.1 % and C66 3.4 % off,
+# which shows. Of the hand-shake 0.50 for axial load with the interface on a node.
 scene patch_axial <<'END'
 space: plane stress
 thickness: 1 mm

@@ -398,7 +398,7 @@ static void linear_field(const struct choice *k)
 static void test_linear_field(void **state) { (void)state, for_all(linear_field); }
 
 /* Stress of a body that only turns turns with it: to first order in the angle below 1e-3 rad, exactly above
- * (sheet 1.1). */
+ *. */
 static void test_rotation(void **state)
 {
     (void)state;
