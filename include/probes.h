@@ -50,8 +50,7 @@ struct observed {
     real spacing;                        /* [m]                                                       */
     real thickness;                      /* section, thickness or 1                                   */
     real strain_stress;                  /* largest |component| of the initial stress [Pa], for PATCH */
-    real residual;                       /* largest nodal |force| of the step (grid and PD), for PATCH [N] */
-    real residual_step0;                 /* the same in the first step [N]                            */
+    real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
     real t;                              /* [s]                                                       */
 };
 

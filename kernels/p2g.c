@@ -6,6 +6,7 @@
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes a point in
  * 2D; nodes of a block stay in cache. */
 #include "kernels.h"
+#include "scatter.h"
 #include "shape.h"
 #include "stress.h"
 #include "variants.h"
@@ -61,18 +62,7 @@ static ALWAYS_INLINE void p2g_particle(struct grid *g, const struct particles *p
 #define INSTANCE(D, S, T)                                                                                           \
     static void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)      \
     {                                                                                                               \
-        const struct transfer_order *o = t->order;                                                                  \
-        _Pragma("omp parallel")                                                                                     \
-        {                                                                                                           \
-            struct grid nodes = *g;            /* copies nobody else writes: what they hold stays in registers */   \
-            struct particles points = *p;                                                                           \
-            for (int colour = 0; colour < 1 << D; colour++) {                                                       \
-                _Pragma("omp for schedule(static)")                                                                 \
-                for (int block = o->blocks_of[colour]; block < o->blocks_of[colour + 1]; block++)                   \
-                    for (int32_t k = o->block_start[block]; k < o->block_start[block + 1]; k++)                     \
-                        p2g_particle(&nodes, &points, t, o->particle[k], D, SHAPE_##S, TRANSFER_##T);               \
-            }                                                                                                       \
-        }                                                                                                           \
+        SCATTER(D, t->order, g, p, p2g_particle(&nodes, &points, t, i, D, SHAPE_##S, TRANSFER_##T));                \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 SHAPE_VARIANTS(BOTH)

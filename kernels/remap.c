@@ -1,6 +1,7 @@
 /* floor 2: the second map of MUSL: points take the change of the nodal velocities (FLIP), then give their new momentum
  * back to the nodes with the same weights:  v_p += sum N dv_I,   P_I = sum m v_p N  (Zeng et al. 2022, eqs. 39, 42). */
 #include "kernels.h"
+#include "scatter.h"
 #include "shape.h"
 #include "variants.h"
 
@@ -30,18 +31,7 @@ static ALWAYS_INLINE void remap_particle(struct grid *g, struct particles *p, co
 #define INSTANCE(D, S)                                                                                              \
     static void remap_##D##d_##S(struct grid *g, struct particles *p, const struct transfer_data *t)                \
     {                                                                                                               \
-        const struct transfer_order *o = t->order;                                                                  \
-        _Pragma("omp parallel")                                                                                     \
-        {                                                                                                           \
-            struct grid nodes = *g;            /* copies nobody else writes: what they hold stays in registers */   \
-            struct particles points = *p;                                                                           \
-            for (int colour = 0; colour < 1 << D; colour++) {                                                       \
-                _Pragma("omp for schedule(static)")                                                                 \
-                for (int block = o->blocks_of[colour]; block < o->blocks_of[colour + 1]; block++)                   \
-                    for (int32_t k = o->block_start[block]; k < o->block_start[block + 1]; k++)                     \
-                        remap_particle(&nodes, &points, t, o->particle[k], D, SHAPE_##S);                           \
-            }                                                                                                       \
-        }                                                                                                           \
+        SCATTER(D, t->order, g, p, remap_particle(&nodes, &points, t, i, D, SHAPE_##S));                            \
     }
 SHAPE_VARIANTS(INSTANCE)
 

@@ -75,7 +75,7 @@ static void probes_read_particles_and_regions(void **state)
     assert_string_equal(s.column[column_named(&s, "left.y")].unit, "kg m/s");
 
     struct grid grid = {.h = 2};
-    o.grid = &grid, o.strain_stress = 5, o.thickness = 3, o.residual_step0 = 0.6, o.residual = 99;
+    o.grid = &grid, o.strain_stress = 5, o.thickness = 3, o.residual_step0 = 0.6;
     probes_figures(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "patch", "residual_max"), 0.6 / (5 * 2 * 3), ROUND_OFF);
     assert_near(figure(&l, "gauge", "stress_xy"), (real)i, 0);
