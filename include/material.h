@@ -3,6 +3,8 @@
 #ifndef CLEAVE_MATERIAL_H
 #define CLEAVE_MATERIAL_H
 
+#include <math.h>
+
 #include "base.h"
 
 enum space { SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID };
@@ -14,12 +16,17 @@ struct material {
     real young, poisson, density;        /* [Pa] [1] [kg/m^3]                                       */
     real energy_release_rate;            /* G_c [J/m^2], NAN if not given                           */
     real critical_stretch;               /* s_c [1]; from G_c if not given; INFINITY: never breaks   */
+    real yield_stress;                   /* sigma_y [Pa]; INFINITY or 0: elastic                     */
+    real yield_tangent;                  /* E_t: slope of the uniaxial curve behind sigma_y, below E [Pa] */
     /* derived by material_derive */
+    real yield_hardening;                /* H = E E_t/(E - E_t): yield stress over plastic strain [Pa] */
     real c11, c12, shear;                /* elastic constants of the space [Pa]; c12 = 0 in 1D      */
     real wave_speed;                     /* longitudinal, of the space: sqrt(c11 / rho) [m/s]       */
     real shear_speed, rayleigh_speed;    /* [m/s]; 0 in 1D                                          */
     real bulk;                           /* E in 1D, k2 = (c11 + c12)/2 in 2D, K in 3D [Pa]         */
 };
+
+static inline bool material_yields(const struct material *m) { return m->yield_stress > 0 && isfinite(m->yield_stress); }
 
 /* Poisson's ratio that bond-based peridynamics imposes: 1/3, 1/4, 1/4; NAN in 1D. */
 real material_bond_poisson(enum space space);

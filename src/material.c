@@ -63,6 +63,7 @@ static real rayleigh_speed(real longitudinal, real shear)
 void material_derive(struct material *m, enum space space)
 {
     real E = m->young, nu = m->poisson;
+    m->yield_hardening = E * m->yield_tangent / (E - m->yield_tangent);
     if (space == SPACE_LINE) {
         m->c11 = m->bulk = E;
         m->c12 = m->shear = m->shear_speed = m->rayleigh_speed = 0;

@@ -54,7 +54,12 @@ const struct key keys[] = {
         "stretch at which a bond breaks; inf: never", .infinite = true),
     KEY("material.toughness", KEY_HAND, UNIT_TOUGHNESS, NOWHERE, ABOVE(0), NONE,
         "K_Ic; gives G_c = K^2/E (line, plane stress) or K^2 (1 - nu^2)/E", .words = "number"),
-    KEY("material.yield", KEY_LATER, UNIT_PRESSURE, NOWHERE, ANY, NONE, "yield stress", .later = "plasticity"),
+    KEY("material.yield_stress", KEY_REAL, UNIT_PRESSURE, AT(material, yield_stress), ABOVE(0), "inf",
+        "stress at which it yields (von Mises; a bond alone); inf: elastic", .infinite = true),
+    KEY("material.yield_tangent", KEY_REAL, UNIT_PRESSURE, AT(material, yield_tangent), FROM(0), "0 Pa",
+        "E_t, slope of the uniaxial stress-strain curve once it yields; below young"),
+    KEY("material.yield_hardening", KEY_HAND, UNIT_PRESSURE, NOWHERE, FROM(0), NONE,
+        "H, yield stress over plastic strain; says the same as yield_tangent = E H/(E + H)", .words = "number"),
 
     KEY("body", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(required, or bodies)",
         "shape of the one body, which is then called body", .words = "solid or list of solids"),

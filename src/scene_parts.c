@@ -41,6 +41,21 @@ static status check_poisson(struct reader *r, const struct node *n, const struct
                  shown(r, poisson), space_names[s->space], s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4");
 }
 
+/* The slope behind the yield point may be said in one of two ways. */
+static status read_hardening(struct reader *r, const struct node *n, struct material *m)
+{
+    const struct node *tangent = node_find(n, "yield_tangent"), *hardening = node_find(n, "yield_hardening");
+    real H;
+    if (tangent && hardening) return fault(r, hardening, "given beside yield_tangent; one of the two fixes the other");
+    if (hardening) {
+        TRY(read_number(r, key_find("material", "yield_hardening"), hardening, &H));
+        m->yield_tangent = m->young * H / (m->young + H);
+    }
+    if (m->yield_tangent < m->young) return OK;
+    return fault(r, tangent ? tangent : hardening, "%s is no slope below young; a tangent modulus is expected",
+                 shown(r, tangent ? tangent : hardening));
+}
+
 static status read_material(struct reader *r, const struct node *n, struct material *m)
 {
     const struct scene *s = r->scene;
@@ -51,6 +66,7 @@ static status read_material(struct reader *r, const struct node *n, struct mater
     TRY(read_group(r, n, n, "material", m));
     TRY(check_poisson(r, n, m));
     TRY(read_strength(r, n, m));
+    TRY(read_hardening(r, n, m));
     material_derive(m, s->space);
     if (!isnan(m->energy_release_rate))
         m->critical_stretch = material_critical_stretch(m, s->space, s->horizon * s->spacing);

@@ -106,7 +106,7 @@ done <<'END'
 6|material: {density: 7800}|6:1|young: missing
 6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|1/3 is expected
 6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given beside critical_stretch
-6|material: {young: 190 GPa, density: 7800, yield: 1 GPa}|6:43|not in this version
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|no slope below young
 6|material: steel|6:1|not a mapping
 8|  - box: {from: [0, 0], to: [20 mm, 10 mm, 1]}|8:25|3 components
 8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not below to

@@ -85,7 +85,7 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
      "8:3: critical_stretch: given beside energy_release_rate; one of the two fixes the other"},
     {"poisson: 1/3", "toughness: 60 MPa",
      "8:3: toughness: given beside energy_release_rate; one of the two fixes the other"},
-    {"poisson: 1/3", "yield_stress: 1 GPa", "8:3: yield_stress: not in this version (plasticity); leave it out"},
+    {"poisson: 1/3", "yield_hardening: -1 GPa", "8:3: yield_hardening: -1 GPa is out of range; a stress from 0 on is expected, as 190 GPa"},
     {"poisson: 1/3", "young: 2 GPa", "8:3: young: given twice, first in line 7; keep one"},
     {"method: adaptive", "method: auto", "5:1: method: auto is not in this version; pd, mpm or adaptive is expected"},
     {"method: adaptive", "method: fem", "5:1: method: fem is unknown; pd, mpm or adaptive is expected"},
