@@ -35,7 +35,7 @@ enum { BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 static inline int64_t block_of(int64_t k) { return k >= 0 ? k / BLOCK_EDGE : -((-k + BLOCK_EDGE - 1) / BLOCK_EDGE); }
 
 struct transfer_order {
-    int64_t n;                           /* material points                                          */
+    int64_t n;                           /* particles on the grid                                    */
     int32_t *particle;                   /* by colour, then block, then cell, then index             */
     int blocks_of[COLOURS_MAX + 1];      /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1     */
     int blocks, blocks_room;
@@ -43,8 +43,9 @@ struct transfer_order {
 };
 
 struct grid;
-/* Sorts the material points by the grid cell they are in; a function of positions alone. */
-void transfer_order_sort(struct transfer_order *o, const struct particles *p, const struct grid *g);
+/* Sorts the `n` listed particles by the grid cell they are in; a function of positions alone. */
+void transfer_order_sort(struct transfer_order *o, const struct particles *p, const int32_t *list, int64_t n,
+                         const struct grid *g);
 void transfer_order_free(struct transfer_order *o);
 
 #endif

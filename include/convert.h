@@ -8,7 +8,13 @@
 #include "kernels.h"
 #include "loads.h"
 
-enum coupling { COUPLING_PARTIAL_STRESS, COUPLING_HANDSHAKE };
+enum coupling {
+    COUPLING_PARTIAL_STRESS,
+    COUPLING_HANDSHAKE,                  /* Zeng et al. 2022                                                     */
+    COUPLING_PM, COUPLING_PG,            /* Zeng et al. 2021: hand-shake, and the grid moves what lies in the cells at
+                                            the interface; with linear and with GIMP shapes                     */
+    COUPLING_PMG, COUPLING_PGG           /* the same on one unified grid, which moves everything                 */
+};
 enum { CONVERT_ON_CUT = 1, CONVERT_ON_STRESS = 2 };
 
 struct conversion_rule {

@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include "bonds.h"
+#include "carry.h"
 #include "cells.h"
 #include "convert.h"
 #include "fill.h"
@@ -30,7 +31,8 @@ struct engine {
     real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */
     struct elastic *elastic;             /* [materials]                                               */
     struct grid grid;
-    struct transfer_order order;
+    struct transfer_order order;         /* of the material points                                    */
+    struct carried carried;              /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct partial_stress partial;
     struct transfer_data transfer;
     struct loads loads;
@@ -38,6 +40,8 @@ struct engine {
     struct watch watch;
     struct tips tips;
     struct probes probes;
+    struct baseline baseline;            /* for pulse probes, made at the end                         */
+    bool has_baseline;
     struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
     struct laps laps;
     real t, dt, dt_critical;             /* [s]                                                       */
@@ -48,6 +52,7 @@ struct engine {
     real smallest_mass;                  /* of a node that moves [kg]                                 */
     real mass;                           /* of the body [kg]                                          */
     bool sort_needed;                    /* material points moved to other cells or converted         */
+    enum coupling coupling;              /* of the scene; hand-shake where nothing meets              */
     bool uses_partial;                   /* coupling by partial stress                                */
     real *record;                        /* one line of history.csv                                   */
     int optional;                        /* WITH_* arrays of the particles                            */
@@ -70,6 +75,8 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out);
 /* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal asked for it. */
 status engine_run(struct engine *e);
 void engine_free(struct engine *e);
+/* After the run: the same scene on material points alone, if a pulse probe wants to be compared with it. */
+status engine_baseline(struct engine *e);
 /* Saves or restores the state between two steps. */
 status engine_archive(void *engine, struct archive *a);
 /* Prints a line for everything about the scene that is allowed but probably not meant. */

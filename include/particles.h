@@ -16,13 +16,15 @@ enum particle_flag {
     FLAG_CUT = 1,                        /* lost a bond in this step                             */
     FLAG_STRESSED = 2,                   /* largest principal stress passed the trigger          */
     FLAG_DRIVEN = 4,                     /* a velocity or fixed condition holds a component      */
-    FLAG_CRACKED = 8                     /* lost a bond to a particle, neither of them driven    */
+    FLAG_CRACKED = 8,                    /* lost a bond to a particle, neither of them driven    */
+    FLAG_CARRIED = 16                    /* peridynamic, but moved by the grid (carry.h)         */
 };
 
 struct particles {
     int64_t n, n_all;                    /* body; body and images                                */
     int dim;
     int64_t n_of[KINDS];                 /* of the body                                          */
+    int64_t n_carried;                   /* peridynamic particles that the grid moves            */
     int32_t *list[KINDS];                /* their indices, ascending; rebuilt by particles_list  */
                                          /* ---- every array below has n_all (+ LANES) entries - */
     real *X[DIM_MAX];                    /* reference position                      [m]          */
@@ -63,6 +65,12 @@ void *particle_array(const struct particles *p, const struct particle_field *f, 
 static inline void particle_place(const struct particles *p, int64_t i, real *X)
 {
     for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+}
+
+/* Is particle i moved by the grid? */
+static inline bool particle_on_grid(const struct particles *p, int64_t i)
+{
+    return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_CARRIED);
 }
 
 /* Makes n zeroed particles with room for `images` more; optional is a sum of WITH_*. */

@@ -20,6 +20,7 @@ enum probe_kind {
     PROBE_LINE,              /* profile from `from` to `to` in `points` stations, at the end and per frame */
     PROBE_ENERGY,            /* energies of the particles of a region                                      */
     PROBE_MOMENTUM,          /* momentum of the particles of a region                                      */
+    PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
     PROBES
 };
 
@@ -28,7 +29,8 @@ struct probe_request {
     char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
     enum probe_kind kind;
     struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM; empty: everywhere         */
-    bool has_at; real at[DIM_MAX];       /* TIP, POINT                                        [m]     */
+    bool has_at; real at[DIM_MAX];       /* TIP, POINT; PULSE: a point of the interface       [m]     */
+    real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes           */
     real from[DIM_MAX], to[DIM_MAX];     /* LINE                                              [m]     */
     int points;                          /* LINE                                                      */
     char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
@@ -36,6 +38,12 @@ struct probe_request {
 
 /* A column of history.csv or a figure of summary.json. */
 struct column { char name[2 * NAME_MAX_LENGTH]; char unit[16]; };
+
+/* The same run on material points alone (engine_baseline), at its end. */
+struct baseline {
+    real *v[DIM_MAX];                    /* [n] velocities                                    [m/s]   */
+    real energy_change;                  /* of all energy since the start                     [1]     */
+};
 
 /* What probes may look at; borrowed, read only. */
 struct observed {
@@ -52,6 +60,8 @@ struct observed {
     real strain_stress;                  /* largest |component| of the initial stress [Pa], for PATCH */
     real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
     real t;                              /* [s]                                                       */
+    real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
+    const struct baseline *baseline;     /* NULL: none                                                */
 };
 
 struct probe;                            /* probes.c */

@@ -33,6 +33,8 @@ struct scene_initial {
     real velocity_gradient[DIM_MAX * DIM_MAX];     /* v += G (X - centre), row major dim x dim [1/s]  */
     real displacement_gradient[DIM_MAX * DIM_MAX]; /* x = X + H (X - centre), stress = C : sym H [1]  */
     real centre[DIM_MAX];                /* [m]                                                       */
+    bool sets_pulse;                     /* a plane longitudinal wave, added to what is there         */
+    struct wave_pulse pulse;
 };
 
 struct scene {

@@ -51,6 +51,9 @@ void watch_momentum(struct watch *w, const struct particles *p, const real *impu
 /* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After watch_momentum. */
 void watch_ledger(struct watch *w, real t, real kinetic, real strain, real fracture, real work);
 
+/* (E - E_0 - work)/E_0 at the last sample [1]; NAN without energy at the start. */
+real watch_energy_change(const struct watch *w);
+
 /* Books the first break of the run from FLAG_CRACKED. */
 void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, real t);
 

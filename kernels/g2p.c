@@ -64,7 +64,7 @@ static ALWAYS_INLINE bool g2p_particle(const struct grid *g, struct particles *p
         for (int d = 0; d < dim; d++) p->v[d][i] = velocity[d];
         for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = L[c];
     }
-    point_strain(p, t, i, L, dim, shape);
+    if (!t->bare) point_strain(p, t, i, L, dim, shape);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
     return point_move(g, p, i, velocity, dim);
 }

@@ -35,6 +35,7 @@ struct transfer_data {
     real half_width;                     /* l_p of uGIMP: half the particle's reference edge  [m]     */
     real dt;                             /* [s]                                                       */
     real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
+    bool bare;                           /* carried peridynamic particles: no stress to give, none to update */
 };
 
 /* Force of all intact bonds on every row's particle (overwrites f there), then breaks what is stretched beyond its limit.
@@ -56,7 +57,7 @@ typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
-/* v += dt_velocity f/m, x += dt v of all peridynamic particles. */
+/* v += dt_velocity f/m, x += dt v of all peridynamic particles that the grid does not move. */
 typedef void pd_move_fn(struct particles *p, real dt, real dt_velocity);
 
 /* First map: mass, momentum, and force -V sigma_given . grad N + N f (Zeng et al. 2022, eqs. 33-38). */

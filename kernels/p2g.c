@@ -5,6 +5,8 @@
  *
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes a point in
  * 2D; nodes of a block stay in cache. */
+#include <string.h>
+
 #include "kernels.h"
 #include "scatter.h"
 #include "shape.h"
@@ -27,7 +29,8 @@ static ALWAYS_INLINE void p2g_particle(struct grid *g, const struct particles *p
     struct stencil s;
     stencil_make(&s, g, p, i, t->half_width, dim, shape);
     real stress[SYM_MAX], momentum[DIM_MAX], force[DIM_MAX], gradient[DIM_MAX * DIM_MAX];
-    stress_given(p, t->partial, i, stress, dim);
+    if (t->bare) memset(stress, 0, sizeof stress);
+    else stress_given(p, t->partial, i, stress, dim);
     const real mass = p->mass[i], volume = p->volume[i];
     const row_of_nodes along = (row_of_nodes){0, 1, 2, 3} * g->h;      /* distance from the lowest node */
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] *= volume;

@@ -15,14 +15,15 @@ static ALWAYS_INLINE void pd_move_particle(struct particles *p, int64_t i, real 
 #define INSTANCE(D)                                                                          \
     static void pd_move_##D##d(struct particles *p, real dt, real dt_velocity)               \
     {                                                                                        \
-        if (p->n_of[KIND_PD] == p->n) {        /* all of them: no list, whole vectors */     \
+        if (p->n_of[KIND_PD] == p->n && p->n_carried == 0) {        /* all of them: no list, whole vectors */     \
             _Pragma("omp parallel for simd schedule(static)")                                \
             for (int64_t i = 0; i < p->n; i++) pd_move_particle(p, i, dt, dt_velocity, D);   \
             return;                                                                          \
         }                                                                                    \
         _Pragma("omp parallel for schedule(static)")                                         \
         for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)                                       \
-            pd_move_particle(p, p->list[KIND_PD][k], dt, dt_velocity, D);                    \
+            if (!(p->flag[p->list[KIND_PD][k]] & FLAG_CARRIED))                              \
+                pd_move_particle(p, p->list[KIND_PD][k], dt, dt_velocity, D);                \
     }
 DIM_VARIANTS(INSTANCE)
 

@@ -183,10 +183,10 @@ static void sort_in_block(int32_t *particle, uint8_t *inside, int32_t n)
 }
 
 /* Counting sort by block (blocks numbered colour by colour), then by cell inside each block. */
-void transfer_order_sort(struct transfer_order *o, const struct particles *p, const struct grid *g)
+void transfer_order_sort(struct transfer_order *o, const struct particles *p, const int32_t *list, int64_t n,
+                         const struct grid *g)
 {
     struct block_shape s = block_shape_of(g);
-    int64_t n = p->n_of[KIND_MPM];
     order_room(o, n, s.n);
 
     /* rank of a block: its place in the list of all blocks, colour by colour */
@@ -206,7 +206,7 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < n; k++) {
         int64_t cell;
-        key[k] = rank[block_key(&s, g, p, p->list[KIND_MPM][k], &cell)];
+        key[k] = rank[block_key(&s, g, p, list[k], &cell)];
         inside[k] = (uint8_t)cell;
     }
     for (int64_t k = 0; k < n; k++) o->block_start[key[k] + 1]++;
@@ -215,7 +215,7 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
     memcpy(fill, o->block_start, (size_t)s.n * sizeof *fill);
     for (int64_t k = 0; k < n; k++) {
         int32_t at = fill[key[k]]++;
-        o->particle[at] = p->list[KIND_MPM][k];
+        o->particle[at] = list[k];
         sorted[at] = inside[k];
     }
 #pragma omp parallel for schedule(dynamic, 16)

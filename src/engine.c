@@ -7,48 +7,64 @@
 
 /* ---- one step on the grid ------------------------------------------------------------------------------- */
 
-/* Bounds of the material points. */
-static void points_bounds(const struct particles *p, real *from, real *to)
+/* Widens from..to to the listed particles. */
+static void bounds_widen(const struct particles *p, const int32_t *list, int64_t n, real *from, real *to)
 {
     for (int d = 0; d < p->dim; d++) {
-        real low = INFINITY, high = -INFINITY;
+        real low = from[d], high = to[d];
         const real *x = p->x[d];
 #pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high)
-        for (int64_t k = 0; k < p->n_of[KIND_MPM]; k++) {
-            low = real_min(low, x[p->list[KIND_MPM][k]]);
-            high = real_max(high, x[p->list[KIND_MPM][k]]);
+        for (int64_t k = 0; k < n; k++) {
+            low = real_min(low, x[list[k]]);
+            high = real_max(high, x[list[k]]);
         }
         from[d] = low, to[d] = high;
     }
 }
 
-/* The grid covers the points and the points know their cells; nothing to do while none has left its cell. */
+/* The grid covers its particles and the points know their cells; nothing to do while none has left its cell. */
 static status points_sort(struct engine *e)
 {
-    if (!e->sort_needed) return OK;
-    real from[DIM_MAX], to[DIM_MAX];
+    const struct particles *p = &e->part;
+    real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
     bool changed;
-    points_bounds(&e->part, from, to);
-    for (int d = 0; d < e->part.dim; d++)
-        if (!isfinite(to[d] - from[d])) return watch_alarm(&e->part, e->wave_speed, e->step, e->t, e->dt);
-    int64_t most = 64 * e->part.n + 1000000;     /* far more than any sound run needs; an index is 32 bits */
+    if (!e->sort_needed) return OK;
+    for (int k = 0; k < KINDS; k++)
+        if (k == KIND_MPM || coupling_unified(e->coupling)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
+    for (int d = 0; d < p->dim; d++)
+        if (!isfinite(to[d] - from[d])) return watch_alarm(p, e->wave_speed, e->step, e->t, e->dt);
+    int64_t most = 64 * p->n + 1000000;          /* far more than any sound run needs; an index is 32 bits */
     TRY(grid_cover(&e->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
-    transfer_order_sort(&e->order, &e->part, &e->grid);
+    transfer_order_sort(&e->order, p, p->list[KIND_MPM], p->n_of[KIND_MPM], &e->grid);
     e->sort_needed = false;
     return OK;
 }
 
-static status step_points(struct engine *e, real middle)
+/* Who is on the grid in this step, and where. */
+static status grid_sort(struct engine *e)
+{
+    if (e->part.n_of[KIND_MPM] == 0 && !coupling_unified(e->coupling)) {
+        carry_none(&e->carried, &e->part);
+        return OK;
+    }
+    TRY(points_sort(e));
+    if (coupling_carries(e->coupling)) carry(&e->carried, e->coupling, &e->part, &e->grid);
+    return OK;
+}
+
+static void step_grid(struct engine *e, real middle)
 {
     const struct kernels *k = &e->kernels;
     struct particles *p = &e->part;
     struct grid *g = &e->grid;
-    struct transfer_data *t = &e->transfer;
+    const struct transfer_data *t = &e->transfer;
     const enum transfer transfer = e->scene->transfer;
+    struct transfer_data carried = *t;           /* peridynamic particles that the grid moves (coupling pm .. pgg) */
+    carried.order = &e->carried.order, carried.bare = true;
 
-    TRY(points_sort(e));
     grid_clear(g);
     k->p2g(g, p, t);                                                        /* 1, 3: mass, momentum, force to nodes */
+    if (p->n_carried > 0) k->p2g(g, p, &carried);
     lap(&e->laps, LAP_SCATTER);
     engine_residual(e);
     loads_walls(&e->loads, g, p, k, t->half_width, middle, e->dt);
@@ -56,17 +72,19 @@ static status step_points(struct engine *e, real middle)
     lap(&e->laps, LAP_GRID);
     if (transfer == TRANSFER_FLIP) {
         k->remap(g, p, t);                                                  /* 4, 6: velocity; momentum back to nodes */
+        if (p->n_carried > 0) k->remap(g, p, &carried);
         lap(&e->laps, LAP_SCATTER);
         grid_remapped(g, e->smallest_mass);
         lap(&e->laps, LAP_GRID);
     }
-    e->sort_needed = k->g2p(g, p, t) > 0;                                   /* 4, 7: position, strain, stress */
+    int64_t moved = k->g2p(g, p, t);                                        /* 4, 7: position, strain, stress */
+    if (p->n_carried > 0) moved += k->g2p(g, p, &carried);
+    e->sort_needed = moved > 0;
     lap(&e->laps, LAP_GATHER);
-    return OK;
 }
 
 /* Nothing is left to move on the grid: its walls hold nobody any more, and residuals are those of particles. */
-static void step_without_points(struct engine *e)
+static void step_without_grid(struct engine *e)
 {
     e->grid.walls = 0;
     engine_residual(e);
@@ -85,6 +103,8 @@ static status step(struct engine *e)
 
     engine_sample_begin(e);
     lap(&e->laps, LAP_WATCH);
+    TRY(grid_sort(e));
+    lap(&e->laps, LAP_GRID);
     loads_clear(&e->loads, p);
     int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit);         /* 2, 5: forces of bonds; breaking */
     loads_apply(&e->loads, p, middle, e->dt, dt_velocity);
@@ -93,8 +113,8 @@ static status step(struct engine *e)
     lap(&e->laps, LAP_WATCH);
     k->pd_move(p, e->dt, dt_velocity);                                      /* peridynamic particles move */
     lap(&e->laps, LAP_BONDS);
-    if (p->n_of[KIND_MPM] > 0) TRY(step_points(e, middle));                 /* 1, 3, 4, 6, 7: material points move */
-    else step_without_points(e);
+    if (p->n_of[KIND_MPM] + p->n_carried > 0) step_grid(e, middle);         /* 1, 3, 4, 6, 7: material points move */
+    else step_without_grid(e);
     loads_hold(&e->loads, &e->grid, p, middle, dt_velocity);
     loads_mirror(&e->loads, p);
     lap(&e->laps, LAP_GRID);

@@ -78,7 +78,8 @@ static void make_bonds(struct engine *e)
 
 static void make_partial(struct engine *e)
 {
-    e->uses_partial = e->scene->method == METHOD_ADAPTIVE && e->scene->coupling == COUPLING_PARTIAL_STRESS;
+    e->coupling = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
+    e->uses_partial = e->coupling == COUPLING_PARTIAL_STRESS;
     if (e->uses_partial) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
 }
 
@@ -190,7 +191,8 @@ struct observed engine_observed(const struct engine *e)
     return (struct observed){
         .part = &e->part, .cells = &e->cells, .bonds = &e->bonds, .loads = &e->loads, .grid = &e->grid, .tips = &e->tips,
         .material = s->material, .partial = &e->partial, .spacing = s->spacing, .thickness = e->source.family.section,
-        .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t};
+        .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
+        .energy_change = watch_energy_change(&e->watch), .baseline = e->has_baseline ? &e->baseline : NULL};
 }
 
 /* What shows only with particles has no line, but it has a file; fill_particles names its own. */
@@ -221,7 +223,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     make_grid(e);
     TRY(named(s, make_time_step(e)));
     kernels_choose(&e->kernels, s->dim, s->model, s->shape, s->transfer);
-    e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt};
+    e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false};
     e->strain_stress = largest_stress(&e->part);
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
@@ -233,9 +235,11 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
 void engine_free(struct engine *e)
 {
     probes_free(&e->probes);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]);
     tips_free(&e->tips);
     partial_stress_free(&e->partial);
     transfer_order_free(&e->order);
+    carry_free(&e->carried);
     grid_free(&e->grid);
     bonds_free(&e->bonds);
     cells_free(&e->cells);

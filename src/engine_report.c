@@ -164,6 +164,7 @@ void engine_residual(struct engine *e)
     }
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         int32_t i = p->list[KIND_PD][k];
+        if (particle_on_grid(p, i)) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->X[d][i];
         for (int d = 0; d < p->dim; d++)
             if (in_patch(e, x)) e->residual_step0 = real_max(e->residual_step0, fabs(p->f[d][i]));

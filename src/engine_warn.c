@@ -22,6 +22,9 @@ static void warn_of_method(const struct engine *e, FILE *out)
     if (s->method == METHOD_PD && s->bodies > 1)
         fprintf(out, "warning: peridynamic bodies do not meet in this version: they pass through each other; with mpm "
                      "and adaptive material points meet through the grid\n");
+    if ((e->coupling == COUPLING_PM || e->coupling == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
+        fprintf(out, "warning: coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and "
+                     "pgg\n");
     if (s->method != METHOD_PD && s->cell < 1.5)
         fprintf(out, "warning: one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; "
                      "2 is usual\n", s->cell);

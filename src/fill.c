@@ -315,6 +315,27 @@ static void start_strain(struct particles *p, int64_t i, const struct scene_init
     p->volume[i] = p->volume0[i] * growth;
 }
 
+static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
+                        const real *X)
+{
+    static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 2}, column[SYM_MAX] = {0, 1, 2, 1, 2, 0};
+    const struct wave_state wave = wave_pulse_at(w, X, m->wave_speed, p->dim);
+    const int dim = p->dim, count = symmetric_count(dim);
+    real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX];
+    for (int k = 0; k < count; k++) {
+        int a = k < dim ? k : row[3 + k - dim], b = k < dim ? k : column[3 + k - dim];
+        strain[k] = wave.strain * w->direction[a] * w->direction[b];
+    }
+    material_stiffness(m, dim, stiffness);
+    for (int k = 0; k < count; k++) p->stress[k][i] += dot(&stiffness[k * count], strain, count);
+    for (int a = 0; a < dim; a++) {
+        p->v[a][i] += wave.velocity * w->direction[a];
+        p->x[a][i] += wave.displacement * w->direction[a];
+        if (p->stretch[a] != NULL) p->stretch[a][i] += strain[a];
+    }
+    p->volume[i] *= 1 + wave.strain;
+}
+
 static status check_initial(const struct scene *s, const struct scene_initial *initial)
 {
     real growth = 1;
@@ -337,6 +358,7 @@ static void start_particle(struct particles *p, int64_t i, const struct scene *s
         for (int a = 0; a < p->dim; a++) arm[a] = X[a] - k->centre[a];
         if (k->sets_velocity) start_velocity(p, i, k, arm);
         if (k->sets_strain) start_strain(p, i, k, &s->material[p->material[i]], arm);
+        if (k->sets_pulse) start_pulse(p, i, &k->pulse, &s->material[p->material[i]], X);
     }
 }
 

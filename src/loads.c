@@ -180,7 +180,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, real 
     real given[DIM_MAX] = {0}, work = 0;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
-        if (p->kind[i] != KIND_PD) continue;
+        if (particle_on_grid(p, i)) continue;
         for (int d = 0; d < p->dim; d++) {
             if (!(b->components >> d & 1)) continue;
             real target = factor * b->value[d], before = p->v[d][i];
@@ -302,7 +302,7 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
     real *mass = NEW("loads.driven_mass", load->n, real);
     int64_t n = 0;
     for (int64_t q = 0; q < load->n; q++)
-        if (p->kind[load->particle[q]] == KIND_MPM) {
+        if (particle_on_grid(p, load->particle[q])) {
             list[n] = load->particle[q];
             mass[n++] = p->mass[load->particle[q]];
         }
@@ -360,7 +360,7 @@ static void hold(struct loads *l, const struct load *load, struct particles *p, 
     const struct boundary *b = load->boundary;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
-        if (p->kind[i] != KIND_MPM) continue;
+        if (!particle_on_grid(p, i)) continue;
         for (int d = 0; d < p->dim; d++) {
             if (!(b->components >> d & 1)) continue;
             real target = factor * b->value[d], given = p->mass[i] * (target - p->v[d][i]);

@@ -157,6 +157,7 @@ static status probe_bind(struct probe *q, const struct observed *o)
     case PROBE_POINT: return bind_point(q, o);
     case PROBE_LINE: return bind_line(q, o);
     case PROBE_REACTION: return bind_support(q, o);
+    case PROBE_PULSE: return pulse_bind(q, o);
     case PROBE_BREAK:
     case PROBE_ENERGY:
     case PROBE_MOMENTUM: return bind_region(q, o);

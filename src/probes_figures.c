@@ -273,6 +273,14 @@ static void figures_momentum(const struct emitter *e)
     put_place(e, momentum);
 }
 
+static void figures_pulse(const struct emitter *e)
+{
+    struct pulse_shares s = pulse_shares(e->q, e->o);
+    put(e, "reflected", s.reflected);
+    put(e, "transmitted", s.transmitted);
+    put(e, "energy_change", s.energy_change);
+}
+
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context)
 {
@@ -280,6 +288,7 @@ void probes_figures(const struct probes *s, const struct observed *o,
         [PROBE_TIP] = figures_tip,       [PROBE_BREAK] = figures_break,       [PROBE_REACTION] = figures_reaction,
         [PROBE_PATCH] = figures_patch,   [PROBE_SPALL] = figures_spall,       [PROBE_POINT] = figures_point,
         [PROBE_LINE] = figures_line,     [PROBE_ENERGY] = figures_energy,     [PROBE_MOMENTUM] = figures_momentum,
+        [PROBE_PULSE] = figures_pulse,
     };
     for (int k = 0; k < s->n; k++)
         figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o});

@@ -8,6 +8,7 @@
 struct probe_memory {
     real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before  [s]      */
     real place[DIM_MAX];                 /* BREAK: mean place of the cut; SPALL: [0] the plane [m]    */
+    real incident;                       /* PULSE: largest speed at the start                [m/s]    */
     real force_max, force_square;        /* REACTION: largest |F|; sum of F^2                [N], [N^2] */
     int64_t steps;                       /* REACTION: in that sum                                     */
     int64_t body;                        /* SPALL: the bar that broke                                 */
@@ -46,6 +47,11 @@ void probe_reaction(const struct probe *q, const struct loads *l, int dim, real 
 struct energies { real kinetic, strain, fracture; };       /* [J] */
 struct energies probe_energies(const struct probe *q, const struct observed *o);
 void probe_momentum(const struct probe *q, const struct particles *p, real *momentum);
+
+/* PULSE: shares of the incident amplitude, reflected as the difference from the run without interface. */
+struct pulse_shares { real reflected, transmitted, energy_change; };
+status pulse_bind(struct probe *q, const struct observed *o);
+struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o);
 
 /* Looks whether a bar has come apart; remembers where and when. Where it has: mean velocity along x of the lighter
  * part and of the rest [m/s]. */

@@ -234,3 +234,15 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
     for (d = 0; d < dim; d++) P[d] = a[d] + share * (b[d] - a[d]);
     return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
 }
+
+/* ---- waves ---------------------------------------------------------------------------------------- */
+
+struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim)
+{
+    const real root_of_pi = 1.77245385090551602730, radius = 0.25 * w->width;
+    real xi = 0;
+    for (int d = 0; d < dim; d++) xi += (X[d] - w->at[d]) * w->direction[d];
+    xi /= radius;
+    const real velocity = w->velocity * exp(-xi * xi);
+    return (struct wave_state){velocity, w->velocity / c * radius * 0.5 * root_of_pi * erfc(xi), -velocity / c};
+}

@@ -65,6 +65,7 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     e->stop = &stop_asked;
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     status ran = engine_run(e);
+    if (ran == OK) ran = engine_baseline(e);
     status written = ran == REFUSED ? OK : summary_write(e, ran, threads, team_clock() - start);
     if (ran != OK) return ran;
     TRY(written);

@@ -60,6 +60,8 @@ static void resolve_defaults(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     if (!below(root, "pd", "surface")) s->surface = s->method == METHOD_PD ? SURFACE_VOLUME : SURFACE_NONE;
+    if (!below(root, "mpm", "shape"))
+        s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
     if (!below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
 }
 

@@ -247,6 +247,16 @@ static void write_cracks(struct writer *w)
     }
 }
 
+/* A mapping below an item of a list. */
+static void write_part(struct writer *w, const char *key, const char *group, const void *base)
+{
+    begin(w, key);
+    fputc('\n', w->out);
+    w->indent += 2;
+    write_group(w, group, base);
+    w->indent -= 2;
+}
+
 static void write_initials(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -254,6 +264,7 @@ static void write_initials(struct writer *w)
     for (int k = 0; k < s->initials; k++) {
         begin_item(w);
         write_group(w, "initial", &s->initial[k]);
+        if (s->initial[k].sets_pulse) write_part(w, "pulse", "initial.pulse", &s->initial[k]);
     }
 }
 
@@ -293,11 +304,7 @@ static void write_boundary(struct writer *w, const struct boundary *b)
 {
     write_group(w, "boundary", b);
     if (b->kind == BOUNDARY_MIRROR) {
-        begin(w, "mirror");
-        fputc('\n', w->out);
-        w->indent += 2;
-        write_group(w, "boundary.mirror", b);
-        w->indent -= 2;
+        write_part(w, "mirror", "boundary.mirror", b);
         return;
     }
     if (b->kind == BOUNDARY_VELOCITY) {

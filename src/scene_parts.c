@@ -159,12 +159,25 @@ status read_bodies(struct reader *r, const struct node *root)
 
 /* ---- initial states ------------------------------------------------------------------------------------- */
 
+static status read_pulse(struct reader *r, const struct node *n, struct scene_initial *initial)
+{
+    real *direction = initial->pulse.direction, length;
+    if (!n) return OK;
+    TRY(read_group(r, n, n, "initial.pulse", initial));
+    length = sqrt(dot(direction, direction, r->dim));
+    if (!(length > 0)) return fault(r, node_find(n, "direction"), "has no length; a direction such as 1 is expected");
+    for (int d = 0; d < r->dim; d++) direction[d] /= length;
+    initial->sets_pulse = true;
+    return OK;
+}
+
 static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)
 {
     initial->body = -1;
     TRY(read_group(r, n, n, "initial", initial));
-    if (initial->sets_velocity || initial->sets_strain) return OK;
-    return fault(r, n, "sets nothing; velocity, velocity_gradient or displacement_gradient is expected");
+    TRY(read_pulse(r, node_find(n, "pulse"), initial));
+    if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
+    return fault(r, n, "sets nothing; velocity, velocity_gradient, displacement_gradient or pulse is expected");
 }
 
 status read_initials(struct reader *r, const struct node *root)

@@ -35,7 +35,7 @@ static void kick_block(const void *context, int64_t first, int64_t end, real *su
 {
     const struct particles *p = context;
     for (int64_t i = first; i < end; i++) {
-        if (p->kind[i] != KIND_PD) continue;
+        if (particle_on_grid(p, i)) continue;
         real force2 = 0;
         for (int d = 0; d < p->dim; d++) force2 += square(p->f[d][i]);
         sum[0] += 0.25 * force2 / p->mass[i];
@@ -126,10 +126,18 @@ void watch_momentum(struct watch *w, const struct particles *p, const real *impu
         w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
 }
 
+static real ledger_energy(const struct ledger *l) { return l->kinetic + l->strain + l->plastic + l->fracture; }
+
+real watch_energy_change(const struct watch *w)
+{
+    if (!(w->energy_start > 0)) return NAN;
+    return (ledger_energy(&w->now) - w->now.external_work) / w->energy_start - 1;
+}
+
 static void ledger_balance(struct watch *w)
 {
     struct ledger *l = &w->now;
-    real energy = l->kinetic + l->strain + l->plastic + l->fracture;
+    real energy = ledger_energy(l);
     if (!w->started) w->energy_start = energy - l->external_work;
     real stored = fabs(l->kinetic) + fabs(l->strain) + fabs(l->plastic) + fabs(l->fracture);
     w->energy_scale = real_max(w->energy_scale, real_max(stored, fabs(l->external_work)));

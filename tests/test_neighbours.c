@@ -356,7 +356,7 @@ static void test_transfer_order(void **state)
         struct grid g;
         struct transfer_order o = {0};
         scatter_points(&c, dim, &g);
-        transfer_order_sort(&o, &c.p, &g);
+        transfer_order_sort(&o, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         assert_int_equal(o.n, c.p.n_of[KIND_MPM]);
         assert_int_equal(o.block_start[0], 0);
         assert_int_equal(o.block_start[o.blocks], o.n);
@@ -385,13 +385,13 @@ static void test_transfer_order_growth(void **state)
         struct transfer_order small = {0}, large = {0};
         bool changed;
         scatter_points(&c, dim, &g);
-        transfer_order_sort(&small, &c.p, &g);
+        transfer_order_sort(&small, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         real from[DIM_MAX], to[DIM_MAX], before = grid_position(&g, 0, -g.first[0]);
         for (int d = 0; d < dim; d++)
             from[d] = -23 * g.h, to[d] = 33 * g.h; /* by one block: parity must not follow the box */
         assert_int_equal(grid_cover(&g, from, to, 1000000, &changed), OK);
         assert_true(changed && grid_position(&g, 0, -g.first[0]) == before);
-        transfer_order_sort(&large, &c.p, &g);
+        transfer_order_sort(&large, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         assert_int_equal(small.n, large.n);
         assert_memory_equal(small.particle, large.particle, (size_t)small.n * sizeof(int32_t));
         assert_int_equal(grid_cover(&g, from, to, 1000000, &changed), OK);

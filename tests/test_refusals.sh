@@ -101,7 +101,7 @@ done <<'END'
 5|method: auto|5:1|not in this version
 5|model: ospd|5:1|not in this version
 5|solver: cg|5:1|not in this version
-5|coupling: glue|5:1|partial stress or handshake
+5|coupling: glue|5:1|partial stress, handshake, pm, pg, pmg or pgg
 6|material: {young: -1, density: 7800}|6:12|out of range
 6|material: {density: 7800}|6:1|young: missing
 6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|1/3 is expected

@@ -146,7 +146,7 @@ static void scene_make(struct scene *s, const struct choice *k, real spin)
     s->smallest_mass = GRID_MASS_SMALLEST * s->c.p.mass[0];
     s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .elastic = s->elastic,
                                   .half_width = 0.5 * CLOUD_SPACING, .dt = 2e-7, .dt_velocity = 1e-7};
-    transfer_order_sort(&s->order, &s->c.p, &s->g);
+    transfer_order_sort(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);
 }
 
 static void scene_free(struct scene *s)
