@@ -61,7 +61,7 @@ struct engine {
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
     struct {                             /* a sample in the making (engine_report.h)                  */
         bool due;
-        real kinetic, potential, fracture, work, held_work;
+        real kinetic, potential, plastic, fracture, work, held_work;
     } sampling;
     status history_status;               /* of the last line written                                  */
     double started, last_progress, last_checkpoint;   /* wall clock [s]                               */

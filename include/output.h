@@ -16,6 +16,7 @@ struct output {
     int frames, frames_room;             /* frames written                                            */
     real *frame_time;                    /* [s]                                                       */
     int64_t frame_particles;
+    bool frame_yielding;                 /* frames have plastic strain                                */
     bool compress;
     FILE *history;
     int64_t history_bytes;               /* length at the last sample                                 */

@@ -36,6 +36,8 @@ struct particles {
     real *stress[SYM_MAX];               /* Cauchy stress of material points        [Pa]         */
     real *gradient[DIM_MAX * DIM_MAX];   /* velocity gradient dv_a/dx_b at [a dim + b], only APIC [1/s] */
     real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP              [1]          */
+    real *plastic_strain;                /* accumulated, equivalent; only where a material yields [1] */
+    real *out_of_plane;                  /* sigma_zz - nu (sigma_xx + sigma_yy), only plane strain with it [Pa] */
     real *damage;                        /* share of broken bonds, 0..1             [1]          */
     uint8_t *kind, *material, *body, *flag;  /* enum kind; indices; enum particle_flag           */
     int32_t *id;                         /* order in which the scene made them                   */
@@ -46,7 +48,7 @@ struct particles {
 struct image { int32_t source; uint8_t load; };
 
 /* Which optional arrays exist. */
-enum { WITH_GRADIENT = 1, WITH_STRETCH = 2 };
+enum { WITH_GRADIENT = 1, WITH_STRETCH = 2, WITH_PLASTIC = 4, WITH_OUT_OF_PLANE = 8, WITH_EVERYTHING = 15 };
 
 /* One line per array: name, unit, what it is, where it lives. `size` is the bytes of one entry; `count` the
  * number of component arrays for a dimension. The table makes, frees, sorts, checkpoints and restores. */

@@ -12,7 +12,7 @@
 struct ledger {
     real time;                           /* [s]                                                       */
     real kinetic;                        /* 1/2 m v_before . v_after of the velocity update      [J]  */
-    real strain, plastic, fracture;      /* bonds and material points; 0 here; bonds broken      [J]  */
+    real strain, plastic, fracture;      /* bonds and material points; of both; bonds broken     [J]  */
     real external_work;                  /* of loads and supports since the start                [J]  */
     real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far     [1]  */
     real momentum[DIM_MAX];              /* [kg m/s]                                                  */
@@ -34,12 +34,16 @@ void watch_make(struct watch *w);
 
 /* Kinetic energy 1/2 sum m v^2 of the body [J]. */
 real watch_kinetic(const struct particles *p);
-/* Strain energy of the material points: 1/2 sum sigma_given : C^-1 sigma V [J]. */
+/* Strain energy of the material points: 1/2 sum sigma_given : C^-1 sigma V, and in plane strain what flow has added to
+ * sigma_zz [J]. */
 real watch_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* The same of the material points among `n` listed particles. */
 real watch_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
                      const int32_t *list, int64_t n);
+
+/* Plastic work of the material points: sum V (sigma_y a + H a^2/2) of the accumulated plastic strain a [J]. */
+real watch_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* What the mean of 1/2 m v^2 before and after a leap-frog kick has too much over 1/2 m v_before . v_after, the kinetic
  * energy that the scheme conserves: 1/4 sum m (dt f/m)^2 of peridynamic particles, f as it was [J]. */
@@ -49,7 +53,7 @@ real watch_kick(const struct particles *p, real dt);
 void watch_momentum(struct watch *w, const struct particles *p, const real *impulse);
 
 /* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After watch_momentum. */
-void watch_ledger(struct watch *w, real t, real kinetic, real strain, real fracture, real work);
+void watch_ledger(struct watch *w, real t, real kinetic, real strain, real plastic, real fracture, real work);
 
 /* (E - E_0 - work)/E_0 at the last sample [1]; NAN without energy at the start. */
 real watch_energy_change(const struct watch *w);

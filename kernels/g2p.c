@@ -5,9 +5,26 @@
  *     APIC         v = sum N v_I, x += dt v,  L = sum v_I (x) grad N
  * Every point is written by one thread. */
 #include "kernels.h"
+#include "plastic.h"
 #include "shape.h"
 #include "stress.h"
 #include "variants.h"
+
+/* What the trial stress has beyond the yield surface becomes plastic strain. Works on a copy: the stress of points that
+ * cannot yield stays in registers. */
+static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, real *stress,
+                                      const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    const bool keeps_zz = dim == 2 && m->space == SPACE_PLANE_STRAIN;
+    real trial[SYM_MAX], zz = keeps_zz ? p->out_of_plane[i] : 0;
+    for (int c = 0; c < n; c++) trial[c] = stress[c];
+    const real more = plastic_return(m, trial, p->plastic_strain[i], &zz);
+    if (more == 0) return;
+    p->plastic_strain[i] += more;
+    if (keeps_zz) p->out_of_plane[i] = zz;
+    for (int c = 0; c < n; c++) stress[c] = trial[c];
+}
 
 /* Volume follows tr eps of the space; in plane stress the strain through the thickness is left out (below 1 % strain
  * it changes the volume by less than 0.5 %). */
@@ -19,6 +36,7 @@ static ALWAYS_INLINE void point_strain(struct particles *p, const struct transfe
     real stress[SYM_MAX];
     for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
     p->volume[i] *= 1 + stress_update(stress, L, m, t->dt, dim);
+    if (__builtin_expect(m->yield > 0, 0)) point_yield(p, m, i, stress, dim);
     for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) p->stretch[d][i] *= 1 + t->dt * L[d * dim + d];

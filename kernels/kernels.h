@@ -13,10 +13,13 @@ enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBI
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
 enum pd_model { PD_BOND, PD_MODELS };
 
-/* Elastic constants of a material as the stress update wants them, and its conversion trigger. */
+/* Constants of a material as the stress update wants them, and its conversion trigger. */
 struct elastic {
     real c11, c12, shear;                /* [Pa]                                                     */
     real trigger;                        /* sigma_1 that marks a point for conversion; INFINITY [Pa] */
+    real yield, hardening;               /* sigma_y, 0: never yields; H (plastic.h)             [Pa] */
+    real poisson;                        /* of plane strain, where the material yields           [1] */
+    enum space space;
 };
 
 /* Partial stress (src/partial_stress.c): the share of its stress that a material point leaves to the crossing
@@ -67,7 +70,7 @@ typedef void p2g_fn(struct grid *g, const struct particles *p, const struct tran
 typedef void remap_fn(struct grid *g, struct particles *p, const struct transfer_data *t);
 
 /* x_p += dt sum N v, velocity gradient, strain, spin, stress, volume, conversion flag (steps 4, 7, 8); with APIC
- * also v_p and its gradient. Returns how many points entered another cell. */
+ * also v_p and its gradient; plastic strain of materials that yield. Returns how many points entered another cell. */
 typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
 
 /* Adds value[k] sum N of the listed points to `field`; serial. */

@@ -40,8 +40,12 @@ static void make_materials(struct engine *e)
     e->elastic = NEW("engine.elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
         const struct material *given = &s->material[m];
-        e->elastic[m] = (struct elastic){given->c11, given->c12, given->shear, conversion_trigger(s, given)};
         e->wave_speed = real_max(e->wave_speed, given->wave_speed);
+        e->elastic[m] = (struct elastic){.c11 = given->c11, .c12 = given->c12, .shear = given->shear, .space = s->space,
+                                         .poisson = given->poisson, .trigger = conversion_trigger(s, given)};
+        if (!material_yields(given)) continue;
+        e->elastic[m].yield = given->yield_stress;
+        e->elastic[m].hardening = given->yield_hardening;
     }
     make_limits(e);
 }
@@ -204,12 +208,22 @@ static status named(const struct scene *s, status made)
     return status_set(REFUSED, "%s: %s", s->path, why);
 }
 
+/* Optional arrays of the particles that the scene calls for. */
+static int optional_arrays(const struct scene *s)
+{
+    int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
+    for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
+        if (material_yields(&s->material[m]))
+            optional |= WITH_PLASTIC | (s->space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0);
+    return optional;
+}
+
 status engine_make(struct engine *e, const struct scene *s, struct output *out)
 {
     memset(e, 0, sizeof *e);
     e->scene = s;
     e->out = out;
-    e->optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
+    e->optional = optional_arrays(s);
     make_materials(e);
     make_family(e);
     TRY(named(s, make_affordable(e)));

@@ -89,12 +89,13 @@ static void sample_energy(struct engine *e)
 {
     e->sampling.potential = e->kernels.bond_energy(&e->bonds, &e->part);
     e->sampling.potential += watch_strain(&e->part, e->scene->material, &e->partial);
+    e->sampling.plastic = watch_plastic(&e->part, e->scene->material, &e->partial);     /* of material points */
     e->sampling.fracture = bonds_fracture_energy(&e->bonds);
 }
 
 static void sample_write(struct engine *e, real kinetic, real work)
 {
-    watch_ledger(&e->watch, e->t, kinetic, e->sampling.potential, e->sampling.fracture, work);
+    watch_ledger(&e->watch, e->t, kinetic, e->sampling.potential, e->sampling.plastic, e->sampling.fracture, work);
     fill_record(e);
     if (e->out && e->history_status == OK) e->history_status = output_history(e->out, e->record);
 }

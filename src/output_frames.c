@@ -59,6 +59,11 @@ static void fill_material(const struct particles *p, int64_t i, void *row) { *(u
 static void fill_body(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->body[i]; }
 static void fill_id(const struct particles *p, int64_t i, void *row) { *(int32_t *)row = p->id[i]; }
 
+static void fill_plastic_strain(const struct particles *p, int64_t i, void *row)
+{
+    *(float *)row = (float)p->plastic_strain[i];
+}
+
 #define POINT_DATA "/VTKHDF/PointData/"
 enum { FIELD_POINTS };                   /* where in the table the positions stand */
 static const struct frame_field frame_fields[] = {
@@ -67,12 +72,19 @@ static const struct frame_field frame_fields[] = {
     {POINT_DATA "velocity", HDF_F32, 3, fill_velocity},
     {POINT_DATA "stress", HDF_F32, 6, fill_stress},
     {POINT_DATA "damage", HDF_F32, 1, fill_damage},
+    {POINT_DATA "plastic_strain", HDF_F32, 1, fill_plastic_strain},
     {POINT_DATA "kind", HDF_U8, 1, fill_kind},
     {POINT_DATA "material", HDF_U8, 1, fill_material},
     {POINT_DATA "body", HDF_U8, 1, fill_body},
     {POINT_DATA "id", HDF_I32, 1, fill_id},
     {"/Cleave/reference", HDF_F64, 0, fill_reference},
 };
+
+/* Plastic strain is there only if a material yields. */
+static bool field_exists(const struct frame_field *field, bool yielding)
+{
+    return yielding || field->fill != fill_plastic_strain;
+}
 
 /* ---- one frame ------------------------------------------------------------------------------------- */
 
@@ -142,7 +154,8 @@ static status frame_write(struct output *o, const char *path, const struct parti
     write_marks(&f, p->dim, t, step, scene_text);
     write_cells(&f, p->n);
     int32_t *order = order_by_id(p);
-    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) write_field(&f, &frame_fields[k], p, order);
+    for (size_t k = 0; k < COUNT_OF(frame_fields); k++)
+        if (field_exists(&frame_fields[k], p->plastic_strain != NULL)) write_field(&f, &frame_fields[k], p, order);
     memory_free(order);
     if (!f.failed) hdf_close(&f);
     if (f.failed) {
@@ -191,7 +204,7 @@ static void xdmf_attribute(FILE *out, const char *frame, const struct frame_fiel
     fprintf(out, "</Attribute>\n");
 }
 
-static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n)
+static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, bool yielding)
 {
     /* Named, because the XDMF3 reader makes no cells from a count alone. */
     static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL};
@@ -203,7 +216,8 @@ static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n)
     xdmf_item(out, frame, &frame_fields[FIELD_POINTS], n);
     fprintf(out, "</Geometry>\n");
     for (size_t k = FIELD_POINTS + 1; k < COUNT_OF(frame_fields); k++)
-        if (frame_fields[k].columns > 0) xdmf_attribute(out, frame, &frame_fields[k], n);
+        if (frame_fields[k].columns > 0 && field_exists(&frame_fields[k], yielding))
+            xdmf_attribute(out, frame, &frame_fields[k], n);
     fprintf(out, "</Grid>\n");
 }
 
@@ -214,7 +228,7 @@ static void xdmf_print(FILE *out, const struct output *o)
     for (int k = 0; k < o->frames; k++) {
         char name[PATH_NAME_ROOM];
         frame_name(name, sizeof name, k);
-        xdmf_grid(out, name, o->frame_time[k], o->frame_particles);
+        xdmf_grid(out, name, o->frame_time[k], o->frame_particles, o->frame_yielding);
     }
     fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
 }
@@ -246,6 +260,7 @@ status output_frame(struct output *o, const struct particles *p, real t, int64_t
     }
     o->frame_time[o->frames++] = t;
     o->frame_particles = p->n;
+    o->frame_yielding = p->plastic_strain != NULL;
     TRY(index_write(o, "frames.hdf.series", series_print));
     return index_write(o, "frames.xdmf", xdmf_print);
 }

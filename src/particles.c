@@ -12,6 +12,8 @@ static int vector(int dim, int optional) { return (void)optional, dim; }
 static int symmetric(int dim, int optional) { return (void)optional, symmetric_count(dim); }
 static int if_gradient(int dim, int optional) { return optional & WITH_GRADIENT ? dim * dim : 0; }
 static int if_stretch(int dim, int optional) { return optional & WITH_STRETCH ? dim : 0; }
+static int if_plastic(int dim, int optional) { return (void)dim, optional & WITH_PLASTIC ? 1 : 0; }
+static int if_out_of_plane(int dim, int optional) { return (void)dim, optional & WITH_OUT_OF_PLANE ? 1 : 0; }
 
 #define FIELD(member, type, count, unit, meaning) \
     {#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count}
@@ -27,6 +29,8 @@ const struct particle_field particle_fields[] = {
     FIELD(stress, real, symmetric, "Pa", "Cauchy stress of material points"),
     FIELD(gradient, real, if_gradient, "1/s", "velocity gradient"),
     FIELD(stretch, real, if_stretch, "1", "axial stretch"),
+    FIELD(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
+    FIELD(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
     FIELD(damage, real, one, "1", "share of broken bonds"),
     FIELD(kind, uint8_t, one, "1", "0 material point, 1 peridynamic"),
     FIELD(material, uint8_t, one, "1", "index of the material"),
@@ -36,8 +40,8 @@ const struct particle_field particle_fields[] = {
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, damage, 4 indices, id. */
-_Static_assert(sizeof(struct particles) == offsetof(struct particles, X) + (4 * DIM_MAX + 27) * sizeof(void *),
+/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, damage, 4 indices, id. */
+_Static_assert(sizeof(struct particles) == offsetof(struct particles, X) + (4 * DIM_MAX + 29) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
 /* Through bytes: a `real *` must not be read as a `void *`. */
@@ -55,7 +59,7 @@ static void put(struct particles *p, const struct particle_field *f, int k, void
 
 void *particle_array(const struct particles *p, const struct particle_field *f, int k)
 {
-    assert(k >= 0 && k < f->count(DIM_MAX, WITH_GRADIENT | WITH_STRETCH));
+    assert(k >= 0 && k < f->count(DIM_MAX, WITH_EVERYTHING));
     return get(p, f, k);
 }
 
@@ -83,7 +87,7 @@ void particles_add_images(struct particles *p, int64_t images, int optional)
 void particles_free(struct particles *p)
 {
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
-        for (int k = 0; k < f->count(DIM_MAX, WITH_GRADIENT | WITH_STRETCH); k++) memory_free(get(p, f, k));
+        for (int k = 0; k < f->count(DIM_MAX, WITH_EVERYTHING); k++) memory_free(get(p, f, k));
     for (int kind = 0; kind < KINDS; kind++) memory_free(p->list[kind]);
     *p = (struct particles){0};
 }

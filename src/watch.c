@@ -63,14 +63,35 @@ static void momentum_block(const void *context, int64_t first, int64_t end, real
     }
 }
 
-/* ---- strain energy of material points ---------------------------------------------------------------- */
+/* ---- strain energy and plastic work of material points ------------------------------------------------ */
 
 struct strain_sum {
     const struct particles *p;
+    const struct material *m;
     const struct partial_stress *partial;
     const int32_t *list;
     real (*compliance)[SYM_MAX * SYM_MAX];   /* by material */
 };
+
+/* Share of a point's energies that is its own where it leaves part of its stress to bonds, 1 - tr M/n: exact where that
+ * part is the same for all stresses, as in one dimension. */
+static real own_share(const struct strain_sum *s, int64_t i)
+{
+    const struct partial_stress *partial = s->partial;
+    if (!partial || !partial->index || partial->index[i] < 0) return 1;
+    const int n = symmetric_count(s->p->dim);
+    const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
+    real trace = 0;
+    for (int a = 0; a < n; a++) trace += M[a * n + a];
+    return 1 - trace / n;
+}
+
+/* Of plane strain after flow: with sigma_zz = nu (sigma_xx + sigma_yy) + delta the energy has delta^2/(2E) more. */
+static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
+{
+    if (!s->p->out_of_plane) return 0;
+    return own_share(s, i) * square(s->p->out_of_plane[i]) / (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
+}
 
 static real strain_term(const void *context, int64_t k)
 {
@@ -87,7 +108,7 @@ static real strain_term(const void *context, int64_t k)
         for (int b = 0; b < n; b++) strain += s->compliance[p->material[i]][a * n + b] * stress[b];
         sum += times * given[a] * strain;
     }
-    return 0.5 * sum * p->volume[i];
+    return 0.5 * sum * p->volume[i] + out_of_plane_energy(s, i);
 }
 
 real watch_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
@@ -96,7 +117,7 @@ real watch_strain_of(const struct particles *p, const struct material *m, const 
     int materials = 0;
     for (int64_t k = 0; k < n; k++)
         if (p->material[list[k]] >= materials) materials = p->material[list[k]] + 1;
-    struct strain_sum s = {.p = p, .partial = partial, .list = list};
+    struct strain_sum s = {.p = p, .m = m, .partial = partial, .list = list};
     s.compliance = memory_new("watch.compliance", materials, sizeof *s.compliance);
     for (int k = 0; k < materials; k++) material_compliance(&m[k], p->dim, s.compliance[k]);
     real sum = team_sum(n, strain_term, &s);
@@ -107,6 +128,25 @@ real watch_strain_of(const struct particles *p, const struct material *m, const 
 real watch_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial)
 {
     return watch_strain_of(p, m, partial, p->list[KIND_MPM], p->n_of[KIND_MPM]);
+}
+
+/* Integral of (sigma_y + H a) da. */
+static real plastic_term(const void *context, int64_t k)
+{
+    const struct strain_sum *s = context;
+    const struct particles *p = s->p;
+    int64_t i = s->list[k];
+    const struct material *m = &s->m[p->material[i]];
+    const real a = p->plastic_strain[i];
+    if (a == 0) return 0;
+    return own_share(s, i) * p->volume[i] * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+}
+
+real watch_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial)
+{
+    if (!p->plastic_strain) return 0;
+    return team_sum(p->n_of[KIND_MPM], plastic_term,
+                    &(struct strain_sum){.p = p, .m = m, .partial = partial, .list = p->list[KIND_MPM]});
 }
 
 /* ---- the ledger -------------------------------------------------------------------------------------- */
@@ -144,11 +184,12 @@ static void ledger_balance(struct watch *w)
     l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
 }
 
-void watch_ledger(struct watch *w, real t, real kinetic, real strain, real fracture, real work)
+void watch_ledger(struct watch *w, real t, real kinetic, real strain, real plastic, real fracture, real work)
 {
     w->now.time = t;
     w->now.kinetic = kinetic;
     w->now.strain = strain;
+    w->now.plastic = plastic;
     w->now.fracture = fracture;
     w->now.external_work = work;
     ledger_balance(w);

@@ -6,7 +6,7 @@
 
 #include "engine.h"
 
-enum { EVERYTHING = WITH_GRADIENT | WITH_STRETCH, SOLIDS = 3, BODIES = 2, INITIALS = 3 };
+enum { EVERYTHING = WITH_EVERYTHING, SOLIDS = 3, BODIES = 2, INITIALS = 3 };
 
 /* A scene with its parts in one place. */
 struct setting {

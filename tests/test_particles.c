@@ -5,7 +5,7 @@
 
 #include "particles.h"
 
-enum { EVERYTHING = WITH_GRADIENT | WITH_STRETCH };
+enum { EVERYTHING = WITH_EVERYTHING };
 
 /* Every array of the struct stands in the table exactly once, with its room. */
 static void table_covers_the_struct(void **state)

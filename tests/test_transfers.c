@@ -141,7 +141,7 @@ static void scene_make(struct scene *s, const struct choice *k, real spin)
     scene_crossers(s);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *c = &s->c.material[m];
-        s->elastic[m] = (struct elastic){c->c11, c->c12, c->shear, 1e8};
+        s->elastic[m] = (struct elastic){.c11 = c->c11, .c12 = c->c12, .shear = c->shear, .trigger = 1e8};
     }
     s->smallest_mass = GRID_MASS_SMALLEST * s->c.p.mass[0];
     s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .elastic = s->elastic,

@@ -1,0 +1,85 @@
+/* floor 2: return mappings of the four spaces. Below, `bound` is the yield stress before the step, sigma_y + H a. */
+#include "plastic.h"
+
+#include <math.h>
+
+/* Newton's method of plane stress ends at this share of the stress, some roundings. It climbs monotonically and has
+ * always converged long before the limit. */
+#define RETURN_CLOSE 1e-15
+enum { RETURN_STEPS = 40 };
+
+/* Uniaxial: |sigma| - E da = bound + H da. */
+static real return_line(const struct elastic *m, real *s, real bound)
+{
+    const real excess = fabs(s[0]) - bound;
+    if (!(excess > 0)) return 0;
+    const real more = excess / (m->c11 + m->hardening);
+    s[0] = copysign(bound + m->hardening * more, s[0]);
+    return more;
+}
+
+/* Radial return: q - 3 G da = bound + H da; `left` is the share of the deviator that stays. */
+static real return_radial(const struct elastic *m, real q2, real bound, real *left)
+{
+    if (!(q2 > bound * bound)) return 0;
+    const real q = sqrt(q2), more = (q - bound) / (3 * m->shear + m->hardening);
+    *left = (bound + m->hardening * more) / q;
+    return more;
+}
+
+static real return_solid(const struct elastic *m, real *s, real bound)
+{
+    const real mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
+    const real off = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+    real left = 1;
+    const real more = return_radial(m, 1.5 * (a * a + b * b + c * c) + 3 * off, bound, &left);
+    if (more == 0) return 0;
+    s[0] = mean + left * a, s[1] = mean + left * b, s[2] = mean + left * c;
+    for (int k = 3; k < 6; k++) s[k] *= left;
+    return more;
+}
+
+/* The same with sigma_zz, which eps_zz = 0 ties to the others: nu (sigma_xx + sigma_yy) and what flow adds to it. */
+static real return_plane_strain(const struct elastic *m, real *s, real bound, real *out_of_plane)
+{
+    const real zz = m->poisson * (s[0] + s[1]) + *out_of_plane, mean = (s[0] + s[1] + zz) / 3;
+    const real a = s[0] - mean, b = s[1] - mean, c = zz - mean;
+    real left = 1;
+    const real more = return_radial(m, 1.5 * (a * a + b * b + c * c) + 3 * s[2] * s[2], bound, &left);
+    if (more == 0) return 0;
+    s[0] = mean + left * a, s[1] = mean + left * b, s[2] *= left;
+    *out_of_plane = mean + left * c - m->poisson * (s[0] + s[1]);
+    return more;
+}
+
+/* Projected onto sigma_zz = 0 (Simo & Hughes 1998, section 3.4): with p = xx + yy and d = xx - yy
+ *     q^2 = p^2/4 + 3 d^2/4 + 3 xy^2,   p = p_trial/(1 + A t),   d, xy = trial/(1 + 3 G t),   A = E/(2 (1 - nu))
+ * and t = da/q from q (1 - H t) = bound. Written as 1 - H t - bound/q(t) = 0 the left side is decreasing and convex, for
+ * 1/q is a power mean of two linear functions, which is concave: Newton's method from t = 0 climbs to the root. */
+static real return_plane_stress(const struct elastic *m, real *s, real bound)
+{
+    const real p = s[0] + s[1], d = s[0] - s[1], even = 0.25 * p * p, odd = 0.75 * d * d + 3 * s[2] * s[2];
+    if (!(even + odd > bound * bound)) return 0;
+    const real A = 0.5 * (m->c11 + m->c12), B = 3 * m->shear;
+    real t = 0, u, v, q;
+    for (int k = 0;; k++) {
+        u = 1 / (1 + A * t), v = 1 / (1 + B * t);
+        q = sqrt(even * u * u + odd * v * v);
+        const real rest = 1 - m->hardening * t - bound / q;
+        if (!(rest > RETURN_CLOSE) || k == RETURN_STEPS) break;
+        t += rest / (m->hardening + bound * (even * A * u * u * u + odd * B * v * v * v) / (q * q * q));
+    }
+    s[0] = 0.5 * (p * u + d * v), s[1] = 0.5 * (p * u - d * v), s[2] *= v;
+    return t * q;
+}
+
+real plastic_return(const struct elastic *m, real *stress, real strain, real *out_of_plane)
+{
+    const real bound = m->yield + m->hardening * strain;
+    switch (m->space) {
+    case SPACE_LINE: return return_line(m, stress, bound);
+    case SPACE_PLANE_STRESS: return return_plane_stress(m, stress, bound);
+    case SPACE_PLANE_STRAIN: return return_plane_strain(m, stress, bound, out_of_plane);
+    default: return return_solid(m, stress, bound);
+    }
+}
