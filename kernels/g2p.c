@@ -10,22 +10,6 @@
 #include "stress.h"
 #include "variants.h"
 
-/* What the trial stress has beyond the yield surface becomes plastic strain. Works on a copy: the stress of points that
- * cannot yield stays in registers. */
-static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, real *stress,
-                                      const int dim)
-{
-    const int n = dim * (dim + 1) / 2;
-    const bool keeps_zz = dim == 2 && m->space == SPACE_PLANE_STRAIN;
-    real trial[SYM_MAX], zz = keeps_zz ? p->out_of_plane[i] : 0;
-    for (int c = 0; c < n; c++) trial[c] = stress[c];
-    const real more = plastic_return(m, trial, p->plastic_strain[i], &zz);
-    if (more == 0) return;
-    p->plastic_strain[i] += more;
-    if (keeps_zz) p->out_of_plane[i] = zz;
-    for (int c = 0; c < n; c++) stress[c] = trial[c];
-}
-
 /* Volume follows tr eps of the space; in plane stress the strain through the thickness is left out (below 1 % strain
  * it changes the volume by less than 0.5 %). */
 static ALWAYS_INLINE void point_strain(struct particles *p, const struct transfer_data *t, int64_t i, const real *L,
@@ -36,12 +20,27 @@ static ALWAYS_INLINE void point_strain(struct particles *p, const struct transfe
     real stress[SYM_MAX];
     for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
     p->volume[i] *= 1 + stress_update(stress, L, m, t->dt, dim);
-    if (__builtin_expect(m->yield > 0, 0)) point_yield(p, m, i, stress, dim);
     for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) p->stretch[d][i] *= 1 + t->dt * L[d * dim + d];
     if (stress_bound(stress, dim) > m->trigger && stress_principal(stress, dim) > m->trigger)
         p->flag[i] |= FLAG_STRESSED;
+}
+
+/* What the trial stress has beyond the yield surface becomes plastic strain; the mark is that of the stress that stays.
+ * Last of all and on what is stored, so that points that cannot yield keep their registers. */
+static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    const bool keeps_zz = dim == 2 && m->space == SPACE_PLANE_STRAIN;
+    real stress[SYM_MAX], zz = keeps_zz ? p->out_of_plane[i] : 0;
+    for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
+    const real more = plastic_return(m, stress, p->plastic_strain[i], &zz);
+    if (more == 0) return;
+    p->plastic_strain[i] += more;
+    if (keeps_zz) p->out_of_plane[i] = zz;
+    for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
+    if (!(stress_principal(stress, dim) > m->trigger)) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
 /* Returns whether the point entered another cell. */
@@ -84,7 +83,10 @@ static ALWAYS_INLINE bool g2p_particle(const struct grid *g, struct particles *p
     }
     if (!t->bare) point_strain(p, t, i, L, dim, shape);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
-    return point_move(g, p, i, velocity, dim);
+    const bool moved = point_move(g, p, i, velocity, dim);
+    const struct elastic *m = &t->elastic[p->material[i]];
+    if (__builtin_expect(m->yield > 0, 0)) point_yield(p, m, i, dim);
+    return moved;
 }
 
 #define INSTANCE(D, S, T)                                                                                           \

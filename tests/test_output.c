@@ -149,6 +149,35 @@ static void frames_have_vtk_layout(void **state)
     output_close(&o);
 }
 
+/* Plastic strain is in frames and their index if the particles have it, and only then. */
+static void plastic_strain_where_it_is(void **state)
+{
+    (void)state;
+    for (int yields = 0; yields < 2; yields++) {
+        struct output o;
+        struct particles p;
+        struct hdf f;
+        char *text;
+        size_t length;
+        float strain[2];
+        open_fresh(&o, "plastic", false);
+        particles_make(&p, 2, 2, yields ? WITH_PLASTIC : 0);
+        p.id[0] = 1;
+        if (yields) p.plastic_strain[0] = 0.25, p.plastic_strain[1] = 0.5;
+        assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+        hdf_open(&f, "plastic/frames/000000.hdf");
+        hdf_read_rows(&f, "/VTKHDF/PointData/plastic_strain", HDF_F32, 2, strain);
+        assert_int_equal(f.failed, !yields);
+        if (yields) assert_true(strain[0] == 0.5f && strain[1] == 0.25f);      /* by id */
+        hdf_close(&f);
+        assert_int_equal(file_get("plastic/frames.xdmf", &text, &length), OK);
+        assert_int_equal(strstr(text, "PointData/plastic_strain") != NULL, yields);
+        memory_free(text);
+        particles_free(&p);
+        output_close(&o);
+    }
+}
+
 static void indices_list_all_frames(void **state)
 {
     (void)state;
@@ -354,6 +383,7 @@ int main(int argc, char **argv)
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_come_back),
         cmocka_unit_test(frames_have_vtk_layout),
+        cmocka_unit_test(plastic_strain_where_it_is),
         cmocka_unit_test(indices_list_all_frames),
         cmocka_unit_test(same_state_gives_same_bytes),
         cmocka_unit_test(damaged_frames_are_refused),
