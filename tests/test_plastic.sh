@@ -60,6 +60,31 @@ sound bar_whole 0.005
 awk -F, 'NR > 1 { if ($5 < before) exit 1; before = $5 }' "$work/bar_whole/history.csv"
 is "bar_whole: plastic work never falls" $? 0
 
+# ---- what flow keeps below the conversion stress -------------------------------------------------------------------
+
+# An end driven at 0.02 m/s sends 2 Pa through an elastic bar; one that yields at 0.5 Pa never holds 0.505, though the
+# elastic trial of many a step does: nothing may convert.
+scene driven <<'END_OF_SCENE'
+space: line
+section: 1 m^2
+duration: 1 ms
+method: adaptive
+conversion: {stress: 0.505 Pa, alpha: 1}
+material: {young: 1e4, density: 1, yield_stress: 0.5}
+body: {box: {from: [0], to: [1]}}
+particles: {spacing: 5 mm}
+boundary:
+  - {name: clamp, mirror: {axis: x, at: 0}}
+  - {name: pull, velocity: [0.02 m/s], region: {box: {from: [0.9], to: [1]}}}
+output: {frames: 1, samples: 100}
+END_OF_SCENE
+go driven driven
+go driven_elastic driven -s material.yield_stress=inf
+landed
+absent "driven: conversion" "$(f driven conversion.first_time)"
+between "driven: plastic work" "$(f driven energy.plastic)" 1e-6 1e-4
+holds "driven_elastic: converts" test -n "$(f driven_elastic conversion.first_time)"
+
 # ---- plane waves ---------------------------------------------------------------------------------------------------
 
 # Between rollers, no hardening: q = |sigma_xx - sigma_yy| = sigma_y behind both fronts, in the space without strain across.
