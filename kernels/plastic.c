@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-/* Newton's method of plane stress ends at this share of the stress, some roundings. From 1e-4 to 1e5 yield stresses beyond
- * the surface it takes two to four steps, and the limit is never met. */
+/* Newton's method of plane stress ends at this share of the stress, some roundings. From 1e-4 to 1e5 yield stresses
+ * beyond the surface it takes two to four steps, and the limit is never met. */
 #define RETURN_CLOSE 1e-15
 enum { RETURN_STEPS = 40 };
 

@@ -11,8 +11,8 @@ near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
 
 # ---- a bar struck beyond its yield stress --------------------------------------------------------------------------
 
-# A push of 1 Pa from t = 0: the elastic precursor carries sigma_y = 0.5 Pa at c = sqrt(E/rho) = 100 m/s, the rest comes at
-# sqrt(E_t/rho) = 70.7 m/s. After 0.75 L/c they are at x = 0.25 and 1 - 0.75/sqrt(2) = 0.470; strains 0.5/E and 0.5/E +
+# A push of 1 Pa from t = 0: the elastic precursor carries sigma_y = 0.5 Pa at c = sqrt(E/rho) = 100 m/s, the rest comes
+# at sqrt(E_t/rho) = 70.7 m/s. After 0.75 L/c they are at x = 0.25 and 1 - 0.75/sqrt(2) = 0.470; strains 0.5/E and 0.5/E +
 # 0.5/E_t (Zeng et al., CPM 2021, section 5.1).
 scene bar <<'END_OF_SCENE'
 space: line
@@ -87,7 +87,7 @@ holds "driven_elastic: converts" test -n "$(f driven_elastic conversion.first_ti
 
 # ---- plane waves ---------------------------------------------------------------------------------------------------
 
-# Between rollers, no hardening: q = |sigma_xx - sigma_yy| = sigma_y behind both fronts, in the space without strain across.
+# Between rollers, no hardening: q = |sigma_xx - sigma_yy| = sigma_y behind both fronts, in spaces without strain across.
 # The precursor carries sigma_y (1 - nu)/(1 - 2 nu) = 60 MPa at sqrt(C11/rho), the rest of the push comes at sqrt(K/rho).
 # plane NAME SPACE YIELDING: the scene of such a strip.
 plane()
