@@ -15,6 +15,7 @@
 #include "output.h"
 #include "particles.h"
 #include "probes.h"
+#include "rim.h"
 #include "scene.h"
 #include "team.h"
 #include "tips.h"
@@ -53,6 +54,8 @@ struct engine {
     real mass;                           /* of the body [kg]                                          */
     bool sort_needed;                    /* material points moved to other cells or converted         */
     enum coupling coupling;              /* of the scene; hand-shake where nothing meets              */
+    struct rim rim;                      /* damped beside peridynamic particles (FLIP, partial stress) */
+    real rim_share;                      /* of a step; 0: not at all                                  */
     bool uses_partial;                   /* coupling by partial stress                                */
     real *record;                        /* one line of history.csv                                   */
     int optional;                        /* WITH_* arrays of the particles                            */

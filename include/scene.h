@@ -66,6 +66,7 @@ struct scene {
     bool has_grid_origin; real grid_origin[DIM_MAX];   /* a node of the grid [m]                      */
 
     enum coupling coupling;
+    real rim_damping;                    /* of the rim of the material points (rim.h), in c/h         */
     struct conversion_rule conversion;
 
     int cracks;     struct crack *crack;

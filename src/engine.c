@@ -104,6 +104,7 @@ static status step(struct engine *e)
     engine_sample_begin(e);
     lap(&e->laps, LAP_WATCH);
     TRY(grid_sort(e));
+    if (e->rim.points > 0 && e->rim_share > 0) rim_damp(&e->rim, p, e->rim_share);
     lap(&e->laps, LAP_GRID);
     loads_clear(&e->loads, p);
     int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit);         /* 2, 5: forces of bonds; breaking */
@@ -120,8 +121,10 @@ static status step(struct engine *e)
     lap(&e->laps, LAP_GRID);
     engine_breaks(e, broken);
     if (convert(&e->conversion, &s->conversion, p, &e->bonds, &e->source,   /* 8: material point -> peridynamic */
-                e->uses_partial ? &e->partial : NULL, e->t) > 0)
+                e->uses_partial ? &e->partial : NULL, e->t) > 0) {
+        if (e->uses_partial && s->transfer == TRANSFER_FLIP) rim_make(&e->rim, p, &e->source);
         e->sort_needed = true;
+    }
     lap(&e->laps, LAP_CONVERT);
     engine_sample_end(e);
     e->t = (real)(e->step + 1) * e->dt;

@@ -85,6 +85,14 @@ static void make_partial(struct engine *e)
     e->coupling = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
     e->uses_partial = e->coupling == COUPLING_PARTIAL_STRESS;
     if (e->uses_partial) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    if (e->uses_partial && e->scene->transfer == TRANSFER_FLIP) rim_make(&e->rim, &e->part, &e->source);
+}
+
+#define RIM_SHARE_MOST (1.0 / 16)        /* rim.h */
+
+static void make_rim_share(struct engine *e)
+{
+    e->rim_share = real_min(e->scene->rim_damping * e->wave_speed * e->dt / e->grid.h, RIM_SHARE_MOST);
 }
 
 /* ---- grid --------------------------------------------------------------------------------------------- */
@@ -236,6 +244,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     make_partial(e);
     make_grid(e);
     TRY(named(s, make_time_step(e)));
+    make_rim_share(e);
     kernels_choose(&e->kernels, s->dim, s->model, s->shape, s->transfer);
     e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false};
     e->strain_stress = largest_stress(&e->part);
@@ -252,6 +261,7 @@ void engine_free(struct engine *e)
     for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]);
     tips_free(&e->tips);
     partial_stress_free(&e->partial);
+    rim_free(&e->rim);
     transfer_order_free(&e->order);
     carry_free(&e->carried);
     grid_free(&e->grid);

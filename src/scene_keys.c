@@ -141,6 +141,10 @@ const struct key keys[] = {
     KEY("coupling", KEY_CHOICE, UNIT_NONE, AT(scene, coupling), ANY, "partial stress",
         "of material points and bonds where both meet", .words = "partial stress|handshake|pm|pg|pmg|pgg"),
 
+    KEY("rim_damping", KEY_REAL, UNIT_NONE, AT(scene, rim_damping), FROM(0), "0.25",
+        "coupling partial stress with transfer flip: damping of motion beside peridynamic particles that the grid "
+        "cannot see, in wave speed over cell; 0: none"),
+
     KEY("conversion", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE,
         "material point to peridynamic particle (method adaptive)"),
     KEY("conversion.stress", KEY_REAL, UNIT_PRESSURE, AT(scene, conversion.stress), ABOVE(0), "auto",

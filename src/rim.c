@@ -1,0 +1,187 @@
+/* floor 3: the rim of the material points and its damping. Few particles; owner computes throughout. */
+#include "rim.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "memory.h"
+
+#define NEIGHBOUR_SPACINGS 1.5           /* nearest along axes and face diagonals */
+
+enum { OUTSIDE = -1 };
+
+/* ---- who stands near whom ----------------------------------------------------------------------------- */
+
+struct search {
+    const struct particles *p;
+    const struct bond_source *source;
+    int32_t *found;
+    int room;
+};
+
+static bool pair_cut(const struct search *s, int64_t i, int64_t j)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    particle_place(s->p, i, a);
+    particle_place(s->p, j, b);
+    for (int c = 0; c < s->source->cracks; c++)
+        if (crack_cuts(&s->source->crack[c], a, b, s->p->dim)) return true;
+    return false;
+}
+
+/* Free particles of the body of particle i within `radius` of it, ascending, images left out; into s->found. */
+static int search_near(struct search *s, int32_t i, real radius)
+{
+    const struct particles *p = s->p;
+    real X[DIM_MAX];
+    int kept = 0;
+    particle_place(p, i, X);
+    int n = cells_near(s->source->cells, p, X, radius, i, s->found, s->room);
+    if (n > s->room) {
+        s->found = memory_resize("rim.found", s->found, s->room, 2 * n, sizeof *s->found);
+        s->room = 2 * n;
+        n = cells_near(s->source->cells, p, X, radius, i, s->found, s->room);
+    }
+    for (int k = 0; k < n; k++) {
+        int32_t j = s->found[k];
+        if (j < p->n && p->body[j] == p->body[i] && !(p->flag[j] & FLAG_DRIVEN)) s->found[kept++] = j;
+    }
+    return kept;
+}
+
+/* ---- making ------------------------------------------------------------------------------------------- */
+
+static void member_add(struct rim *r, int32_t *place, int32_t i)
+{
+    if (place[i] != OUTSIDE) return;
+    place[i] = (int32_t)r->n;
+    r->particle[r->n++] = i;
+}
+
+/* The points of the rim first, then their other neighbours. */
+static void members_make(struct rim *r, struct search *s, int32_t *place)
+{
+    const struct particles *p = s->p;
+    const struct family *f = &s->source->family;
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        int n = search_near(s, p->list[KIND_PD][k], f->cutoff + f->spacing * (1 + 1e-9));
+        for (int q = 0; q < n; q++)
+            if (p->kind[s->found[q]] == KIND_MPM) member_add(r, place, s->found[q]);
+    }
+    r->points = r->n;
+    for (int64_t k = 0; k < r->points; k++) {
+        int n = search_near(s, r->particle[k], NEIGHBOUR_SPACINGS * f->spacing);
+        for (int q = 0; q < n; q++) member_add(r, place, s->found[q]);
+    }
+}
+
+/* Pairs of members of which one at least is a point of the rim. */
+static void pairs_make(struct rim *r, struct search *s, const int32_t *place)
+{
+    int64_t pairs = 0, room = 0;
+    int most = 1;
+    for (int64_t k = 0; k < r->n; k++) {
+        int n = search_near(s, r->particle[k], NEIGHBOUR_SPACINGS * s->source->family.spacing);
+        if (pairs + n > room) {
+            int64_t larger = 2 * (pairs + n);
+            r->neighbour = memory_resize("rim.neighbour", r->neighbour, room, larger, sizeof *r->neighbour);
+            room = larger;
+        }
+        r->start[k] = pairs;
+        for (int q = 0; q < n; q++) {
+            int32_t m = place[s->found[q]];
+            if (m == OUTSIDE || (k >= r->points && m >= r->points) || pair_cut(s, r->particle[k], s->found[q])) continue;
+            r->neighbour[pairs++] = m;
+        }
+        if (pairs - r->start[k] > most) most = (int)(pairs - r->start[k]);
+    }
+    r->start[r->n] = pairs;
+    r->scale = 4 / (most * (1 + 1.0 / s->p->dim));       /* the sum of e e of n neighbours has a norm of about n/dim */
+}
+
+void rim_make(struct rim *r, const struct particles *p, const struct bond_source *source)
+{
+    struct search s = {.p = p, .source = source};
+    rim_free(r);
+    int32_t *place = NEW("rim.place", p->n, int32_t);
+    for (int64_t i = 0; i < p->n; i++) place[i] = OUTSIDE;
+    r->particle = NEW("rim.particle", p->n, int32_t);
+    members_make(r, &s, place);
+    r->particle = memory_resize("rim.particle", r->particle, p->n, r->n, sizeof *r->particle);
+    r->start = NEW("rim.start", r->n + 1, int64_t);
+    pairs_make(r, &s, place);
+    r->difference = NEW("rim.difference", r->n * p->dim, real);
+    r->change = NEW("rim.change", r->n * p->dim, real);
+    memory_free(s.found);
+    memory_free(place);
+}
+
+void rim_free(struct rim *r)
+{
+    memory_free(r->particle);
+    memory_free(r->start);
+    memory_free(r->neighbour);
+    memory_free(r->difference);
+    memory_free(r->change);
+    memset(r, 0, sizeof *r);
+}
+
+/* ---- a step ------------------------------------------------------------------------------------------- */
+
+/* Adds factor ((b - a) . e) e, e along the line between particles i and j. */
+static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor, real *sum)
+{
+    real y[DIM_MAX], length2 = 0, along = 0;
+    for (int d = 0; d < p->dim; d++) {
+        y[d] = p->x[d][j] - p->x[d][i];
+        length2 += square(y[d]);
+        along += (b[d] - a[d]) * y[d];
+    }
+    for (int d = 0; d < p->dim; d++) sum[d] += factor * along / length2 * y[d];
+}
+
+static void velocity_of(const struct particles *p, int32_t i, real *v)
+{
+    for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
+}
+
+/* m d of a point: how much its velocity differs from its neighbours', along the lines to them. */
+static void difference_make(struct rim *r, const struct particles *p, int64_t k)
+{
+    const int32_t i = r->particle[k];
+    real own[DIM_MAX], other[DIM_MAX], sum[DIM_MAX] = {0};
+    velocity_of(p, i, own);
+    for (int64_t q = r->start[k]; q < r->start[k + 1]; q++) {
+        const int32_t j = r->particle[r->neighbour[q]];
+        velocity_of(p, j, other);
+        add_along(p, i, j, own, other, r->scale, sum);
+    }
+    for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
+}
+
+/* What a member gives to each neighbour it takes: the pair's terms are each other's negative to the last bit. */
+static void change_make(struct rim *r, const struct particles *p, int64_t k, real share)
+{
+    real *sum = r->change + k * p->dim;
+    for (int d = 0; d < p->dim; d++) sum[d] = 0;
+    for (int64_t q = r->start[k]; q < r->start[k + 1]; q++) {
+        const int32_t m = r->neighbour[q];
+        add_along(p, r->particle[k], r->particle[m], r->difference + k * p->dim, r->difference + m * p->dim,
+                  -share * r->scale, sum);
+    }
+}
+
+void rim_damp(struct rim *r, struct particles *p, real share)
+{
+#pragma omp parallel
+    {
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < r->points; k++) difference_make(r, p, k);    /* 0 for the members outside the rim */
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, share);
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < r->n; k++)
+            for (int d = 0; d < p->dim; d++)
+                p->v[d][r->particle[k]] += r->change[k * p->dim + d] / p->mass[r->particle[k]];
+    }
+}
