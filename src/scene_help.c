@@ -16,6 +16,7 @@ static const char *type_text(const struct key *k)
     case KEY_FLAG: return "true or false";
     case KEY_CHOICE: return "word";
     case KEY_SET: return "list of words";
+    case KEY_SERIES: return "list of numbers";
     case KEY_NAME: return "name";
     case KEY_POINT: return "list of numbers";
     case KEY_MATRIX: return "matrix";
