@@ -8,7 +8,8 @@
  *   PLASTIC BAR   the same load beyond the yield stress, bilinear with tangent E_t: a precursor sigma_y at c, the rest at
  *                 sqrt(E_t/rho) (von Karman & Duwez 1950); until the precursor reaches the far end, nothing after that
  *   PULSE         Gaussian pulses v = V exp(-(xi/r)^2), xi = sign (x - at), r = width/4, along the way they travel,
- *                 displacement f(xi - ct) and 0 ahead of them; the ends reflect by images
+ *                 displacement f(xi - ct), which is 0 ahead of them and sqrt(pi) V r/c behind; the ends reflect by
+ *                 images, a fixed one is held wherever it is
  *   MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi (x - origin)/lambda), under the body force that makes it a solution */
 #ifndef CLEAVE_EXACT_H
 #define CLEAVE_EXACT_H

@@ -26,6 +26,15 @@ enum probe_kind {
     PROBES
 };
 
+/* Figures of EXACT; all but the last three by the stress of bond flux (probes_parts.h), those with `_strain` the same of
+ * E x strain against E x exact strain; strain by central differences over the neighbours in the bar:
+ *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
+ *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
+ *   plateau                 mean stress behind the last front, off fronts and ends (exact_plateau) [Pa]
+ *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
+ *   end_displacement        of the outermost particle at the loaded end, half a spacing inside [m]
+ *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, with velocities when they are known */
+
 /* As the scene asks for it. */
 struct probe_request {
     char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
