@@ -7,19 +7,15 @@
  *                 each front carries v = -+ sigma/(rho c); displacements are the fronts' velocities times their age
  *   PLASTIC BAR   the same load beyond the yield stress, bilinear with tangent E_t: a precursor sigma_y at c, the rest at
  *                 sqrt(E_t/rho) (von Karman & Duwez 1950); until the precursor reaches the far end, nothing after that
- *   PULSE         Gaussian pulses v = V exp(-(xi/r)^2), xi = sign (x - at), r = width/4, along the way they travel,
- *                 displacement f(xi - ct), which is 0 ahead of them and sqrt(pi) V r/c behind; the ends reflect by
- *                 images, a fixed one is held wherever it is
+ *   PULSE         the waves that initial pulses are (region.h): at rest ahead, displaced by sqrt(pi) V r/c behind; the
+ *                 ends reflect by images, a fixed one is held wherever it is
  *   MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi (x - origin)/lambda), under the body force that makes it a solution */
 #ifndef CLEAVE_EXACT_H
 #define CLEAVE_EXACT_H
 
-#include "base.h"
+#include "region.h"
 
 enum exact_form { EXACT_STEP_BAR, EXACT_PLASTIC_BAR, EXACT_PULSE, EXACT_MANUFACTURED, EXACT_FORMS };
-
-/* An initial pulse: centre, direction of travel (+1 or -1 along x), width and peak velocity along that direction. */
-struct exact_pulse { real at, sign, width, velocity; };      /* [m] [1] [m] [m/s] */
 
 struct exact {
     enum exact_form form;
@@ -28,7 +24,7 @@ struct exact {
     int reflection[2];                   /* of stress at the left and right end: +1 fixed, -1 free    */
     int loaded;                          /* STEP, PLASTIC: the loaded end, -1 left, +1 right          */
     real load;                           /* STEP, PLASTIC: F                                  [Pa]    */
-    const struct exact_pulse *pulse;     /* PULSE: borrowed                                           */
+    const struct wave_pulse *pulse;      /* PULSE: borrowed                                           */
     int pulses;
     real amplitude, period, wavelength, origin;      /* MANUFACTURED: U [m], T [s], lambda [m], [m]   */
 };
@@ -50,9 +46,9 @@ enum { EXACT_FRONTS = 2 };
  * front. Returns how many there are; none for smooth forms and where the form does not hold. */
 int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
-/* Where the exact stress is even, well away from fronts and ends. PLATEAU: behind the (last) front, a tenth of the bar away
- * from it and from the ends; 0.08 of it behind a plastic front. PRECURSOR: from 0.07 of the bar behind the precursor to
- * 0.05 ahead of the plastic front. False: there is no such place. */
+/* Where the exact stress is even, well away from fronts and ends. PLATEAU: behind the (last) front, a tenth of the bar
+ * away from it and from the ends; 0.08 of it behind a plastic front. PRECURSOR: from 0.07 of the bar behind the precursor
+ * to 0.05 ahead of the plastic front. False: there is no such place. */
 enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
 bool exact_plateau(const struct exact *e, real t, enum exact_window which, real *from, real *to);
 

@@ -76,7 +76,7 @@ struct observed {
     real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
     const struct baseline *baseline;     /* NULL: none                                                */
     real t_velocity;                     /* when velocities are known, half a step before t   [s]     */
-    const struct exact_pulse *pulse;     /* initial pulses, for EXACT                                 */
+    const struct wave_pulse *pulse;      /* initial pulses, for EXACT                                 */
     int pulses;
 };
 

@@ -56,23 +56,26 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 
 /* ---- pulses ---------------------------------------------------------------------------------------------- */
 
-/* A pulse in full space at distance `eta` ahead of its centre; `factor` is the sign and direction of its displacement. */
-static void add_pulse(struct exact_values *v, const struct exact *e, const struct exact_pulse *p, real eta, int way,
+/* A pulse on its way in an endless bar, `eta` ahead of its centre; `factor` is the direction of its displacement and the
+ * sign that it has got from the ends. */
+static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int way,
                       real factor)
 {
-    real r = 0.25 * p->width, c = wave_speed(e), velocity = p->velocity * exp(-square(eta / r));
-    v->displacement += factor * p->velocity * r * 0.5 * sqrt(pi) / c * erfc(eta / r);
-    v->velocity += factor * velocity;
-    v->strain -= factor * way * velocity / c;
+    struct wave_pulse centred = *p;
+    centred.at[0] = 0, centred.direction[0] = 1;
+    struct wave_state wave = wave_pulse_at(&centred, &eta, wave_speed(e), 1);
+    v->displacement += factor * wave.displacement;
+    v->velocity += factor * wave.velocity;
+    v->strain += factor * way * wave.strain;
 }
 
 /* The pulse and its images in the ends, one behind the other along the way it would go: between two images lies the bar's
  * length folded once more, and the displacement turns its sign at a fixed end. */
-static void one_pulse(struct exact_values *v, const struct exact *e, const struct exact_pulse *p, real X, real t)
+static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;
-    int way = p->sign < 0 ? -1 : 1;
-    real factor = way, start = way > 0 ? p->at - e->left : e->right - p->at;     /* from the end behind it */
+    int way = p->direction[0] < 0 ? -1 : 1;
+    real factor = way, start = way > 0 ? p->at[0] - e->left : e->right - p->at[0];       /* from the end behind it */
     for (int n = 0; n * L <= start + gone + 2 * p->width; n++) {
         real here = way > 0 ? X - e->left : e->right - X;                        /* from the end behind this image */
         add_pulse(v, e, p, here + n * L - start - gone, way, factor);

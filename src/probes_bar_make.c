@@ -101,6 +101,16 @@ static bool at_rest(const struct particles *p)
     return true;
 }
 
+/* Velocities to a millionth: what a pulse cut by its region, by an end, or laid over other motion has not. */
+static bool starts_with_pulses(const struct exact *e, const struct particles *p)
+{
+    real scale = 0;
+    for (int k = 0; k < e->pulses; k++) scale += fabs(e->pulse[k].velocity);
+    for (int64_t i = 0; i < p->n; i++)
+        if (!(fabs(p->v[0][i] - exact_at(e, p->X[0][i], 0).velocity) <= 1e-6 * scale)) return false;
+    return true;
+}
+
 static int count_of(const struct observed *o, enum boundary_kind kind, const struct load **found)
 {
     int n = 0;
@@ -139,7 +149,8 @@ static status find_load(struct probe *q, const struct observed *o)
         if (o->pulses == 0) return refuse(q, "the scene starts no pulse; initial with a pulse is expected");
         if (count_of(o, BOUNDARY_TRACTION, &other) > 0) return refuse(q, "a traction acts on the bar; leave it out");
         q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;
-        return OK;
+        return starts_with_pulses(&q->bar->exact, o->part)
+                   ? OK : refuse(q, "the start is not that of its pulses alone, clear of the ends");
     }
     if (!at_rest(o->part)) return refuse(q, "the bar moves or is strained at the start; it begins at rest");
     TRY(find_traction(q, o));
