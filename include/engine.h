@@ -41,6 +41,8 @@ struct engine {
     struct watch watch;
     struct tips tips;
     struct probes probes;
+    struct wave_pulse *pulse;            /* [pulses] of the initial states                            */
+    int pulses;
     struct baseline baseline;            /* for pulse probes, made at the end                         */
     bool has_baseline;
     struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */

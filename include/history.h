@@ -14,6 +14,8 @@ struct history {
 /* Reads folder/history.csv; a last line that is still being written is left out. FAILED: no file, no header, or a
  * line with another number of columns. */
 status history_read(struct history *h, const char *folder);
+/* The same of any file of this form, as the profiles of probes are. */
+status history_read_file(struct history *h, const char *path);
 void history_free(struct history *h);
 
 /* Place of a column, -1 without. */

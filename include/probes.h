@@ -5,6 +5,7 @@
 #include "archive.h"
 #include "bonds.h"
 #include "cells.h"
+#include "exact.h"
 #include "loads.h"
 #include "particles.h"
 #include "region.h"
@@ -21,8 +22,18 @@ enum probe_kind {
     PROBE_ENERGY,            /* energies of the particles of a region                                      */
     PROBE_MOMENTUM,          /* momentum of the particles of a region                                      */
     PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
+    PROBE_EXACT,             /* a bar against a closed form                                                */
     PROBES
 };
+
+/* Figures of EXACT; all but the last three by the stress of bond flux (probes_parts.h), those with `_strain` the same of
+ * E x strain against E x exact strain; strain by central differences over the neighbours in the bar:
+ *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
+ *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
+ *   plateau                 mean stress behind the last front, off fronts and ends (exact_plateau) [Pa]
+ *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
+ *   end_displacement        of the outermost particle at the loaded end, half a spacing inside [m]
+ *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, with velocities when they are known */
 
 /* As the scene asks for it. */
 struct probe_request {
@@ -34,6 +45,8 @@ struct probe_request {
     real from[DIM_MAX], to[DIM_MAX];     /* LINE                                              [m]     */
     int points;                          /* LINE                                                      */
     char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
+    enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]:   */
+    real amplitude, period, wavelength, origin;
 };
 
 /* A column of history.csv or a figure of summary.json. */
@@ -62,6 +75,9 @@ struct observed {
     real t;                              /* [s]                                                       */
     real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
     const struct baseline *baseline;     /* NULL: none                                                */
+    real t_velocity;                     /* when velocities are known, half a step before t   [s]     */
+    const struct wave_pulse *pulse;      /* initial pulses, for EXACT                                 */
+    int pulses;
 };
 
 struct probe;                            /* probes.c */
@@ -73,7 +89,8 @@ struct probes {
     real *value;                         /* at the last sample, by column                             */
 };
 
-/* Binds requests to particles. Refuses a point outside the body or an unknown boundary name. */
+/* Binds requests to particles. Refuses a point outside the body, an unknown boundary name, or a bar that is not that of
+ * the closed form. */
 status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
 void probes_free(struct probes *s);
 /* Fills value[]. */
@@ -85,7 +102,7 @@ void probes_step(struct probes *s, const struct observed *o);
  * (NAN) are left out. */
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
-/* Writes the profile of LINE probes as csv to `folder`/<name>_<frame>.csv. */
+/* Writes the profiles of LINE and EXACT probes as csv to `folder`/<name>_<frame>.csv. */
 status probes_profiles(const struct probes *s, const struct observed *o, const char *folder, int frame);
 status probes_archive(struct probes *s, struct archive *a);
 

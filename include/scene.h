@@ -37,6 +37,9 @@ struct scene_initial {
     struct wave_pulse pulse;
 };
 
+/* Ascending numbers. */
+struct number_list { int n; real *value; };
+
 struct scene {
     char *path;                          /* file it came from, as given on the command line           */
     char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending        */
@@ -77,6 +80,8 @@ struct scene {
     real time_step;                      /* [s]; 0: automatic                                         */
     real safety;                         /* of the automatic step                                     */
     int frames;                          /* frames after the one at t = 0                             */
+    bool has_frames;                     /* the scene says how many                                   */
+    struct number_list times;            /* of these frames, ascending [s]; none: evenly spread       */
     int samples;                         /* samples of history.csv after the one at t = 0             */
     real checkpoint_interval;            /* wall clock between checkpoints [s]                        */
     bool compress;                       /* gzip the frames                                           */

@@ -4,6 +4,8 @@
 #ifndef CLEAVE_BOND_LAWS_H
 #define CLEAVE_BOND_LAWS_H
 
+#include <math.h>
+
 #include "kernels.h"
 #include "lanes.h"
 
@@ -26,6 +28,17 @@ static ALWAYS_INLINE lanes bond_law_energy(const enum pd_model model, lanes stre
     case PD_BOND: return 0.5 * stretch * stretch;
     default: return lanes_of(0);
     }
+}
+
+/* Force of one stored bond, entry q of the row of particle i, as the force kernel makes it; tension is positive [N]. For
+ * what is visited at samples and frames only. */
+static inline real bond_force_stored(const struct bonds *b, const struct particles *p, int64_t q, int32_t i)
+{
+    real distance2 = 0;
+    if (b->w[q] == 0) return 0;
+    for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][b->nbr[q]] - p->x[d][i]);
+    real stretch = sqrt(distance2) * b->inverse_length[q] - 1;
+    return b->stiffness * b->w[q] * bond_law(PD_BOND, lanes_of(stretch))[0];
 }
 
 #endif

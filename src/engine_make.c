@@ -204,7 +204,16 @@ struct observed engine_observed(const struct engine *e)
         .part = &e->part, .cells = &e->cells, .bonds = &e->bonds, .loads = &e->loads, .grid = &e->grid, .tips = &e->tips,
         .material = s->material, .partial = &e->partial, .spacing = s->spacing, .thickness = e->source.family.section,
         .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
+        .t_velocity = e->step > 0 ? e->t - 0.5 * e->dt : e->t, .pulse = e->pulse, .pulses = e->pulses,
         .energy_change = watch_energy_change(&e->watch), .baseline = e->has_baseline ? &e->baseline : NULL};
+}
+
+static void make_pulses(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_pulse) e->pulse[e->pulses++] = s->initial[k].pulse;
 }
 
 /* What shows only with particles has no line, but it has a file; fill_particles names its own. */
@@ -251,6 +260,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     watch_make(&e->watch);
+    make_pulses(e);
     struct observed o = engine_observed(e);
     return named(s, probes_make(&e->probes, s->probe, s->probes, &o));
 }
@@ -273,6 +283,7 @@ void engine_free(struct engine *e)
     memory_free(e->neighbour_volume);
     memory_free(e->elastic);
     memory_free(e->record);
+    memory_free(e->pulse);
     memset(e, 0, sizeof *e);
 }
 

@@ -23,6 +23,16 @@ static int64_t due_step(const struct engine *e, int64_t k, int64_t n)
     return n > 0 ? (k * e->steps + n / 2) / n : e->steps;
 }
 
+/* Step of frame k after the one at t = 0: that nearest to its time, or evenly spread. Every step writes one frame at the
+ * most, so that frames closer than a step keep their number. */
+static int64_t frame_step(const struct engine *e, int64_t k, int64_t n)
+{
+    const struct number_list *times = &e->scene->times;
+    if (times->n == 0 || k < 1) return due_step(e, k, n);
+    int64_t step = k <= n ? (int64_t)floor(times->value[k - 1] / e->dt + 0.5) : e->steps, last = e->steps - (n - k);
+    return step < k ? k : step > last ? last : step;
+}
+
 static bool sample_due(const struct engine *e)
 {
     const int64_t n = e->scene->samples < e->steps ? e->scene->samples : e->steps;
@@ -275,7 +285,7 @@ status engine_report(struct engine *e)
     TRY(energy_alarm(e));
     if (e->out) {
         const int64_t frames = e->scene->frames < e->steps ? e->scene->frames : e->steps;
-        if (e->out->frames <= frames && e->step >= due_step(e, e->out->frames, frames)) TRY(write_frame(e));
+        if (e->out->frames <= frames && e->step >= frame_step(e, e->out->frames, frames)) TRY(write_frame(e));
         bool stop = e->stop && *e->stop;
         if (stop || team_clock() - e->last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
         if (stop && e->step < e->steps)

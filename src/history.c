@@ -69,11 +69,18 @@ static status read_rows(struct history *h, FILE *from, const char *path, char **
 
 status history_read(struct history *h, const char *folder)
 {
-    char path[4096], *line = NULL;
-    size_t room = 0;
+    char path[4096];
     *h = (struct history){0};
     if (snprintf(path, sizeof path, "%s/history.csv", folder) >= (int)sizeof path)
         return status_set(FAILED, "%s: the name is too long", folder);
+    return history_read_file(h, path);
+}
+
+status history_read_file(struct history *h, const char *path)
+{
+    char *line = NULL;
+    size_t room = 0;
+    *h = (struct history){0};
     FILE *from = fopen(path, "r");
     if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
     ssize_t length = getline(&line, &room, from);

@@ -193,9 +193,26 @@ static status draw_maps(const struct request *r, const struct run_frames *frames
     return r->every ? draw_every(r, frames, &view) : OK;
 }
 
-static status draw_profiles(const struct request *r, const struct run_frames *frames)
+/* Beside a closed form the state at rest says nothing. */
+static status draw_bar(const struct request *r, const struct run_frames *frames, const char *probe)
 {
     char path[PATH_LENGTH], title[TITLE_LENGTH];
+    int skipped = frames->shown > 1 && frames->number[0] == 0, shown = frames->shown - skipped;
+    double *time = NEW("plot.time", shown, double);
+    for (int k = 0; k < shown; k++) time[k] = frames->time[frames->number[k + skipped]];
+    compose_title(title, r->folder, "beside the exact solution", NULL);
+    status s = OK;
+    if (snprintf(path, sizeof path, "%s/pictures/profiles.png", r->folder) >= (int)sizeof path)
+        s = status_set(FAILED, "%s: the name is too long", r->folder);
+    if (s == OK) s = bar_draw(path, title, r->folder, probe, frames->number + skipped, time, shown);
+    memory_free(time);
+    return s;
+}
+
+static status draw_profiles(const struct request *r, const struct run_frames *frames)
+{
+    char path[PATH_LENGTH], title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
+    if (bar_probe(r->folder, probe)) return draw_bar(r, frames, probe);
     struct frame *f = NEW("plot.frames", frames->shown, struct frame);
     status s = OK;
     int read = 0;

@@ -62,4 +62,11 @@ status curves_draw(const char *folder, const char *pictures, const char *title);
 /* One-dimensional frames: velocity, stress, damage along the bar. */
 status profiles_draw(const char *path, const char *title, const struct frame *frame, int frames);
 
+/* The name of a probe of the run that has compared a bar with a closed form; false if there is none. */
+bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH]);
+/* Its profiles: stress, strain, velocity (and damage, where there is any) beside the closed form, at the times [s] of the
+ * frames with these numbers. */
+status bar_draw(const char *path, const char *title, const char *folder, const char *probe, const int *number,
+                const double *time, int frames);
+
 #endif

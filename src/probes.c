@@ -51,6 +51,12 @@ static void columns_add(struct probes *s, struct probe *q, int dim)
         column_add(s, q, "fracture", "J");
         break;
     case PROBE_MOMENTUM: columns_by_axis(s, q, "", dim, "kg m/s"); break;
+    case PROBE_EXACT:
+        for (int k = 0; k < bar_figures_count(q->request.form); k++) {
+            struct column c = bar_figure(q->request.form, k);
+            column_add(s, q, c.name, c.unit);
+        }
+        break;
     default: break;                      /* the others have figures only */
     }
 }
@@ -161,6 +167,7 @@ static status probe_bind(struct probe *q, const struct observed *o)
     case PROBE_BREAK:
     case PROBE_ENERGY:
     case PROBE_MOMENTUM: return bind_region(q, o);
+    case PROBE_EXACT: return bar_make(q, o);
     default: return OK;
     }
 }
@@ -186,7 +193,7 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
 
 void probes_free(struct probes *s)
 {
-    for (int k = 0; s->probe && k < s->n; k++) memory_free(s->probe[k].list);
+    for (int k = 0; s->probe && k < s->n; k++) memory_free(s->probe[k].list), bar_free(s->probe[k].bar);
     memory_free(s->probe);
     memory_free(s->column);
     memory_free(s->value);
@@ -274,6 +281,7 @@ void probes_sample(struct probes *s, const struct observed *o)
         case PROBE_POINT: readings_of(o->part, q->list[0], value); break;
         case PROBE_ENERGY: sample_energy(q, o, value); break;
         case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
+        case PROBE_EXACT: bar_figures(q->bar, o, value); break;
         default: break;
         }
     }

@@ -20,6 +20,7 @@ struct probe {
     int64_t n;
     int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
     struct probe_memory memory;
+    struct bar *bar;                     /* EXACT: probes_bar.c                                       */
 };
 
 /* ---- what a single particle tells: POINT and LINE ------------------------------------------------ */
@@ -57,5 +58,36 @@ struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o
  * part and of the rest [m/s]. */
 void spall_look(struct probe *q, const struct observed *o);
 void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
+
+/* ---- a bar against a closed form: EXACT ------------------------------------------------------------- */
+
+struct bar {
+    struct exact exact;
+    int64_t n;
+    int32_t *order, *rank;               /* particles from left to right; place of a particle among them */
+    real *displacement, *velocity;       /* [n] by rank, as bar_measure found them         [m], [m/s] */
+    real *flux, *strain;                 /* [n] the stress by bond flux [Pa]; du/dx [1]               */
+};
+
+/* Finds the bar, its ends and its load; refuses what the closed form does not describe. */
+status bar_make(struct probe *q, const struct observed *o);
+void bar_free(struct bar *b);
+void bar_measure(struct bar *b, const struct observed *o);
+
+/* The force of all bonds that cross a particle's centre over the section, for peridynamic particles: a bond gives its
+ * force to all particles strictly between its ends and half of it to the ends, bonds to mirror images included. Material
+ * points have their Cauchy stress [Pa]. */
+void bar_flux(const struct bar *b, const struct observed *o, real *flux);
+
+/* The figures of a bar's form, in a fixed order; they are columns of the history, too. */
+enum { BAR_FIGURES_MAX = 16 };
+int bar_figures_count(enum exact_form form);
+struct column bar_figure(enum exact_form form, int k);
+void bar_figures(struct bar *b, const struct observed *o, real *value);
+
+/* Columns and rows of the bar's profile. */
+enum { BAR_READINGS = 12 };
+extern const struct column bar_reading[BAR_READINGS];
+void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, real *value);
 
 #endif

@@ -1,4 +1,4 @@
-/* floor 3: profiles of LINE probes as csv files. */
+/* floor 3: profiles of LINE and EXACT probes as csv files. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -37,13 +37,37 @@ static void profile_rows(FILE *file, const struct probe *q, const struct particl
     }
 }
 
+static void bar_rows(FILE *file, const struct probe *q, const struct observed *o)
+{
+    real value[BAR_READINGS];
+    for (int m = 0; m < BAR_READINGS; m++)
+        fprintf(file, "%s%s [%s]%s", m > 0 ? "," : "", bar_reading[m].name, bar_reading[m].unit,
+                m + 1 < BAR_READINGS ? "" : "\n");
+    bar_measure(q->bar, o);
+    for (int64_t k = 0; k < q->bar->n; k++) {
+        bar_readings(q->bar, o, k, value);
+        for (int m = 0; m < BAR_READINGS; m++)
+            fprintf(file, "%s%.9g%s", m > 0 ? "," : "", value[m], m + 1 < BAR_READINGS ? "" : "\n");
+    }
+}
+
+static void profile_text(FILE *file, const struct probe *q, const struct observed *o)
+{
+    if (q->request.kind == PROBE_EXACT) {
+        bar_rows(file, q, o);
+        return;
+    }
+    profile_header(file, o->part->dim);
+    profile_rows(file, q, o->part);
+}
+
 static status profile_failed(const char *path)
 {
     return status_set(FAILED, "cannot write %s: %s", path, strerror(errno));
 }
 
 /* Written aside, synced, renamed: a file that is there is whole. */
-static status profile_write(const struct probe *q, const struct particles *p, const char *folder, int frame)
+static status profile_write(const struct probe *q, const struct observed *o, const char *folder, int frame)
 {
     char path[4096], aside[4096 + 8], name[NAME_MAX_LENGTH];
     snprintf(name, sizeof name, "%s", q->request.name);
@@ -56,8 +80,7 @@ static status profile_write(const struct probe *q, const struct particles *p, co
     snprintf(aside, sizeof aside, "%s.tmp", path);
     FILE *file = fopen(aside, "w");
     if (!file) return profile_failed(path);
-    profile_header(file, p->dim);
-    profile_rows(file, q, p);
+    profile_text(file, q, o);
     bool written = fflush(file) == 0 && !ferror(file) && fsync(fileno(file)) == 0;
     int fault = errno;
     if (fclose(file) != 0 && written) written = false, fault = errno;
@@ -71,6 +94,7 @@ static status profile_write(const struct probe *q, const struct particles *p, co
 status probes_profiles(const struct probes *s, const struct observed *o, const char *folder, int frame)
 {
     for (int k = 0; k < s->n; k++)
-        if (s->probe[k].request.kind == PROBE_LINE) TRY(profile_write(&s->probe[k], o->part, folder, frame));
+        if (s->probe[k].request.kind == PROBE_LINE || s->probe[k].request.kind == PROBE_EXACT)
+            TRY(profile_write(&s->probe[k], o, folder, frame));
     return OK;
 }

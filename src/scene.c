@@ -147,6 +147,7 @@ void scene_free(struct scene *s)
     memory_free(s->initial);
     memory_free(s->boundary);
     memory_free(s->probe);
+    memory_free(s->times.value);
     memory_free(s->path);
     memory_free(s->text);
     *s = (struct scene){0};

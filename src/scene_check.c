@@ -65,10 +65,23 @@ static void resolve_defaults(struct reader *r, const struct node *root)
     if (!below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
 }
 
+/* Frames are spread evenly or have their times. */
+static status check_times(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *frames = below(root, "output", "frames"), *times = below(root, "output", "times");
+    if (s->times.n == 0) return OK;
+    if (frames) return fault_both(r, frames, times);
+    s->frames = s->times.n;
+    if (s->times.value[s->times.n - 1] <= s->duration) return OK;
+    return fault(r, times->last, "%s lies beyond the duration; times up to that are expected", shown(r, times->last));
+}
+
 status check_scene(struct reader *r, const struct node *root)
 {
     resolve_defaults(r, root);
     TRY(check_measure(r, root));
     TRY(check_transfer(r, root));
+    TRY(check_times(r, root));
     return check_steps(r, root);
 }

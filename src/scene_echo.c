@@ -121,6 +121,11 @@ static void write_value(struct writer *w, const struct key *k, const void *place
     case KEY_FLAG: fputs(*(const bool *)place ? "true" : "false", w->out); break;
     case KEY_CHOICE: write_choice(w, k, place); break;
     case KEY_SET: write_set(w, k, *(const unsigned *)place); break;
+    case KEY_SERIES: {
+        const struct number_list *list = place;
+        write_list(w, list->value, list->n);
+        break;
+    }
     case KEY_NAME: write_quoted(w, place); break;
     case KEY_POINT: write_list(w, place, s->dim); break;
     case KEY_MATRIX: write_matrix(w, place); break;
@@ -139,6 +144,7 @@ static bool has_value(const struct key *k, const void *base, const void *place)
     if (k->type == KEY_REAL) return k->words || !isnan(*(const real *)place);
     if (k->type == KEY_REGION) return ((const struct region *)place)->n > 0;
     if (k->type == KEY_BODY) return *(const int *)place >= 0;
+    if (k->type == KEY_SERIES) return ((const struct number_list *)place)->n > 0;
     return true;
 }
 
@@ -352,6 +358,7 @@ char *scene_echo(const struct scene *s)
     struct scene head = *s;              /* without what its space does not have */
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
+    head.has_frames = s->times.n == 0;
     struct writer w = {.out = open_memstream(&text, &length), .scene = s};
     if (!w.out) return NULL;
     write_group(&w, "", &head);

@@ -16,6 +16,7 @@ static const char *type_text(const struct key *k)
     case KEY_FLAG: return "true or false";
     case KEY_CHOICE: return "word";
     case KEY_SET: return "list of words";
+    case KEY_SERIES: return "list of numbers";
     case KEY_NAME: return "name";
     case KEY_POINT: return "list of numbers";
     case KEY_MATRIX: return "matrix";
@@ -171,6 +172,7 @@ static const char manual_head[] =
     ".TP\n.I frames/NNNNNN.hdf, frames.hdf.series\nthe frames (VTKHDF) and the index that ParaView opens\n"
     ".TP\n.I frames.xdmf\nthe same for other readers\n"
     ".TP\n.I history.csv\none line per sample: energies, share of peridynamics, crack tip, probes\n"
+    ".TP\n.I NAME_NNNNNN.csv\nprofiles of the line and exact probe NAME, one with every frame\n"
     ".TP\n.I summary.json\nthe figures of the run\n"
     ".TP\n.I scene.yaml\nthe scene as run, every default written out\n"
     ".TP\n.I checkpoint.h5, checkpoint.previous.h5\nthe two newest checkpoints\n"

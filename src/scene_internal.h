@@ -62,7 +62,7 @@ const char *number_text(char text[32], real value);
 
 enum key_type {
     KEY_REAL, KEY_INT, KEY_SEED, KEY_FLAG, KEY_CHOICE, KEY_NAME, KEY_POINT, KEY_MATRIX, KEY_REGION, KEY_BODY,
-    KEY_MATERIAL, KEY_SET,               /* read and written by the table alone                       */
+    KEY_MATERIAL, KEY_SET, KEY_SERIES,   /* read and written by the table alone                       */
     KEY_MAP,                             /* its keys are read into the same struct                    */
     KEY_PART, KEY_LIST,                  /* a mapping, a list of mappings: read by a function         */
     KEY_HAND,                            /* any other value read by a function; `words` says its form */

@@ -1,6 +1,7 @@
 /* floor 4: the boundary conditions of a scene with their functions of time, and its probes. */
 #include "scene_internal.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -183,7 +184,8 @@ status read_boundaries(struct reader *r, const struct node *root)
 /* ---- probes --------------------------------------------------------------------------------------------- */
 
 const char *const probe_names[PROBES] = {"tip",   "break", "reaction", "patch",   "spall",
-                                         "point", "line",  "energy",   "momentum", "pulse"};
+                                         "point", "line",  "energy",   "momentum", "pulse",
+                                         "exact"};
 
 /* The kind, and the mapping of its keys (NULL: none): `tip`, `tip:` or `tip: {at: [..]}`. */
 static status kind_of_probe(struct reader *r, const struct node *n, enum probe_kind *kind, const struct node **map)
@@ -219,16 +221,42 @@ static status check_probe_boundary(struct reader *r, const struct node *n, const
     return fault(r, n, "there is no boundary %s; the nearest is %s", p->boundary, s->boundary[nearest].name);
 }
 
+/* A closed form needs the space it is solved in, and its numbers. */
+static status check_exact(struct reader *r, const struct node *n, const struct node *map, const struct probe_request *p)
+{
+    const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
+    if (p->kind != PROBE_EXACT) return OK;
+    if (r->scene->space != SPACE_LINE)
+        return fault(r, map ? map : n, "closed forms are those of a bar; space line is expected");
+    for (size_t k = 0; k < COUNT_OF(numbers); k++) {
+        const struct node *given = node_find(map, numbers[k]);
+        if (given && p->form != EXACT_MANUFACTURED)
+            return fault(r, given, "has no meaning without form: manufactured; leave it out");
+        if (!given && p->form == EXACT_MANUFACTURED)
+            return fault_missing(r, map, key_find("probes.exact", numbers[k]));
+    }
+    return OK;
+}
+
 static status read_probe(struct reader *r, const struct node *n, struct probe_request *p)
 {
     const struct node *map;
+    struct node form, short_form;
     char group[32] = "probes.";
     TRY(kind_of_probe(r, n, &p->kind, &map));
+    if (p->kind == PROBE_EXACT && map && map->kind == NODE_SCALAR) {     /* `exact: step bar` */
+        form = short_form = *map;
+        form.key = (char *)"form", form.next = NULL;
+        short_form.kind = NODE_MAP, short_form.n = 1, short_form.first = short_form.last = &form;
+        map = &short_form;
+    }
+    p->amplitude = p->period = p->wavelength = p->origin = NAN;
     strcat(group, probe_names[p->kind]);
     strcpy(p->name, probe_names[p->kind]);
     TRY(read_group(r, map ? map : n, map, group, p));
     if (p->kind == PROBE_LINE && memcmp(p->from, p->to, sizeof p->from) == 0)
         return fault(r, map, "has no length; from and to are its two ends");
+    TRY(check_exact(r, n, map, p));
     return check_probe_boundary(r, map ? node_find(map, "boundary") : n, p);
 }
 

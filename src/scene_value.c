@@ -324,6 +324,24 @@ static status read_matrix(struct reader *r, const struct key *k, const struct no
     return OK;
 }
 
+enum { SERIES_MOST = 100000 };
+
+/* Numbers that ascend. */
+static status read_series(struct reader *r, const struct key *k, const struct node *n, struct number_list *series)
+{
+    TRY(expect(r, n, NODE_LIST, "a list"));
+    if (n->n < 1 || n->n > SERIES_MOST)
+        return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
+    series->value = NEW("scene series", n->n, real);
+    for (const struct node *c = n->first; c; c = c->next) {
+        TRY(read_number(r, k, c, &series->value[series->n]));
+        if (series->n > 0 && !(series->value[series->n] > series->value[series->n - 1]))
+            return fault(r, c, "%s does not lie after the one before; they ascend", shown(r, c));
+        series->n++;
+    }
+    return OK;
+}
+
 /* ---- names of other things ------------------------------------------------------------------------------ */
 
 static status fault_reference(struct reader *r, const struct node *n, const char *what, const char *nearest)
@@ -370,6 +388,7 @@ status read_key(struct reader *r, const struct key *k, const struct node *n, voi
     case KEY_FLAG: return read_flag(r, n, place);
     case KEY_CHOICE: return read_choice(r, k, n, place);
     case KEY_SET: return read_set(r, k, n, place);
+    case KEY_SERIES: return read_series(r, k, n, place);
     case KEY_NAME: return read_name(r, n, place);
     case KEY_POINT: return k->place ? read_point(r, k, n, place) : OK;
     case KEY_MATRIX: return read_matrix(r, k, n, place);

@@ -86,6 +86,20 @@ static const char bar[] =
     "boundary: [{velocity: 3, body: bar}, {mirror: {axis: x, at: 0}}, {traction: 1 kPa, face: x+}]\n"
     "initial: [{velocity_gradient: 3}]\n";
 
+static const char rod[] =
+    "space: line\n"
+    "duration: 10 ms\n"
+    "material: {young: 1e4, density: 1}\n"
+    "body: {box: {from: [0], to: [1]}}\n"
+    "particles: {spacing: 5 mm}\n"
+    "boundary: [{traction: 1, face: x+}]\n"
+    "output: {times: [1 ms, 5 ms, 0.01]}\n"
+    "probes:\n"
+    "  - exact: step bar\n"
+    "  - exact: {form: plastic bar, name: yields}\n"
+    "  - exact: {form: pulse, name: packet}\n"
+    "  - exact: {form: manufactured, name: made, amplitude: 1 mm, period: 2 ms, wavelength: 50 cm, origin: -1 mm}\n";
+
 static const char block[] =
     "space: solid\n"
     "duration: 1e-5\n"
@@ -221,6 +235,26 @@ static void test_bar_and_defaults(void **state)
     scene_free(&s);
 }
 
+static void test_closed_forms_and_frame_times(void **state)
+{
+    (void)state;
+    struct scene s = read_ok(rod, NULL, 0);
+    static const enum exact_form forms[] = {EXACT_STEP_BAR, EXACT_PLASTIC_BAR, EXACT_PULSE, EXACT_MANUFACTURED};
+    assert_int_equal(s.probes, 4);
+    for (int k = 0; k < 4; k++) assert_true(s.probe[k].kind == PROBE_EXACT && s.probe[k].form == forms[k]);
+    assert_string_equal(s.probe[0].name, "exact");
+    assert_string_equal(s.probe[1].name, "yields");
+    assert_true(isnan(s.probe[0].amplitude) && s.probe[3].amplitude == 1e-3 && s.probe[3].period == 2e-3);
+    assert_true(s.probe[3].wavelength == 0.5 && s.probe[3].origin == -1e-3);
+    assert_true(s.frames == 3 && s.times.n == 3 && s.times.value[0] == 1e-3 && s.times.value[2] == 0.01);
+    assert_true(strstr(s.text, "times: [0.001, 0.005, 0.01]") && !strstr(s.text, "frames:"));
+    scene_free(&s);
+    static const struct scene_override o[] = {{"output.times", ""}, {"probes[0].exact", "plastic bar"}};
+    s = read_ok(rod, o, 2);
+    assert_true(s.frames == 20 && s.times.n == 0 && s.probe[0].form == EXACT_PLASTIC_BAR && strstr(s.text, "frames: 20"));
+    scene_free(&s);
+}
+
 static void test_block(void **state)
 {
     (void)state;
@@ -332,7 +366,7 @@ static void check_round_trip(const struct scene *a)
 static void test_round_trip(void **state)
 {
     (void)state;
-    static const char *const texts[] = {plate, bar, block};
+    static const char *const texts[] = {plate, bar, rod, block};
     for (size_t k = 0; k < COUNT_OF(texts); k++) {
         struct scene s = read_ok(texts[k], NULL, 0);
         check_round_trip(&s);
@@ -443,6 +477,7 @@ int main(void)
         cmocka_unit_test(test_plate_scalars), cmocka_unit_test(test_plate_materials_bodies),
         cmocka_unit_test(test_plate_conditions), cmocka_unit_test(test_plate_probes),
         cmocka_unit_test(test_bar_and_defaults), cmocka_unit_test(test_block),
+        cmocka_unit_test(test_closed_forms_and_frame_times),
         cmocka_unit_test(test_units), cmocka_unit_test(test_overrides),
         cmocka_unit_test(test_round_trip), cmocka_unit_test(test_mutations),
         cmocka_unit_test(test_help),
