@@ -232,7 +232,8 @@ const struct key keys[] = {
     KEY("output.frames", KEY_INT, UNIT_NONE, AT(scene, frames), BETWEEN(0, 100000), "20",
         "frames after the one at t = 0, evenly spread", .has = FLAG(scene, has_frames)),
     KEY("output.times", KEY_SERIES, UNIT_TIME, AT(scene, times), ABOVE(0), "(evenly spread)",
-        "when frames are written, besides the one at t = 0; ascending; instead of output.frames"),
+        "when frames are written, besides the one at t = 0; ascending, those beyond the duration are left out; "
+        "instead of output.frames"),
     KEY("output.samples", KEY_INT, UNIT_NONE, AT(scene, samples), BETWEEN(1, 10000000), "200",
         "lines of history.csv after the one at t = 0"),
     KEY("output.checkpoint", KEY_REAL, UNIT_TIME, AT(scene, checkpoint_interval), FROM(0), "60 s",

@@ -16,7 +16,7 @@ bar()
     going=$((going + 1))
     if [ $going -eq 2 ]; then wait; going=0; fi
 }
-half="-s duration=5ms -s output.times=[5ms]" late="-s duration=12.5ms -s output.times=[12.5ms]"
+half="-s duration=5ms" late="-s duration=12.5ms"
 plain="-s pd.calibration=continuum"
 
 for n in 1 2 3 4 5 10; do
@@ -36,7 +36,7 @@ for coupling in 'partial stress' handshake; do
 done
 # the same bar the other way round, and free at its far end, where the front comes back and takes the stress away
 bar turned $half -s 'boundary=[{mirror: {axis: x, at: 1 m}}, {traction: -1, face: x-}]'
-bar free -s duration=15ms -s output.times=[15ms] -s boundary[0]=
+bar free  -s boundary[0]=
 # a pulse that has come back from a fixed and from a free end, at two spacings
 for d in 1 2; do
     for end in fixed free; do
