@@ -17,6 +17,15 @@ enum boundary_kind {
     BOUNDARY_MIRROR          /* plane of symmetry (roller) or of antisymmetry (fixed end)                */
 };
 
+/* Factor on a body force over the reference position: sin(2 pi (X - origin) . direction/wavelength). */
+enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
+struct profile {
+    enum profile_kind kind;
+    real wavelength;                     /* [m]                                                       */
+    real origin[DIM_MAX];                /* where it is 0 and rises along `direction`         [m]     */
+    real direction[DIM_MAX];             /* of any length                                     [1]     */
+};
+
 /* One boundary condition, as the scene says it. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
@@ -26,6 +35,7 @@ struct boundary {
     uint8_t components;                  /* bit d: component d is held (VELOCITY)                     */
     real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3]                                    */
     struct time_function time;           /* factor on value                                           */
+    struct profile profile;              /* BODY_FORCE: factor on value                               */
     int face;                            /* TRACTION: axis of the face's normal                       */
     int side;                            /* TRACTION: +1 upper face, -1 lower face                    */
     int axis;                            /* MIRROR: normal of the plane ...                           */
@@ -38,7 +48,7 @@ struct load {
     const struct boundary *boundary;     /* borrowed from the scene                                   */
     int64_t n;
     int32_t *particle;                   /* ascending                                                 */
-    real *share;                         /* TRACTION, BODY_FORCE: area or volume  [m^2], [m^3]        */
+    real *share;                         /* TRACTION: area [m^2]; BODY_FORCE: volume times profile [m^3] */
     real *before;                        /* [n dim] TRACTION, BODY_FORCE: where they were in this step [m] */
     real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
                                             moves the driven particles themselves             [N]     */

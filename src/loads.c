@@ -29,9 +29,18 @@ static real face_place(const struct boundary *b, const struct particles *p, cons
     return place;
 }
 
+static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
+{
+    real X[DIM_MAX], along = 0;
+    if (f->kind == PROFILE_UNIFORM) return 1;
+    particle_place(p, i, X);
+    for (int d = 0; d < p->dim; d++) along += (X[d] - f->origin[d]) * f->direction[d];
+    return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
+}
+
 static real load_share(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
-    return b->kind == BOUNDARY_TRACTION ? p->volume0[i] / spacing : p->volume0[i];
+    return p->volume0[i] * (b->kind == BOUNDARY_TRACTION ? 1 / spacing : profile_at(&b->profile, p, i));
 }
 
 static void load_make(struct load *l, const struct boundary *b, struct particles *p, real spacing)
