@@ -86,7 +86,8 @@ void loads_free(struct loads *l);
 void loads_mirror(const struct loads *l, struct particles *p);
 
 /* Before bonds: f = 0 on every loaded particle. After bonds: books what mirror images gave, adds applied forces; for
- * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step. */
+ * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step, where the kick
+ * ends that began dt_velocity before. */
 void loads_clear(struct loads *l, struct particles *p);
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 

@@ -241,6 +241,14 @@ static void apply(struct loads *l, struct load *load, struct particles *p, real 
     for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d] * dt_velocity;
 }
 
+/* Mean over the kick that ends at t, by the trapezoidal rule: the kick lies round the instant of the forces, and the value
+ * at its end alone would be half a step late, an error of first order. What switches at a whole step then gives its full
+ * impulse, too: half of it in the kick that the switch divides. */
+static real kick_factor(const struct time_function *f, real t, real dt_velocity)
+{
+    return 0.5 * (time_function_at(f, t - dt_velocity) + time_function_at(f, t));
+}
+
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
@@ -249,7 +257,7 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
         const struct boundary *b = load->boundary;
         memset(load->reaction, 0, sizeof load->reaction);
         if (b->kind != BOUNDARY_TRACTION && b->kind != BOUNDARY_BODY_FORCE) continue;
-        apply(l, load, p, time_function_at(&b->time, t), dt_velocity);
+        apply(l, load, p, kick_factor(&b->time, t, dt_velocity), dt_velocity);
     }
     for (int c = 0; c < l->n; c++) {         /* after all forces: what holds a particle sees them */
         struct load *load = &l->load[c];
