@@ -70,7 +70,7 @@ struct loads {
     real spacing;                        /* [m]                                                       */
     real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
     int64_t share_room;
-    struct held *held;                   /* nodes in driven regions and beyond mirrors ...            */
+    struct held *held;                   /* nodes in driven regions and on mirrors ...                */
     int64_t helds, held_room;
     int64_t held_first[DIM_MAX], held_count[DIM_MAX];   /* ... of the grid box they were found in     */
 };
@@ -91,8 +91,9 @@ void loads_mirror(const struct loads *l, struct particles *p);
 void loads_clear(struct loads *l, struct particles *p);
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
-/* Walls of the grid: nodes in a driven region or beyond a mirror plane, and nodes at least half of whose mass
- * belongs to driven points. Call after the first map. */
+/* Walls of the grid: nodes in a driven region or on a mirror plane, and nodes at least half of whose mass belongs to
+ * driven points; and nodes beyond a mirror plane, which follow their images if the plane stands on a node or half-way
+ * between two, else are held as those on it. Call after the first map. */
 void loads_walls(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
                  real half_width, real t, real dt);
 

@@ -290,13 +290,58 @@ static bool node_held(const struct load *load, const real *x, int dim, real tole
            load->outside * (x[b->axis] - b->at) >= -tolerance;
 }
 
-/* Nodes held wherever the body is: found once for each box of the grid. */
-static void held_find(struct loads *l, const struct grid *g)
+/* Node k of the box reflected in a mirror that it lies beyond, within reach of the widest shape: places and components turn
+ * round. False if it lies beyond but has no image: the plane stands neither on a node nor half-way between two. */
+static bool node_reflect(const struct load *load, const struct grid *g, real tolerance, int64_t *k, struct fold *f)
 {
+    const struct boundary *b = load->boundary;
+    if (b->kind != BOUNDARY_MIRROR) return true;
+    const real x = grid_position(g, b->axis, k[b->axis]), steps = 2 * (b->at - x) / g->h;
+    if (load->outside * (x - b->at) <= tolerance) return true;
+    const int64_t whole = llround(steps);
+    if (fabs(steps - (real)whole) * g->h > 2 * tolerance || whole < -4 || whole > 4) return false;
+    k[b->axis] += whole;
+    for (int d = 0; d < DIM_MAX; d++)
+        if (d == b->axis || b->hold_tangential) f->sign[d] = (int8_t)-f->sign[d];
+    return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
+}
+
+/* Does a node beyond mirrors move as the image of another? */
+static bool node_folded(const struct loads *l, const struct grid *g, int64_t I, struct fold *f)
+{
+    const real tolerance = PLACE_TOLERANCE * l->spacing;
+    int64_t k[DIM_MAX] = {0}, image = 0;
+    *f = (struct fold){.node = (int32_t)I, .sign = {1, 1, 1}};
+    for (int d = 0; d < g->dim; d++) k[d] = I / g->stride[d] % g->count[d];
+    for (int b = 0; b < l->n; b++) {
+        const int64_t before = k[l->load[b].boundary->axis];
+        if (!node_reflect(&l->load[b], g, tolerance, k, f)) return false;
+        if (k[l->load[b].boundary->axis] != before) f->load = (uint8_t)b;
+    }
+    for (int b = 0; b < l->n; b++) {             /* between two mirrors an image may lie beyond the other one */
+        struct fold none = *f;
+        int64_t again[DIM_MAX];
+        memcpy(again, k, sizeof k);
+        if (!node_reflect(&l->load[b], g, tolerance, again, &none) || memcmp(again, k, sizeof k) != 0) return false;
+    }
+    for (int d = 0; d < g->dim; d++) image += k[d] * g->stride[d];
+    f->image = (int32_t)image;
+    return image != I;
+}
+
+/* Nodes held wherever the body is, and nodes that follow their images: found once for each box of the grid. */
+static void held_find(struct loads *l, struct grid *g)
+{
+    struct fold fold;
     l->helds = 0;
+    g->folds = 0;
     for (int d = 0; d < g->dim; d++) l->held_first[d] = g->first[d], l->held_count[d] = g->count[d];
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
+        if (node_folded(l, g, I, &fold)) {
+            grid_add_fold(g, &fold);
+            continue;
+        }
         for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
         for (int b = 0; b < l->n; b++)
             for (int d = 0; d < g->dim; d++)
@@ -403,6 +448,9 @@ void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, re
 {
     for (int64_t q = 0; q < g->walls; q++)
         l->load[g->wall[q].load].reaction[g->wall[q].component] += g->wall[q].reaction / dt_velocity;
+    for (int64_t q = 0; q < g->folds; q++)
+        for (int d = 0; d < g->dim; d++)
+            l->load[g->fold[q].load].reaction[d] += g->fold[q].reaction[d] / dt_velocity;
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         real factor = time_function_at(&load->boundary->time, t);
