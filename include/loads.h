@@ -101,6 +101,9 @@ void loads_walls(struct loads *l, struct grid *g, const struct particles *p, con
  * applied forces. */
 void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt_velocity);
 
+/* Does a mirror's plane stand on a node of the grid or half-way between two? */
+bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);
+
 status loads_archive(struct loads *l, struct archive *a);
 
 enum { BOUNDARIES_MAX = 255 };           /* their number fits the byte of struct held and struct image; scene_keys.c */

@@ -241,9 +241,9 @@ static void apply(struct loads *l, struct load *load, struct particles *p, real 
     for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d] * dt_velocity;
 }
 
-/* Mean over the kick that ends at t, by the trapezoidal rule: the kick lies round the instant of the forces, and the value
- * at its end alone would be half a step late, an error of first order. What switches at a whole step then gives its full
- * impulse, too: half of it in the kick that the switch divides. */
+/* Mean over the kick that ends at t, by the trapezoidal rule: the kick lies round the instant of the forces, and the
+ * value at its end alone would be half a step late, an error of first order. What switches at a whole step then gives
+ * its full impulse, too: half of it in the kick that the switch divides. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_at(f, t - dt_velocity) + time_function_at(f, t));
@@ -290,16 +290,22 @@ static bool node_held(const struct load *load, const real *x, int dim, real tole
            load->outside * (x[b->axis] - b->at) >= -tolerance;
 }
 
-/* Node k of the box reflected in a mirror that it lies beyond, within reach of the widest shape: places and components turn
- * round. False if it lies beyond but has no image: the plane stands neither on a node nor half-way between two. */
-static bool node_reflect(const struct load *load, const struct grid *g, real tolerance, int64_t *k, struct fold *f)
+bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing)
+{
+    const real steps = 2 * (b->at - g->anchor[b->axis]) / g->h;
+    return fabs(steps - nearbyint(steps)) * g->h <= 2 * PLACE_TOLERANCE * spacing;
+}
+
+/* Node k of the box reflected in a mirror that it lies beyond, within reach of the widest shape: places and components
+ * turn round. False if it lies beyond but has no image. */
+static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct fold *f)
 {
     const struct boundary *b = load->boundary;
     if (b->kind != BOUNDARY_MIRROR) return true;
-    const real x = grid_position(g, b->axis, k[b->axis]), steps = 2 * (b->at - x) / g->h;
-    if (load->outside * (x - b->at) <= tolerance) return true;
-    const int64_t whole = llround(steps);
-    if (fabs(steps - (real)whole) * g->h > 2 * tolerance || whole < -4 || whole > 4) return false;
+    const real away = b->at - grid_position(g, b->axis, k[b->axis]);
+    if (-load->outside * away <= PLACE_TOLERANCE * spacing) return true;
+    const int64_t whole = llround(2 * away / g->h);
+    if (!mirror_on_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
     k[b->axis] += whole;
     for (int d = 0; d < DIM_MAX; d++)
         if (d == b->axis || b->hold_tangential) f->sign[d] = (int8_t)-f->sign[d];
@@ -309,20 +315,19 @@ static bool node_reflect(const struct load *load, const struct grid *g, real tol
 /* Does a node beyond mirrors move as the image of another? */
 static bool node_folded(const struct loads *l, const struct grid *g, int64_t I, struct fold *f)
 {
-    const real tolerance = PLACE_TOLERANCE * l->spacing;
     int64_t k[DIM_MAX] = {0}, image = 0;
     *f = (struct fold){.node = (int32_t)I, .sign = {1, 1, 1}};
     for (int d = 0; d < g->dim; d++) k[d] = I / g->stride[d] % g->count[d];
     for (int b = 0; b < l->n; b++) {
         const int64_t before = k[l->load[b].boundary->axis];
-        if (!node_reflect(&l->load[b], g, tolerance, k, f)) return false;
+        if (!node_reflect(&l->load[b], g, l->spacing, k, f)) return false;
         if (k[l->load[b].boundary->axis] != before) f->load = (uint8_t)b;
     }
     for (int b = 0; b < l->n; b++) {             /* between two mirrors an image may lie beyond the other one */
         struct fold none = *f;
         int64_t again[DIM_MAX];
         memcpy(again, k, sizeof k);
-        if (!node_reflect(&l->load[b], g, tolerance, again, &none) || memcmp(again, k, sizeof k) != 0) return false;
+        if (!node_reflect(&l->load[b], g, l->spacing, again, &none) || memcmp(again, k, sizeof k) != 0) return false;
     }
     for (int d = 0; d < g->dim; d++) image += k[d] * g->stride[d];
     f->image = (int32_t)image;

@@ -70,4 +70,19 @@ orders lattice 40 80 $softening 1 0.95 1     # the same operator, but its long w
 orders ramp 40 80 $softening 2 2 2
 orders vmpd 45 85 $softening 2 2 2
 
+# ---- where the nodes are ---------------------------------------------------------------------------------------------
+
+# A mirror half-way between two nodes serves as well as on one; elsewhere the program says so.
+for n in 100 200; do bar half.$n $n -s mpm.shape=quadratic -s "mpm.origin=[$(compute "1 / $n")]"; done
+orders half 100 200 1 2 2 2
+while read -r share warnings; do
+    "$cleave" check inputs/bar_converge.yaml -s "mpm.origin=[$(compute "$share * 0.04")]" >"$work/said" 2>&1
+    is "mirrors $share of a cell from a node: warnings" "$(grep -c '^warning: the mirror' "$work/said")" \
+        $warnings
+done <<'END'
+0 0
+0.5 0
+0.3 2
+END
+
 finish
