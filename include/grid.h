@@ -19,6 +19,18 @@ struct grid {
     real *velocity[DIM_MAX];             /* nodal velocity at the end of the step          [m/s]    */
     int64_t walls, walls_room;
     struct wall *wall;                   /* prescribed velocities of this step, in order            */
+    int64_t folds, folds_room;
+    struct fold *fold;                   /* nodes beyond planes of symmetry, for this box           */
+};
+
+/* A node beyond a plane of symmetry: it moves as the mirror image of a node on the body's side, which takes what points
+ * give to either. */
+struct fold {
+    int32_t node, image;                 /* beyond the plane; on the body's side                   */
+    int8_t sign[DIM_MAX];                /* -1: this component turns round                         */
+    uint8_t load;                        /* whose plane it is                                      */
+    real mass, taken[DIM_MAX];           /* of the node itself in this step       [kg], [N s]      */
+    real reaction[DIM_MAX];              /* impulse of the plane on the body in this step [N s]    */
 };
 
 /* One held component of one node; its force is replaced by what the prescribed motion needs. */
@@ -35,6 +47,9 @@ struct wall {
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
 void grid_free(struct grid *g);
 void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load);
+void grid_add_fold(struct grid *g, const struct fold *fold);
+/* Nothing is on the grid in this step: it holds nobody. */
+void grid_idle(struct grid *g);
 
 /* Nodes lighter than this share of a full one are left at rest. 1e-9 is usual; but such a node may carry a
  * force, and what it carries would be lost: momentum is kept to 1e-12 only if just empty nodes are left out, and with the

@@ -17,6 +17,15 @@ enum boundary_kind {
     BOUNDARY_MIRROR          /* plane of symmetry (roller) or of antisymmetry (fixed end)                */
 };
 
+/* Factor on a body force over the reference position: sin(2 pi (X - origin) . direction/wavelength). */
+enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
+struct profile {
+    enum profile_kind kind;
+    real wavelength;                     /* [m]                                                       */
+    real origin[DIM_MAX];                /* where it is 0 and rises along `direction`         [m]     */
+    real direction[DIM_MAX];             /* of any length                                     [1]     */
+};
+
 /* One boundary condition, as the scene says it. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
@@ -26,6 +35,7 @@ struct boundary {
     uint8_t components;                  /* bit d: component d is held (VELOCITY)                     */
     real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3]                                    */
     struct time_function time;           /* factor on value                                           */
+    struct profile profile;              /* BODY_FORCE: factor on value                               */
     int face;                            /* TRACTION: axis of the face's normal                       */
     int side;                            /* TRACTION: +1 upper face, -1 lower face                    */
     int axis;                            /* MIRROR: normal of the plane ...                           */
@@ -38,7 +48,7 @@ struct load {
     const struct boundary *boundary;     /* borrowed from the scene                                   */
     int64_t n;
     int32_t *particle;                   /* ascending                                                 */
-    real *share;                         /* TRACTION, BODY_FORCE: area or volume  [m^2], [m^3]        */
+    real *share;                         /* TRACTION: area [m^2]; BODY_FORCE: volume times profile [m^3] */
     real *before;                        /* [n dim] TRACTION, BODY_FORCE: where they were in this step [m] */
     real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
                                             moves the driven particles themselves             [N]     */
@@ -60,7 +70,7 @@ struct loads {
     real spacing;                        /* [m]                                                       */
     real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
     int64_t share_room;
-    struct held *held;                   /* nodes in driven regions and beyond mirrors ...            */
+    struct held *held;                   /* nodes in driven regions and on mirrors ...                */
     int64_t helds, held_room;
     int64_t held_first[DIM_MAX], held_count[DIM_MAX];   /* ... of the grid box they were found in     */
 };
@@ -76,18 +86,23 @@ void loads_free(struct loads *l);
 void loads_mirror(const struct loads *l, struct particles *p);
 
 /* Before bonds: f = 0 on every loaded particle. After bonds: books what mirror images gave, adds applied forces; for
- * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step. */
+ * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step, where the kick
+ * ends that began dt_velocity before. */
 void loads_clear(struct loads *l, struct particles *p);
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
-/* Walls of the grid: nodes in a driven region or beyond a mirror plane, and nodes at least half of whose mass
- * belongs to driven points. Call after the first map. */
+/* Walls of the grid: nodes in a driven region or on a mirror plane, and nodes at least half of whose mass belongs to
+ * driven points; and nodes beyond a mirror plane, which follow their images if the plane stands on a node or half-way
+ * between two, else are held as those on it. Call after the first map. */
 void loads_walls(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
                  real half_width, real t, real dt);
 
 /* After the gather: driven material points take their velocity exactly; books reactions of walls and the work of
  * applied forces. */
 void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt_velocity);
+
+/* Does a mirror's plane stand on a node of the grid or half-way between two? */
+bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
 status loads_archive(struct loads *l, struct archive *a);
 

@@ -105,7 +105,7 @@ void grid_clear(struct grid *g);         /* mass, momentum, force = 0 */
 
 /* Step 3: velocity = (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready for
  * the second map. At walls the velocity is prescribed and the change is that of the prescribed motion. Nodes
- * lighter than `smallest_mass` [kg] are left at rest. Adds what the walls gave to impulse [N s] and work [J]; with
+ * lighter than `smallest_mass` [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what the walls gave to impulse [N s] and work [J]; with
  * APIC, where particles take the nodal velocity itself, that includes the momentum they replaced. */
 void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
                real *work);

@@ -14,7 +14,7 @@ enum { SHAPE_NODES_MAX = 4 };
 
 static ALWAYS_INLINE int shape_nodes(const enum shape shape)
 {
-    return shape == SHAPE_LINEAR ? 2 : shape == SHAPE_CUBIC ? 4 : 3;
+    return shape == SHAPE_LINEAR ? 2 : shape == SHAPE_CUBIC || shape == SHAPE_CPGIMP ? 4 : 3;
 }
 
 /* Floor without the library call that a negative argument would need. */
@@ -50,6 +50,31 @@ static ALWAYS_INLINE int64_t shape_gimp(real r, real l, real *N, real *dN)
     return base;
 }
 
+/* Integral of the hat function from -1 to s, and the hat at s; s is taken between -1 and 1. */
+static ALWAYS_INLINE real hat_integral(real s, real *hat)
+{
+    s = s < -1 ? -1 : s > 1 ? 1 : s;
+    const real size = fabs(s);
+    *hat = 1 - size;
+    return 0.5 + s * (1 - 0.5 * size);
+}
+
+/* Mean of the hat functions over a width 2l <= 2: a stretched particle reaches into the cells beside its own, whose nodes
+ * are the four of its row. Contiguous particles then share out every hat without gap or overlap, and a uniform stress
+ * leaves no residual (contiguous particles: Bardenhagen & Kober 2004). */
+static ALWAYS_INLINE int64_t shape_cpgimp(real r, real l, real *N, real *dN)
+{
+    const int64_t cell = floor_to_int(r);
+    const real t = r - (real)cell, inverse = 0.5 / l;
+    for (int k = 0; k < 4; k++) {
+        real left, right;
+        const real node = (real)(k - 1), below = hat_integral(t - l - node, &left);
+        N[k] = (hat_integral(t + l - node, &right) - below) * inverse;
+        dN[k] = (right - left) * inverse;
+    }
+    return cell - 1;
+}
+
 /* N = 3/4 - t^2 and (3/2 - |t|)^2/2. */
 static ALWAYS_INLINE int64_t shape_quadratic(real r, real *N, real *dN)
 {
@@ -76,8 +101,8 @@ static ALWAYS_INLINE int64_t shape_1d(const enum shape shape, real r, real l, re
 {
     switch (shape) {
     case SHAPE_LINEAR: return shape_linear(r, N, dN);
-    case SHAPE_GIMP:
-    case SHAPE_CPGIMP: return shape_gimp(r, l, N, dN);
+    case SHAPE_GIMP: return shape_gimp(r, l, N, dN);
+    case SHAPE_CPGIMP: return shape_cpgimp(r, l, N, dN);
     case SHAPE_QUADRATIC: return shape_quadratic(r, N, dN);
     default: return shape_cubic(r, N, dN);
     }
@@ -104,15 +129,15 @@ struct stencil {
     real r[DIM_MAX];                                     /* distance to the lowest node     [m] */
 };
 
-/* Largest half width over h that GIMP's pieces allow; a particle stretched further keeps it (numerical fracture then
- * starts). */
-#define HALF_WIDTH_MOST 0.5
+/* Largest half width over h of cpGIMP: four nodes reach no further. A particle stretched beyond it keeps it, and numerical
+ * fracture starts: at a stretch of 4 with two particles per cell. */
+#define HALF_WIDTH_MOST 1
 
 /* Weights from `base` as a row from the node below the cell. */
 static ALWAYS_INLINE row_of_nodes row_shifted(const enum shape shape, const real *N, bool from_cell)
 {
     if (shape == SHAPE_LINEAR) return (row_of_nodes){0, N[0], N[1], 0};
-    if (shape == SHAPE_CUBIC) return (row_of_nodes){N[0], N[1], N[2], N[3]};
+    if (shape_nodes(shape) == ROW) return (row_of_nodes){N[0], N[1], N[2], N[3]};
     return from_cell ? (row_of_nodes){0, N[0], N[1], N[2]} : (row_of_nodes){N[0], N[1], N[2], 0};
 }
 

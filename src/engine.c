@@ -86,7 +86,7 @@ static void step_grid(struct engine *e, real middle)
 /* Nothing is left to move on the grid: its walls hold nobody any more, and residuals are those of particles. */
 static void step_without_grid(struct engine *e)
 {
-    e->grid.walls = 0;
+    grid_idle(&e->grid);
     engine_residual(e);
 }
 

@@ -73,9 +73,26 @@ void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, r
     g->wall[g->walls++] = (struct wall){(int32_t)node, (int16_t)component, (int16_t)load, velocity, change, 0};
 }
 
+void grid_add_fold(struct grid *g, const struct fold *fold)
+{
+    if (g->folds == g->folds_room) {
+        int64_t room = g->folds_room ? 2 * g->folds_room : 256;
+        g->fold = memory_resize("grid.fold", g->fold, g->folds_room, room, sizeof *g->fold);
+        g->folds_room = room;
+    }
+    g->fold[g->folds++] = *fold;
+}
+
+void grid_idle(struct grid *g)
+{
+    g->walls = 0;
+    for (int64_t k = 0; k < g->folds; k++) memset(g->fold[k].reaction, 0, sizeof g->fold[k].reaction);
+}
+
 void grid_free(struct grid *g)
 {
     if (g->n > 0) grid_arrays_free(g);
+    memory_free(g->fold);
     memory_free(g->wall);
     memset(g, 0, sizeof *g);
 }

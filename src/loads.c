@@ -29,9 +29,18 @@ static real face_place(const struct boundary *b, const struct particles *p, cons
     return place;
 }
 
+static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
+{
+    real X[DIM_MAX], along = 0;
+    if (f->kind == PROFILE_UNIFORM) return 1;
+    particle_place(p, i, X);
+    for (int d = 0; d < p->dim; d++) along += (X[d] - f->origin[d]) * f->direction[d];
+    return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
+}
+
 static real load_share(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
-    return b->kind == BOUNDARY_TRACTION ? p->volume0[i] / spacing : p->volume0[i];
+    return p->volume0[i] * (b->kind == BOUNDARY_TRACTION ? 1 / spacing : profile_at(&b->profile, p, i));
 }
 
 static void load_make(struct load *l, const struct boundary *b, struct particles *p, real spacing)
@@ -232,6 +241,14 @@ static void apply(struct loads *l, struct load *load, struct particles *p, real 
     for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d] * dt_velocity;
 }
 
+/* Mean over the kick that ends at t, by the trapezoidal rule: the kick lies round the instant of the forces, and the
+ * value at its end alone would be half a step late, an error of first order. What switches at a whole step then gives
+ * its full impulse, too: half of it in the kick that the switch divides. */
+static real kick_factor(const struct time_function *f, real t, real dt_velocity)
+{
+    return 0.5 * (time_function_at(f, t - dt_velocity) + time_function_at(f, t));
+}
+
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
@@ -240,7 +257,7 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
         const struct boundary *b = load->boundary;
         memset(load->reaction, 0, sizeof load->reaction);
         if (b->kind != BOUNDARY_TRACTION && b->kind != BOUNDARY_BODY_FORCE) continue;
-        apply(l, load, p, time_function_at(&b->time, t), dt_velocity);
+        apply(l, load, p, kick_factor(&b->time, t, dt_velocity), dt_velocity);
     }
     for (int c = 0; c < l->n; c++) {         /* after all forces: what holds a particle sees them */
         struct load *load = &l->load[c];
@@ -273,13 +290,63 @@ static bool node_held(const struct load *load, const real *x, int dim, real tole
            load->outside * (x[b->axis] - b->at) >= -tolerance;
 }
 
-/* Nodes held wherever the body is: found once for each box of the grid. */
-static void held_find(struct loads *l, const struct grid *g)
+bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing)
 {
+    const real steps = 2 * (b->at - g->anchor[b->axis]) / g->h;
+    return fabs(steps - nearbyint(steps)) * g->h <= 2 * PLACE_TOLERANCE * spacing;
+}
+
+/* Node k of the box reflected in a mirror that it lies beyond, within reach of the widest shape: places and components
+ * turn round. False if it lies beyond but has no image. */
+static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct fold *f)
+{
+    const struct boundary *b = load->boundary;
+    if (b->kind != BOUNDARY_MIRROR) return true;
+    const real away = b->at - grid_position(g, b->axis, k[b->axis]);
+    if (-load->outside * away <= PLACE_TOLERANCE * spacing) return true;
+    const int64_t whole = llround(2 * away / g->h);
+    if (!mirror_on_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
+    k[b->axis] += whole;
+    for (int d = 0; d < DIM_MAX; d++)
+        if (d == b->axis || b->hold_tangential) f->sign[d] = (int8_t)-f->sign[d];
+    return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
+}
+
+/* Does a node beyond mirrors move as the image of another? */
+static bool node_folded(const struct loads *l, const struct grid *g, int64_t I, struct fold *f)
+{
+    int64_t k[DIM_MAX] = {0}, image = 0;
+    *f = (struct fold){.node = (int32_t)I, .sign = {1, 1, 1}};
+    for (int d = 0; d < g->dim; d++) k[d] = I / g->stride[d] % g->count[d];
+    for (int b = 0; b < l->n; b++) {
+        const int64_t before = k[l->load[b].boundary->axis];
+        if (!node_reflect(&l->load[b], g, l->spacing, k, f)) return false;
+        if (k[l->load[b].boundary->axis] != before) f->load = (uint8_t)b;
+    }
+    for (int b = 0; b < l->n; b++) {             /* between two mirrors an image may lie beyond the other one */
+        struct fold none = *f;
+        int64_t again[DIM_MAX];
+        memcpy(again, k, sizeof k);
+        if (!node_reflect(&l->load[b], g, l->spacing, again, &none) || memcmp(again, k, sizeof k) != 0) return false;
+    }
+    for (int d = 0; d < g->dim; d++) image += k[d] * g->stride[d];
+    f->image = (int32_t)image;
+    return image != I;
+}
+
+/* Nodes held wherever the body is, and nodes that follow their images: found once for each box of the grid. */
+static void held_find(struct loads *l, struct grid *g)
+{
+    struct fold fold;
     l->helds = 0;
+    g->folds = 0;
     for (int d = 0; d < g->dim; d++) l->held_first[d] = g->first[d], l->held_count[d] = g->count[d];
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
+        if (node_folded(l, g, I, &fold)) {
+            grid_add_fold(g, &fold);
+            continue;
+        }
         for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
         for (int b = 0; b < l->n; b++)
             for (int d = 0; d < g->dim; d++)
@@ -386,6 +453,9 @@ void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, re
 {
     for (int64_t q = 0; q < g->walls; q++)
         l->load[g->wall[q].load].reaction[g->wall[q].component] += g->wall[q].reaction / dt_velocity;
+    for (int64_t q = 0; q < g->folds; q++)
+        for (int d = 0; d < g->dim; d++)
+            l->load[g->fold[q].load].reaction[d] += g->fold[q].reaction[d] / dt_velocity;
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         real factor = time_function_at(&load->boundary->time, t);

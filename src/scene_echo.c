@@ -295,6 +295,19 @@ static void write_time(struct writer *w, const struct time_function *f)
     fputs(f->kind == TIME_TABLE ? "]}\n" : "\n", w->out);
 }
 
+static void write_profile(struct writer *w, const struct profile *f)
+{
+    const char *group = "boundary.profile.sine", *between = " {sine: {";
+    begin(w, "profile");
+    for (int i = 0; i < keys_count && f->kind == PROFILE_SINE; i++) {
+        if (!key_in(&keys[i], group)) continue;
+        fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
+        write_value(w, &keys[i], place_of(&keys[i], f));
+        between = ", ";
+    }
+    fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
+}
+
 static void write_velocity(struct writer *w, const struct boundary *b)
 {
     begin(w, "velocity");
@@ -325,6 +338,7 @@ static void write_boundary(struct writer *w, const struct boundary *b)
         begin(w, "face");
         fprintf(w->out, " %c%c\n", 'x' + b->face, b->side > 0 ? '+' : '-');
     }
+    if (b->kind == BOUNDARY_BODY_FORCE) write_profile(w, &b->profile);
     write_time(w, &b->time);
 }
 

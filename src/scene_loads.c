@@ -48,6 +48,25 @@ static status read_time(struct reader *r, const struct node *n, struct time_func
     return f->from < f->until ? OK : fault(r, form, "from is not before until; it begins at from and ends at until");
 }
 
+/* ---- profiles in space ---------------------------------------------------------------------------------- */
+
+static status read_profile(struct reader *r, const struct node *n, struct profile *f)
+{
+    f->direction[0] = 1;
+    if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "uniform") == 0)) return OK;
+    if (n->kind != NODE_MAP)
+        return fault(r, n, "%s is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected",
+                     shown(r, n));
+    TRY(check_keys(r, n, "boundary.profile"));
+    if (n->n != 1) return fault(r, n, "has %d keys; sine is expected", n->n);
+    f->kind = PROFILE_SINE;
+    TRY(read_group(r, n->first, n->first, "boundary.profile.sine", f));
+    real length2 = dot(f->direction, f->direction, r->dim);
+    if (length2 > 0 && isfinite(length2)) return OK;
+    return fault(r, node_find(n->first, "direction"),
+                 "its length is 0 or not finite; the direction in which the force varies is expected");
+}
+
 /* ---- boundary conditions -------------------------------------------------------------------------------- */
 
 static status read_axis(struct reader *r, const struct node *n, const char *text, int *axis)
@@ -141,7 +160,7 @@ static status kind_of_boundary(struct reader *r, const struct node *map, const s
 
 static status read_boundary(struct reader *r, const struct node *n, struct boundary *b)
 {
-    const struct node *kind, *face = NULL;
+    const struct node *kind, *face = NULL, *profile = node_find(n, "profile");
     TRY(expect(r, n, NODE_MAP, "a mapping of keys to values"));
     TRY(check_keys(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
@@ -153,6 +172,9 @@ static status read_boundary(struct reader *r, const struct node *n, struct bound
                                   : BOUNDARY_VELOCITY;
     if (b->kind != BOUNDARY_TRACTION) face = node_find(n, "face");
     if (face) return fault(r, face, "has no meaning without traction; leave it out");
+    if (profile && b->kind != BOUNDARY_BODY_FORCE)
+        return fault(r, profile, "has no meaning without body_force; leave it out");
+    TRY(read_profile(r, profile, &b->profile));
     if (b->kind == BOUNDARY_MIRROR) return read_mirror(r, n, kind, b);
     if (*kind->key == 'f') return read_fixed(r, kind, b);
     if (*kind->key == 'v') return read_velocity(r, kind, b);

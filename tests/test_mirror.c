@@ -9,6 +9,7 @@
 #include "convert.h"
 #include "kernels.h"
 #include "loads.h"
+#include "near.h"
 #include "team.h"
 
 /* Sums of the same bonds in another order. */
@@ -188,11 +189,159 @@ static void test_mirror_convert(void **state)
     quarter_free(&q);
 }
 
+/* ---- material points ------------------------------------------------------------------------------------ */
+
+/* A quarter or all of a body of material points on a grid. */
+struct points {
+    struct particles *p;
+    struct grid g;
+    struct transfer_order order;
+    struct partial_stress partial;
+    struct transfer_data t;
+    struct loads loads;
+};
+
+static const struct elastic steel = {.c11 = 2e11, .c12 = 7e10, .shear = 6.5e10, .trigger = INFINITY};
+
+/* A motion and stresses that the mirrors leave as they are, in a body so deformed that points stand anywhere in cells. */
+static void points_state(struct particles *p)
+{
+    for (int64_t i = 0; i < p->n; i++) {
+        real X[DIM_MAX] = {0}, r2 = 0;
+        particle_place(p, i, X);
+        for (int d = 0; d < p->dim; d++) X[d] /= CLOUD_SPACING, r2 += X[d] * X[d];
+        for (int d = 0; d < p->dim; d++) {
+            p->x[d][i] = p->X[d][i] * (1.07 + 0.02 * d + 1e-4 * r2);
+            p->v[d][i] = X[d] * (3 + d - 0.01 * r2);
+            p->stretch[d][i] = 1.1 + 0.1 * d;
+            p->gradient[d * p->dim + d][i] = 3e3 + d;
+        }
+        p->kind[i] = KIND_MPM;
+        for (int c = 0; c < p->dim; c++) p->stress[c][i] = 1e8 * (1 + c + 0.1 * r2);
+        p->stress[p->dim][i] = 1e7 * X[0] * X[1];          /* xy */
+        if (p->dim == 3) p->stress[4][i] = 1e7 * X[1], p->stress[5][i] = 1e7 * X[0];
+    }
+    particles_list(p);
+}
+
+/* `offset`: of the planes from a node [node distances]. */
+static void points_make(struct points *s, struct particles *p, const struct boundary *b, int n, real offset)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    bool changed;
+    *s = (struct points){.p = p, .g = {.dim = p->dim, .h = 2 * CLOUD_SPACING}};
+    s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .elastic = &steel,
+                                  .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-7};
+    for (int d = 0; d < p->dim; d++) {
+        s->g.anchor[d] = d < 2 ? offset * s->g.h : 0;
+        from[d] = -20 * CLOUD_SPACING, to[d] = 20 * CLOUD_SPACING;
+    }
+    assert_ok(loads_make(&s->loads, b, n, p, CLOUD_SPACING, 3 * CLOUD_SPACING, WITH_GRADIENT | WITH_STRETCH));
+    points_state(p);
+    assert_ok(grid_cover(&s->g, from, to, 10000000, &changed));
+}
+
+static void points_step(struct points *s, enum shape shape, enum transfer transfer, int step)
+{
+    struct kernels k;
+    real work = 0;
+    kernels_choose(&k, s->p->dim, PD_BOND, shape, transfer);
+    s->t.dt_velocity = step == 0 ? 0.5 * s->t.dt : s->t.dt;
+    transfer_order_sort(&s->order, s->p, s->p->list[KIND_MPM], s->p->n, &s->g);
+    grid_clear(&s->g);
+    k.p2g(&s->g, s->p, &s->t);
+    loads_walls(&s->loads, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
+    grid_move(&s->g, transfer, s->t.dt_velocity, 1e-30, s->loads.impulse, &work);
+    if (transfer == TRANSFER_FLIP) {
+        k.remap(&s->g, s->p, &s->t);
+        grid_remapped(&s->g, 1e-30);
+    }
+    k.g2p(&s->g, s->p, &s->t);
+    for (int b = 0; b < s->loads.n; b++) memset(s->loads.load[b].reaction, 0, sizeof s->loads.load[b].reaction);
+    loads_hold(&s->loads, &s->g, s->p, 0, s->t.dt_velocity);
+}
+
+static void points_free(struct points *s)
+{
+    transfer_order_free(&s->order);
+    loads_free(&s->loads);
+    grid_free(&s->g);
+}
+
+static real points_momentum(const struct particles *p, int d)
+{
+    real sum = 0;
+    for (int64_t i = 0; i < p->n; i++) sum += p->mass[i] * p->v[d][i];
+    return sum;
+}
+
+static void points_compare(const struct quarter *q)
+{
+    const struct particles *part = &q->part.p, *whole = &q->whole.p;
+    for (int d = 0; d < part->dim; d++) {
+        assert_true(deviation(q, part->x[d], whole->x[d]) <= CLOSE);
+        assert_true(deviation(q, part->v[d], whole->v[d]) <= CLOSE);
+    }
+    for (int c = 0; c < symmetric_count(part->dim); c++)
+        assert_true(deviation(q, part->stress[c], whole->stress[c]) <= CLOSE);
+}
+
+/* The quarter moves as the whole does, whatever shapes reach over the planes; what the planes give is the change of its
+ * momentum. */
+static void points_case(enum space space, enum shape shape, enum transfer transfer, real offset)
+{
+    const int n[2] = {6, 5};
+    struct quarter q = {0};
+    struct points part, whole;
+    struct cloud_plan plan = {.space = space, .count = {n[0], n[1], 4}, .optional = WITH_GRADIENT | WITH_STRETCH};
+    plan.horizon = 3;
+    cloud_make(&q.part, &plan);
+    for (int d = 0; d < 2; d++) plan.count[d] *= 2;
+    cloud_make(&q.whole, &plan);
+    for (int64_t i = 0; i < q.whole.p.n; i++)
+        for (int d = 0; d < 2; d++) q.whole.p.X[d][i] -= n[d] * CLOUD_SPACING;
+    find_twins(&q);
+    points_make(&part, &q.part.p, mirror, COUNT_OF(mirror), offset);
+    points_make(&whole, &q.whole.p, NULL, 0, offset);
+    for (int step = 0; step < 3; step++) {
+        real before[2], impulse[2];
+        for (int d = 0; d < 2; d++) before[d] = points_momentum(part.p, d), impulse[d] = part.loads.impulse[d];
+        points_step(&part, shape, transfer, step);
+        points_step(&whole, shape, transfer, step);
+        points_compare(&q);
+        for (int d = 0; d < 2; d++) {
+            real given = part.loads.impulse[d] - impulse[d], reaction = 0;
+            assert_near(points_momentum(part.p, d) - before[d], given, CLOSE * fabs(before[d]));
+            for (int b = 0; b < part.loads.n; b++) reaction += part.loads.load[b].reaction[d] * part.t.dt_velocity;
+            assert_near(reaction, given, CLOSE * fabs(before[d]));
+        }
+    }
+    assert_true(part.g.folds > 0);
+    points_free(&part);
+    points_free(&whole);
+    memory_free(q.twin);
+    cloud_free(&q.whole);
+    cloud_free(&q.part);
+}
+
+static void test_mirror_points(void **state)
+{
+    (void)state;
+    static const enum space space[] = {SPACE_PLANE_STRESS, SPACE_SOLID};
+    for (size_t k = 0; k < COUNT_OF(space); k++)
+        for (int shape = 0; shape < SHAPES; shape++)
+            for (int transfer = 0; transfer < TRANSFERS; transfer++) {
+                points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0);     /* planes on nodes */
+                points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0.5);   /* half-way between */
+            }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_mirror),
         cmocka_unit_test(test_mirror_convert),
+        cmocka_unit_test(test_mirror_points),
     };
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);

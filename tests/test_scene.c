@@ -59,6 +59,8 @@ static const char plate[] =
     "  - {fixed: all, time: {ramp: {until: 1 ms}}}\n"
     "  - {traction: [1 MPa, 0], face: y-, time: {table: [[0, 0], [1 us, 1], [2 us, 50 %]]}}\n"
     "  - {body_force: [0, 1e5 N/m^3], time: constant}\n"
+    "  - {body_force: [0, 2], profile: {sine: {wavelength: 20 cm, origin: [1 mm, 0], direction: [1, 3]}}}\n"
+    "  - {body_force: [1, 0], profile: {sine: {wavelength: 1/3}}}\n"
     "  - {mirror: {axis: y, at: 1 mm, tangential: held}}\n"
     "time: {step: 20 ns, safety: 1.5}\n"
     "output: {frames: 0, samples: 10, checkpoint: 5 s, compress: true}\n"
@@ -185,7 +187,7 @@ static void test_plate_conditions(void **state)
     assert_true(i[0].body == 0 && i[0].sets_velocity && !i[0].sets_strain && i[0].velocity[1] == 2);
     assert_true(i[0].velocity_gradient[1] == 100 && i[0].velocity_gradient[2] == -100 && i[0].centre[0] == 1e-9);
     assert_true(i[1].body == -1 && !i[1].sets_velocity && i[1].sets_strain && i[1].displacement_gradient[3] == 0.02);
-    assert_int_equal(s.boundaries, 6);
+    assert_int_equal(s.boundaries, 8);
     const struct boundary *b = s.boundary;
     assert_string_equal(b[0].name, "impact");
     assert_true(b[0].kind == BOUNDARY_VELOCITY && b[0].components == 1 && b[0].value[0] == 22 && b[0].region.n == 1);
@@ -196,7 +198,13 @@ static void test_plate_conditions(void **state)
     assert_true(b[3].kind == BOUNDARY_TRACTION && b[3].face == 1 && b[3].side == -1 && b[3].value[0] == 1e6);
     assert_true(b[3].time.n == 3 && b[3].time.t[2] == 2e-6 && b[3].time.value[2] == 0.5);
     assert_true(b[4].kind == BOUNDARY_BODY_FORCE && b[4].value[1] == 1e5 && b[4].time.kind == TIME_CONSTANT);
-    assert_true(b[5].kind == BOUNDARY_MIRROR && b[5].axis == 1 && b[5].at == 1e-3 && b[5].hold_tangential);
+    const struct profile *sine = &b[5].profile, *plain = &b[6].profile;
+    assert_int_equal(b[4].profile.kind, PROFILE_UNIFORM);
+    assert_true(sine->kind == PROFILE_SINE && sine->wavelength == 0.2 && sine->origin[0] == 1e-3);
+    assert_true(sine->direction[0] == 1 && sine->direction[1] == 3);
+    assert_true(plain->kind == PROFILE_SINE && plain->wavelength == 1.0 / 3 && plain->origin[0] == 0);
+    assert_true(plain->direction[0] == 1 && plain->direction[1] == 0);
+    assert_true(b[7].kind == BOUNDARY_MIRROR && b[7].axis == 1 && b[7].at == 1e-3 && b[7].hold_tangential);
     scene_free(&s);
 }
 
@@ -357,6 +365,7 @@ static void check_round_trip(const struct scene *a)
     for (int k = 0; k < a->boundaries; k++) {
         assert_memory_equal(a->boundary[k].value, b.boundary[k].value, sizeof a->boundary->value);
         assert_int_equal(a->boundary[k].components, b.boundary[k].components);
+        assert_memory_equal(&a->boundary[k].profile, &b.boundary[k].profile, sizeof a->boundary->profile);
     }
     assert_true(a->duration == b.duration && a->spacing == b.spacing && a->speed_window == b.speed_window);
     assert_true(a->surface == b.surface && a->thickness == b.thickness && a->section == b.section);

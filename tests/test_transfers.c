@@ -45,11 +45,13 @@ static void test_shapes(void **state)
     uint64_t seed = 3;
     for (int shape = 0; shape < SHAPES; shape++) {
         for (int k = 0; k < 2000; k++)
-            check_shape((enum shape)shape, cloud_between(&seed, -9, 9), cloud_between(&seed, 0.01, 0.5));
+            check_shape((enum shape)shape, cloud_between(&seed, -9, 9),
+                        cloud_between(&seed, 0.01, shape == SHAPE_CPGIMP ? 1 : 0.5));
         for (int k = -16; k <= 16; k++) {                      /* on nodes, mid-cells and the edges of pieces */
             check_shape((enum shape)shape, 0.25 * k, 0.25);
             check_shape((enum shape)shape, 0.25 * k, 0.5);
             check_shape((enum shape)shape, 0.25 * k + 1e-15, 0.25);
+            if (shape == SHAPE_CPGIMP) check_shape(SHAPE_CPGIMP, 0.25 * k, 0.75), check_shape(SHAPE_CPGIMP, 0.25 * k, 1);
         }
     }
 }
@@ -81,7 +83,7 @@ static void random_state(struct scene *s, uint64_t *seed, real spin)
         for (int d = 0; d < s->dim; d++) {
             p->v[d][i] = 300 + spin * cloud_between(seed, -1, 1);
             p->f[d][i] = cloud_between(seed, -100, 100) * (s->dim == 2 ? 2 : 1);
-            if (s->optional & WITH_STRETCH) p->stretch[d][i] = cloud_between(seed, 0.7, 1.9);
+            if (s->optional & WITH_STRETCH) p->stretch[d][i] = cloud_between(seed, 0.7, 3.9);
         }
         for (int k = 0; k < s->dim * s->dim && s->optional & WITH_GRADIENT; k++)
             p->gradient[k][i] = cloud_between(seed, -1e3, 1e3);

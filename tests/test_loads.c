@@ -1,0 +1,88 @@
+/* floor 3: applied forces: what a body force that varies over the body gives to every particle. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+#include "cloud.h"
+#include "loads.h"
+#include "near.h"
+#include "team.h"
+
+/* A sine along (3, 4)/5 with its origin inside, pulling in x and y; the particles have moved since, which must not
+ * matter: the profile holds on reference positions. */
+static void test_sine(void **state)
+{
+    (void)state;
+    const real length = 5 * CLOUD_SPACING, volume = square(CLOUD_SPACING) * 2e-3, dt = 1e-6;
+    const struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6},
+                                  .time = {.kind = TIME_RAMP, .until = 4},
+                                  .profile = {PROFILE_SINE, length, {CLOUD_SPACING, -CLOUD_SPACING}, {3, 4}}};
+    struct cloud c;
+    struct loads l;
+    real sum[2] = {0};
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 3});
+    struct particles *p = &c.p;
+    assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
+    loads_clear(&l, p);
+    loads_apply(&l, p, 1 + 0.5 * dt, dt, dt);        /* a kick round t = 1: a quarter of the ramp */
+    for (int64_t i = 0; i < p->n; i++) {
+        real along = 0.6 * (p->X[0][i] - CLOUD_SPACING) + 0.8 * (p->X[1][i] + CLOUD_SPACING);
+        real factor = 0.25 * sin(2 * M_PI * along / length);
+        assert_near(p->f[0][i], 2e6 * volume * factor, 1e-12 * 2e6 * volume);
+        assert_near(p->f[1][i], -3e6 * volume * factor, 1e-12 * 3e6 * volume);
+        for (int d = 0; d < 2; d++) sum[d] += p->f[d][i] * dt;
+    }
+    for (int d = 0; d < 2; d++) assert_near(l.impulse[d], sum[d], 1e-12 * 3e6 * volume * dt * (double)p->n);
+
+    real work = 0;                                   /* over the way they go, with the same forces */
+    for (int64_t i = 0; i < p->n; i++)
+        for (int d = 0; d < 2; d++) {
+            real way = 1e-6 * (real)(i + d);
+            p->x[d][i] += way;
+            work += way * p->f[d][i];
+        }
+    struct grid none = {0};
+    loads_hold(&l, &none, p, 1, dt);                 /* as if the step's middle were at t = 1 */
+    assert_close(l.work, work, 1e-8);                /* ways of 1e-6 of positions near 1e-2, to 1e-18 */
+    assert_true(fabs(work) > 1e-9);
+    loads_free(&l);
+    cloud_free(&c);
+}
+
+/* Leap-frog: a half kick, then whole ones, each round the instant of its forces. What a force gives up to the velocities
+ * is its integral in time: exactly for what is linear in it or switches at a whole step, else to second order. */
+static void test_kicks(void **state)
+{
+    (void)state;
+    const real volume = CLOUD_SPACING * 4e-6, dt = 1e-3;
+    const struct { struct time_function time; real until_now; } row[] = {
+        {{.kind = TIME_CONSTANT}, 9.5 * dt},
+        {{.kind = TIME_STEP, .until = 5 * dt}, 5 * dt},                          /* all of it */
+        {{.kind = TIME_STEP, .from = 3 * dt, .until = 99}, 6.5 * dt},
+        {{.kind = TIME_RAMP, .until = 20 * dt}, 9.5 * 9.5 / 40 * dt},            /* integral of t/20 dt */
+    };
+    for (size_t k = 0; k < COUNT_OF(row); k++) {
+        const struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {3e6},
+                                      .time = row[k].time};
+        struct cloud c;
+        struct loads l;
+        cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {4}, .horizon = 3});
+        assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+        for (int step = 0; step < 10; step++) {
+            loads_clear(&l, &c.p);
+            loads_apply(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
+        }
+        assert_close(l.impulse[0], 4 * 3e6 * volume * row[k].until_now, 1e-12);
+        loads_free(&l);
+        cloud_free(&c);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks)};
+    team_make(2);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
