@@ -89,10 +89,10 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
     char text[1024];
     snprintf(
         text, sizeof text,
-        "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800}\n"
+        "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800%s}\n"
         "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
         "mpm: {shape: cpgimp, transfer: apic}\noutput: {samples: 1, frames: 0}\n",
-        space[dim], method, poisson[dim], corner[dim], size[dim]);
+        space[dim], method, poisson[dim], strcmp(method, "pd") ? "" : ", yield_stress: 1 GPa", corner[dim], size[dim]);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < e->part.n; i++) {

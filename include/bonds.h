@@ -46,6 +46,16 @@ struct bond_limit {
     int materials;
 };
 
+/* When bonds yield, by pair of materials: stretch s_y and hardening modulus over the bond's own, H_b/k_e [materials^2].
+ * stretch NULL: no bond ever does. */
+struct bond_yield {
+    const real *stretch, *hardening;
+    int materials;
+};
+
+/* What yielding has done to a bond: stretch without force, and the way it was yielded back and forth. */
+struct bond_plasticity { real stretch, path; };
+
 struct bonds {
     int64_t rows, groups, slots;
     int64_t n;                           /* directed bonds in the rows, broken ones included              */
@@ -60,10 +70,14 @@ struct bonds {
                                             -1 and never looks like breaking; 0: padding        [1/m]     */
     float *w;                            /* [slots 8] symmetric weight: beta x surface x V_i V_j c_ij over
                                             stiffness; 0: broken, cut or padding                [1]       */
+    real *plastic_stretch, *plastic_path;   /* [slots 8] s_p and alpha of a bond; NULL where none yields   [1]  */
+    int32_t *pair;                       /* [slots 8] entry of `yield`; NULL where none yields               */
+    struct bond_yield yield;
     real *trigger;                       /* [groups 8] no bond of the row breaks below this stretch       */
     float *family_volume;                /* [groups 8] sum V_j of the whole initial family      [m^3]     */
     float *broken_volume;                /* [groups 8] of its broken bonds                      [m^3]     */
     real *fracture_energy;               /* [groups 8] half of each broken bond's energy        [J]       */
+    real *plastic_work;                  /* [groups 8] half of what its broken bonds had dissipated    [J] */
     int32_t *broken;                     /* [groups 8] bonds broken by load since the start               */
     real stiffness;                      /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
@@ -75,6 +89,7 @@ struct bond_source {
     const struct material *material;
     int materials;
     struct bond_limit limit;
+    struct bond_yield yield;
     const struct crack *crack;
     int cracks;
     const struct image *image;           /* of loads                                                  */

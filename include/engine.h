@@ -28,6 +28,7 @@ struct engine {
     struct cells cells;                  /* search over reference positions                           */
     struct bond_source source;
     struct bonds bonds;
+    real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
     real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
     real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */
     struct elastic *elastic;             /* [materials]                                               */

@@ -43,6 +43,9 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
  * horizon [m]. */
 real material_critical_stretch(const struct material *m, enum space space, real horizon);
 
+/* Stress at a strain of monotonic uniaxial loading [Pa]. */
+real material_stress_at(const struct material *m, real strain);
+
 /* Fills the derived constants. */
 void material_derive(struct material *m, enum space space);
 

@@ -27,8 +27,9 @@ static void set_flag(struct particles *p, int32_t i, int flag)
 
 static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
 {
-    const real energy = bond_law_energy(PD_BOND, lanes_of(stretch))[0];
+    const real energy = 0.5 * square(bond_elastic_one(b, q, stretch));
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * energy / b->inverse_length[q];
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_stored(b, q);
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]++;

@@ -47,7 +47,7 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
         const lanes inverse = lanes_inverse_root(distance2);
         const lanes stretch = distance2 * inverse * lanes_load(b->inverse_length + q) - 1.0;
         const lanes w = lanes_load_float(b->w + q);
-        const lanes force = w * bond_law(model, stretch) * inverse;
+        const lanes force = w * bond_law(model, b, q, stretch, w) * inverse;
         largest = lanes_max(largest, stretch);   /* below 0 where w = 0 */
         f0 += force * d0;
         if (dim > 1) f1 += force * d1;

@@ -3,6 +3,7 @@
 
 #include "bond_laws.h"
 #include "kernels.h"
+#include "team.h"
 #include "variants.h"
 
 /* Stretch and relative position of stored bond q of particle i. */
@@ -34,7 +35,8 @@ static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct 
         const lanes w = lanes_load_float(b->w + q), inverse = lanes_load(b->inverse_length + q);
         const lanes stretch = distance2 * lanes_inverse_root(distance2) * inverse - 1.0;
         const lanes length = lanes_inverse_root(inverse * inverse);        /* cheaper than a division */
-        sum += lanes_choose(w > 0.0, w * bond_law_energy(model, stretch) * length, lanes_of(0));
+        const lanes elastic = bond_elastic(model, b, q, stretch);
+        sum += lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
     }
     real total = 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
@@ -53,13 +55,27 @@ static ALWAYS_INLINE void bond_stress_row(const struct bonds *b, struct particle
         int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         real stretch = bond_geometry(b, p, q, i, y, dim);
-        real law = bond_law(model, lanes_of(stretch))[0];
-        real share = b->stiffness * b->w[q] * law * b->inverse_length[q] / (1 + stretch) / (2 * p->volume0[i]);
+        real elastic = model == PD_BOND_PLASTIC ? bond_elastic_one(b, q, stretch) : stretch;
+        real share = b->stiffness * b->w[q] * elastic * b->inverse_length[q] / (1 + stretch) / (2 * p->volume0[i]);
         for (int d = 0; d < dim; d++) stress[d] += share * y[d] * y[d];
         if (dim > 1) stress[dim] += share * y[0] * y[1];
         if (dim > 2) stress[4] += share * y[1] * y[2], stress[5] += share * y[2] * y[0];
     }
     for (int s = 0; s < symmetric; s++) p->stress[s][i] = stress[s];
+}
+
+static real plastic_term(const void *context, int64_t row)
+{
+    const struct bonds *b = context;
+    real sum = b->plastic_work[row];
+    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++)
+        sum += 0.5 * bond_work_stored(b, bond_index(b, row / LANES, k, (int)(row % LANES)));
+    return sum;
+}
+
+real bond_plastic_work(const struct bonds *b)
+{
+    return b->plastic_path ? team_sum(b->rows, plastic_term, b) : 0;
 }
 
 /* Groups are added in blocks of fixed size, the blocks in their order: the same bits on any number of threads. */

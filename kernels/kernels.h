@@ -11,7 +11,11 @@
 
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
-enum pd_model { PD_BOND, PD_MODELS };
+enum pd_model {
+    PD_BOND,                             /* elastic, brittle                                         */
+    PD_BOND_PLASTIC,                     /* the same with yielding: needs the plastic arrays of bonds */
+    PD_MODELS
+};
 
 /* Constants of a material as the stress update wants them, and its conversion trigger. */
 struct elastic {
@@ -56,6 +60,10 @@ int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_l
 
 /* Half the elastic energy of every row's intact bonds, added up in fixed blocks [J]. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
+
+/* Half the plastic work k (s_y alpha + H_b alpha^2/2) of every row's bonds, broken ones included, added up in fixed blocks
+ * [J]. 0 where no bond yields. */
+real bond_plastic_work(const struct bonds *b);
 
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);

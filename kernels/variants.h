@@ -5,7 +5,9 @@
 
 #define DIM_VARIANTS(X) X(1) X(2) X(3)
 
-#define PD_VARIANTS(X) X(1, BOND) X(2, BOND) X(3, BOND)
+#define PD_VARIANTS(X)                                                          \
+    X(1, BOND) X(2, BOND) X(3, BOND)                                            \
+    X(1, BOND_PLASTIC) X(2, BOND_PLASTIC) X(3, BOND_PLASTIC)
 
 #define SHAPE_VARIANTS(X)                                                       \
     X(1, LINEAR) X(1, GIMP) X(1, CPGIMP) X(1, QUADRATIC) X(1, CUBIC)            \

@@ -1,5 +1,5 @@
-/* floor 1: making bond rows: search, weigh, pack eight rows to a group, carry over what was broken. */
-#include "bonds.h"
+/* floor 1: making bond rows: pack eight rows to a group. */
+#include "bonds_parts.h"
 
 #include <math.h>
 #include <omp.h>
@@ -7,64 +7,12 @@
 
 #include "memory.h"
 
-/* Vectors look for bonds above this share of their limit, the scalar rule decides: a margin for their round-off. */
-#define TRIGGER_MARGIN 1e-9
-
-/* One row while it is made. */
-struct row {
-    int n;
-    int32_t *nbr;
-    real *inverse_length;
-    float *w;
-    real trigger, family_volume, cut_volume;
-};
-
 /* A thread's room for the eight rows of a group. */
 struct group_room {
     int room;                            /* bonds a row may have */
     struct row row[LANES];
     int32_t *offset;                     /* [LANES room] distinct index distances */
 };
-
-/* Micro-moduli of all pairs of materials over that of material 0. */
-struct pair_table { real *ratio; int materials; };
-
-/* ---- who is whose neighbour ------------------------------------------------------------------------ */
-
-/* Bonds join particles of one body. */
-static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
-{
-    real X[DIM_MAX];
-    particle_place(p, i, X);
-    int n = cells_near(s->cells, p, X, s->family.cutoff, i, found, room), kept = 0;
-    if (n > room) return n;
-    for (int k = 0; k < n; k++)
-        if (p->body[found[k]] == p->body[i]) found[kept++] = found[k];
-    return kept;
-}
-
-int bonds_room(const struct particles *p, const struct bond_source *s)
-{
-    if (s->room > 0) return s->room;
-    int most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most)
-    for (int64_t i = 0; i < p->n_all; i++) {
-        real X[DIM_MAX];
-        particle_place(p, i, X);
-        int n = cells_near(s->cells, p, X, s->family.cutoff, (int32_t)i, NULL, 0);
-        if (n > most) most = n;
-    }
-    return most;
-}
-
-static bool cut_by_crack(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
-{
-    real a[DIM_MAX], b[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) a[d] = p->X[d][i], b[d] = p->X[d][j];
-    for (int c = 0; c < s->cracks; c++)
-        if (crack_cuts(&s->crack[c], a, b, p->dim)) return true;
-    return false;
-}
 
 /* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, int room, uint8_t *wanted)
@@ -82,98 +30,6 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, in
             if (found[k] < p->n) wanted[found[k]] = 1;
     }
     memory_free(found);
-}
-
-/* ---- one row --------------------------------------------------------------------------------------- */
-
-static float bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
-                         int32_t i, int32_t j, const real *xi, real r)
-{
-    /* Written so that i and j may be exchanged without changing a bit. */
-    real weight = family_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
-    weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
-    if (s->neighbour_volume)             /* volume method, Le & Bobaru 2018 */
-        weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
-    return (float)weight;
-}
-
-/* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */
-static void row_search(struct row *row, const struct bond_source *s, const struct particles *p, int32_t i, int room)
-{
-    int n = family_search(s, p, i, row->nbr, room), kept = 0;
-    row->family_volume = 0;
-    for (int k = 0; k < n; k++) {
-        row->family_volume += p->volume0[row->nbr[k]];
-        if (p->kind[i] == KIND_PD || p->kind[row->nbr[k]] == KIND_PD) row->nbr[kept++] = row->nbr[k];
-    }
-    row->n = kept;
-}
-
-/* Lengths, weights and what cracks cut, of the bonds that row_search has found. */
-static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
-                      const struct pair_table *pairs, int32_t i)
-{
-    row->trigger = INFINITY, row->cut_volume = 0;
-    for (int k = 0; k < row->n; k++) {
-        int32_t j = row->nbr[k];
-        real xi[DIM_MAX], r2 = 0;
-        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
-        bool cut = s->cracks > 0 && cut_by_crack(s, p, i, j);
-        if (cut) row->cut_volume += p->volume0[j];
-        row->inverse_length[k] = (cut ? -1 : 1) / sqrt(r2);
-        row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, sqrt(r2));
-        real limit = s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]];
-        row->trigger = real_min(row->trigger, limit * (1 - TRIGGER_MARGIN));
-    }
-}
-
-/* What load had broken in the row before stays broken. */
-static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
-{
-    int64_t group = old_row / LANES;
-    int lane = (int)(old_row % LANES);
-    for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
-        int64_t q = bond_index(old, group, k, lane);
-        if (old->w[q] != 0 || old->inverse_length[q] == 0) continue;
-        for (int m = 0; m < row->n; m++) {
-            if (row->nbr[m] != old->nbr[q] || row->w[m] == 0) continue;
-            row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
-            row->cut_volume += p->volume0[row->nbr[m]];
-        }
-    }
-}
-
-/* A row that held its whole family before is the same row now. */
-static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
-{
-    int64_t group = old_row / LANES;
-    int lane = (int)(old_row % LANES);
-    row->n = 0;
-    for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
-        int64_t q = bond_index(old, group, k, lane);
-        if (old->inverse_length[q] == 0) continue;
-        row->nbr[row->n] = old->nbr[q];
-        row->inverse_length[row->n] = old->inverse_length[q];
-        row->w[row->n++] = old->w[q];
-    }
-    row->trigger = old->trigger[old_row];
-    row->family_volume = old->family_volume[old_row];
-    row->cut_volume = old->broken_volume[old_row];
-}
-
-/* `weigh` false: only who the neighbours are, to count them. */
-static void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
-                     const struct pair_table *pairs, int32_t i, int room, bool weigh)
-{
-    int64_t before = old ? old->row_of[i] : -1;
-    if (before >= 0 && old->whole[before]) {
-        row_copy(row, old, before);
-        return;
-    }
-    row_search(row, s, p, i, room);
-    if (!weigh) return;
-    row_weigh(row, s, p, pairs, i);
-    if (before >= 0) row_inherit(row, p, old, before);
 }
 
 /* ---- one group ------------------------------------------------------------------------------------- */
@@ -210,8 +66,13 @@ static int group_slots(struct group_room *g, const int32_t *particle, int rows, 
     return *by_offset ? offsets : longest;
 }
 
-static void slot_put(struct bonds *b, int64_t q, const struct row *row, int k)
+static void slot_put(struct bonds *b, int64_t q, const struct row *row, int k, int32_t pair)
 {
+    if (b->plastic_stretch) {
+        b->plastic_stretch[q] = row->plastic[k].stretch;
+        b->plastic_path[q] = row->plastic[k].path;
+        b->pair[q] = pair;
+    }
     b->nbr[q] = row->nbr[k];
     b->inverse_length[q] = row->inverse_length[k];
     b->w[q] = row->w[k];
@@ -224,7 +85,13 @@ static void slot_pad(struct bonds *b, int64_t q, int32_t neighbour)
     b->w[q] = 0;
 }
 
-static void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, int64_t n_all)
+static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t i, int32_t j)
+{
+    return p->material[i] * b->yield.materials + p->material[j];
+}
+
+static void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset,
+                       const struct particles *p)
 {
     const int32_t *particle = b->particle + g * LANES;
     int used[LANES] = {0}, slots = (int)(b->slot[g + 1] - b->slot[g]);
@@ -235,8 +102,8 @@ static void group_fill(struct bonds *b, struct group_room *room, int64_t g, int 
             bool has = l < rows && used[l] < row->n;
             if (has && by_offset) has = row->nbr[used[l]] - particle[l] == room->offset[k];
             int64_t other = by_offset ? particle[l] + (l < rows ? room->offset[k] : 0) : particle[l];
-            if (has) slot_put(b, q + l, row, used[l]++);
-            else slot_pad(b, q + l, other < 0 || other >= n_all ? particle[l] : (int32_t)other);
+            if (has) slot_put(b, q + l, row, used[l], pair_of(b, p, particle[l], row->nbr[used[l]])), used[l]++;
+            else slot_pad(b, q + l, other < 0 || other >= p->n_all ? particle[l] : (int32_t)other);
         }
         bool consecutive = true;
         for (int l = 1; l < LANES; l++) consecutive = consecutive && b->nbr[q + l] == b->nbr[q] + l;
@@ -263,21 +130,13 @@ static void group_note(struct bonds *b, const struct group_room *room, int64_t g
 static void rooms_make(struct group_room *g, int room)
 {
     g->room = room;
-    for (int l = 0; l < LANES; l++) {
-        g->row[l].nbr = NEW("bonds.row", room, int32_t);
-        g->row[l].inverse_length = NEW("bonds.row", room, real);
-        g->row[l].w = NEW("bonds.row", room, float);
-    }
+    for (int l = 0; l < LANES; l++) row_room_make(&g->row[l], room);
     g->offset = NEW("bonds.offset", (int64_t)LANES * room + 1, int32_t);
 }
 
 static void rooms_free(struct group_room *g)
 {
-    for (int l = 0; l < LANES; l++) {
-        memory_free(g->row[l].nbr);
-        memory_free(g->row[l].inverse_length);
-        memory_free(g->row[l].w);
-    }
+    for (int l = 0; l < LANES; l++) row_room_free(&g->row[l]);
     memory_free(g->offset);
 }
 
@@ -314,6 +173,7 @@ static void rows_arrays(struct bonds *b)
     b->family_volume = NEW("bonds.family_volume", padded, float);
     b->broken_volume = NEW("bonds.broken_volume", padded, float);
     b->fracture_energy = NEW("bonds.fracture_energy", padded, real);
+    b->plastic_work = NEW("bonds.plastic_work", padded, real);
     b->broken = NEW("bonds.broken", padded, int32_t);
 }
 
@@ -335,7 +195,7 @@ static void rows_pass(struct bonds *b, const struct bonds *old, const struct par
             bool by_offset;
             int slots = group_slots(&room, b->particle + g * LANES, rows, &by_offset);
             if (count) b->slot[g + 1] = slots;
-            else group_fill(b, &room, g, rows, by_offset, p->n_all), group_note(b, &room, g, rows);
+            else group_fill(b, &room, g, rows, by_offset, p), group_note(b, &room, g, rows);
         }
         rooms_free(&room);
     }
@@ -347,6 +207,7 @@ static void rows_carry(struct bonds *b, const struct bonds *old)
         int32_t before = old->row_of[b->particle[r]];
         if (before < 0) continue;
         b->fracture_energy[r] = old->fracture_energy[before];
+        b->plastic_work[r] = old->plastic_work[before];
         b->broken[r] = old->broken[before];
     }
 }
@@ -369,6 +230,12 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     b->nbr = NEW("bonds.nbr", b->slots * LANES, int32_t);
     b->inverse_length = NEW("bonds.inverse_length", b->slots * LANES, real);
     b->w = NEW("bonds.w", b->slots * LANES, float);
+    if (s->yield.stretch) {
+        b->yield = s->yield;
+        b->plastic_stretch = NEW("bonds.plastic_stretch", b->slots * LANES, real);
+        b->plastic_path = NEW("bonds.plastic_path", b->slots * LANES, real);
+        b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
+    }
     rows_pass(b, old, p, s, &pairs, most, false);
     memory_free(pairs.ratio);
     for (int64_t q = 0; q < b->slots * LANES; q++) b->n += b->inverse_length[q] != 0;
@@ -393,6 +260,10 @@ void bonds_free(struct bonds *b)
     memory_free(b->nbr);
     memory_free(b->inverse_length);
     memory_free(b->w);
+    memory_free(b->plastic_stretch);
+    memory_free(b->plastic_path);
+    memory_free(b->pair);
+    memory_free(b->plastic_work);
     memory_free(b->trigger);
     memory_free(b->family_volume);
     memory_free(b->broken_volume);
@@ -479,6 +350,12 @@ status bonds_archive(struct bonds *b, struct particles *p, struct archive *a)
     TRY(a->exchange(a, "bonds/w", b->w, (size_t)b->slots * LANES * sizeof *b->w));
     for (int64_t q = 0; q < b->slots * LANES; q++)
         if (b->w[q] == 0) b->inverse_length[q] = -fabs(b->inverse_length[q]);
+    if (b->plastic_stretch) {
+        size_t stored = (size_t)b->slots * LANES * sizeof(real);
+        TRY(a->exchange(a, "bonds/plastic_stretch", b->plastic_stretch, stored));
+        TRY(a->exchange(a, "bonds/plastic_path", b->plastic_path, stored));
+        TRY(a->exchange(a, "bonds/plastic_work", b->plastic_work, padded * sizeof *b->plastic_work));
+    }
     TRY(a->exchange(a, "bonds/broken_volume", b->broken_volume, padded * sizeof *b->broken_volume));
     TRY(a->exchange(a, "bonds/fracture_energy", b->fracture_energy, padded * sizeof *b->fracture_energy));
     TRY(a->exchange(a, "bonds/broken", b->broken, padded * sizeof *b->broken));

@@ -25,12 +25,34 @@ static void make_limits(struct engine *e)
     e->source.limit = (struct bond_limit){e->pair_stretch, s->materials};
 }
 
-/* sigma_max = E s_c unless the scene says otherwise: a larger one lets points pass the strain at which bonds break. Only
+/* A bond yields where the softer of its materials does: s_y = sigma_y/E and H_b/k_e = H/E, which is the material's own
+ * curve in a bar. */
+static void make_yields(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    bool any = false;
+    for (int m = 0; m < s->materials; m++) any = any || material_yields(&s->material[m]);
+    if (!any) return;
+    e->pair_yield = NEW("engine.pair_yield", s->materials * s->materials, real);
+    e->pair_hardening = NEW("engine.pair_hardening", s->materials * s->materials, real);
+    for (int a = 0; a < s->materials; a++)
+        for (int b = 0; b < s->materials; b++) {
+            const struct material *m = &s->material[a], *n = &s->material[b];
+            const real first = material_yields(m) ? m->yield_stress / m->young : INFINITY;
+            const real second = material_yields(n) ? n->yield_stress / n->young : INFINITY;
+            const struct material *soft = second < first ? n : m;
+            e->pair_yield[a * s->materials + b] = real_min(first, second);
+            e->pair_hardening[a * s->materials + b] = material_yields(soft) ? soft->yield_hardening / soft->young : 0;
+        }
+    e->source.yield = (struct bond_yield){e->pair_yield, e->pair_hardening, s->materials};
+}
+
+/* sigma_max is the stress at s_c, E s_c where nothing yields, unless the scene says otherwise: a larger one lets points pass the strain at which bonds break. Only
  * adaptive runs convert. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
-    real most = isnan(s->conversion.stress) ? m->young * m->critical_stretch : s->conversion.stress;
+    real most = isnan(s->conversion.stress) ? material_stress_at(m, m->critical_stretch) : s->conversion.stress;
     return s->conversion.alpha * most;
 }
 
@@ -48,6 +70,7 @@ static void make_materials(struct engine *e)
         e->elastic[m].hardening = given->yield_hardening;
     }
     make_limits(e);
+    make_yields(e);
 }
 
 /* ---- peridynamics ----------------------------------------------------------------------------------- */
@@ -254,7 +277,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     make_grid(e);
     TRY(named(s, make_time_step(e)));
     make_rim_share(e);
-    kernels_choose(&e->kernels, s->dim, s->model, s->shape, s->transfer);
+    kernels_choose(&e->kernels, s->dim, e->source.yield.stretch ? PD_BOND_PLASTIC : s->model, s->shape, s->transfer);
     e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false};
     e->strain_stress = largest_stress(&e->part);
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
@@ -280,6 +303,8 @@ void engine_free(struct engine *e)
     loads_free(&e->loads);
     particles_free(&e->part);
     memory_free(e->pair_stretch);
+    memory_free(e->pair_yield);
+    memory_free(e->pair_hardening);
     memory_free(e->neighbour_volume);
     memory_free(e->elastic);
     memory_free(e->record);

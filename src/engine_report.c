@@ -99,7 +99,7 @@ static void sample_energy(struct engine *e)
 {
     e->sampling.potential = e->kernels.bond_energy(&e->bonds, &e->part);
     e->sampling.potential += watch_strain(&e->part, e->scene->material, &e->partial);
-    e->sampling.plastic = watch_plastic(&e->part, e->scene->material, &e->partial);     /* of material points */
+    e->sampling.plastic = watch_plastic(&e->part, e->scene->material, &e->partial) + bond_plastic_work(&e->bonds);
     e->sampling.fracture = bonds_fracture_energy(&e->bonds);
 }
 

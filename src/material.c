@@ -60,6 +60,13 @@ static real rayleigh_speed(real longitudinal, real shear)
     return 0.5 * (low + high);
 }
 
+real material_stress_at(const struct material *m, real strain)
+{
+    const real elastic = m->young * strain;
+    if (!material_yields(m) || elastic <= m->yield_stress) return elastic;
+    return m->yield_stress + m->yield_tangent * (strain - m->yield_stress / m->young);
+}
+
 void material_derive(struct material *m, enum space space)
 {
     real E = m->young, nu = m->poisson;

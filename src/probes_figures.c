@@ -115,13 +115,9 @@ static real bond_term(const void *context, int64_t k)
     real sum = 0;
     for (int64_t slot = 0; slot < b->slot[row / LANES + 1] - b->slot[row / LANES]; slot++) {
         int64_t q = bond_index(b, row / LANES, slot, (int)(row % LANES));
-        if (b->w[q] == 0) continue;
-        real distance2 = 0;
-        for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][b->nbr[q]] - p->x[d][s->q->list[k]]);
-        real stretch = sqrt(distance2) * b->inverse_length[q] - 1;
-        sum += b->w[q] * bond_law_energy(PD_BOND, lanes_of(stretch))[0] / b->inverse_length[q];
+        sum += bond_energy_stored(b, p, q, s->q->list[k]);
     }
-    return 0.5 * b->stiffness * sum;
+    return 0.5 * sum;
 }
 
 static real fracture_term(const void *context, int64_t k)

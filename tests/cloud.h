@@ -30,6 +30,7 @@ struct cloud {
     struct particles p;
     struct material material[CLOUD_MATERIALS];
     real limit[CLOUD_MATERIALS * CLOUD_MATERIALS];
+    real yield[CLOUD_MATERIALS * CLOUD_MATERIALS], hardening[CLOUD_MATERIALS * CLOUD_MATERIALS];   /* never, 0 */
     struct cells cells;
     struct bond_source source;
     struct bonds bonds;
@@ -58,7 +59,7 @@ static inline void cloud_materials(struct cloud *c, enum space space)
         k->poisson = space == SPACE_LINE ? 0 : material_bond_poisson(space);
         material_derive(k, space);
     }
-    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = INFINITY;
+    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
 }
 
 /* All peridynamic, one body, material 0, at rest in the reference position. */
@@ -103,6 +104,7 @@ static inline void cloud_source(struct cloud *c)
     s->material = c->material;
     s->materials = CLOUD_MATERIALS;
     s->limit = (struct bond_limit){c->limit, CLOUD_MATERIALS};
+    s->yield = (struct bond_yield){c->yield, c->hardening, CLOUD_MATERIALS};
     if (s->family.surface != SURFACE_VOLUME) return;
     c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);
     bonds_neighbour_volume(c->neighbour_volume, &c->p, s);

@@ -1,0 +1,192 @@
+/* floor 1: one row of bonds while it is made: search, weigh, carry over what load has done to it. */
+#include "bonds_parts.h"
+
+#include <math.h>
+
+#include "memory.h"
+
+/* Vectors look for bonds above this share of their limit, the scalar rule decides: a margin for their round-off. */
+#define TRIGGER_MARGIN 1e-9
+
+void row_room_make(struct row *row, int room)
+{
+    row->nbr = NEW("bonds.row", room, int32_t);
+    row->inverse_length = NEW("bonds.row", room, real);
+    row->w = NEW("bonds.row", room, float);
+    row->plastic = NEW("bonds.row", room, struct bond_plasticity);
+}
+
+void row_room_free(struct row *row)
+{
+    memory_free(row->nbr);
+    memory_free(row->inverse_length);
+    memory_free(row->w);
+    memory_free(row->plastic);
+}
+
+/* ---- who is whose neighbour ------------------------------------------------------------------------ */
+
+int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
+{
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    int n = cells_near(s->cells, p, X, s->family.cutoff, i, found, room), kept = 0;
+    if (n > room) return n;
+    for (int k = 0; k < n; k++)
+        if (p->body[found[k]] == p->body[i]) found[kept++] = found[k];
+    return kept;
+}
+
+int bonds_room(const struct particles *p, const struct bond_source *s)
+{
+    if (s->room > 0) return s->room;
+    int most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most)
+    for (int64_t i = 0; i < p->n_all; i++) {
+        real X[DIM_MAX];
+        particle_place(p, i, X);
+        int n = cells_near(s->cells, p, X, s->family.cutoff, (int32_t)i, NULL, 0);
+        if (n > most) most = n;
+    }
+    return most;
+}
+
+static bool cut_by_crack(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) a[d] = p->X[d][i], b[d] = p->X[d][j];
+    for (int c = 0; c < s->cracks; c++)
+        if (crack_cuts(&s->crack[c], a, b, p->dim)) return true;
+    return false;
+}
+
+/* ---- one row --------------------------------------------------------------------------------------- */
+
+static float bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+                         int32_t i, int32_t j, const real *xi, real r)
+{
+    /* Written so that i and j may be exchanged without changing a bit. */
+    real weight = family_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
+    weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
+    if (s->neighbour_volume)             /* volume method, Le & Bobaru 2018 */
+        weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
+    return (float)weight;
+}
+
+/* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */
+static void row_search(struct row *row, const struct bond_source *s, const struct particles *p, int32_t i, int room)
+{
+    int n = family_search(s, p, i, row->nbr, room), kept = 0;
+    row->family_volume = 0;
+    for (int k = 0; k < n; k++) {
+        row->family_volume += p->volume0[row->nbr[k]];
+        if (p->kind[i] == KIND_PD || p->kind[row->nbr[k]] == KIND_PD) row->nbr[kept++] = row->nbr[k];
+    }
+    row->n = kept;
+}
+
+/* Elastic strain C^-1 sigma of material point i along e. */
+static real elastic_strain_along(const struct particles *p, const struct material *m, int64_t i, const real *e)
+{
+    static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 2}, column[SYM_MAX] = {0, 1, 2, 1, 2, 0};
+    const int dim = p->dim, n = symmetric_count(dim);
+    real compliance[SYM_MAX * SYM_MAX], sum = 0;
+    material_compliance(&m[p->material[i]], dim, compliance);
+    for (int s = 0; s < n; s++) {
+        const int a = s < dim ? s : row[3 + s - dim], b = s < dim ? s : column[3 + s - dim];
+        real strain = 0;
+        for (int t = 0; t < n; t++) strain += compliance[s * n + t] * p->stress[t][i];
+        sum += (s < dim ? 1 : 2) * e[a] * e[b] * strain;
+    }
+    return sum;
+}
+
+/* A bond between material points that have yielded starts with the stretch that their stress does not explain, and with
+ * their plastic strain: in a bar it then carries their stress to the last digit. Alike from both ends. */
+static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
+                                                   int32_t j, real r)
+{
+    const int32_t other = j < p->n ? j : i;      /* an image holds no stress of its own */
+    real e[DIM_MAX], length2 = 0;
+    if (!p->plastic_strain || p->plastic_strain[i] + p->plastic_strain[other] <= 0) return (struct bond_plasticity){0, 0};
+    for (int d = 0; d < p->dim; d++) e[d] = p->x[d][j] - p->x[d][i], length2 += square(e[d]);
+    const real length = sqrt(length2);
+    for (int d = 0; d < p->dim; d++) e[d] /= length;
+    const real elastic = 0.5 * (elastic_strain_along(p, s->material, i, e) + elastic_strain_along(p, s->material, other, e));
+    return (struct bond_plasticity){length / r - 1 - elastic, 0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
+}
+
+/* Lengths, weights and what cracks cut, of the bonds that row_search has found. */
+static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
+                      const struct pair_table *pairs, int32_t i)
+{
+    row->trigger = INFINITY, row->cut_volume = 0;
+    for (int k = 0; k < row->n; k++) {
+        int32_t j = row->nbr[k];
+        real xi[DIM_MAX], r2 = 0;
+        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
+        bool cut = s->cracks > 0 && cut_by_crack(s, p, i, j);
+        if (cut) row->cut_volume += p->volume0[j];
+        row->inverse_length[k] = (cut ? -1 : 1) / sqrt(r2);
+        row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, sqrt(r2));
+        if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, sqrt(r2));
+        real limit = s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]];
+        row->trigger = real_min(row->trigger, limit * (1 - TRIGGER_MARGIN));
+    }
+}
+
+static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t q)
+{
+    return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
+}
+
+/* What load had done to the bonds of the row before stays: broken ones stay broken, yielded ones yielded. */
+static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
+{
+    int64_t group = old_row / LANES;
+    int lane = (int)(old_row % LANES);
+    for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
+        int64_t q = bond_index(old, group, k, lane);
+        if (old->inverse_length[q] == 0) continue;
+        for (int m = 0; m < row->n; m++) {
+            if (row->nbr[m] != old->nbr[q] || row->w[m] == 0) continue;
+            if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, q);
+            if (old->w[q] != 0) continue;
+            row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
+            row->cut_volume += p->volume0[row->nbr[m]];
+        }
+    }
+}
+
+/* A row that held its whole family before is the same row now. */
+static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
+{
+    int64_t group = old_row / LANES;
+    int lane = (int)(old_row % LANES);
+    row->n = 0;
+    for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
+        int64_t q = bond_index(old, group, k, lane);
+        if (old->inverse_length[q] == 0) continue;
+        row->nbr[row->n] = old->nbr[q];
+        row->inverse_length[row->n] = old->inverse_length[q];
+        if (old->plastic_stretch) row->plastic[row->n] = stored_plasticity(old, q);
+        row->w[row->n++] = old->w[q];
+    }
+    row->trigger = old->trigger[old_row];
+    row->family_volume = old->family_volume[old_row];
+    row->cut_volume = old->broken_volume[old_row];
+}
+
+void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
+              const struct pair_table *pairs, int32_t i, int room, bool weigh)
+{
+    int64_t before = old ? old->row_of[i] : -1;
+    if (before >= 0 && old->whole[before]) {
+        row_copy(row, old, before);
+        return;
+    }
+    row_search(row, s, p, i, room);
+    if (!weigh) return;
+    row_weigh(row, s, p, pairs, i);
+    if (before >= 0) row_inherit(row, p, old, before);
+}
