@@ -58,6 +58,7 @@ struct engine {
     bool sort_needed;                    /* material points moved to other cells or converted         */
     enum coupling coupling;              /* of the scene; hand-shake where nothing meets              */
     struct rim rim;                      /* damped beside peridynamic particles (FLIP, partial stress) */
+    real damped;                         /* energy that the rim's damping has taken               [J] */
     real rim_share;                      /* of a step; 0: not at all                                  */
     bool uses_partial;                   /* coupling by partial stress                                */
     real *record;                        /* one line of history.csv                                   */
@@ -67,7 +68,8 @@ struct engine {
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
     struct {                             /* a sample in the making (engine_report.h)                  */
         bool due;
-        real kinetic, potential, plastic, fracture, work, held_work;
+        real kinetic, work, held_work;
+        struct energy energy;            /* of the positions of t_n; kinetic comes last               */
     } sampling;
     status history_status;               /* of the last line written                                  */
     double started, last_progress, last_checkpoint;   /* wall clock [s]                               */

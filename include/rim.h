@@ -32,7 +32,7 @@ void rim_make(struct rim *r, const struct particles *p, const struct bond_source
 void rim_free(struct rim *r);
 
 /* One step of damping of strength k = `share` [1], at most 1/16 (motion that alternates from point to point would then
- * stop in one step). */
-void rim_damp(struct rim *r, struct particles *p, real share);
+ * stop in one step). Returns the energy taken [J]. */
+real rim_damp(struct rim *r, struct particles *p, real share);
 
 #endif

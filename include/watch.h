@@ -9,10 +9,16 @@
 #include "loads.h"
 #include "particles.h"
 
+struct energy {
+    real kinetic;                        /* 1/2 m v_before . v_after of the velocity update      [J]  */
+    real strain, plastic;                /* of bonds and material points                         [J]  */
+    real fracture;                       /* of bonds broken                                      [J]  */
+    real damped;                         /* taken by the damping of the rim (rim.h)              [J]  */
+};
+
 struct ledger {
     real time;                           /* [s]                                                       */
-    real kinetic;                        /* 1/2 m v_before . v_after of the velocity update      [J]  */
-    real strain, plastic, fracture;      /* bonds and material points; of both; bonds broken     [J]  */
+    struct energy energy;
     real external_work;                  /* of loads and supports since the start                [J]  */
     real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far     [1]  */
     real momentum[DIM_MAX];              /* [kg m/s]                                                  */
@@ -53,9 +59,9 @@ real watch_kick(const struct particles *p, real dt);
 void watch_momentum(struct watch *w, const struct particles *p, const real *impulse);
 
 /* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After watch_momentum. */
-void watch_ledger(struct watch *w, real t, real kinetic, real strain, real plastic, real fracture, real work);
+void watch_ledger(struct watch *w, real t, const struct energy *energy, real work);
 
-/* (E - E_0 - work)/E_0 at the last sample [1]; NAN without energy at the start. */
+/* (E - E_0 - work)/E_0 at the last sample, what was damped left out of E [1]; NAN without energy at the start. */
 real watch_energy_change(const struct watch *w);
 
 /* Books the first break of the run from FLAG_CRACKED. */

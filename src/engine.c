@@ -104,7 +104,7 @@ static status step(struct engine *e)
     engine_sample_begin(e);
     lap(&e->laps, LAP_WATCH);
     TRY(grid_sort(e));
-    if (e->rim.points > 0 && e->rim_share > 0) rim_damp(&e->rim, p, e->rim_share);
+    if (e->rim.points > 0 && e->rim_share > 0) e->damped += rim_damp(&e->rim, p, e->rim_share);
     lap(&e->laps, LAP_GRID);
     loads_clear(&e->loads, p);
     int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit);         /* 2, 5: forces of bonds; breaking */

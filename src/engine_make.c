@@ -348,6 +348,7 @@ status engine_archive(void *engine, struct archive *a)
     ARCHIVE_VALUE(a, "engine/step", e->step);
     ARCHIVE_VALUE(a, "engine/steps", e->steps);
     ARCHIVE_VALUE(a, "engine/dt", e->dt);
+    ARCHIVE_VALUE(a, "engine/damped", e->damped);
     ARCHIVE_VALUE(a, "engine/residual_step0", e->residual_step0);
     ARCHIVE_VALUE(a, "engine/particle_steps", e->particle_steps);
     ARCHIVE_VALUE(a, "engine/bond_visits", e->bond_visits);

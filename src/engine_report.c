@@ -41,25 +41,26 @@ static bool sample_due(const struct engine *e)
 
 /* ---- columns ----------------------------------------------------------------------------------------------- */
 
-enum { RECORD_FIXED = 19 };
+enum { RECORD_FIXED = 20 };
 
 static const struct column fixed_columns[RECORD_FIXED] = {
     {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
     {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
     {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
-    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}};
+    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}};
 
 static void fill_record(struct engine *e)
 {
     const struct ledger *l = &e->watch.now;
+    const struct energy *u = &l->energy;
     const struct tip *tip = tips_longest(&e->tips);
     real *r = e->record;
     const real fixed[RECORD_FIXED] = {
-        l->time, (real)e->step, l->kinetic, l->strain, l->plastic, l->fracture, l->external_work, l->balance_error,
+        l->time, (real)e->step, u->kinetic, u->strain, u->plastic, u->fracture, l->external_work, l->balance_error,
         l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, (real)e->part.n_of[KIND_PD],
         (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->bonds.n, tip ? tip->growth : 0,
         tip ? tip->place[0] : NAN, tip && e->part.dim > 1 ? tip->place[1] : NAN,
-        tip && e->part.dim > 2 ? tip->place[2] : NAN};
+        tip && e->part.dim > 2 ? tip->place[2] : NAN, u->damped};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probes.columns; c++) r[RECORD_FIXED + c] = e->probes.value[c];
 }
@@ -97,15 +98,19 @@ static void sample_state(struct engine *e)
 
 static void sample_energy(struct engine *e)
 {
-    e->sampling.potential = e->kernels.bond_energy(&e->bonds, &e->part);
-    e->sampling.potential += watch_strain(&e->part, e->scene->material, &e->partial);
-    e->sampling.plastic = watch_plastic(&e->part, e->scene->material, &e->partial) + bond_plastic_work(&e->bonds);
-    e->sampling.fracture = bonds_fracture_energy(&e->bonds);
+    const struct material *m = e->scene->material;
+    e->sampling.energy = (struct energy){
+        .strain = e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, m, &e->partial),
+        .plastic = bond_plastic_work(&e->bonds) + watch_plastic(&e->part, m, &e->partial),
+        .fracture = bonds_fracture_energy(&e->bonds),
+        .damped = e->damped,
+    };
 }
 
 static void sample_write(struct engine *e, real kinetic, real work)
 {
-    watch_ledger(&e->watch, e->t, kinetic, e->sampling.potential, e->sampling.plastic, e->sampling.fracture, work);
+    e->sampling.energy.kinetic = kinetic;
+    watch_ledger(&e->watch, e->t, &e->sampling.energy, work);
     fill_record(e);
     if (e->out && e->history_status == OK) e->history_status = output_history(e->out, e->record);
 }

@@ -106,10 +106,11 @@ static void put_run(struct json *j, const struct engine *e, status s, const char
 static void put_ledger(struct json *j, const struct ledger *l)
 {
     json_open(j, "energy", '{');
-    json_real(j, "kinetic", l->kinetic);
-    json_real(j, "strain", l->strain);
-    json_real(j, "plastic", l->plastic);
-    json_real(j, "fracture", l->fracture);
+    json_real(j, "kinetic", l->energy.kinetic);
+    json_real(j, "strain", l->energy.strain);
+    json_real(j, "plastic", l->energy.plastic);
+    json_real(j, "fracture", l->energy.fracture);
+    json_real(j, "damped", l->energy.damped);
     json_real(j, "external_work", l->external_work);
     json_real(j, "balance_error", l->balance_error);
     json_close(j, '}');

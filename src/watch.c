@@ -166,12 +166,16 @@ void watch_momentum(struct watch *w, const struct particles *p, const real *impu
         w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
 }
 
-static real ledger_energy(const struct ledger *l) { return l->kinetic + l->strain + l->plastic + l->fracture; }
+static real ledger_energy(const struct ledger *l)
+{
+    const struct energy *e = &l->energy;
+    return e->kinetic + e->strain + e->plastic + e->fracture + e->damped;
+}
 
 real watch_energy_change(const struct watch *w)
 {
     if (!(w->energy_start > 0)) return NAN;
-    return (ledger_energy(&w->now) - w->now.external_work) / w->energy_start - 1;
+    return (ledger_energy(&w->now) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
 }
 
 static void ledger_balance(struct watch *w)
@@ -179,18 +183,16 @@ static void ledger_balance(struct watch *w)
     struct ledger *l = &w->now;
     real energy = ledger_energy(l);
     if (!w->started) w->energy_start = energy - l->external_work;
-    real stored = fabs(l->kinetic) + fabs(l->strain) + fabs(l->plastic) + fabs(l->fracture);
+    const struct energy *e = &l->energy;
+    real stored = fabs(e->kinetic) + fabs(e->strain) + fabs(e->plastic) + fabs(e->fracture) + fabs(e->damped);
     w->energy_scale = real_max(w->energy_scale, real_max(stored, fabs(l->external_work)));
     l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
 }
 
-void watch_ledger(struct watch *w, real t, real kinetic, real strain, real plastic, real fracture, real work)
+void watch_ledger(struct watch *w, real t, const struct energy *energy, real work)
 {
     w->now.time = t;
-    w->now.kinetic = kinetic;
-    w->now.strain = strain;
-    w->now.plastic = plastic;
-    w->now.fracture = fracture;
+    w->now.energy = *energy;
     w->now.external_work = work;
     ledger_balance(w);
     w->started = true;

@@ -37,7 +37,7 @@ static struct band band_of(const char *spacing, const char *method)
     if (engine_make(&e, &s, NULL) != OK || engine_run(&e) != OK) fail_msg("%s", status_message());
     const struct tip *tip = tips_longest(&e.tips);
     assert_non_null(tip);
-    struct band b = {band_width(&e, tip->growth), tip->growth, e.watch.now.fracture};
+    struct band b = {band_width(&e, tip->growth), tip->growth, e.watch.now.energy.fracture};
     engine_free(&e);
     scene_free(&s);
     return b;

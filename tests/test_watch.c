@@ -21,7 +21,7 @@ static void ledger_of_a_known_field(void **state)
     assert_near(watch_kinetic(&b.p), kinetic, kinetic * ROUND_OFF);
     real none[DIM_MAX] = {0};
     watch_momentum(&w, &b.p, none);
-    watch_ledger(&w, 0, kinetic, 0, 0, 0, 0);
+    watch_ledger(&w, 0, &(struct energy){kinetic, 0, 0, 0, 0}, 0);
     assert_near(w.now.momentum[0], 1600 * 3 * 2, 1e-9);
     assert_near(w.now.momentum[1], -1600 * 3, 1e-9);
     assert_near(w.now.balance_error, 0, 0);
@@ -31,19 +31,19 @@ static void ledger_of_a_known_field(void **state)
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[1][i] = 1;
     real impulse[DIM_MAX] = {0, 1600 * 3 * 2, 0};
     watch_momentum(&w, &b.p, impulse);
-    watch_ledger(&w, 1, kinetic, 2, 3, 0, 5);
+    watch_ledger(&w, 1, &(struct energy){kinetic, 2, 3, 0, 0}, 5);
     assert_true(w.now.momentum_error < 1e-13);
     assert_true(fabs(w.now.balance_error) < ROUND_OFF);
 
     /* momentum from nowhere shows, and stays on record; so does energy from nowhere */
     impulse[1] -= 0.01 * moving;
     watch_momentum(&w, &b.p, impulse);
-    watch_ledger(&w, 2, kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.04 * kinetic, 0);
+    watch_ledger(&w, 2, &(struct energy){kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.01 * kinetic}, 0);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, 0.1 / 1.1, 1e-12);
     impulse[1] += 0.01 * moving;
     watch_momentum(&w, &b.p, impulse);
-    watch_ledger(&w, 3, kinetic, 0, 0, 0, 0.2 * kinetic);
+    watch_ledger(&w, 3, &(struct energy){kinetic, 0, 0, 0, 0}, 0.2 * kinetic);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, -0.2 / 1.1, 1e-12);
     assert_near(w.now.time, 3, 0);
