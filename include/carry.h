@@ -1,6 +1,6 @@
 /* floor 3: the couplings of Zeng et al. 2021, in which the grid also moves peridynamic particles: those in the cells at
- * the interface (PM, PG), or all of them (PMG, PGG: one unified grid). Carried particles give mass, momentum and the force of
- * their bonds to the nodes and take velocity and position from them, but give no stress: their bonds are their stress. */
+ * the interface (PM, PG), or all of them (PMG, PGG: one unified grid). Carried particles give mass, momentum and the force
+ * of their bonds to the nodes and take velocity and position from them, but give no stress: their bonds are their stress. */
 #ifndef CLEAVE_CARRY_H
 #define CLEAVE_CARRY_H
 
@@ -19,8 +19,8 @@ struct carried {
 static inline bool coupling_carries(enum coupling c) { return c >= COUPLING_PM; }
 static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
 
-/* Before the forces of a step: lists and flags (FLAG_CARRIED) the peridynamic particles that the grid moves, and sorts them.
- * At the interface these are the particles in cells that share a node with a cell that holds a material point; so the
+/* Before the forces of a step: lists and flags (FLAG_CARRIED) the peridynamic particles that the grid moves, and sorts
+ * them. At the interface these are the particles in cells that share a node with a cell that holds a material point; so the
  * choice does not depend on the shape functions. The grid must cover all material points, in a unified grid all. */
 void carry(struct carried *c, enum coupling coupling, struct particles *p, const struct grid *g);
 /* None: no material point is left. */

@@ -1,15 +1,17 @@
-/* floor 3: the rim: material points beside peridynamic particles, and the damping of motion there that the grid cannot see.
+/* floor 3: the rim: material points beside peridynamic particles, and the damping of motion there that the grid cannot
+ * see.
  *
- * A wave that crosses from material points to bonds leaves motion behind that FLIP keeps for ever: points of a cell at the
- * edge moving against each other, or a light node at the edge swinging, since forces on single points are not smooth in
- * space. Measured in a bar, that is most of what a short pulse loses to the interface. The cure is fourth-order viscosity
+ * A wave that crosses from material points to bonds leaves motion behind that FLIP keeps for ever: points of a cell at
+ * the edge moving against each other, or a light node at the edge swinging, since forces on single points are not smooth
+ * in space. Measured in a bar, that is most of what a short pulse loses to the interface. The cure is fourth-order viscosity
  * on the rim alone:
  *
  *     d_i = s sum_j ((v_j - v_i) . e_ij) e_ij                  for the points i of the rim, j their nearest neighbours
  *     m_j dv_j = -k sum_i m_i s ((d_i - d_j) . e_ij) e_ij      (d = 0 outside the rim),  dv = -k B^T B v
  *
- * All exchanges are central and in pairs: momentum and angular momentum are kept to the last digits, a rigid motion and in
- * whole neighbourhoods a uniform strain rate are not touched, energy only falls. Long waves lose (wave number x spacing)^4. */
+ * All exchanges are central and in pairs: momentum and angular momentum are kept to the last digits, a rigid motion and
+ * in whole neighbourhoods a uniform strain rate are not touched, energy only falls. Long waves lose (wave number x
+ * spacing)^4. */
 #ifndef CLEAVE_RIM_H
 #define CLEAVE_RIM_H
 

@@ -9,16 +9,14 @@
 #include "kernels.h"
 #include "lanes.h"
 
-/* Eight entries of a small table. */
-static ALWAYS_INLINE lanes bond_table(const real *table, const int32_t *entry) { return lanes_gather(table, entry); }
-
 /* Return mapping of eight bonds from entry q on, those with `intact` set; returns what they are stretched elastically.
  * Isotropic linear hardening, with f over the bond's stiffness:
  *     phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha += g
  * A plain cap on the force (Zeng et al. 2021, eq. 18) has no unloading; this is the same in monotonic loading. */
 static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes stretch, lanes_mask intact)
 {
-    const lanes yield = bond_table(b->yield.stretch, b->pair + q), hardening = bond_table(b->yield.hardening, b->pair + q);
+    const lanes yield = lanes_gather(b->yield.stretch, b->pair + q);
+    const lanes hardening = lanes_gather(b->yield.hardening, b->pair + q);
     lanes plastic = lanes_load(b->plastic_stretch + q), path = lanes_load(b->plastic_path + q);
     const lanes trial = stretch - plastic, zero = lanes_of(0);
     const lanes size = lanes_choose(trial < zero, -trial, trial);
@@ -78,7 +76,8 @@ static inline real bond_energy_stored(const struct bonds *b, const struct partic
 static inline real bond_work_stored(const struct bonds *b, int64_t q)
 {
     if (b->w[q] == 0 || b->plastic_path[q] == 0) return 0;
-    const real path = b->plastic_path[q], yield = b->yield.stretch[b->pair[q]], hardening = b->yield.hardening[b->pair[q]];
+    const int32_t pair = b->pair[q];
+    const real path = b->plastic_path[q], yield = b->yield.stretch[pair], hardening = b->yield.hardening[pair];
     return b->stiffness * b->w[q] * path * (yield + 0.5 * hardening * path) / b->inverse_length[q];
 }
 

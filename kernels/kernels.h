@@ -61,8 +61,8 @@ int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_l
 /* Half the elastic energy of every row's intact bonds, added up in fixed blocks [J]. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
 
-/* Half the plastic work k (s_y alpha + H_b alpha^2/2) of every row's bonds, broken ones included, added up in fixed blocks
- * [J]. 0 where no bond yields. */
+/* Half the plastic work k (s_y alpha + H_b alpha^2/2) of every row's bonds, broken ones included, added up in fixed
+ * blocks [J]. 0 where no bond yields. */
 real bond_plastic_work(const struct bonds *b);
 
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
@@ -113,8 +113,9 @@ void grid_clear(struct grid *g);         /* mass, momentum, force = 0 */
 
 /* Step 3: velocity = (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready for
  * the second map. At walls the velocity is prescribed and the change is that of the prescribed motion. Nodes
- * lighter than `smallest_mass` [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what the walls gave to impulse [N s] and work [J]; with
- * APIC, where particles take the nodal velocity itself, that includes the momentum they replaced. */
+ * lighter than `smallest_mass` [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what the
+ * walls gave to impulse [N s] and work [J]; with APIC, where particles take the nodal velocity itself, that includes the
+ * momentum they replaced. */
 void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
                real *work);
 

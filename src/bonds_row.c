@@ -112,8 +112,8 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
     for (int d = 0; d < p->dim; d++) e[d] = p->x[d][j] - p->x[d][i], length2 += square(e[d]);
     const real length = sqrt(length2);
     for (int d = 0; d < p->dim; d++) e[d] /= length;
-    const real elastic = 0.5 * (elastic_strain_along(p, s->material, i, e) + elastic_strain_along(p, s->material, other, e));
-    return (struct bond_plasticity){length / r - 1 - elastic, 0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
+    const real elastic = elastic_strain_along(p, s->material, i, e) + elastic_strain_along(p, s->material, other, e);
+    return (struct bond_plasticity){length / r - 1 - 0.5 * elastic, 0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
 /* Lengths, weights and what cracks cut, of the bonds that row_search has found. */

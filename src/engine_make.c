@@ -47,8 +47,8 @@ static void make_yields(struct engine *e)
     e->source.yield = (struct bond_yield){e->pair_yield, e->pair_hardening, s->materials};
 }
 
-/* sigma_max is the stress at s_c, E s_c where nothing yields, unless the scene says otherwise: a larger one lets points pass the strain at which bonds break. Only
- * adaptive runs convert. */
+/* sigma_max is the stress at s_c, E s_c where nothing yields, unless the scene says otherwise: a larger one lets points
+ * pass the strain at which bonds break. Only adaptive runs convert. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;

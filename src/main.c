@@ -59,7 +59,8 @@ int main(int argc, char **argv)
 {
     wait_politely(argv);
     status result = call(argc, argv);
-    if ((fflush(stdout) != 0 || ferror(stdout)) && result == OK) result = status_set(FAILED, "cannot write to standard output");
+    const bool lost = fflush(stdout) != 0 || ferror(stdout);
+    if (lost && result == OK) result = status_set(FAILED, "cannot write to standard output");
     if (result != OK && status_message()[0]) fprintf(stderr, "%s\n", status_message());
     fflush(stderr);
     _exit(result);                           /* libraries that failed to write may not survive their exit handlers */

@@ -129,7 +129,8 @@ void rim_free(struct rim *r)
 /* ---- a step ------------------------------------------------------------------------------------------- */
 
 /* Adds factor ((b - a) . e) e, e along the line between particles i and j. */
-static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor, real *sum)
+static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor,
+                      real *sum)
 {
     real y[DIM_MAX], length2 = 0, along = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -194,6 +195,6 @@ real rim_damp(struct rim *r, struct particles *p, real share)
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, share);
     }
-    for (int64_t k = 0; k < r->n; k++) lost += change_apply(r, p, k);        /* few, and the sum must not depend on threads */
+    for (int64_t k = 0; k < r->n; k++) lost += change_apply(r, p, k);    /* few; the sum must not depend on threads */
     return lost;
 }

@@ -55,8 +55,8 @@ static void test_path(void **state)
     cloud_free(&c);
 }
 
-/* Work put into a bond along the same path, by the trapezoidal rule on 40,000 steps (exact for a force linear between them;
- * at three corners off by half a step of the slope's change times the step: 1e-9): elastic energy and plastic work. */
+/* Work put into a bond along the same path, by the trapezoidal rule on 40,000 steps (exact for a force linear between
+ * them; at three corners off by half a step of the slope's change times the step: 1e-9): elastic energy and plastic work. */
 static void test_work(void **state)
 {
     (void)state;
@@ -165,7 +165,10 @@ static void test_ends(void **state)
     int64_t checked = 0;
     body_make(&c, SPACE_PLANE_STRESS, 4);
     const struct bonds *b = &c.bonds;
-    for (int step = 0; step < 5; step++) shake(&c, &seed), bond_force_table[2][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit);
+    for (int step = 0; step < 5; step++) {
+        shake(&c, &seed);
+        bond_force_table[2][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit);
+    }
     for (int64_t r = 0; r < b->rows; r++)
         for (int64_t k = 0; k < b->slot[r / LANES + 1] - b->slot[r / LANES]; k++) {
             int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES)), other = b->row_of[b->nbr[q]];
