@@ -23,6 +23,8 @@ enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
 enum surface_rule { SURFACE_NONE, SURFACE_VOLUME };
 enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
+/* Influence function omega(r): 1, exp(-r^2/delta^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing). */
+enum influence { INFLUENCE_ONE, INFLUENCE_GAUSSIAN, INFLUENCE_INVERSE, INFLUENCE_INVERSE_SQUARE, INFLUENCE_LINEAR };
 
 /* How a family is made and weighed. */
 struct family {
@@ -31,12 +33,14 @@ struct family {
     enum calibration calibration;
     enum surface_rule surface;
     enum shell_rule shells;
+    enum influence influence;
     real spacing;                        /* [m]                                                      */
     real horizon;                        /* delta [m]                                                */
     real cutoff;                         /* farthest neighbour, with its relative tolerance [m]      */
     real section;                        /* A (1D) [m^2], thickness (2D) [m], 1 (3D)                 */
     real cell_volume;                    /* of a lattice particle: spacing^dim section [m^3]         */
     real full;                           /* sum V_j beta of a full family [m^3]                      */
+    real weighted;                       /* sum omega beta r^2 of a full family, weights as stored [m^2] */
     real shell_weight[2];                /* along the axes; along the diagonals (shells: isotropic)  */
 };
 
@@ -55,6 +59,22 @@ struct bond_yield {
 
 /* What yielding has done to a bond: stretch without force, and the way it was yielded back and forth. */
 struct bond_plasticity { real stretch, path; };
+
+/* State-based materials: A and B of kernels/state_laws.h, and the bulk modulus of the space [Pa]. */
+struct state_modulus { real A, B, bulk; };
+
+/* Where a mirror image comes from, and the axis that its mirror turns round (-1: none, a clamped plane). */
+struct state_image { int32_t source; int axis; };
+
+/* What particles know of their families; only state-based models have it. */
+struct state {
+    const struct state_modulus *modulus; /* [materials]; NULL: bonds know nothing but themselves             */
+    bool local;                          /* Q of what a family still has, not of a full one                   */
+    real *weighted;                      /* [groups 8] Q                                               [m^2] */
+    real *pressure, *spring;             /* [n_all] P and g                                          [N/m^2], [N/m] */
+    real *turn[DIM_MAX * DIM_MAX];       /* [n_all] g R, row major; only models with rotations         [N/m] */
+    struct state_image *image;           /* [n_all - n]                                                       */
+};
 
 struct bonds {
     int64_t rows, groups, slots;
@@ -79,6 +99,7 @@ struct bonds {
     real *fracture_energy;               /* [groups 8] half of each broken bond's energy        [J]       */
     real *plastic_work;                  /* [groups 8] half of what its broken bonds had dissipated    [J] */
     int32_t *broken;                     /* [groups 8] bonds broken by load since the start               */
+    struct state state;
     real stiffness;                      /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
@@ -90,6 +111,9 @@ struct bond_source {
     int materials;
     struct bond_limit limit;
     struct bond_yield yield;
+    const struct state_modulus *modulus; /* of state-based models, else NULL                          */
+    bool local, turns;                   /* normalisation by what a family has; model with rotations  */
+    const int *mirror_axis;              /* [loads] axis of a plane of symmetry, -1: clamped          */
     const struct crack *crack;
     int cracks;
     const struct image *image;           /* of loads                                                  */
@@ -102,7 +126,7 @@ struct bond_source {
 void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
 /* c of a material in this family [N/m^6]. */
 real family_micro_modulus(const struct family *f, const struct material *m);
-/* beta x shell weight of a reference bond of components xi and length r [1]. */
+/* beta x omega x shell weight of a reference bond of components xi and length r [1]. */
 real family_weight(const struct family *f, const real *xi, real r);
 
 /* Most particles within the cutoff of any; reference positions do not move, so once is enough. */
@@ -123,6 +147,9 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 
 /* The state that rows made anew do not know: what load has broken. */
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
+
+/* Q of every row anew, for what is broken now. Nothing without state-based models. */
+void state_weigh(struct bonds *b, const struct particles *p, const struct family *f);
 
 /* Bond energy released by breaking so far [J]. */
 real bonds_fracture_energy(const struct bonds *b);

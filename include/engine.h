@@ -8,6 +8,7 @@
 #include "carry.h"
 #include "cells.h"
 #include "convert.h"
+#include "critical_step.h"
 #include "fill.h"
 #include "grid.h"
 #include "kernels.h"
@@ -28,6 +29,8 @@ struct engine {
     struct cells cells;                  /* search over reference positions                           */
     struct bond_source source;
     struct bonds bonds;
+    struct state_modulus *modulus;       /* [materials] of state-based models, else NULL              */
+    int *mirror_axis;                    /* [boundaries] of state-based models, else NULL             */
     real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
     real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
     real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */

@@ -39,9 +39,10 @@ real material_micro_modulus(const struct material *m, enum space space, real sig
  * A [m^2] in 1D, the thickness h [m] in 2D, ignored in 3D. */
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section);
 
-/* Critical stretch from G_c, the energy of all bonds that cross a unit plane, for the continuum micro-modulus;
- * horizon [m]. */
-real material_critical_stretch(const struct material *m, enum space space, real horizon);
+/* Critical stretch from G_c, the energy of all bonds that cross a unit plane; horizon [m]. Bond-based for the continuum
+ * micro-modulus; ordinary state-based (Madenci & Oterkus 2014); with rotations for omega = delta/r (derived like theirs). */
+enum stretch_of { STRETCH_BOND, STRETCH_OSPD, STRETCH_MOSPD };
+real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
 /* Stress at a strain of monotonic uniaxial loading [Pa]. */
 real material_stress_at(const struct material *m, real strain);

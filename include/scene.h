@@ -15,6 +15,7 @@
 #include "region.h"
 
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE };
+enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
 struct scene_body {
     char name[NAME_MAX_LENGTH];
@@ -49,7 +50,7 @@ struct scene {
     real section;                        /* 1D: cross-section A [m^2]; key `section`, default 1       */
     real duration;                       /* [s]                                                       */
     enum method method;
-    enum pd_model model;
+    enum model model;
 
     int materials;  struct material *material;
     int bodies;     struct scene_body *body;
@@ -61,6 +62,8 @@ struct scene {
     enum calibration calibration;
     enum surface_rule surface;           /* resolved: never "auto" here                               */
     enum shell_rule shells;
+    enum influence influence;            /* resolved                                                  */
+    bool bulk;                           /* state-based: normalised as full families are              */
     bool has_pd_region;  struct region pd_region;      /* peridynamic from the start (adaptive)       */
 
     real cell;                           /* grid node distance, in spacings                           */

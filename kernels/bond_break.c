@@ -4,6 +4,7 @@
 
 #include "bond_laws.h"
 #include "kernels.h"
+#include "state_laws.h"
 
 /* Stretch of stored bond q between i and j [1]. */
 static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
@@ -25,10 +26,28 @@ static void set_flag(struct particles *p, int32_t i, int flag)
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
+/* What a bond's row loses with it: half its energy; of a state-based bond, what this end's force state has put in [J]. */
+static real half_energy(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real stretch)
+{
+    real T[DIM_MAX], xi[DIM_MAX];
+    if (b->state.modulus) return state_own_force(b, p, q, i, T, xi, p->dim, b->state.turn[0] != NULL);
+    return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / b->inverse_length[q];
+}
+
+/* Q of a row whose bonds have broken, from those it has left: a difference would leave round-off for the last of them. */
+static void weigh_again(struct bonds *b, int64_t row)
+{
+    real Q = 0;
+    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        if (b->w[q] != 0) Q += b->w[q] / square(b->inverse_length[q]);
+    }
+    b->state.weighted[row] = Q;
+}
+
 static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
 {
-    const real energy = 0.5 * square(bond_elastic_one(b, q, stretch));
-    b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * energy / b->inverse_length[q];
+    b->fracture_energy[row] += half_energy(b, p, q, i, stretch);
     if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_stored(b, q);
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
@@ -44,6 +63,7 @@ int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond
     for (int l = 0; l < LANES && group * LANES + l < b->rows; l++) {
         int64_t row = group * LANES + l;
         int32_t i = b->particle[row];
+        const int64_t before = broken;
         for (int64_t k = 0; k < b->slot[group + 1] - b->slot[group]; k++) {
             int64_t q = bond_index(b, group, k, l);
             if (b->w[q] == 0) continue;
@@ -53,6 +73,7 @@ int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond
             bond_break(b, p, row, q, i, j, stretch);
             broken++;
         }
+        if (broken > before && b->state.modulus && b->state.local && b->whole[row]) weigh_again(b, row);
     }
     return broken;
 }

@@ -3,9 +3,10 @@
 
 void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer)
 {
-    k->bond_force = bond_force_table[dim][model];
-    k->bond_energy = bond_energy_table[dim][model];
-    k->bond_stress = bond_stress_table[dim][model];
+    const bool states = state_force_table[dim][model];
+    k->bond_force = states ? state_force_table[dim][model] : bond_force_table[dim][model];
+    k->bond_energy = states ? state_energy_table[dim][model] : bond_energy_table[dim][model];
+    k->bond_stress = states ? state_stress_table[dim][model] : bond_stress_table[dim][model];
     k->pd_move = pd_move_table[dim];
     k->p2g = p2g_table[dim][shape][transfer];
     k->remap = remap_table[dim][shape];

@@ -14,6 +14,8 @@ enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
 enum pd_model {
     PD_BOND,                             /* elastic, brittle                                         */
     PD_BOND_PLASTIC,                     /* the same with yielding: needs the plastic arrays of bonds */
+    PD_OSPD,                             /* ordinary state-based: needs the state arrays of bonds    */
+    PD_MOSPD,                            /* with effective displacements, free of rotation           */
     PD_MODELS
 };
 
@@ -99,6 +101,9 @@ struct kernels {                         /* chosen once, before the loop        
 extern bond_force_fn *const bond_force_table[DIM_MAX + 1][PD_MODELS];
 extern bond_energy_fn *const bond_energy_table[DIM_MAX + 1][PD_MODELS];
 extern bond_stress_fn *const bond_stress_table[DIM_MAX + 1][PD_MODELS];
+extern bond_force_fn *const state_force_table[DIM_MAX + 1][PD_MODELS];
+extern bond_energy_fn *const state_energy_table[DIM_MAX + 1][PD_MODELS];
+extern bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS];
 extern pd_move_fn *const pd_move_table[DIM_MAX + 1];
 extern p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS];
 extern remap_fn *const remap_table[DIM_MAX + 1][SHAPES];

@@ -9,6 +9,8 @@
     X(1, BOND) X(2, BOND) X(3, BOND)                                            \
     X(1, BOND_PLASTIC) X(2, BOND_PLASTIC) X(3, BOND_PLASTIC)
 
+#define STATE_VARIANTS(X) X(2, OSPD) X(3, OSPD) X(2, MOSPD) X(3, MOSPD)
+
 #define SHAPE_VARIANTS(X)                                                       \
     X(1, LINEAR) X(1, GIMP) X(1, CPGIMP) X(1, QUADRATIC) X(1, CUBIC)            \
     X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \

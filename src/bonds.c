@@ -146,7 +146,8 @@ static struct pair_table pairs_make(const struct bond_source *s)
     real *c = NEW("bonds.moduli", s->materials, real);
     for (int m = 0; m < s->materials; m++) c[m] = family_micro_modulus(&s->family, &s->material[m]);
     for (int a = 0; a < s->materials; a++)       /* springs in series across a material interface */
-        for (int b = 0; b < s->materials; b++) t.ratio[a * s->materials + b] = 2 * (c[a] * c[b]) / (c[a] + c[b]) / c[0];
+        for (int b = 0; b < s->materials; b++)
+            t.ratio[a * s->materials + b] = s->modulus ? 1 : 2 * (c[a] * c[b]) / (c[a] + c[b]) / c[0];
     memory_free(c);
     return t;
 }
@@ -247,6 +248,7 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
         if (b->whole[r])
             p->damage[b->particle[r]] = b->family_volume[r] > 0 ? b->broken_volume[r] / b->family_volume[r] : 0;
     }
+    state_make(b, p, s);
 }
 
 void bonds_free(struct bonds *b)
@@ -264,6 +266,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->plastic_path);
     memory_free(b->pair);
     memory_free(b->plastic_work);
+    state_free(b);
     memory_free(b->trigger);
     memory_free(b->family_volume);
     memory_free(b->broken_volume);
@@ -279,6 +282,7 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
     int most = bonds_room(p, s);
     struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
+    plain.influence = INFLUENCE_ONE;
 #pragma omp parallel
     {
         int32_t *found = NEW("bonds.found", most, int32_t);

@@ -47,6 +47,26 @@ static void make_yields(struct engine *e)
     e->source.yield = (struct bond_yield){e->pair_yield, e->pair_hardening, s->materials};
 }
 
+/* A and B of kernels/state_laws.h. */
+static void make_states(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    const real D = s->dim;
+    if (s->model == MODEL_BOND) return;
+    e->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
+    for (int k = 0; k < s->materials; k++) {
+        const struct material *m = &s->material[k];
+        const bool turns = s->model == MODEL_MOSPD;
+        e->modulus[k] = (struct state_modulus){D * D * (turns ? m->c12 : m->c12 - m->shear),
+                                               turns ? 2 * D * m->shear : D * (D + 2) * m->shear, m->bulk};
+    }
+    e->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
+    for (int b = 0; b < s->boundaries; b++)
+        e->mirror_axis[b] = s->boundary[b].hold_tangential ? -1 : s->boundary[b].axis;
+    e->source.modulus = e->modulus, e->source.mirror_axis = e->mirror_axis;
+    e->source.local = !s->bulk, e->source.turns = s->model == MODEL_MOSPD;
+}
+
 /* sigma_max is the stress at s_c, E s_c where nothing yields, unless the scene says otherwise: a larger one lets points
  * pass the strain at which bonds break. Only adaptive runs convert. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
@@ -71,6 +91,7 @@ static void make_materials(struct engine *e)
     }
     make_limits(e);
     make_yields(e);
+    make_states(e);
 }
 
 /* ---- peridynamics ----------------------------------------------------------------------------------- */
@@ -80,6 +101,7 @@ static void make_family(struct engine *e)
     const struct scene *s = e->scene;
     struct family *f = &e->source.family;
     f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
+    f->influence = s->influence;
     family_make(f, s->space, s->spacing, s->horizon, s->space == SPACE_LINE ? s->section : s->thickness);
     e->source.material = s->material, e->source.materials = s->materials;
     e->source.crack = has_peridynamics(s) ? s->crack : NULL;
@@ -157,6 +179,22 @@ static real fastest(const struct engine *e)
     return sqrt(speed2);
 }
 
+/* Bonds have a sharp bound over all particles, whether peridynamic now or later; states are iterated: on the body itself
+ * where all of it is peridynamic, else on a block of lattice. */
+static real critical_of_bonds(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real step = INFINITY;
+    if (s->model == MODEL_BOND) return bonds_critical_step(&e->part, &e->source);
+    if (s->method == METHOD_PD) return critical_step_of(&e->bonds, &e->part, e->kernels.bond_force, s->spacing);
+    for (int m = 0; m < s->materials; m++) {
+        struct bond_source one = e->source;      /* its particles are of material 0 */
+        one.modulus = &e->modulus[m];
+        step = real_min(step, critical_step_of_lattice(&one, e->kernels.bond_force, s->material[m].density));
+    }
+    return step;
+}
+
 #define STEPS_MOST 1e12                  /* as scene_check.c: more than any machine will ever do */
 
 /* The smaller of both methods' limits, whichever kinds are present now: particles convert. */
@@ -164,7 +202,7 @@ static status make_time_step(struct engine *e)
 {
     const struct scene *s = e->scene;
     e->dt_critical = INFINITY;
-    if (has_peridynamics(s)) e->dt_critical = bonds_critical_step(&e->part, &e->source);
+    if (has_peridynamics(s)) e->dt_critical = critical_of_bonds(e);
     if (s->method != METHOD_PD) {
         real share = s->transfer == TRANSFER_APIC ? STEP_APIC : STEP_FLIP;
         e->dt_critical = real_min(e->dt_critical, share * e->grid.h / (e->wave_speed + fastest(e)));
@@ -258,6 +296,13 @@ static int optional_arrays(const struct scene *s)
     return optional;
 }
 
+static enum pd_model law_of(const struct engine *e)
+{
+    if (e->scene->model == MODEL_OSPD) return PD_OSPD;
+    if (e->scene->model == MODEL_MOSPD) return PD_MOSPD;
+    return e->source.yield.stretch ? PD_BOND_PLASTIC : PD_BOND;
+}
+
 status engine_make(struct engine *e, const struct scene *s, struct output *out)
 {
     memset(e, 0, sizeof *e);
@@ -266,6 +311,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     e->optional = optional_arrays(s);
     make_materials(e);
     make_family(e);
+    kernels_choose(&e->kernels, s->dim, law_of(e), s->shape, s->transfer);
     TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
     TRY(named(s, loads_make(&e->loads, s->boundary, s->boundaries, &e->part, s->spacing, e->source.family.cutoff,
@@ -277,7 +323,6 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     make_grid(e);
     TRY(named(s, make_time_step(e)));
     make_rim_share(e);
-    kernels_choose(&e->kernels, s->dim, e->source.yield.stretch ? PD_BOND_PLASTIC : s->model, s->shape, s->transfer);
     e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false};
     e->strain_stress = largest_stress(&e->part);
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
@@ -303,6 +348,8 @@ void engine_free(struct engine *e)
     loads_free(&e->loads);
     particles_free(&e->part);
     memory_free(e->pair_stretch);
+    memory_free(e->modulus);
+    memory_free(e->mirror_axis);
     memory_free(e->pair_yield);
     memory_free(e->pair_hardening);
     memory_free(e->neighbour_volume);
@@ -343,6 +390,7 @@ status engine_archive(void *engine, struct archive *a)
     TRY(particles_archive(&e->part, a, e->optional));
     if (!a->saving) rebuild(e);
     TRY(bonds_archive(&e->bonds, &e->part, a));
+    if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
     if (!a->saving) make_partial(e);
     ARCHIVE_VALUE(a, "engine/t", e->t);
     ARCHIVE_VALUE(a, "engine/step", e->step);

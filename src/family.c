@@ -19,6 +19,17 @@ static real ramp(const struct family *f, real r)
 /* Volume share beta of a neighbour at distance r [1]. */
 static real family_beta(const struct family *f, real r) { return f->volume == VOLUME_WHOLE ? 1 : ramp(f, r); }
 
+static real influence(const struct family *f, real r)
+{
+    switch (f->influence) {
+    case INFLUENCE_GAUSSIAN: return exp(-square(r / f->horizon));
+    case INFLUENCE_INVERSE: return f->horizon / r;
+    case INFLUENCE_INVERSE_SQUARE: return square(f->horizon / r);
+    case INFLUENCE_LINEAR: return 1 - r / (f->horizon + f->spacing);
+    default: return 1;
+    }
+}
+
 real family_weight(const struct family *f, const real *xi, real r)
 {
     int dim = space_dim(f->space);
@@ -26,13 +37,14 @@ real family_weight(const struct family *f, const real *xi, real r)
     for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
     /* mean of n1^4 + .. over all directions: 1, 3/4, 3/5 */
     bool axial = fourth > 3.0 / (dim + 2) + 1e-9;
-    return family_beta(f, r) * f->shell_weight[axial ? 0 : 1];
+    return family_beta(f, r) * influence(f, r) * f->shell_weight[axial ? 0 : 1];
 }
 
 /* Sums over the lattice points of a full family. */
 struct lattice_sums {
     real volume;                         /* sum V beta                    */
     real sigma;                          /* sum r V beta shell            */
+    real weighted;                       /* sum r^2 of the weights as bonds store them */
     real axial[2], mixed[2];             /* sum r V beta n1^4, n1^2 n2^2, by class of direction */
 };
 
@@ -45,6 +57,7 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     int class = fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1;
     s->volume += V * beta;
     s->sigma += r * V * family_weight(f, xi, r);
+    s->weighted += r * r * (float)family_weight(f, xi, r);
     s->axial[class] += r * V * beta * fourth / dim;
     s->mixed[class] += dim > 1 ? r * V * beta * (1 - fourth) / (dim * (dim - 1)) : 0;
 }
@@ -91,6 +104,7 @@ void family_make(struct family *f, enum space space, real spacing, real horizon_
     f->cutoff *= 1 + DISTANCE_TOLERANCE;
     if (f->shells == SHELLS_ISOTROPIC) shells_isotropic(f);
     f->full = lattice_sums(f).volume;
+    f->weighted = lattice_sums(f).weighted;
 }
 
 real family_micro_modulus(const struct family *f, const struct material *m)

@@ -31,7 +31,7 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
 }
 
 /* The energy of all bonds across a unit area at s_c is G_c; the thickness cancels. */
-real material_critical_stretch(const struct material *m, enum space space, real horizon)
+static real critical_bond(const struct material *m, enum space space, real horizon)
 {
     real ratio = m->energy_release_rate / (m->bulk * horizon);
     switch (space_dim(space)) {
@@ -39,6 +39,17 @@ real material_critical_stretch(const struct material *m, enum space space, real 
     case 2: return sqrt(pi / 3 * ratio);
     default: return sqrt(5.0 / 9 * ratio);
     }
+}
+
+real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model)
+{
+    const real G = m->shear, lambda = m->c12, dim = space_dim(space);
+    real stiffness = dim == 2 ? 6 * G / pi + 16 * (m->bulk - 2 * G) / (9 * pi * pi)
+                              : 3 * G + 81.0 / 256 * (m->bulk - 5 * G / 3);
+    if (model == STRETCH_BOND) return critical_bond(m, space, horizon);
+    if (model == STRETCH_MOSPD) stiffness = dim == 2 ? 3 * G / pi + 16 * lambda / (9 * pi * pi)
+                                                     : 1.2 * G + 81.0 / 256 * lambda;
+    return sqrt(m->energy_release_rate / (horizon * stiffness));
 }
 
 /* Rayleigh's function D(v) = 4 a_d a_s - (1 + a_s^2)^2, positive below the Rayleigh speed (Freund 1990). */

@@ -59,7 +59,10 @@ static status check_transfer(struct reader *r, const struct node *root)
 static void resolve_defaults(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
-    if (!below(root, "pd", "surface")) s->surface = s->method == METHOD_PD ? SURFACE_VOLUME : SURFACE_NONE;
+    if (!below(root, "pd", "surface"))
+        s->surface = s->method == METHOD_PD && s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
+    if (!below(root, "pd", "influence")) s->influence = s->model == MODEL_BOND ? INFLUENCE_ONE : INFLUENCE_INVERSE;
+    if (!below(root, "pd", "normalisation")) s->bulk = s->model == MODEL_MOSPD;
     if (!below(root, "mpm", "shape"))
         s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
     if (!below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
@@ -76,11 +79,29 @@ static status check_times(struct reader *r, const struct node *root)
     return OK;
 }
 
+/* State-based models have families in the plane and in space, and constants that correct surfaces by themselves. */
+static status check_model(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *model = node_find(root, "model"), *surface = below(root, "pd", "surface");
+    if (s->model == MODEL_BOND) return OK;
+    if (s->dim == 1) return fault(r, model, "%s has no meaning in space line; bond is expected", shown(r, model));
+    if (surface && s->surface != SURFACE_NONE)
+        return fault(r, surface, "%s is for model bond; with %s pd.normalisation says what surfaces get",
+                     shown(r, surface), shown(r, model));
+    for (int m = 0; m < s->materials; m++)
+        if (material_yields(&s->material[m]))
+            return fault(r, model, "%s does not yield in this version; model bond, or no yield_stress, is expected",
+                         shown(r, model));
+    return OK;
+}
+
 status check_scene(struct reader *r, const struct node *root)
 {
     resolve_defaults(r, root);
     TRY(check_measure(r, root));
     TRY(check_transfer(r, root));
+    TRY(check_model(r, root));
     TRY(check_times(r, root));
     return check_steps(r, root);
 }

@@ -36,7 +36,7 @@ static status check_poisson(struct reader *r, const struct node *n, const struct
     const struct scene *s = r->scene;
     real bond = material_bond_poisson(s->space);
     const struct node *poisson = node_find(n, "poisson");
-    if (!poisson || s->method == METHOD_MPM || s->space == SPACE_LINE || fabs(m->poisson - bond) <= 1e-6) return OK;
+    if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE || fabs(m->poisson - bond) <= 1e-6) return OK;
     return fault(r, poisson, "%s is impossible with bond-based peridynamics in space %s; %s is expected",
                  shown(r, poisson), space_names[s->space], s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4");
 }
@@ -69,7 +69,7 @@ static status read_material(struct reader *r, const struct node *n, struct mater
     TRY(read_hardening(r, n, m));
     material_derive(m, s->space);
     if (!isnan(m->energy_release_rate))
-        m->critical_stretch = material_critical_stretch(m, s->space, s->horizon * s->spacing);
+        m->critical_stretch = material_critical_stretch(m, s->space, s->horizon * s->spacing, (enum stretch_of)s->model);
     if (m->critical_stretch > 0) return OK;
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
 }

@@ -24,6 +24,7 @@ struct cloud_plan {
     enum calibration calibration;
     enum surface_rule surface;
     enum shell_rule shells;
+    enum influence influence;
 };
 
 struct cloud {
@@ -72,7 +73,8 @@ static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
     for (int d = 0; d < DIM_MAX; d++) n *= count[d] = d < dim && plan->count[d] ? plan->count[d] : 1;
     cloud_materials(c, plan->space);
     c->source.family = (struct family){.volume = plan->volume, .calibration = plan->calibration,
-                                       .surface = plan->surface, .shells = plan->shells};
+                                       .surface = plan->surface, .shells = plan->shells,
+                                       .influence = plan->influence};
     family_make(&c->source.family, plan->space, CLOUD_SPACING, plan->horizon, section[dim]);
 
     struct particles *p = &c->p;

@@ -126,7 +126,7 @@ static void test_bond_force(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
-        for (int model = 0; model < PD_MODELS; model++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) force_case(bond_force_table[dim][model], dim, way);
 }
 
@@ -150,7 +150,7 @@ static void test_bond_momentum(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
-        for (int model = 0; model < PD_MODELS; model++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) {
                 struct cloud c;
                 real sum = 0, size = 0, moment = 0, moments = 0;
@@ -175,7 +175,7 @@ static void test_bond_energy(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
-        for (int model = 0; model < PD_MODELS; model++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) {
                 struct cloud c;
                 real expected = 0;
@@ -193,7 +193,7 @@ static void test_bond_stress(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
-        for (int model = 0; model < PD_MODELS; model++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) {
                 struct cloud c;
                 body_make(&c, dim, way);
@@ -250,7 +250,7 @@ static void test_bond_threads(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
-        for (int model = 0; model < PD_MODELS; model++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
             for (int way = 0; way < WAYS; way++) {
                 struct cloud c[2];
                 real energy[2];

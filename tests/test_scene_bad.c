@@ -89,7 +89,7 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
     {"poisson: 1/3", "young: 2 GPa", "8:3: young: given twice, first in line 7; keep one"},
     {"method: adaptive", "method: auto", "5:1: method: auto is not in this version; pd, mpm or adaptive is expected"},
     {"method: adaptive", "method: fem", "5:1: method: fem is unknown; pd, mpm or adaptive is expected"},
-    {"method: adaptive", "model: ospd", "5:1: model: ospd is not in this version; bond is expected"},
+    {"method: adaptive", "model: lps", "5:1: model: lps is unknown; bond, ospd or mospd is expected"},
     {"method: adaptive", "solver: relaxation", "5:1: solver: relaxation is not in this version; explicit is expected"},
     {"method: adaptive", "accuracy: 1e-3", "5:1: accuracy: not in this version (method auto); leave it out"},
     {"method: adaptive", "coupling: glue",

@@ -1,0 +1,81 @@
+/* floor 2: state-based peridynamics: what particles know of their families, and what a bond makes of it.
+ *
+ * With w = omega beta V_i V_j / V0^2, Y the bond now and xi before, r = |xi|, e = |Y| - r, n = Y/|Y|:
+ *
+ *     Q_i = sum_j w r^2  (or that of a full family: normalisation bulk),   S_i = sum_j w r e / Q_i       (uniform strain: its mean)
+ *     P_i = A S_i V_i/Q_i,  g_i = B V_i/Q_i,   R_i the rotation that makes sum_j w |Y - R_i xi|^2 least
+ *
+ *     ordinary (Silling et al. 2007; Le, Chan & Schwartz 2014, one form for plane stress, plane strain and 3D)
+ *         f_i = sum_j w [r (P_i + P_j) + e (g_i + g_j)] n,          A = D^2 (lambda' - G),  B = D (D + 2) G
+ *     with effective displacements Y - R xi (the model of 2026, finite rotation; any Poisson's ratio, shear exact on lattices)
+ *         f_i = sum_j w {r (P_i + P_j) n + [g_i (Y - R_i xi) + g_j (Y - R_j xi)]},   A = D^2 lambda',  B = 2 D G
+ *
+ * Since R_i makes its own energy least, the force is the energy's exact gradient in cut families too: energy and angular
+ * momentum are kept. A material point at the end of a bond knows its family by its stress: S = tr eps / D. */
+#ifndef CLEAVE_STATE_LAWS_H
+#define CLEAVE_STATE_LAWS_H
+
+#include <math.h>
+
+#include "kernels.h"
+#include "lanes.h"
+
+#define STATE_TINY 1e-300                /* keeps roots of a padding lane finite */
+
+/* The bonds of a slot, as both sweeps see them. */
+struct state_bond {
+    lanes y[DIM_MAX], xi[DIM_MAX];       /* now and before [m]; xi only where rotations matter */
+    lanes r, e, w, inverse;              /* length before, extension [m], weight [1], 1/|Y| [1/m] */
+    lanes stretch;
+};
+
+static ALWAYS_INLINE bool state_turns(const enum pd_model model) { return model == PD_MOSPD; }
+
+static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct bonds *b, const struct particles *p,
+                                          int64_t slot, const lanes *x, const lanes *X, const int dim,
+                                          const enum pd_model model)
+{
+    const int64_t q = slot * LANES;
+    const int32_t first = b->first[slot];
+    lanes distance2 = lanes_of(STATE_TINY);
+    for (int d = 0; d < dim; d++) {
+        s->y[d] = lanes_at(p->x[d], first, b->nbr + q) - x[d];
+        distance2 += s->y[d] * s->y[d];
+        if (state_turns(model)) s->xi[d] = lanes_at(p->X[d], first, b->nbr + q) - X[d];
+    }
+    const lanes inverse_length = lanes_load(b->inverse_length + q);
+    s->w = lanes_load_float(b->w + q);
+    s->r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);     /* |.|: broken bonds store a negative */
+    s->inverse = lanes_inverse_root(distance2);
+    s->stretch = distance2 * s->inverse * inverse_length - 1.0;
+    s->e = lanes_choose(s->w > 0.0, s->stretch * s->r, lanes_of(0));
+    s->r = lanes_choose(s->w > 0.0, s->r, lanes_of(0));
+}
+
+/* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side [J]. */
+static inline real state_own_force(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real *T,
+                                   real *xi, const int dim, const bool turns)
+{
+    const struct state *t = &b->state;
+    const int32_t j = b->nbr[q];
+    real y[DIM_MAX], y2 = 0, r = fabs(1 / b->inverse_length[q]), energy;
+    for (int d = 0; d < dim; d++) {
+        y[d] = p->x[d][j] - p->x[d][i], xi[d] = p->X[d][j] - p->X[d][i];
+        y2 += square(y[d]);
+    }
+    const real length = sqrt(y2), e = length - r, w = b->w[q];
+    real along = r * t->pressure[i] + (turns ? 0 : e * t->spring[i]);
+    energy = 0.5 * w * along * e;
+    for (int d = 0; d < dim; d++) T[d] = w * along * y[d] / length;
+    if (!turns) return energy;
+    real effective2 = 0;
+    for (int d = 0; d < dim; d++) {
+        real effective = t->spring[i] * y[d];
+        for (int c = 0; c < dim; c++) effective -= t->turn[d * dim + c][i] * xi[c];
+        T[d] += w * effective;
+        effective2 += square(effective);
+    }
+    return energy + 0.5 * w * effective2 / t->spring[i];
+}
+
+#endif

@@ -1,0 +1,47 @@
+/* floor 1: what state-based models keep beside their bonds: made with the rows. */
+#include "bonds_parts.h"
+
+#include "memory.h"
+
+/* Q of a row: of all bonds it has, or of a full family on the lattice [m^2]. */
+static real weighted_of(const struct bonds *b, const struct particles *p, const struct family *f, int64_t row)
+{
+    if (!b->state.local || !b->whole[row]) return f->weighted * p->volume0[b->particle[row]] / f->cell_volume;
+    real Q = 0;
+    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        if (b->w[q] != 0) Q += b->w[q] / square(b->inverse_length[q]);
+    }
+    return Q;
+}
+
+void state_weigh(struct bonds *b, const struct particles *p, const struct family *f)
+{
+    if (!b->state.modulus) return;
+    for (int64_t row = 0; row < b->rows; row++) b->state.weighted[row] = weighted_of(b, p, f, row);
+}
+
+void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s)
+{
+    if (!s->modulus) return;
+    const int64_t room = p->n_all + LANES;
+    b->state.modulus = s->modulus;
+    b->state.local = s->local;
+    b->state.weighted = NEW("state.weighted", b->groups * LANES, real);
+    b->state.pressure = NEW("state.pressure", room, real);
+    b->state.spring = NEW("state.spring", room, real);
+    for (int c = 0; s->turns && c < p->dim * p->dim; c++) b->state.turn[c] = NEW("state.turn", room, real);
+    b->state.image = NEW("state.image", p->n_all - p->n, struct state_image);
+    for (int64_t k = 0; k < p->n_all - p->n; k++)
+        b->state.image[k] = (struct state_image){s->image[k].source, s->mirror_axis[s->image[k].load]};
+    state_weigh(b, p, &s->family);
+}
+
+void state_free(struct bonds *b)
+{
+    memory_free(b->state.weighted);
+    memory_free(b->state.pressure);
+    memory_free(b->state.spring);
+    for (int c = 0; c < DIM_MAX * DIM_MAX; c++) memory_free(b->state.turn[c]);
+    memory_free(b->state.image);
+}
