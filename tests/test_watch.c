@@ -50,6 +50,53 @@ static void ledger_of_a_known_field(void **state)
     body_free(&b);
 }
 
+/* An archive of at most 4 KiB in memory, read in the order in which it was written. */
+struct tape { unsigned char byte[4096]; size_t used; };
+
+static status tape_exchange(struct archive *a, const char *name, void *data, size_t size)
+{
+    (void)name;
+    struct tape *t = a->file;
+    assert_true(t->used + size <= sizeof t->byte);
+    if (a->saving) memcpy(t->byte + t->used, data, size);
+    else memcpy(data, t->byte + t->used, size);
+    t->used += size;
+    return OK;
+}
+
+/* A body that was fast once and is slow now, and then loses momentum: its error is relative to the fast time, before a
+ * restart and after it. */
+static void ledger_survives_a_restart(void **state)
+{
+    (void)state;
+    struct body b;
+    struct watch w, restored;
+    struct tape tape = {.used = 0};
+    struct archive out = {.saving = true, .exchange = tape_exchange, .file = &tape}, in = out;
+    const real none[DIM_MAX] = {0};
+    body_make(&b, 1, (const int[]){2});
+    watch_make(&w);
+    watch_make(&restored);
+    for (int i = 0; i < 2; i++) b.p.mass[i] = 1, b.p.v[0][i] = i == 0 ? 10 : -10;
+    watch_momentum(&w, &b.p, none);
+    watch_ledger(&w, 0, &(struct energy){100, 0, 0, 0, 0}, 0);
+    for (int i = 0; i < 2; i++) b.p.v[0][i] *= 0.1;
+    watch_momentum(&w, &b.p, none);
+    watch_ledger(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
+    assert_int_equal(watch_archive(&w, &out), OK);
+    in.saving = false, tape.used = 0;
+    assert_int_equal(watch_archive(&restored, &in), OK);
+    b.p.v[0][0] += 2;
+    for (int k = 0; k < 2; k++) {
+        struct watch *either = k == 0 ? &w : &restored;
+        watch_momentum(either, &b.p, none);
+        watch_ledger(either, 2, &(struct energy){1, 49, 0, 0, 0}, 0);
+        assert_near(either->now.momentum_error, 2.0 / 20, 1e-15);
+        assert_near(either->now.balance_error, -0.5, 1e-15);
+    }
+    body_free(&b);
+}
+
 /* Energy of strain e: 1/2 e : C e V, with shear counted twice; half of it where half the stress is left to bonds. */
 static void strain_energy_of_material_points(void **state)
 {
@@ -150,6 +197,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ledger_of_a_known_field),
+        cmocka_unit_test(ledger_survives_a_restart),
         cmocka_unit_test(strain_energy_of_material_points),
         cmocka_unit_test(first_break_is_booked_once),
         cmocka_unit_test(alarm_names_the_first_runaway),
