@@ -264,6 +264,7 @@ status watch_archive(struct watch *w, struct archive *a)
     ARCHIVE_VALUE(a, "watch/energy_start", w->energy_start);
     ARCHIVE_VALUE(a, "watch/energy_scale", w->energy_scale);
     ARCHIVE_VALUE(a, "watch/momentum_start", w->momentum_start);
+    ARCHIVE_VALUE(a, "watch/momentum_scale", w->momentum_scale);
     ARCHIVE_VALUE(a, "watch/started", w->started);
     ARCHIVE_VALUE(a, "watch/break_time", w->break_time);
     ARCHIVE_VALUE(a, "watch/break_place", w->break_place);
