@@ -142,7 +142,17 @@ static void make_rim_share(struct engine *e)
 
 /* ---- grid --------------------------------------------------------------------------------------------- */
 
-/* A node lies at the lower corner of the first body unless the scene names another place. */
+/* Where a node lies unless the scene names a place: on the first mirror across this axis, which moves nodes beyond it as
+ * their images only there or half-way between two; without one at the body's lower corner. */
+static real node_place(const struct scene *s, int axis, real corner)
+{
+    if (s->has_grid_origin) return s->grid_origin[axis];
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == axis) return s->boundary[b].at;
+    return corner;
+}
+
+/* The lower corner is that of the first body's shape, of the particles if it comes from a file. */
 static void make_grid(struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -155,7 +165,7 @@ static void make_grid(struct engine *e)
             from[d] = INFINITY;
             for (int64_t i = 0; i < e->part.n; i++) from[d] = real_min(from[d], e->part.X[d][i] - 0.5 * s->spacing);
         }
-        e->grid.anchor[d] = s->has_grid_origin ? s->grid_origin[d] : from[d];
+        e->grid.anchor[d] = node_place(s, d, from[d]);
     }
     real section = s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness, lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);

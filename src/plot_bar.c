@@ -10,6 +10,8 @@
 
 enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
 
+#define TINT "#e8f1f9"                   /* behind what is peridynamic where the bar is both */
+
 /* What the panels show, from above; columns of the probe's files. */
 static const struct { const char *computed, *exact, *label, *unit; } quantity[QUANTITIES] = {
     {"stress", "exact_stress", "stress", "Pa"},
@@ -131,7 +133,25 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
     fputs("EOD\n", to);
 }
 
-static void plot_panel(FILE *to, int q, const double *time, int frames)
+/* Tints what is peridynamic in a frame of two kinds, behind the curves; true if it is one. */
+static bool tint_kinds(FILE *to, const struct history *h, double metre, double half)
+{
+    int x = history_column(h, "x"), kind = history_column(h, "kind"), parts = 0;
+    int64_t from = 0, n = 0;
+    for (int64_t i = 0; i < h->rows; i++) n += history_at(h, i, kind) == KIND_PD;
+    if (n == 0 || n == h->rows) return false;
+    for (int64_t i = 0; i < h->rows; i++) {
+        bool here = history_at(h, i, kind) == KIND_PD;
+        if (!here || i == 0 || history_at(h, i - 1, kind) != KIND_PD) from = i;
+        if (here && (i + 1 == h->rows || history_at(h, i + 1, kind) != KIND_PD))
+            fprintf(to, "set object %d rectangle from %.9g,graph 0 to %.9g,graph 1 behind fs solid noborder "
+                        "fc rgb '" TINT "'\n", ++parts, (history_at(h, from, x) - half) / metre,
+                    (history_at(h, i, x) + half) / metre);
+    }
+    return true;
+}
+
+static void plot_panel(FILE *to, int q, const double *time, int frames, bool tinted)
 {
     struct unit second = unit_for(time[frames - 1], "s");
     for (int k = 0; k < frames; k++)
@@ -140,6 +160,7 @@ static void plot_panel(FILE *to, int q, const double *time, int frames)
     for (int k = 0; k < frames && quantity[q].exact; k++)
         fprintf(to, ", $f%d using 1:%d with lines lw 1.1 dt (9,5) lc rgb '#222222' %s", k, 2 * q + 3,
                 k ? "notitle" : "title 'exact'");
+    if (tinted) fputs(", NaN with boxes fs solid noborder fc rgb '" TINT "' title 'peridynamic'", to);
     putc('\n', to);
 }
 
@@ -159,16 +180,17 @@ static status draw(const char *path, const char *title, const struct history *h,
     fputs("set label 1 ", g.to);
     gnuplot_quote(g.to, title);
     fprintf(g.to, " at screen 0.1,%.4f left font ',16' textcolor rgb '#111111'\n"
-                  "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
-                  "set key at screen 0.875,%.4f left top\nset xrange [%.9g:%.9g]\n",
+                  "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.845\nset format x ''\n"
+                  "set key at screen 0.855,%.4f left top\nset xrange [%.9g:%.9g]\n",
             1 - 30.0 / height, 1 - 60.0 / height, (x.low - half) / metre.factor, (x.high + half) / metre.factor);
+    bool tinted = tint_kinds(g.to, &h[frames - 1], metre.factor, half);
     for (int q = 0; q < panels; q++) {
         double above = 1 - (60.0 + 250 * q) / height;
         fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n"
                       "set yrange [%.9g:%.9g]\n", above, above - 225.0 / height, scale[q].label, scale[q].low,
                 scale[q].high);
         if (q == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
-        plot_panel(g.to, q, time, frames);
+        plot_panel(g.to, q, time, frames, tinted);
         fputs("unset label\nunset key\n", g.to);
     }
     fputs("unset multiplot\n", g.to);

@@ -141,8 +141,9 @@ const struct key keys[] = {
         "grid to particle; apic not with linear", .words = "flip|apic"),
     KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, NOWHERE, ANY, "current",
         "configuration the grid lives in", .words = "current", .later = "reference|auto"),
-    KEY("mpm.origin", KEY_POINT, UNIT_LENGTH, AT(scene, grid_origin), ANY, "(from the bodies)",
-        "a node of the grid", .has = FLAG(scene, has_grid_origin)),
+    KEY("mpm.origin", KEY_POINT, UNIT_LENGTH, AT(scene, grid_origin), ANY,
+        "(on the first mirror across each axis, else at the first body's lower corner)", "a node of the grid",
+        .has = FLAG(scene, has_grid_origin)),
 
     KEY("coupling", KEY_CHOICE, UNIT_NONE, AT(scene, coupling), ANY, "partial stress",
         "of material points and bonds where both meet", .words = "partial stress|handshake|pm|pg|pmg|pgg"),
