@@ -1,7 +1,8 @@
 /* floor 3: partial stress: the share of its stress that a material point leaves to the bonds that cross its cell.
  * The bonds between a peridynamic particle and a material point already carry, in uniform strain,
  *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
- * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives the
+ * with l_q the share of the bond's reference segment inside the cell of point q and e its direction; bonds of state-based
+ * models answer to the strain's trace and in other directions, too (struct response). The point gives the
  * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Symmetric, geometric, exact in one dimension. */
 #include <math.h>
 #include <string.h>
@@ -55,21 +56,51 @@ static void component_axes(int dim, int s, int *a, int *b)
     *a = first[k], *b = second[k];
 }
 
-/* Adds the part of one bond, from p (a material point) to m. */
-static void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, real stiffness, int dim)
+/* How the force F of a bond of direction e answers to a uniform strain, times the bond's length [N m]:
+ *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
+struct response { real central, pressure, vector; };
+
+static bool same(int a, int b) { return a == b; }
+
+/* Adds the part of one bond, from p (a material point) to m: T_abcd = l e_b dF_a/deps_cd, symmetric in ab and cd. */
+static void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim)
 {
     real share = segment_share(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
     if (share == 0) return;
     for (int d = 0; d < dim; d++) e[d] = xm[d] - xp[d], length += square(e[d]);
     length = sqrt(length);
+    for (int d = 0; d < dim; d++) e[d] /= length;
     const int n = symmetric_count(dim);
     for (int s = 0; s < n; s++)
         for (int t = 0; t < n; t++) {
             int a, b, c, d;
             component_axes(dim, s, &a, &b);
             component_axes(dim, t, &c, &d);
-            T[s * n + t] += stiffness * length * share * e[a] * e[b] * e[c] * e[d] / square(square(length));
+            real turned = e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) + e[a] * e[d] * same(b, c) +
+                          e[a] * e[c] * same(b, d);
+            T[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] + k.pressure * e[a] * e[b] * same(c, d) +
+                                     0.25 * k.vector * turned);
         }
+}
+
+/* V/Q of a particle of a row: of a full family where it has no row of its own [m]. */
+static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
+{
+    int32_t row = i < p->n ? b->row_of[i] : -1;
+    return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
+}
+
+static struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                                   int64_t row, int64_t q)
+{
+    const int32_t i = b->particle[row], j = b->nbr[q];
+    const real r = fabs(1 / b->inverse_length[q]), D = p->dim;
+    if (!s->modulus) return (struct response){.central = b->stiffness * b->w[q] * r};
+    const struct state_modulus *m = &s->modulus[p->material[i]], *n = &s->modulus[p->material[j]];
+    const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = b->w[q] * r * r;
+    const real spring = scale * (m->B * first + n->B * second);
+    return (struct response){.pressure = scale * (m->A * first + n->A * second) / D,
+                             .central = s->turns ? 0 : spring, .vector = s->turns ? spring : 0};
 }
 
 /* All crossing bonds that end at material point (or image) j. */
@@ -85,7 +116,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
         int64_t q = bond_index(b, row / LANES, k, row % LANES);
         if (b->w[q] == 0) continue;
         for (int d = 0; d < p->dim; d++) xm[d] = r.sign[d] * p->X[d][b->nbr[q]] + r.offset[d];
-        tensor_add(T, xp, xm, X, half, b->stiffness * b->w[q], p->dim);
+        tensor_add(T, xp, xm, X, half, response_of(p, b, s, row, q), p->dim);
     }
 }
 

@@ -99,7 +99,7 @@ done <<'END'
 4|duration: [1 us]|4:1|a list is not a number
 5|method: magic|5:1|pd, mpm or adaptive
 5|method: auto|5:1|not in this version
-5|model: ospd|5:1|not in this version
+5|model: lps|5:1|bond, ospd or mospd
 5|solver: cg|5:1|not in this version
 5|coupling: glue|5:1|partial stress, handshake, pm, pg, pmg or pgg
 6|material: {young: -1, density: 7800}|6:12|out of range

@@ -80,7 +80,7 @@ interrupted "$work/stopped" 50 $flat $often
 frame=$(wc -c <"$work/stopped/frames/000000.hdf")
 checkpoint=$(wc -c <"$work/stopped/checkpoint.h5")
 holds "a checkpoint is larger than a frame" test "$checkpoint" -gt "$frame"
-for limit in 0 4096 $((frame / 2)) $((frame - 600)) $((frame + 2048)) $((checkpoint - 600)); do
+for limit in 0 4096 $((frame / 2)) $((frame - 600)) $((frame + 2048)) $(((frame + checkpoint) / 2)); do
     rm -rf "$work/full"
     cp -r "$work/stopped" "$work/full"
     # through a pipe: the limit would hold for a file, too
