@@ -21,7 +21,8 @@ static const char *const interface_name[] = {"flat", "45 degrees"};
 enum { FLAT, OBLIQUE, INTERFACES };
 
 /* Flat: the bar's distances, so that figures compare. Oblique: as tall as the reflected wave needs to become plane (at 32
- * spacings heights of 3 to 6 widths change `wave` by a seventh at most); half a spacing keeps the plane off the particles. */
+ * spacings heights of 3 to 6 widths change `wave` by a seventh at most); half a spacing keeps the plane off the
+ * particles. */
 static struct strip strip_of(int interface, double width)
 {
     if (interface == FLAT) return (struct strip){1024, 4, 256, 512, {1, 0}, 512, 0.2};
