@@ -71,6 +71,22 @@ status bench_engine_make(struct engine *e, struct scene *s, const char *path, co
 void bench_engine_free(struct engine *e, struct scene *s);
 /* Goes on to the end of step `until`; the last step is a sample. Adds up laps over calls. */
 status bench_engine_run(struct engine *e, int64_t until, struct laps *spent);
+/* Texts of overrides, made on the way; `at` points into them only once all are added (bench_overrides_ready). */
+enum { OVERRIDES_MAX = 12, OVERRIDE_LENGTH = 160 };
+struct bench_overrides {
+    int n;
+    struct scene_override at[OVERRIDES_MAX];
+    char value[OVERRIDES_MAX][OVERRIDE_LENGTH];
+};
+/* `value` as printf writes it; `key` is borrowed. */
+void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The entries as readers of scenes take them. */
+const struct scene_override *bench_overrides_ready(struct bench_overrides *o);
+/* Runs a scene to its end, and its twin on material points if a pulse probe wants one, and reads figures of its probes:
+ * NAN where it has none. */
+struct bench_figure { const char *probe, *quantity; double value; };
+status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
 /* Says in one line that there is no such scene here, if so. */
 bool bench_scene_exists(const char *path);
 /* Runs the scene as a process of its own (`cleave run`, one thread) and reads n numbers of its summary.json; nothing is
@@ -102,6 +118,9 @@ status bench_floor_memory(struct floor *f);
 status bench_floor_speed(struct floor *f, bool quick);
 void bench_floor_print(const struct floor *f);
 void bench_floor_table(const struct floor *f, struct bench_table *t);
+
+/* bench_coupling.c: what an interface of material points and bonds does to waves and uniform strain. */
+status bench_coupling(bool quick);
 
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */
 status bench_efficiency(bool quick);

@@ -2,7 +2,9 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
+#include <math.h>
 #include <spawn.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,6 +56,50 @@ status bench_engine_run(struct engine *e, int64_t until, struct laps *spent)
     status ran = engine_run(e);
     e->steps = steps;
     for (int k = 0; spent && k < LAPS; k++) spent->spent[k] += e->laps.spent[k];
+    return ran;
+}
+
+/* ---- figures of a run ------------------------------------------------------------------------------------ */
+
+void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
+{
+    va_list more;
+    assert(o->n < OVERRIDES_MAX);
+    va_start(more, value);
+    vsnprintf(o->value[o->n], OVERRIDE_LENGTH, value, more);
+    va_end(more);
+    o->at[o->n++].key = key;
+}
+
+const struct scene_override *bench_overrides_ready(struct bench_overrides *o)
+{
+    for (int k = 0; k < o->n; k++) o->at[k].value = o->value[k];
+    return o->at;
+}
+
+struct wanted_figures { struct bench_figure *figure; int n; };
+
+static void take_figure(void *context, const char *probe, const char *quantity, real value)
+{
+    const struct wanted_figures *w = context;
+    for (int k = 0; k < w->n; k++)
+        if (!strcmp(w->figure[k].probe, probe) && !strcmp(w->figure[k].quantity, quantity)) w->figure[k].value = value;
+}
+
+status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n)
+{
+    struct engine e;
+    struct scene s;
+    struct wanted_figures wanted = {figure, n};
+    for (int k = 0; k < n; k++) figure[k].value = NAN;
+    TRY(bench_engine_make(&e, &s, path, text, bench_overrides_ready(o), o->n));
+    status ran = engine_run(&e);
+    if (ran == OK) ran = engine_baseline(&e);
+    if (ran == OK) {
+        struct observed seen = engine_observed(&e);
+        probes_figures(&e.probes, &seen, take_figure, &wanted);
+    }
+    bench_engine_free(&e, &s);
     return ran;
 }
 

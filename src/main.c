@@ -15,7 +15,7 @@ static const struct command commands[] = {
     {"check", "SCENE [-s KEY=VALUE]...", "what the scene would cost and whether it is sound", command_check},
     {"plot", "DIR", "pictures of a finished or running run", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
-    {"bench", "[NAME...] [--quick]", "kernels, efficiency", command_bench},
+    {"bench", "[NAME...] [--quick]", "kernels, efficiency, coupling", command_bench},
     {"help", "[KEY]", "every scene key: type, unit, range, default", command_help},
     {"info", "", "version, build, threads, cores and caches", command_info},
 };

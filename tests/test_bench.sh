@@ -1,5 +1,6 @@
 #!/bin/sh
-# floor 5: `cleave bench`: what it refuses, and the table of efficiency on a coarse plate. BUILD: the folder of the program.
+# floor 5: `cleave bench`: what it refuses, the table of efficiency on a coarse plate, and that of couplings. BUILD: the
+# folder of the program.
 set -eu
 build=$(cd "${BUILD:-build}" && pwd)
 cleave=$build/cleave
@@ -10,7 +11,7 @@ cd "$work"
 fail() { echo "test_bench: $1" >&2; exit 1; }
 
 # Refused in one line, exit status 2, nothing written.
-for words in coupling accuracy stability threads scale peers nonsense "--slow" "kernels nonsense" efficiency; do
+for words in accuracy stability threads scale peers nonsense "--slow" "kernels nonsense" coupling efficiency; do
     set +e
     "$cleave" bench $words >out 2>err
     ended=$?
@@ -34,4 +35,48 @@ cd results/bench
 awk -F, 'NR == 2 { d = $5 - (1 - $3 / $4); exit !($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6) }' efficiency.csv || fail "t_r"
 for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; do [ -s $file ] || fail "$file is missing"; done
 [ "$(wc -l <efficiency_share.csv)" -eq 102 ] || fail "the share is noted at 100 samples and at the start"
+cd ../..
+
+# Couplings: the columns, and figures known from the literature's couplings and from an independent prototype.
+cp "$inputs/bar_pulse.yaml" "$inputs/plate_pulse.yaml" inputs
+"$cleave" bench coupling --quick >out || fail "coupling failed"
+cd results/bench
+[ "$(head -1 coupling.csv)" = coupling,width_spacings,reflected,transmitted,energy_change ] ||
+    fail "columns of coupling.csv"
+[ "$(wc -l <coupling.csv)" -eq 15 ] || fail "seven couplings at two widths give 14 lines"
+for file in coupling_places.csv coupling_variants.csv coupling_patch.csv coupling_plane.csv coupling_pulse.csv \
+    coupling.json coupling.png coupling.svg coupling_pulse.png coupling_pulse.svg; do
+    [ -s $file ] || fail "$file is missing"
+done
+# line FILE PATTERN COLUMN FROM TO: that column of the only line that begins with the pattern lies there.
+line()
+{
+    awk -F, -v pattern="^$2" -v at="$3" -v from="$4" -v to="$5" '
+        $0 ~ pattern { n++; if ($at < from + 0 || $at > to + 0 || $at == "") bad = 1 }
+        END { exit n != 1 || bad }' "$1" || fail "$1: $2: column $3 is not within $4 to $5: $(grep "^$2" "$1")"
+}
+# A pulse 32 spacings wide: 2.4 % of the hand-shake, 4.4 % of PM, 2.7 % of PMG; at most 1.5 % of partial
+# stress, and 0.6 % at 64.
+line coupling.csv handshake,32, 3 0.0207 0.0267
+line coupling.csv pm,32, 3 0.040 0.048
+line coupling.csv pmg,32, 3 0.024 0.030
+line coupling.csv 'partial stress,32,' 3 0.001 0.015
+line coupling.csv 'partial stress,64,' 3 0.0005 0.006
+line coupling.csv 'partial stress undamped,32,' 3 0.0090 0.0125
+# wherever the interface is in its cell; without damping some place is bad
+line coupling_places.csv 'partial stress,32,2,0.25' 6 0.001 0.015
+line coupling_places.csv 'partial stress,32,2,0.5' 6 0.001 0.015
+line coupling_places.csv 'partial stress,32,2,0.75' 6 0.001 0.015
+line coupling_places.csv 'partial stress undamped,32,2,0.5' 6 0.05 0.2
+# uniform strain: exactly 13/24 and 3/4 of the hand-shake in a bar, nothing of partial stress if a flat
+# interface is on nodes
+line coupling_patch.csv bar,axial,1,handshake, 6 0.7499 0.7501
+line coupling_patch.csv bar,axial,2,handshake, 6 0.54157 0.54177
+line coupling_patch.csv 'bar,axial,2,partial stress,' 6 0 1e-5
+line coupling_patch.csv 'flat,axial,2,partial stress,isotropic,' 6 0 1e-5
+line coupling_patch.csv '45 degrees,axial,2,partial stress,isotropic,' 6 0.001 0.06
+line coupling_patch.csv 'square,axial,2,partial stress,isotropic,' 6 0.001 0.06
+# an oblique interface throws back less of a wave with partial stress
+line coupling_plane.csv '45 degrees,16,flip,handshake,isotropic,' 7 0.018 0.030
+line coupling_plane.csv '45 degrees,16,flip,partial stress,isotropic,' 7 0.006 0.017
 echo "test_bench: ok"

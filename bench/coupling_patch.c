@@ -1,0 +1,153 @@
+/* floor 5: uniform strain across an interface must leave every node at rest: the largest nodal force of the first step
+ * over stress times cell face, for interfaces of several shapes, loads and positions of the grid. */
+#include <math.h>
+#include <string.h>
+
+#include "coupling.h"
+
+/* Every node and every peridynamic particle far from the edges is looked at. Strain: bonds stretch by finite geometry, so
+ * nothing below 1e-6 is told from zero. */
+static const char line_text[] = "space: line\n"
+                                "duration: 1 us\n"
+                                "material: {young: 1e4, density: 1}\n"
+                                "body: {box: {from: [-40 mm], to: [40 mm]}}\n"
+                                "particles: {spacing: 1 mm, horizon: 3}\n"
+                                "pd: {region: {box: {from: [-inf], to: [0]}}}\n"
+                                "conversion: {criteria: none}\n"
+                                "initial: [{displacement_gradient: [[1e-6]]}]\n"
+                                "time: {step: 1 us}\n"
+                                "output: {frames: 0, samples: 1}\n"
+                                "probes: [{patch: {region: {box: {from: [-20 mm], to: [20 mm]}}}}]\n";
+
+static const char plane_text[] =
+    "space: plane stress\n"
+    "thickness: 1 mm\n"
+    "duration: 1 ns\n"
+    "material: {young: 190 GPa, density: 7800}\n"
+    "body: {box: {from: [-20 mm, -20 mm], to: [20 mm, 20 mm]}}\n"
+    "particles: {spacing: 1 mm}\n"
+    "conversion: {criteria: none}\n"
+    "time: {step: 1 ns}\n"
+    "output: {frames: 0, samples: 1}\n"
+    "probes: [{patch: {region: {box: {from: [-13 mm, -13 mm], to: [13 mm, 13 mm]}}}}]\n";
+
+struct words {
+    const char *name, *value;
+};
+static const struct words shape[] = {
+    {"flat", "{box: {from: [-inf, -inf], to: [0, inf]}}"},
+    {"45 degrees", "{half-space: {point: [0.25 mm, 0.25 mm], normal: [1, 1]}}"}, /* steps of one particle */
+    {"circle, r = 8 D", "{disc: {centre: [0, 0], radius: 8 mm}}"},
+    {"square, 6 x 6 D", "{box: {from: [-3 mm, -3 mm], to: [3 mm, 3 mm]}}"},
+};
+static const struct words load[] = {
+    {"axial", "[[1e-6, 0], [0, 0]]"}, {"biaxial", "[[1e-6, 0], [0, 1e-6]]"}, {"shear", "[[0, 1e-6], [1e-6, 0]]"}};
+static const struct words way[] = {
+    {"handshake", "uniform"}, {"partial stress", "uniform"}, {"partial stress", "isotropic"}};
+
+static status residual_of(const char *text, struct bench_overrides *o, double *value)
+{
+    struct bench_figure f = {.probe = "patch", .quantity = "residual_max"};
+    TRY(bench_figures("(patch test)", text, o, &f, 1));
+    *value = f.value;
+    return OK;
+}
+
+static void note(struct patch_row *r, int position, double value)
+{
+    if (position == 0) r->on_node = value;
+    r->largest = fmax(r->largest, value);
+}
+
+static status measure_line(struct patch_row *r)
+{
+    for (int k = 0; k < 8; k++) {
+        struct bench_overrides o = {0};
+        double value;
+        bench_override(&o, "coupling", "%s", r->coupling);
+        bench_override(&o, "mpm.cell", "%d", r->cell);
+        bench_override(&o, "mpm.origin", "[%g mm]", r->cell * k / 8.0);
+        TRY(residual_of(line_text, &o, &value));
+        note(r, k, value);
+    }
+    return OK;
+}
+
+static status measure_plane(struct patch_row *r, const char *region, const char *gradient, int positions)
+{
+    for (int k = 0; k < positions * positions; k++) {
+        struct bench_overrides o = {0};
+        double value, step = (double)r->cell / positions; /* [spacings] */
+        bench_override(&o, "pd.region", "%s", region);
+        bench_override(&o, "pd.weights", "%s", r->weights);
+        bench_override(&o, "coupling", "%s", r->coupling);
+        bench_override(&o, "mpm.origin", "[%g mm, %g mm]", step * (k % positions), step * (k / positions));
+        bench_override(&o, "initial", "[{displacement_gradient: %s}]", gradient);
+        TRY(residual_of(plane_text, &o, &value));
+        note(r, k, value);
+    }
+    return OK;
+}
+
+static struct patch_row *row_add(struct patch_table *t, struct patch_row r)
+{
+    assert(t->n < PATCH_ROWS_MAX);
+    t->row[t->n] = r;
+    return &t->row[t->n++];
+}
+
+status patch_measure(struct patch_table *t, bool quick)
+{
+    for (int w = 0; w < 2; w++)
+        for (int cell = 1; cell <= 2; cell++)
+            TRY(measure_line(row_add(t, (struct patch_row){"bar", "axial", way[w].name, way[w].value, cell, 0, 0})));
+    for (size_t s = 0; s < COUNT_OF(shape); s++)
+        for (size_t w = 0; w < COUNT_OF(way); w++)
+            for (size_t l = 0; l < (quick ? 1 : COUNT_OF(load)); l++) {
+                struct patch_row r = {shape[s].name, load[l].name, way[w].name, way[w].value, 2, 0, 0};
+                TRY(measure_plane(row_add(t, r), shape[s].value, load[l].value, quick ? 2 : 4));
+            }
+    return OK;
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------------ */
+
+static bool same_line(const struct patch_row *a, const struct patch_row *b)
+{
+    return !strcmp(a->shape, b->shape) && !strcmp(a->coupling, b->coupling) && !strcmp(a->weights, b->weights) &&
+           a->cell == b->cell;
+}
+
+/* One line for all loads. */
+void patch_print(const struct patch_table *t)
+{
+    printf("\n  uniform strain: largest nodal force over stress x cell face, with the interface on a node > and largest "
+           "over positions of the grid\n  %-16s %4s  %-15s %-10s",
+           "interface", "cell", "coupling", "weights");
+    for (size_t l = 0; l < COUNT_OF(load); l++) printf("   %-16s", load[l].name);
+    for (int k = 0; k < t->n; k++) {
+        const struct patch_row *r = &t->row[k];
+        if (k == 0 || !same_line(r, r - 1))
+            printf("\n  %-16s %2d D  %-15s %-10s", r->shape, r->cell, r->coupling, r->weights);
+        printf("  %7.4f > %6.4f", r->on_node, r->largest);
+    }
+    puts("");
+    fflush(stdout);
+}
+
+void patch_fill(const struct patch_table *t, struct bench_table *rows)
+{
+    bench_table_make(rows, "patch", "interface,load,cell_spacings,coupling,weights,on_node,largest");
+    for (int k = 0; k < t->n; k++) {
+        const struct patch_row *r = &t->row[k];
+        char interface[NAME_MAX_LENGTH];
+        snprintf(interface, sizeof interface, "%.*s", (int)strcspn(r->shape, ","), r->shape); /* commas part columns */
+        bench_text(rows, interface);
+        bench_text(rows, r->load);
+        bench_number(rows, r->cell);
+        bench_text(rows, r->coupling);
+        bench_text(rows, r->weights);
+        bench_number(rows, r->on_node);
+        bench_number(rows, r->largest);
+    }
+}
