@@ -9,6 +9,7 @@
 #include "loads.h"
 #include "particles.h"
 #include "region.h"
+#include "sif.h"
 #include "tips.h"
 
 enum probe_kind {
@@ -23,6 +24,7 @@ enum probe_kind {
     PROBE_MOMENTUM,          /* momentum of the particles of a region                                      */
     PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
     PROBE_EXACT,             /* a bar against a closed form                                                */
+    PROBE_SIF,               /* stress-intensity factors of a crack tip                                    */
     PROBES
 };
 
@@ -40,13 +42,22 @@ struct probe_request {
     char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
     enum probe_kind kind;
     struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM; empty: everywhere         */
-    bool has_at; real at[DIM_MAX];       /* TIP, POINT; PULSE: a point of the interface       [m]     */
-    real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes           */
+    bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface  [m]     */
+    bool has_direction;                  /* SIF                                                       */
+    real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */
     real from[DIM_MAX], to[DIM_MAX];     /* LINE                                              [m]     */
     int points;                          /* LINE                                                      */
     char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
     enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]:   */
     real amplitude, period, wavelength, origin;
+    struct number_list contours;         /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
+    real inner, outer, core;             /* SIF; NAN or 0: half of outer; 20 spacings; 1.5 horizons   [m]   */
+    real reach;                          /* SIF: rho_m in spacings; 0: 1.5                            [1]   */
+    real speed;                          /* SIF: of a moving tip; NAN: measured                       [m/s] */
+    int diffraction;                     /* SIF */
+    enum sif_weight weight;
+    enum gradient_method gradient;
+    enum sif_stress stress;
 };
 
 /* A column of history.csv or a figure of summary.json. */
@@ -78,6 +89,10 @@ struct observed {
     real t_velocity;                     /* when velocities are known, half a step before t   [s]     */
     const struct wave_pulse *pulse;      /* initial pulses, for EXACT                                 */
     int pulses;
+    enum space space;                    /* ... and what SIF needs: horizon [m], pre-cracks           */
+    real horizon;
+    const struct crack *crack;
+    int cracks;
 };
 
 struct probe;                            /* probes.c */
@@ -95,6 +110,12 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
 void probes_free(struct probes *s);
 /* Fills value[]. */
 void probes_sample(struct probes *s, const struct observed *o);
+/* What needs the motion at a sample's own time (SIF), while velocities are known half a step before and after. `keep`,
+ * before the step: remembers displacements and velocities of o->t and o->t_velocity. `sample_end`, after it, when
+ * velocities are those of t_velocity: fills the rest of value[] for o->t. Without a `keep` before, the body is in
+ * equilibrium. */
+void probes_keep(struct probes *s, const struct observed *o);
+void probes_sample_end(struct probes *s, const struct observed *o, real t_velocity);
 /* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_CUT marks that bonds
  * broke, REACTION adds up its largest and rms force. */
 void probes_step(struct probes *s, const struct observed *o);

@@ -31,6 +31,9 @@ bool region_contains(const struct region *r, const real *X, int dim, real tolera
 bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX]);
 void region_free(struct region *r);
 
+/* Ascending numbers. */
+struct number_list { int n; real *value; };
+
 /* ---- functions of time ---------------------------------------------------------------------------- */
 
 enum time_kind { TIME_CONSTANT, TIME_STEP, TIME_PULSE, TIME_RAMP, TIME_TABLE };

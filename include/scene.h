@@ -38,9 +38,6 @@ struct scene_initial {
     struct wave_pulse pulse;
 };
 
-/* Ascending numbers. */
-struct number_list { int n; real *value; };
-
 struct scene {
     char *path;                          /* file it came from, as given on the command line           */
     char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending        */

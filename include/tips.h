@@ -50,6 +50,8 @@ void tips_make(struct tips *t, const struct particles *p, const struct cells *c,
 void tips_sample(struct tips *t, const struct particles *p, const struct cells *c, real time);
 /* Angle of the chord against the pre-crack's direction, 0..180 [degree]; NAN before it has grown. */
 real tip_angle(const struct tip *tip, int dim);
+/* Steepness of tip k's growth over the newest window, 0 before there are two samples [m/s]. */
+real tips_speed(const struct tips *t, int k);
 /* The tip that grew longest, NULL if none has grown. */
 const struct tip *tips_longest(const struct tips *t);
 void tips_free(struct tips *t);

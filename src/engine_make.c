@@ -276,6 +276,7 @@ struct observed engine_observed(const struct engine *e)
         .material = s->material, .partial = &e->partial, .spacing = s->spacing, .thickness = e->source.family.section,
         .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
         .t_velocity = e->step > 0 ? e->t - 0.5 * e->dt : e->t, .pulse = e->pulse, .pulses = e->pulses,
+        .space = s->space, .horizon = e->source.family.horizon, .crack = s->crack, .cracks = s->cracks,
         .energy_change = watch_energy_change(&e->watch), .baseline = e->has_baseline ? &e->baseline : NULL};
 }
 

@@ -81,8 +81,10 @@ static status history_start(struct engine *e, bool resume)
 /* Stresses of peridynamic particles are made only where somebody looks. */
 static bool wants_stress(const struct engine *e)
 {
-    for (int k = 0; k < e->scene->probes; k++)
-        if (e->scene->probe[k].kind == PROBE_POINT) return true;
+    for (int k = 0; k < e->scene->probes; k++) {
+        const struct probe_request *q = &e->scene->probe[k];
+        if (q->kind == PROBE_POINT || (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE)) return true;
+    }
     return false;
 }
 
@@ -107,8 +109,11 @@ static void sample_energy(struct engine *e)
     };
 }
 
-static void sample_write(struct engine *e, real kinetic, real work)
+/* t_velocity: when the velocities of now are known [s]. */
+static void sample_write(struct engine *e, real t_velocity, real kinetic, real work)
 {
+    struct observed o = engine_observed(e);
+    probes_sample_end(&e->probes, &o, t_velocity);
     e->sampling.energy.kinetic = kinetic;
     watch_ledger(&e->watch, e->t, &e->sampling.energy, work);
     fill_record(e);
@@ -121,7 +126,10 @@ void engine_sample_begin(struct engine *e)
     e->sampling.work = e->loads.work;
     e->sampling.held_work = e->loads.held_work;
     if (e->sampling.due) sample_state(e);
-    if (e->sampling.due || e->step == e->steps - 1) e->sampling.kinetic = watch_kinetic(&e->part);
+    if (!e->sampling.due && e->step < e->steps - 1) return;
+    struct observed o = engine_observed(e);
+    probes_keep(&e->probes, &o);
+    e->sampling.kinetic = watch_kinetic(&e->part);
 }
 
 void engine_sample_energy(struct engine *e)
@@ -133,11 +141,11 @@ void engine_sample_end(struct engine *e)
 {
     if (!e->sampling.due) return;
     if (e->step == 0) {                      /* velocities of t = 0, not of half a step before */
-        sample_write(e, e->sampling.kinetic, e->sampling.work);
+        sample_write(e, e->t + 0.5 * e->dt, e->sampling.kinetic, e->sampling.work);
         return;
     }
     real kinetic = 0.5 * (e->sampling.kinetic + watch_kinetic(&e->part)) - watch_kick(&e->part, e->dt);
-    sample_write(e, kinetic, e->sampling.work + 0.5 * (e->sampling.held_work + e->loads.held_work));
+    sample_write(e, e->t + 0.5 * e->dt, kinetic, e->sampling.work + 0.5 * (e->sampling.held_work + e->loads.held_work));
 }
 
 /* After the last step no force follows: kinetic energy and the supports' work go on as in that step. */
@@ -147,7 +155,7 @@ static void sample_last(struct engine *e)
     sample_energy(e);
     real kinetic = watch_kinetic(&e->part);
     real work = e->loads.work + 1.5 * e->loads.held_work - 0.5 * e->sampling.held_work;
-    sample_write(e, 1.5 * kinetic - 0.5 * e->sampling.kinetic, work);
+    sample_write(e, e->t - 0.5 * e->dt, 1.5 * kinetic - 0.5 * e->sampling.kinetic, work);
 }
 
 void engine_breaks(struct engine *e, int64_t broken)

@@ -57,6 +57,9 @@ static void columns_add(struct probes *s, struct probe *q, int dim)
             column_add(s, q, c.name, c.unit);
         }
         break;
+    case PROBE_SIF:
+        for (int k = 0; k < SIF_FIGURES; k++) column_add(s, q, sif_figure[k].name, sif_figure[k].unit);
+        break;
     default: break;                      /* the others have figures only */
     }
 }
@@ -168,6 +171,7 @@ static status probe_bind(struct probe *q, const struct observed *o)
     case PROBE_ENERGY:
     case PROBE_MOMENTUM: return bind_region(q, o);
     case PROBE_EXACT: return bar_make(q, o);
+    case PROBE_SIF: return sif_bind(q, o);
     default: return OK;
     }
 }
@@ -179,7 +183,8 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
     for (int k = 0; k < n; k++) {
         struct probe *q = &s->probe[k];
         q->request = request[k];
-        q->memory = (struct probe_memory){.first_time = NAN, .place = {NAN, NAN, NAN}, .body = -1};
+        q->memory = (struct probe_memory){.first_time = NAN, .place = {NAN, NAN, NAN}, .body = -1,
+                                          .factors = {NAN, NAN, NAN, NAN}};
         status fault = probe_bind(q, o);
         if (fault != OK) {
             probes_free(s);
@@ -193,7 +198,11 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
 
 void probes_free(struct probes *s)
 {
-    for (int k = 0; s->probe && k < s->n; k++) memory_free(s->probe[k].list), bar_free(s->probe[k].bar);
+    for (int k = 0; s->probe && k < s->n; k++) {
+        memory_free(s->probe[k].list);
+        bar_free(s->probe[k].bar);
+        sif_free(s->probe[k].sif);
+    }
     memory_free(s->probe);
     memory_free(s->column);
     memory_free(s->value);
@@ -284,6 +293,22 @@ void probes_sample(struct probes *s, const struct observed *o)
         case PROBE_EXACT: bar_figures(q->bar, o, value); break;
         default: break;
         }
+    }
+}
+
+void probes_keep(struct probes *s, const struct observed *o)
+{
+    for (int k = 0; k < s->n; k++)
+        if (s->probe[k].request.kind == PROBE_SIF) sif_keep(&s->probe[k], o);
+}
+
+void probes_sample_end(struct probes *s, const struct observed *o, real t_velocity)
+{
+    for (int k = 0; k < s->n; k++) {
+        struct probe *q = &s->probe[k];
+        if (q->request.kind != PROBE_SIF) continue;
+        sif_sample(q, o, t_velocity);
+        for (int f = 0; f < SIF_FIGURES; f++) s->value[q->first + f] = q->memory.factors[f];
     }
 }
 

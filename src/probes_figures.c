@@ -285,6 +285,11 @@ static void figures_exact(const struct emitter *e)
     for (int k = 0; k < bar_figures_count(form); k++) put(e, bar_figure(form, k).name, value[k]);
 }
 
+static void figures_sif(const struct emitter *e)
+{
+    for (int k = 0; k < SIF_FIGURES; k++) put(e, sif_figure[k].name, e->q->memory.factors[k]);
+}
+
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context)
 {
@@ -292,7 +297,7 @@ void probes_figures(const struct probes *s, const struct observed *o,
         [PROBE_TIP] = figures_tip,       [PROBE_BREAK] = figures_break,       [PROBE_REACTION] = figures_reaction,
         [PROBE_PATCH] = figures_patch,   [PROBE_SPALL] = figures_spall,       [PROBE_POINT] = figures_point,
         [PROBE_LINE] = figures_line,     [PROBE_ENERGY] = figures_energy,     [PROBE_MOMENTUM] = figures_momentum,
-        [PROBE_PULSE] = figures_pulse,             [PROBE_EXACT] = figures_exact,
+        [PROBE_PULSE] = figures_pulse,             [PROBE_EXACT] = figures_exact,   [PROBE_SIF] = figures_sif,
     };
     for (int k = 0; k < s->n; k++)
         figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o});

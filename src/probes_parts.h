@@ -12,6 +12,8 @@ struct probe_memory {
     real force_max, force_square;        /* REACTION: largest |F|; sum of F^2                [N], [N^2] */
     int64_t steps;                       /* REACTION: in that sum                                     */
     int64_t body;                        /* SPALL: the bar that broke                                 */
+    real trail[2][2];                    /* SIF: where the tip came along, for its direction     [m]  */
+    real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample      */
 };
 
 struct probe {
@@ -21,6 +23,7 @@ struct probe {
     int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
     struct probe_memory memory;
     struct bar *bar;                     /* EXACT: probes_bar.c                                       */
+    struct sif_watch *sif;               /* SIF: probes_sif.c                                         */
 };
 
 /* ---- what a single particle tells: POINT and LINE ------------------------------------------------ */
@@ -58,6 +61,17 @@ struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o
  * part and of the rest [m/s]. */
 void spall_look(struct probe *q, const struct observed *o);
 void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
+
+/* ---- stress-intensity factors: SIF ------------------------------------------------------------------ */
+
+enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
+extern const struct column sif_figure[SIF_FIGURES];
+/* Finds the tip; refuses bodies without one, and contours that leave the body or reach another tip or material. */
+status sif_bind(struct probe *q, const struct observed *o);
+void sif_free(struct sif_watch *w);
+void sif_keep(struct probe *q, const struct observed *o);
+/* Fills q->memory.factors. */
+void sif_sample(struct probe *q, const struct observed *o, real t_velocity);
 
 /* ---- a bar against a closed form: EXACT ------------------------------------------------------------- */
 

@@ -139,7 +139,10 @@ void scene_free(struct scene *s)
         memory_free(s->boundary[k].time.t);
         memory_free(s->boundary[k].time.value);
     }
-    for (int k = 0; k < s->probes; k++) region_free(&s->probe[k].region);
+    for (int k = 0; k < s->probes; k++) {
+        region_free(&s->probe[k].region);
+        memory_free(s->probe[k].contours.value);
+    }
     region_free(&s->pd_region);
     memory_free(s->material);
     memory_free(s->body);

@@ -207,7 +207,7 @@ status read_boundaries(struct reader *r, const struct node *root)
 
 const char *const probe_names[PROBES] = {"tip",   "break", "reaction", "patch",   "spall",
                                          "point", "line",  "energy",   "momentum", "pulse",
-                                         "exact"};
+                                         "exact", "sif"};
 
 /* The kind, and the mapping of its keys (NULL: none): `tip`, `tip:` or `tip: {at: [..]}`. */
 static status kind_of_probe(struct reader *r, const struct node *n, enum probe_kind *kind, const struct node **map)
@@ -260,6 +260,25 @@ static status check_exact(struct reader *r, const struct node *n, const struct n
     return OK;
 }
 
+/* What the numbers alone tell of a ring round a tip. */
+static status check_sif(struct reader *r, const struct node *n, const struct node *map, struct probe_request *p)
+{
+    enum { CONTOURS_MAX = 16 };
+    if (p->kind != PROBE_SIF) return OK;
+    if (r->dim != 2) return fault(r, map ? map : n, "plane spaces only in this version");
+    const struct number_list *c = &p->contours;
+    const struct node *contours = node_find(map, "contours");
+    if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; 1 to %d are expected", c->n, CONTOURS_MAX);
+    if (isnan(p->outer) && c->n > 0) p->outer = c->value[c->n - 1];
+    const real outer = isnan(p->outer) ? 20 * r->scene->spacing : p->outer;
+    if (p->inner >= outer)
+        return fault(r, node_find(map, "inner"), "%s is not less than outer, %.6g m; about half of it is usual",
+                     shown(r, node_find(map, "inner")), outer);
+    const real shares[2] = {p->direction[0], p->direction[1]};
+    if (!p->has_direction || dot(shares, shares, 2) > 0) return OK;
+    return fault(r, node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
+}
+
 static status read_probe(struct reader *r, const struct node *n, struct probe_request *p)
 {
     const struct node *map;
@@ -273,12 +292,14 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
         map = &short_form;
     }
     p->amplitude = p->period = p->wavelength = p->origin = NAN;
+    p->inner = p->outer = p->core = NAN;
     strcat(group, probe_names[p->kind]);
     strcpy(p->name, probe_names[p->kind]);
     TRY(read_group(r, map ? map : n, map, group, p));
     if (p->kind == PROBE_LINE && memcmp(p->from, p->to, sizeof p->from) == 0)
         return fault(r, map, "has no length; from and to are its two ends");
     TRY(check_exact(r, n, map, p));
+    TRY(check_sif(r, n, map, p));
     return check_probe_boundary(r, map ? node_find(map, "boundary") : n, p);
 }
 

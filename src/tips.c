@@ -274,6 +274,14 @@ static int64_t sample_at(const struct tips *t, real time)
     return s;
 }
 
+real tips_speed(const struct tips *t, int k)
+{
+    const int64_t last = t->samples - 1;
+    if (last < 1) return 0;
+    const int64_t first = sample_at(t, t->time[last] - t->window * (1 + 1e-9));
+    return regression(t, k, first < last ? first : last - 1, last);
+}
+
 /* The newest window is the only one that the earlier samples have not seen. */
 static void tip_speeds(struct tips *t, int k)
 {
@@ -282,8 +290,7 @@ static void tip_speeds(struct tips *t, int k)
     if (isnan(tip->start_time) || last < 1) return;
     real now = t->time[last], slack = 1e-9 * t->window;
     if (now - t->time[0] >= t->window - slack) {
-        int64_t first = sample_at(t, now - t->window - slack);
-        real slope = regression(t, k, first < last ? first : last - 1, last);
+        real slope = tips_speed(t, k);
         if (!(slope <= tip->speed_max)) tip->speed_max = slope;
     }
     if (tip->arrest_time == now && tip->start_time < now)
