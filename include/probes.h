@@ -112,8 +112,8 @@ void probes_free(struct probes *s);
 void probes_sample(struct probes *s, const struct observed *o);
 /* What needs the motion at a sample's own time (SIF), while velocities are known half a step before and after. `keep`,
  * before the step: remembers displacements and velocities of o->t and o->t_velocity. `sample_end`, after it, when
- * velocities are those of t_velocity: fills the rest of value[] for o->t. Without a `keep` before, the body is in
- * equilibrium. */
+ * velocities are those of t_velocity: fills the rest of value[] for the time kept. Without a `keep` before, the body is
+ * in equilibrium. */
 void probes_keep(struct probes *s, const struct observed *o);
 void probes_sample_end(struct probes *s, const struct observed *o, real t_velocity);
 /* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_CUT marks that bonds

@@ -127,6 +127,7 @@ void engine_sample_begin(struct engine *e)
     e->sampling.held_work = e->loads.held_work;
     if (e->sampling.due) sample_state(e);
     if (!e->sampling.due && e->step < e->steps - 1) return;
+    if (!e->sampling.due && wants_stress(e)) e->kernels.bond_stress(&e->bonds, &e->part);
     struct observed o = engine_observed(e);
     probes_keep(&e->probes, &o);
     e->sampling.kinetic = watch_kinetic(&e->part);

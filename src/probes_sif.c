@@ -27,7 +27,7 @@ struct sif_watch {
     struct contour contour[SIF_CONTOURS_MAX + 1];    /* [0]: that of the figures                      */
     struct crack *crack;                 /* those of the scene, and one behind a tip without crack    */
     real behind[2][DIM_MAX];
-    bool kept;                           /* displacement and velocity before a step, of t and t_velocity */
+    bool kept;                           /* displacement and velocity are those of t and t_velocity   */
     real t, t_velocity;                  /* [s]                                                       */
     real *u[2], *v[2], *stress[3];       /* [n_all]                                                   */
     real *mean[2], *acceleration[2];     /* [n_all] velocity at a sample's time [m/s], [m/s^2]        */
@@ -124,8 +124,8 @@ static status check_ring(const struct sif_watch *w, const struct probe_request *
     for (int k = 0; k < w->contours; k++) {
         const struct contour *c = &w->contour[k];
         if (c->outer - c->inner < NARROWEST * o->spacing * (1 - 1e-9))
-            return status_set(REFUSED, "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; choose "
-                              "a larger outer radius", r->name, c->inner, c->outer, NARROWEST);
+            return status_set(REFUSED, "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; "
+                              "choose a larger outer radius", r->name, c->inner, c->outer, NARROWEST);
     }
     if (ring_leaves(&w->tip, w->reach, o, place))
         return status_set(REFUSED, "probe \"%s\": the ring of radius %.6g m round the tip (%.6g, %.6g) m leaves the body "
@@ -245,13 +245,14 @@ void sif_keep(struct probe *q, const struct observed *o)
 }
 
 /* Acceleration by the velocities before and after, of peridynamic particles and material points alike: in the leap-frog
- * scheme it is the force of the sample's time over the mass. Velocity along that line, at the sample's time. */
-static void find_inertia(struct sif_watch *w, const struct particles *p, real t, real t_velocity)
+ * scheme it is the force of the sample's time over the mass. Velocity along that line, at the sample's time. No step
+ * follows the last sample: it tells of one step earlier, as forces of its own are not made. */
+static void find_inertia(struct sif_watch *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)
         for (int64_t i = 0; i < p->n_all; i++) {
             w->acceleration[d][i] = (p->v[d][i] - w->v[d][i]) / (t_velocity - w->t_velocity);
-            w->mean[d][i] = p->v[d][i] + (t - t_velocity) * w->acceleration[d][i];
+            w->mean[d][i] = p->v[d][i] + (w->t - t_velocity) * w->acceleration[d][i];
         }
 }
 
@@ -263,8 +264,8 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     struct sif found[SIF_CONTOURS_MAX + 1];
     real place[2];
     follow(q, o);
-    if (!w->kept || w->t != o->t) keep_displacement(w, p);   /* the last sample: no step follows that would keep it */
-    if (moves) find_inertia(w, p, o->t, t_velocity);
+    if (!moves) keep_displacement(w, p);
+    if (moves) find_inertia(w, p, t_velocity);
     w->kept = false;
     for (int k = 0; k < SIF_FIGURES; k++) q->memory.factors[k] = NAN;
     if (w->tip.speed > 0 && ring_leaves(&w->tip, w->reach, o, place)) return;

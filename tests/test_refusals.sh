@@ -146,7 +146,8 @@ done <<'END'
 19|output: {samples: 0}|19:10|out of range
 19|output: {compress: maybe}|19:10|true or false
 20|probes: [crack]|20:10|does not belong here
-20|probes: [sif]|20:10|not in this version
+20|probes: [sif: {inner: 21 mm}]|20:16|is not less than outer
+20|probes: [rigid]|20:10|not in this version
 20|probes: [tip, tip]|20:15|name of another probe
 20|probes: [exact: step bar]|20:10|space line is expected
 19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
@@ -166,6 +167,7 @@ done <<'END'
 16|    traction: [1, 0]^    face: x-|bad.yaml: probe|has no reaction
 20|probes: [{point: {at: [1, 1]}}]|bad.yaml: probe|outside the bodies
 20|probes: [{energy: {region: {box: {from: [1, 1], to: [2, 2]}}}}]|bad.yaml: probe|no particle
+20|probes: [sif]|bad.yaml: probe|leaves the body
 14|boundary:^  - {name: push, body_force: [0, 1], region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml: boundary push|no particle
 8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml: body body|holds no particle
 END

@@ -74,7 +74,8 @@ static const char plate[] =
     "  - point: {name: p, at: [1, 1]}\n"
     "  - line: {from: [0, 0], to: [1, 1], points: 11}\n"
     "  - energy: {region: {all: true}}\n"
-    "  - momentum: {}\n";
+    "  - momentum: {}\n"
+    "  - sif: {at: [1 mm, 2 mm], contours: [30 mm, 50 mm], stress: particle, weight: cubic, speed: 1 km/s, reach: 2}\n";
 
 static const char bar[] =
     "space: line\n"
@@ -212,7 +213,8 @@ static void test_plate_probes(void **state)
 {
     (void)state;
     static const enum probe_kind kinds[] = {PROBE_TIP,   PROBE_TIP,   PROBE_BREAK, PROBE_REACTION, PROBE_PATCH,
-                                            PROBE_SPALL, PROBE_POINT, PROBE_LINE,  PROBE_ENERGY,   PROBE_MOMENTUM};
+                                            PROBE_SPALL, PROBE_POINT, PROBE_LINE,  PROBE_ENERGY,   PROBE_MOMENTUM,
+                                            PROBE_SIF};
     struct scene s = read_ok(plate, NULL, 0);
     const struct probe_request *p = s.probe;
     assert_int_equal(s.probes, COUNT_OF(kinds));
@@ -222,6 +224,7 @@ static void test_plate_probes(void **state)
     assert_true(!p[0].has_at && p[1].has_at && p[1].at[1] == 2 && p[2].region.n == 1);
     assert_string_equal(p[3].boundary, "impact");
     assert_true(p[6].has_at && p[7].to[1] == 1 && p[7].points == 11 && p[8].region.n == 1 && p[9].region.n == 0);
+    assert_true(p[10].outer == 50e-3 && isnan(p[10].inner) && p[10].contours.n == 2 && p[10].stress == SIF_PARTICLE);
     scene_free(&s);
 }
 
