@@ -44,6 +44,7 @@ struct engine {
     struct conversion conversion;
     struct watch watch;
     struct tips tips;
+    struct growth *growth;               /* [scene->growths] cracks that grow as they are told        */
     struct probes probes;
     struct wave_pulse *pulse;            /* [pulses] of the initial states                            */
     int pulses;

@@ -4,6 +4,7 @@
 
 #include "archive.h"
 #include "bonds.h"
+#include "growth.h"
 #include "cells.h"
 #include "exact.h"
 #include "loads.h"
@@ -85,6 +86,8 @@ struct observed {
     real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
     real t;                              /* [s]                                                       */
     real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
+    const struct growth *growth;         /* cracks that grow as they are told                         */
+    int growths;
     const struct baseline *baseline;     /* NULL: none                                                */
     real t_velocity;                     /* when velocities are known, half a step before t   [s]     */
     const struct wave_pulse *pulse;      /* initial pulses, for EXACT                                 */
@@ -125,6 +128,8 @@ void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
 /* Writes the profiles of LINE and EXACT probes as csv to `folder`/<name>_<frame>.csv. */
 status probes_profiles(const struct probes *s, const struct observed *o, const char *folder, int frame);
+/* Factors of the named SIF probe at the last sample; false: none yet. */
+bool probes_factors(const struct probes *s, const char *name, struct sif *found);
 status probes_archive(struct probes *s, struct archive *a);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "bonds.h"
 #include "convert.h"
+#include "growth.h"
 #include "kernels.h"
 #include "loads.h"
 #include "material.h"
@@ -73,6 +74,7 @@ struct scene {
     struct conversion_rule conversion;
 
     int cracks;     struct crack *crack;
+    int growths;    struct growth_rule *growth;        /* cracks that grow as they are told           */
     int initials;   struct scene_initial *initial;
     int boundaries; struct boundary *boundary;
     int probes;     struct probe_request *probe;

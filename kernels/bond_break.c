@@ -45,16 +45,32 @@ static void weigh_again(struct bonds *b, int64_t row)
     b->state.weighted[row] = Q;
 }
 
-static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
+/* A bond without weight is broken for ever; what it held must be booked before. */
+static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j)
 {
-    b->fracture_energy[row] += half_energy(b, p, q, i, stretch);
-    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_stored(b, q);
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
     set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_CUT : FLAG_CUT | FLAG_CRACKED);
     if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
+}
+
+static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
+{
+    b->fracture_energy[row] += half_energy(b, p, q, i, stretch);
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_stored(b, q);
+    bond_end(b, p, row, q, i, j);
+}
+
+void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, float w)
+{
+    const int32_t i = b->particle[row], j = b->nbr[q];
+    const real lost = 1 - w / b->w[q];
+    b->fracture_energy[row] += lost * half_energy(b, p, q, i, bond_stretch(b, p, q, i, j));
+    if (w > 0) b->w[q] = w;
+    else bond_end(b, p, row, q, i, j);
+    if (b->state.modulus && b->state.local && b->whole[row]) weigh_again(b, row);
 }
 
 int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)

@@ -60,6 +60,10 @@ typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct
 int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group);
 int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit);
 
+/* Takes weight from entry q of a row, down to w; 0 breaks it. What it loses of its energy is booked as fracture; the other
+ * entry of the bond has to fade alike. */
+void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, float w);
+
 /* Half the elastic energy of every row's intact bonds, added up in fixed blocks [J]. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
 

@@ -90,6 +90,17 @@ static void step_without_grid(struct engine *e)
     engine_residual(e);
 }
 
+static int64_t grow(struct engine *e)
+{
+    int64_t released = 0;
+    for (int k = 0; k < e->scene->growths; k++) {
+        struct sif K;
+        const bool known = probes_factors(&e->probes, e->scene->growth[k].probe, &K);
+        released += growth_step(&e->growth[k], &e->bonds, &e->part, &e->source, known ? &K : NULL, e->t, e->dt);
+    }
+    return released;
+}
+
 /* ---- the step ------------------------------------------------------------------------------------------- */
 
 static status step(struct engine *e)
@@ -111,6 +122,7 @@ static status step(struct engine *e)
     loads_apply(&e->loads, p, middle, e->dt, dt_velocity);
     lap(&e->laps, LAP_BONDS);
     engine_sample_energy(e);
+    broken += grow(e);                                                      /* 5: cracks that grow as they are told */
     lap(&e->laps, LAP_WATCH);
     k->pd_move(p, e->dt, dt_velocity);                                      /* peridynamic particles move */
     lap(&e->laps, LAP_BONDS);

@@ -277,7 +277,7 @@ struct observed engine_observed(const struct engine *e)
         .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
         .t_velocity = e->step > 0 ? e->t - 0.5 * e->dt : e->t, .pulse = e->pulse, .pulses = e->pulses,
         .space = s->space, .horizon = e->source.family.horizon, .crack = s->crack, .cracks = s->cracks,
-        .energy_change = watch_energy_change(&e->watch), .baseline = e->has_baseline ? &e->baseline : NULL};
+        .energy_change = watch_energy_change(&e->watch), .growth = e->growth, .growths = s->growths, .baseline = e->has_baseline ? &e->baseline : NULL};
 }
 
 static void make_pulses(struct engine *e)
@@ -338,6 +338,8 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     e->strain_stress = largest_stress(&e->part);
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
+    e->growth = NEW("engine.growth", s->growths, struct growth);
+    for (int k = 0; k < s->growths; k++) growth_make(&e->growth[k], &s->growth[k]);
     watch_make(&e->watch);
     make_pulses(e);
     struct observed o = engine_observed(e);
@@ -349,6 +351,8 @@ void engine_free(struct engine *e)
     probes_free(&e->probes);
     for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]);
     tips_free(&e->tips);
+    for (int k = 0; e->growth && k < e->scene->growths; k++) growth_free(&e->growth[k]);
+    memory_free(e->growth);
     partial_stress_free(&e->partial);
     rim_free(&e->rim);
     transfer_order_free(&e->order);
@@ -416,6 +420,7 @@ status engine_archive(void *engine, struct archive *a)
     TRY(conversion_archive(&e->conversion, a));
     TRY(watch_archive(&e->watch, a));
     TRY(tips_archive(&e->tips, a));
+    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->growth[k], k, a));
     TRY(probes_archive(&e->probes, a));
     return output_archive(e->out, a);
 }

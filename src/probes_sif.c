@@ -22,6 +22,7 @@ struct sif_watch {
     struct sif_tip tip;
     struct gradient_rule rule;
     int follows;                         /* tip of the run, -1: none                                  */
+    int growth;                          /* crack that grows as it is told, -1: none                  */
     real reach;                          /* of the largest contour                              [m]   */
     int contours;
     struct contour contour[SIF_CONTOURS_MAX + 1];    /* [0]: that of the figures                      */
@@ -63,6 +64,16 @@ static int tip_meant(const struct probe_request *r, const struct observed *o)
     return nearest;
 }
 
+/* The crack that is told how to grow, and from here; -1: none. */
+static int growth_meant(const struct sif_watch *w, const struct observed *o)
+{
+    for (int k = 0; k < o->growths; k++) {
+        const real *at = o->growth[k].rule->at;
+        if (hypot(at[0] - w->tip.place[0], at[1] - w->tip.place[1]) <= SAME_PLACE * o->spacing) return k;
+    }
+    return -1;
+}
+
 static status find_tip(struct sif_watch *w, const struct probe_request *r, const struct observed *o)
 {
     w->follows = tip_meant(r, o);
@@ -76,6 +87,7 @@ static status find_tip(struct sif_watch *w, const struct probe_request *r, const
     const real *place = r->has_at ? r->at : tip->origin, *along = r->has_direction ? r->direction : tip->along;
     const real length = hypot(along[0], along[1]);
     for (int d = 0; d < 2; d++) w->tip.place[d] = place[d], w->tip.along[d] = along[d] / length;
+    w->growth = growth_meant(w, o);
     return OK;
 }
 
@@ -202,6 +214,12 @@ static void follow(struct probe *q, const struct observed *o)
     const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
     real (*trail)[2] = q->memory.trail;
     w->tip.speed = 0;
+    if (w->growth >= 0) {                /* its tip is known exactly */
+        const struct growth *g = &o->growth[w->growth];
+        for (int d = 0; d < 2; d++) w->tip.place[d] = g->place[d], w->tip.along[d] = g->along[d];
+        w->tip.speed = real_min(g->speed, FASTEST * w->tip.medium.rayleigh);
+        return;
+    }
     if (!tip || !(tip->growth > 0)) return;
     for (int d = 0; d < 2; d++) w->tip.place[d] = tip->place[d];
     const real speed = given(q->request.speed) ? q->request.speed : tips_speed(o->tips, w->follows);
@@ -276,4 +294,15 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     const real factors[SIF_FIGURES] = {found[0].K[MODE_I], found[0].K[MODE_II], found[0].J,
                                        sif_spread(found + 1, w->contours - 1)};
     memcpy(q->memory.factors, factors, sizeof factors);
+}
+
+bool probes_factors(const struct probes *s, const char *name, struct sif *found)
+{
+    for (int k = 0; k < s->n; k++) {
+        const struct probe *q = &s->probe[k];
+        if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
+        *found = (struct sif){{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]};
+        return true;
+    }
+    return false;
 }

@@ -51,7 +51,8 @@ static status read_nodes(struct reader *r, const struct node *root)
     TRY(read_cracks(r, root));
     TRY(read_initials(r, root));
     TRY(read_boundaries(r, root));
-    return read_probes(r, root);
+    TRY(read_probes(r, root));
+    return read_growths(r, root);
 }
 
 static status read_all(struct reader *r, const char *text, size_t length)
@@ -150,6 +151,7 @@ void scene_free(struct scene *s)
     memory_free(s->initial);
     memory_free(s->boundary);
     memory_free(s->probe);
+    memory_free(s->growth);
     memory_free(s->times.value);
     memory_free(s->path);
     memory_free(s->text);

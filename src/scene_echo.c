@@ -263,6 +263,18 @@ static void write_part(struct writer *w, const char *key, const char *group, con
     w->indent -= 2;
 }
 
+static void write_growths(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->growths) fputs("growth:\n", w->out);
+    for (int k = 0; k < s->growths; k++) {
+        struct growth_rule g = s->growth[k];
+        if (!g.probe[0]) g.toughness = NAN;      /* means nothing then */
+        begin_item(w);
+        write_group(w, "growth", &g);
+    }
+}
+
 static void write_initials(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -382,6 +394,7 @@ char *scene_echo(const struct scene *s)
     write_initials(&w);
     write_boundaries(&w);
     write_probes(&w);
+    write_growths(&w);
     bool whole = !ferror(w.out);
     if (fclose(w.out) != 0 || !whole) {
         free(text);

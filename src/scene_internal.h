@@ -133,6 +133,7 @@ status read_region(struct reader *r, const struct node *n, struct region *region
 status read_materials(struct reader *r, const struct node *root);
 status read_bodies(struct reader *r, const struct node *root);
 status read_cracks(struct reader *r, const struct node *root);
+status read_growths(struct reader *r, const struct node *root);
 status read_initials(struct reader *r, const struct node *root);
 status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);

@@ -192,3 +192,36 @@ status read_initials(struct reader *r, const struct node *root)
     for (int k = 0; k < s->initials; k++, n = n->next) TRY(read_initial(r, n, &s->initial[k]));
     return OK;
 }
+
+/* ---- growth --------------------------------------------------------------------------------------------- */
+
+static status read_growth(struct reader *r, const struct node *n, struct growth_rule *g, int number)
+{
+    real length;
+    snprintf(g->name, sizeof g->name, "growth%d", number);
+    TRY(read_group(r, n, n, "growth", g));
+    length = sqrt(dot(g->direction, g->direction, r->dim));
+    if (!(length > 0)) return fault(r, node_find(n, "direction"), "has no length; a direction such as [1, 0] is expected");
+    for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
+    if (!g->probe[0] && node_find(n, "toughness"))
+        return fault(r, node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
+    for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
+        if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
+    return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
+}
+
+/* After the probes, which may rule it. */
+status read_growths(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *list = node_find(root, "growth");
+    if (!list) return OK;
+    TRY(expect_list(r, key_find("", "growth"), list));
+    if (s->dim != 2) return fault(r, list, "plane spaces only in this version");
+    if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; pd or adaptive is expected");
+    s->growths = list->n;
+    s->growth = NEW("growth", list->n, struct growth_rule);
+    const struct node *n = list->first;
+    for (int k = 0; k < s->growths; k++, n = n->next) TRY(read_growth(r, n, &s->growth[k], k));
+    return OK;
+}

@@ -1,0 +1,156 @@
+/* floor 3: prescribed and ruled growth of cracks, and the bonds that fade behind their tips. */
+#include "growth.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kernels.h"
+#include "memory.h"
+
+void growth_make(struct growth *g, const struct growth_rule *rule)
+{
+    *g = (struct growth){.rule = rule, .start_time = NAN};
+    for (int d = 0; d < 2; d++) g->place[d] = rule->at[d], g->along[d] = rule->direction[d];
+}
+
+void growth_free(struct growth *g)
+{
+    memory_free(g->fading);
+    memset(g, 0, sizeof *g);
+}
+
+/* ---- does it grow, and where to --------------------------------------------------------------------------- */
+
+static bool grows(const struct growth *g, const struct sif *K, real t)
+{
+    const struct growth_rule *r = g->rule;
+    if (t < r->start || g->grown >= r->length) return false;
+    if (!r->probe[0]) return true;
+    return K && isfinite(K->K[0]) && crack_equivalent(K->K) >= r->toughness;
+}
+
+/* The direction of the largest hoop stress, as seen from where the crack runs now. */
+static void turn(struct growth *g, const struct sif *K)
+{
+    const real angle = crack_direction(K->K), c = cos(angle), s = sin(angle);
+    const real x = g->along[0], y = g->along[1];
+    g->along[0] = c * x - s * y, g->along[1] = s * x + c * y;
+}
+
+/* ---- bonds that the tip crosses --------------------------------------------------------------------------- */
+
+static bool fades(const struct growth *g, int32_t i, int32_t j)
+{
+    for (int64_t k = g->n - 1; k >= 0; k--)
+        if (g->fading[k].i == i && g->fading[k].j == j) return true;
+    return false;
+}
+
+static void fading_add(struct growth *g, int32_t i, int32_t j, float w, real length)
+{
+    if (g->n == g->room) {
+        int64_t larger = g->room ? 2 * g->room : 256;
+        g->fading = memory_resize("growth.fading", g->fading, g->room, larger, sizeof *g->fading);
+        g->room = larger;
+    }
+    g->fading[g->n++] = (struct fading){i, j, w, 0, length};
+}
+
+/* Entries of the row of particle i that the way of the tip crosses. */
+static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way, int32_t i)
+{
+    const int64_t row = b->row_of[i];
+    real X[DIM_MAX], Y[DIM_MAX];
+    particle_place(p, i, X);
+    for (int64_t k = 0; row >= 0 && k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        if (b->w[q] == 0) continue;
+        particle_place(p, b->nbr[q], Y);
+        if (crack_cuts(way, X, Y, 2) && !fades(g, i, b->nbr[q])) fading_add(g, i, b->nbr[q], b->w[q], g->grown);
+    }
+}
+
+static void cross(struct growth *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
+                  const real from[2])
+{
+    real corner[2][DIM_MAX] = {{from[0], from[1]}, {g->place[0], g->place[1]}}, X[DIM_MAX] = {from[0], from[1]};
+    const struct crack way = {2, corner};
+    const real radius = s->family.cutoff + hypot(g->place[0] - from[0], g->place[1] - from[1]);
+    const int room = cells_near(s->cells, p, X, radius, -1, NULL, 0);
+    int32_t *found = NEW("growth.found", room, int32_t);
+    const int n = cells_near(s->cells, p, X, radius, -1, found, room);
+    for (int k = 0; k < n; k++) {
+        if (found[k] >= p->n) continue;
+        if (p->kind[found[k]] == KIND_MPM) p->flag[found[k]] |= FLAG_CUT;    /* converts: cracks are peridynamic */
+        cross_row(g, b, p, &way, found[k]);
+    }
+    memory_free(found);
+}
+
+/* ---- fading ----------------------------------------------------------------------------------------------- */
+
+/* Entry of bond i-j; -1: its row does not hold it any more. */
+static int64_t entry_of(const struct bonds *b, int32_t i, int32_t j, int64_t *row)
+{
+    *row = b->row_of[i];
+    for (int64_t k = 0; *row >= 0 && k < b->slot[*row / LANES + 1] - b->slot[*row / LANES]; k++) {
+        const int64_t q = bond_index(b, *row / LANES, k, (int)(*row % LANES));
+        if (b->nbr[q] == j && b->inverse_length[q] != 0) return q;
+    }
+    return -1;
+}
+
+static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, const struct family *f)
+{
+    const struct growth_rule *r = g->rule;
+    const real damping = isnan(r->damping) ? 0.5 * f->horizon : r->damping;
+    int64_t kept = 0, released = 0;
+    for (int64_t k = 0; k < g->n; k++) {
+        const struct fading *bond = &g->fading[k];
+        const real grown = g->grown - bond->length;
+        const real share = grown < damping ? pow(1 - grown / damping, r->exponent) : 0;
+        int64_t row, q = entry_of(b, bond->i, bond->j, &row);
+        if (q < 0 || b->w[q] == 0) continue;     /* broken meanwhile */
+        bond_fade(b, p, row, q, (float)(bond->w * share));
+        if (share > 0) g->fading[kept++] = *bond;
+        else released++;
+    }
+    g->n = kept;
+    return released;
+}
+
+/* ---- a step ----------------------------------------------------------------------------------------------- */
+
+int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
+                    const struct sif *K, real t, real dt)
+{
+    const real from[2] = {g->place[0], g->place[1]};
+    g->speed = 0;
+    if (!grows(g, K, t)) return 0;
+    if (g->rule->probe[0]) turn(g, K);
+    g->speed = g->rule->speed;
+    if (isnan(g->start_time)) g->start_time = t;
+    for (int d = 0; d < 2; d++) g->place[d] += g->speed * dt * g->along[d];
+    g->grown += g->speed * dt;
+    cross(g, b, p, source, from);
+    return fade(g, b, p, &source->family);
+}
+
+status growth_archive(struct growth *g, int which, struct archive *a)
+{
+    char name[64];
+    struct { real place[2], along[2], speed, grown, start_time; int64_t n; } s = {
+        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, g->speed, g->grown, g->start_time, g->n};
+    snprintf(name, sizeof name, "growth/%d", which);
+    ARCHIVE_VALUE(a, name, s);
+    for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d];
+    g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
+    if (!a->saving) {
+        memory_free(g->fading);
+        g->n = g->room = s.n;
+        g->fading = NEW("growth.fading", g->room, struct fading);
+    }
+    snprintf(name, sizeof name, "growth/fading%d", which);
+    return a->exchange(a, name, g->fading, (size_t)g->n * sizeof *g->fading);
+}
