@@ -51,7 +51,8 @@ static status read_nodes(struct reader *r, const struct node *root)
     TRY(read_cracks(r, root));
     TRY(read_initials(r, root));
     TRY(read_boundaries(r, root));
-    return read_probes(r, root);
+    TRY(read_probes(r, root));
+    return check_solver(r, root);
 }
 
 static status read_all(struct reader *r, const char *text, size_t length)
