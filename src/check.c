@@ -38,9 +38,9 @@ static void say_steps(const struct engine *e, int threads)
                (long long)e->steps, 1e3 * step_seconds(e) / threads, threads, threads > 1 ? "s" : "");
     else
         printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n"
-               "run time       about %.2g s on %d thread%s without output\n", e->dt, e->dt / e->dt_critical, e->dt_critical,
-               (long long)e->steps, e->scene->duration, (double)e->steps * step_seconds(e) / threads, threads,
-               threads > 1 ? "s" : "");
+               "run time       about %.2g s on %d thread%s without output\n", e->dt, e->dt / e->dt_critical,
+               e->dt_critical, (long long)e->steps, e->scene->duration, (double)e->steps * step_seconds(e) / threads,
+               threads, threads > 1 ? "s" : "");
     printf("memory         about %.0f MB\n", 16 + 1e-6 * (260.0 * (double)e->part.n + 18.0 * (double)e->bonds.n));
 }
 

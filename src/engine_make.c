@@ -286,6 +286,8 @@ struct observed engine_observed(const struct engine *e)
         .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
         .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
         .pulse = e->pulse, .pulses = e->pulses,
+        .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
+        .pulse = e->pulse, .pulses = e->pulses,
         .space = s->space, .horizon = e->source.family.horizon, .crack = s->crack, .cracks = s->cracks,
         .energy_change = watch_energy_change(&e->watch), .baseline = e->has_baseline ? &e->baseline : NULL};
 }
@@ -339,7 +341,8 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
         e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
         loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     }
-    TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing, e->source.family.cutoff,
+    TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
+                            e->source.family.cutoff,
                             e->optional)));
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;

@@ -36,8 +36,8 @@ const struct key keys[] = {
         .words = "bond|ospd|mospd"),
     KEY("solver", KEY_CHOICE, UNIT_NONE, AT(scene, solver), ANY, "explicit",
         "explicit: steps in time; relaxation, cg: the static equilibrium under the loads at the end of the duration, "
-        "with supports where they have then moved to, by adaptive dynamic relaxation or (method pd, small strains) conjugate "
-        "gradients; bonds do not break in it", .words = "explicit|relaxation|cg"),
+        "with supports where they have then moved to, by adaptive dynamic relaxation or (method pd, small strains) "
+        "conjugate gradients; bonds do not break in it", .words = "explicit|relaxation|cg"),
     KEY("solver_tolerance", KEY_REAL, UNIT_NONE, AT(scene, solver_tolerance), BETWEEN(1e-12, 0.1), "1e-5",
         "largest residual force over the applied force or the reactions (relaxation, cg)"),
     KEY("solver_steps", KEY_INT, UNIT_NONE, AT(scene, solver_steps), BETWEEN(1, 1000000000), "200000",

@@ -178,7 +178,8 @@ static void make_weights(struct engine *e)
     for (int b = 0; b < e->loads.n; b++) {
         const struct boundary *m = e->loads.load[b].boundary;
         for (int64_t i = 0; m->kind == BOUNDARY_MIRROR && i < e->part.n; i++) {
-            if (fabs(e->part.X[m->axis][i] - m->at) > 1e-9 * e->scene->spacing || (m->body >= 0 && e->part.body[i] != m->body)) continue;
+            if (fabs(e->part.X[m->axis][i] - m->at) > 1e-9 * e->scene->spacing) continue;
+            if (m->body >= 0 && e->part.body[i] != m->body) continue;
             s->weight[i] *= 0.5;
             s->held[i] |= (uint8_t)(m->hold_tangential ? (1 << DIM_MAX) - 1 : 1 << m->axis);
         }
@@ -374,6 +375,10 @@ static status not_converged(const struct engine *e)
     if (!(s->residual < INFINITY))
         return status_set(FAILED, "the solver diverged at step %lld; smaller loads are expected, or solver relaxation in "
                                   "place of cg, or explicit", (long long)e->step);
+    if (s->residual * s->scale <= s->noise)
+        return status_set(FAILED, "the residual stays at %.3g of the load, %.3g is wanted: strains are so small that the "
+                                  "round-off of positions shows; a larger solver_tolerance is expected", s->residual,
+                          e->scene->solver_tolerance);
     return status_set(FAILED, "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is wanted; raise "
                               "solver_steps, or see whether every part of the body is held and its loads are balanced",
                       (long long)e->step, s->residual, e->scene->solver_tolerance);

@@ -137,9 +137,9 @@ static status check(struct engine *e, real by_recurrence, bool *done)
     s->least = real_min(s->least, s->residual);
     restart(e);
     if (s->stalls < STALLS_MOST) return OK;
-    return status_set(FAILED, "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is wanted; "
-                              "choose a larger solver_tolerance (below 1e-8 it is round-off), or see whether moments of "
-                              "the loads are balanced", (long long)e->step, s->least, e->scene->solver_tolerance);
+    return status_set(FAILED, "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
+                              "wanted; choose a larger solver_tolerance (below 1e-8 it is round-off), or see whether "
+                              "moments of the loads are balanced", (long long)e->step, s->least, e->scene->solver_tolerance);
 }
 
 status cg_step(struct engine *e, bool *done)

@@ -165,8 +165,8 @@ static void test_bar_support(void **state)
     static const char *const solver[] = {"solver=relaxation", "solver=cg"};
     for (int k = 0; k < 2; k++) {
         struct solution a;
-        solve(&a, BAR BAR_FIXED "  - {name: end, velocity: [0.5 um/s], region: {box: {from: 0.97 m, to: inf}}}\n", solver[k],
-              "solver_tolerance=1e-7", NULL);
+        solve(&a, BAR BAR_FIXED "  - {name: end, velocity: [0.5 um/s], region: {box: {from: 0.97 m, to: inf}}}\n",
+              solver[k], "solver_tolerance=1e-7", NULL);
         solved(&a);
         near("displacement", moved(&a, 0, 0.995, 0), 1e-6, 1e-7);    /* round-off of positions in 100 steps */
         near("displacement of the load", a.e.loads.load[1].displacement[0], 1e-6, 1e-12);
@@ -264,12 +264,15 @@ static void test_irregular(void **state)
     (void)state;
     struct solution a, b;
     static const char plate[] = WHOLE "cracks:\n  - {from: [-6 mm, 0], to: [0, 0]}\nboundary:\n"
-        "  - {traction: [0, 1 MPa], face: y+}\n  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, -4.5 mm]}}}\n";
-    solve(&a, plate, "solver=relaxation", "solver_tolerance=1e-7", "particles.irregularity=0.5", NULL);
-    solve(&b, plate, "solver=cg", "solver_tolerance=1e-7", "particles.irregularity=0.5", NULL);
+        "  - {traction: [0, 1 MPa], face: y+}\n"
+        "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, -4.5 mm]}}}\n";
+    solve(&a, plate, "solver=relaxation", "solver_tolerance=1e-6", "particles.irregularity=0.5",
+          "material.young=2000 GPa", NULL);
+    solve(&b, plate, "solver=cg", "solver_tolerance=1e-6", "particles.irregularity=0.5",
+          "material.young=2000 GPa", NULL);
     solved(&a), solved(&b);
     assert_true(difference(&a, &b) < 1e-4);
-    near("energy of cg", b.e.watch.now.energy.strain, b.e.watch.now.external_work, 1e-5);
+    near("energy of cg", b.e.watch.now.energy.strain, b.e.watch.now.external_work, 1e-4);
     solution_free(&a), solution_free(&b);
 }
 
