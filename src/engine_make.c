@@ -342,8 +342,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
         loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     }
     TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
-                            e->source.family.cutoff,
-                            e->optional)));
+                            e->source.family.cutoff, e->optional)));
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     make_bonds(e);

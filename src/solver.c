@@ -162,8 +162,9 @@ static void make_diagonal(struct engine *e)
     for (int d = 0; d < p->dim; d++) memcpy(kept.of[d], p->x[d], (size_t)p->n * sizeof(real));
     const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(e) / 4;
     for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
+    for (int d = 0; d < p->dim; d++) memcpy(p->x[d], kept.of[d], (size_t)p->n * sizeof(real));
+    solver_bond_force(e);                /* what energies of state-based models rest on */
     for (int d = 0; d < p->dim; d++) {
-        memcpy(p->x[d], kept.of[d], (size_t)p->n * sizeof(real));
         memset(p->v[d], 0, (size_t)p->n * sizeof(real));
         memset(p->f[d], 0, (size_t)p->n * sizeof(real));
     }

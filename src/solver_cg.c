@@ -117,12 +117,13 @@ static real advance(struct engine *e, real alpha)
     return sum[1];
 }
 
-/* x = X + u. */
+/* x = X + u; forces once more, for what energies and stresses of state-based models rest on. */
 static void place(struct engine *e)
 {
     struct particles *p = &e->part;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->x[d][i] = p->X[d][i] + e->solver.u.of[d][i];
+    solver_bond_force(e);
 }
 
 /* Does the true residual suffice? The recurrence's drifts off it by round-off; then it is replaced. */

@@ -242,6 +242,23 @@ static void test_crack(void **state)
     solution_free(&a), solution_free(&b);
 }
 
+/* Every law of bonds, at a Poisson's ratio of its own. */
+static void test_models(void **state)
+{
+    (void)state;
+    static const char *const model[] = {"model=ospd", "model=mospd"};
+    for (int k = 0; k < 2; k++) {
+        struct solution a, b;
+        solve(&a, CRACKED, "solver=relaxation", "solver_tolerance=1e-6", model[k], "material.poisson=0.25", NULL);
+        solve(&b, CRACKED, "solver=cg", "solver_tolerance=1e-6", model[k], "material.poisson=0.25", NULL);
+        solved(&a), solved(&b);
+        assert_true(difference(&a, &b) < 1e-4);
+        near("energy", a.e.watch.now.energy.strain, a.e.watch.now.external_work, 1e-4);
+        near("energy of cg", b.e.watch.now.energy.strain, b.e.watch.now.external_work, 1e-4);
+        solution_free(&a), solution_free(&b);
+    }
+}
+
 /* Peridynamic round the crack, material points elsewhere: the mouth opens as in the whole of bonds. */
 static void test_crack_coupled(void **state)
 {
@@ -383,7 +400,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_integrals), cmocka_unit_test(test_bar_traction), cmocka_unit_test(test_bar_support),
         cmocka_unit_test(test_bar_weight), cmocka_unit_test(test_bar_points), cmocka_unit_test(test_plate),
-        cmocka_unit_test(test_crack), cmocka_unit_test(test_crack_coupled), cmocka_unit_test(test_irregular),
+        cmocka_unit_test(test_crack), cmocka_unit_test(test_models), cmocka_unit_test(test_crack_coupled),
+        cmocka_unit_test(test_irregular),
         cmocka_unit_test(test_quarter), cmocka_unit_test(test_on_plane), cmocka_unit_test(test_solid),
         cmocka_unit_test(test_failures), cmocka_unit_test(test_strength), cmocka_unit_test(test_unloaded),
     };
