@@ -93,7 +93,7 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
     {"method: adaptive", "solver: newton", "5:1: solver: newton is unknown; explicit, relaxation or cg is expected"},
     {"method: adaptive", "solver: cg", "5:1: solver: cg is for method pd; relaxation is expected with material points"},
     {"method: adaptive", "solver_tolerance: 0",
-     "5:1: solver_tolerance: 0 is out of range; a number from 1e-12 to 0.1 is expected"},
+     "5:1: solver_tolerance: 0 is out of range; a plain number from 1e-12 to 0.1 is expected"},
     {"method: adaptive", "accuracy: 1e-3", "5:1: accuracy: not in this version (method auto); leave it out"},
     {"method: adaptive", "coupling: glue",
      "5:1: coupling: glue is unknown; partial stress, handshake, pm, pg, pmg or pgg is expected"},
