@@ -286,8 +286,6 @@ struct observed engine_observed(const struct engine *e)
         .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
         .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
         .pulse = e->pulse, .pulses = e->pulses,
-        .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
-        .pulse = e->pulse, .pulses = e->pulses,
         .space = s->space, .horizon = e->source.family.horizon, .crack = s->crack, .cracks = s->cracks,
         .energy_change = watch_energy_change(&e->watch), .baseline = e->has_baseline ? &e->baseline : NULL};
 }

@@ -154,7 +154,7 @@ void engine_sample_rest(struct engine *e)
 {
     sample_state(e);
     sample_energy(e);
-    sample_write(e, 0, 0);
+    sample_write(e, e->t, 0, 0);
 }
 
 /* After the last step no force follows: kinetic energy and the supports' work go on as in that step. */
