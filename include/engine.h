@@ -18,6 +18,7 @@
 #include "probes.h"
 #include "rim.h"
 #include "scene.h"
+#include "solver.h"
 #include "team.h"
 #include "tips.h"
 #include "watch.h"
@@ -41,6 +42,9 @@ struct engine {
     struct partial_stress partial;
     struct transfer_data transfer;
     struct loads loads;
+    struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
+    struct solver solver;
+    real *pair_never;                    /* [materials^2] infinite, for the solvers                   */
     struct conversion conversion;
     struct watch watch;
     struct tips tips;
@@ -86,6 +90,11 @@ struct engine {
 status engine_make(struct engine *e, const struct scene *s, struct output *out);
 /* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal asked for it. */
 status engine_run(struct engine *e);
+/* What it does with a solver that is not explicit (solver.c), and what that needs. */
+status engine_solve(struct engine *e);
+status solver_make(struct engine *e);
+/* One step in time. */
+status engine_step(struct engine *e);
 void engine_free(struct engine *e);
 /* After the run: the same scene on material points alone, if a pulse probe wants to be compared with it. */
 status engine_baseline(struct engine *e);

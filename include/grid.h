@@ -56,6 +56,10 @@ void grid_idle(struct grid *g);
  * re-map light nodes do no harm (their velocity is that of their particle). */
 #define GRID_MASS_SMALLEST 1e-30
 
+/* In equilibrium the balance of a node that a point's edge has just reached decides that point's whole stress, which is
+ * then none: nodes below this share take no part there, and lose no more of a load. */
+#define GRID_MASS_STATIC 1e-3
+
 /* Place of node k of the box in direction d [m]. */
 static inline real grid_position(const struct grid *g, int d, int64_t k)
 {

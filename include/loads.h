@@ -104,6 +104,26 @@ void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, re
 /* Does a mirror's plane stand on a node of the grid or half-way between two? */
 bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
+/* ---- static equilibrium (loads_static.c) ------------------------------------------------------------- */
+
+/* Boundaries of a static problem in pseudo-time, n of them into `to`: forces have their value at `duration`, and what is
+ * driven goes as far as it goes until then. Both grow evenly from 0 to `ramp` [s] and stay. */
+void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp);
+
+/* Of such boundaries once they have grown: displacement of every driven component [m], and which are driven (bits of
+ * `held` by particle); where two overlap the later one holds, as in a run. */
+void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement, uint8_t *held);
+
+/* Adds the applied forces. */
+void loads_static_force(const struct loads *l, struct particles *p);
+
+/* Forces on driven components become reactions and leave f. */
+void loads_static_hold(struct loads *l, struct particles *p);
+
+/* Half the applied force times the displacement, and half of reactions times theirs: the work of loads that grow in
+ * proportion on a linear body, into `work` and `held_work`. */
+void loads_static_work(struct loads *l, const struct particles *p);
+
 status loads_archive(struct loads *l, struct archive *a);
 
 enum { BOUNDARIES_MAX = 255 };           /* their number fits the byte of struct held and struct image; scene_keys.c */

@@ -52,6 +52,8 @@ struct time_function {
 };
 
 real time_function_at(const struct time_function *f, real t);
+/* Its integral from 0 to t >= 0 [s]. */
+real time_function_integral(const struct time_function *f, real t);
 
 /* ---- cracks --------------------------------------------------------------------------------------- */
 

@@ -18,6 +18,8 @@
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE };
 enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
+enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG };
+
 struct scene_body {
     char name[NAME_MAX_LENGTH];
     int material;                        /* index into scene.material                                 */
@@ -49,6 +51,9 @@ struct scene {
     real duration;                       /* [s]                                                       */
     enum method method;
     enum model model;
+    enum solver_kind solver;             /* other than explicit: static equilibrium (solver.h)         */
+    real solver_tolerance;               /* relative residual                                 [1]     */
+    int solver_steps;                    /* at the most                                               */
 
     int materials;  struct material *material;
     int bodies;     struct scene_body *body;

@@ -32,10 +32,15 @@ static void say_particles(const struct engine *e)
 
 static void say_steps(const struct engine *e, int threads)
 {
-    printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->dt, e->dt / e->dt_critical,
-           e->dt_critical, (long long)e->steps, e->scene->duration);
-    printf("run time       about %.2g s on %d thread%s without output\n", (double)e->steps * step_seconds(e) / threads,
-           threads, threads > 1 ? "s" : "");
+    if (e->scene->solver != SOLVER_EXPLICIT)
+        printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n"
+               "run time       about %.2g s for 1000 steps on %d thread%s without output\n", e->scene->solver_tolerance,
+               (long long)e->steps, 1e3 * step_seconds(e) / threads, threads, threads > 1 ? "s" : "");
+    else
+        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n"
+               "run time       about %.2g s on %d thread%s without output\n", e->dt, e->dt / e->dt_critical,
+               e->dt_critical, (long long)e->steps, e->scene->duration, (double)e->steps * step_seconds(e) / threads,
+               threads, threads > 1 ? "s" : "");
     printf("memory         about %.0f MB\n", 16 + 1e-6 * (260.0 * (double)e->part.n + 18.0 * (double)e->bonds.n));
 }
 

@@ -103,7 +103,7 @@ static int64_t grow(struct engine *e)
 
 /* ---- the step ------------------------------------------------------------------------------------------- */
 
-static status step(struct engine *e)
+status engine_step(struct engine *e)
 {
     const struct kernels *k = &e->kernels;
     struct particles *p = &e->part;
@@ -147,10 +147,11 @@ static status step(struct engine *e)
 
 status engine_run(struct engine *e)
 {
+    if (e->scene->solver != SOLVER_EXPLICIT) return engine_solve(e);
     TRY(engine_report_start(e));
     laps_start(&e->laps);
     while (e->step < e->steps) {
-        TRY(step(e));
+        TRY(engine_step(e));
         TRY(watch_alarm(&e->part, e->wave_speed, e->step, e->t, e->dt));
         TRY(engine_report(e));
     }

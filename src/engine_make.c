@@ -23,6 +23,10 @@ static void make_limits(struct engine *e)
             e->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
     e->source.limit = (struct bond_limit){e->pair_stretch, s->materials};
+    if (s->solver == SOLVER_EXPLICIT) return;
+    e->pair_never = NEW("engine.pair_never", s->materials * s->materials, real);
+    for (int k = 0; k < s->materials * s->materials; k++) e->pair_never[k] = INFINITY;
+    e->source.limit.critical_stretch = e->pair_never;    /* nothing breaks while an equilibrium is sought */
 }
 
 /* A bond yields where the softer of its materials does: s_y = sigma_y/E and H_b/k_e = H/E, which is the material's own
@@ -169,7 +173,8 @@ static void make_grid(struct engine *e)
     }
     real section = s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness, lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
-    e->smallest_mass = GRID_MASS_SMALLEST * lightest * pow(e->grid.h, s->dim) * section;
+    const real smallest = s->solver == SOLVER_EXPLICIT ? GRID_MASS_SMALLEST : GRID_MASS_STATIC;
+    e->smallest_mass = smallest * lightest * pow(e->grid.h, s->dim) * section;
     e->sort_needed = true;
 }
 
@@ -218,6 +223,10 @@ static status make_time_step(struct engine *e)
         e->dt_critical = real_min(e->dt_critical, share * e->grid.h / (e->wave_speed + fastest(e)));
     }
     real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
+    if (s->solver != SOLVER_EXPLICIT) {
+        e->steps = s->solver_steps, e->dt = dt;
+        return OK;
+    }
     if (!(s->duration / dt <= STEPS_MOST))
         return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
                           s->duration / dt, dt);
@@ -275,9 +284,11 @@ struct observed engine_observed(const struct engine *e)
         .part = &e->part, .cells = &e->cells, .bonds = &e->bonds, .loads = &e->loads, .grid = &e->grid, .tips = &e->tips,
         .material = s->material, .partial = &e->partial, .spacing = s->spacing, .thickness = e->source.family.section,
         .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
-        .t_velocity = e->step > 0 ? e->t - 0.5 * e->dt : e->t, .pulse = e->pulse, .pulses = e->pulses,
+        .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
+        .pulse = e->pulse, .pulses = e->pulses,
         .space = s->space, .horizon = e->source.family.horizon, .crack = s->crack, .cracks = s->cracks,
-        .energy_change = watch_energy_change(&e->watch), .growth = e->growth, .growths = s->growths, .baseline = e->has_baseline ? &e->baseline : NULL};
+        .energy_change = watch_energy_change(&e->watch), .growth = e->growth, .growths = s->growths,
+        .baseline = e->has_baseline ? &e->baseline : NULL};
 }
 
 static void make_pulses(struct engine *e)
@@ -325,8 +336,12 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     kernels_choose(&e->kernels, s->dim, law_of(e), s->shape, s->transfer);
     TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
-    TRY(named(s, loads_make(&e->loads, s->boundary, s->boundaries, &e->part, s->spacing, e->source.family.cutoff,
-                            e->optional)));
+    if (s->solver != SOLVER_EXPLICIT) {
+        e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
+        loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
+    }
+    TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
+                            e->source.family.cutoff, e->optional)));
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     make_bonds(e);
@@ -340,6 +355,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     e->growth = NEW("engine.growth", s->growths, struct growth);
     for (int k = 0; k < s->growths; k++) growth_make(&e->growth[k], &s->growth[k]);
+    if (s->solver != SOLVER_EXPLICIT) TRY(named(s, solver_make(e)));
     watch_make(&e->watch);
     make_pulses(e);
     struct observed o = engine_observed(e);
@@ -362,6 +378,9 @@ void engine_free(struct engine *e)
     cells_free(&e->cells);
     loads_free(&e->loads);
     particles_free(&e->part);
+    solver_free(&e->solver);
+    memory_free(e->boundary);
+    memory_free(e->pair_never);
     memory_free(e->pair_stretch);
     memory_free(e->modulus);
     memory_free(e->mirror_axis);
@@ -417,6 +436,7 @@ status engine_archive(void *engine, struct archive *a)
     ARCHIVE_VALUE(a, "engine/bond_visits", e->bond_visits);
     ARCHIVE_VALUE(a, "engine/loop_seconds", e->loop_seconds);
     TRY(loads_archive(&e->loads, a));
+    TRY(solver_archive(&e->solver, a));
     TRY(conversion_archive(&e->conversion, a));
     TRY(watch_archive(&e->watch, a));
     TRY(tips_archive(&e->tips, a));

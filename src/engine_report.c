@@ -36,6 +36,7 @@ static int64_t frame_step(const struct engine *e, int64_t k, int64_t n)
 static bool sample_due(const struct engine *e)
 {
     const int64_t n = e->scene->samples < e->steps ? e->scene->samples : e->steps;
+    if (e->scene->solver != SOLVER_EXPLICIT) return e->step == 0;    /* and the equilibrium, at the end */
     return due_step(e, (e->step * n + e->steps / 2) / e->steps, n) == e->step;
 }
 
@@ -147,6 +148,13 @@ void engine_sample_end(struct engine *e)
     }
     real kinetic = 0.5 * (e->sampling.kinetic + watch_kinetic(&e->part)) - watch_kick(&e->part, e->dt);
     sample_write(e, e->t + 0.5 * e->dt, kinetic, e->sampling.work + 0.5 * (e->sampling.held_work + e->loads.held_work));
+}
+
+void engine_sample_rest(struct engine *e)
+{
+    sample_state(e);
+    sample_energy(e);
+    sample_write(e, e->t, 0, 0);
 }
 
 /* After the last step no force follows: kinetic energy and the supports' work go on as in that step. */
@@ -298,8 +306,9 @@ status engine_report(struct engine *e)
     TRY(e->history_status);
     TRY(energy_alarm(e));
     if (e->out) {
+        const bool between = e->scene->solver != SOLVER_EXPLICIT && e->step < e->steps;
         const int64_t frames = e->scene->frames < e->steps ? e->scene->frames : e->steps;
-        if (e->out->frames <= frames && e->step >= frame_step(e, e->out->frames, frames)) TRY(write_frame(e));
+        if (!between && e->out->frames <= frames && e->step >= frame_step(e, e->out->frames, frames)) TRY(write_frame(e));
         bool stop = e->stop && *e->stop;
         if (stop || team_clock() - e->last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
         if (stop && e->step < e->steps)

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "engine.h"
+#include "solver_parts.h"
 
 static int64_t bonds_cut(const struct engine *e)
 {
@@ -14,7 +14,7 @@ static int64_t bonds_cut(const struct engine *e)
 static void warn_of_method(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
-    if (e->dt > e->dt_critical)
+    if (s->solver == SOLVER_EXPLICIT && e->dt > e->dt_critical)
         fprintf(out, "warning: the time step is above the critical one: expect a run that blows up\n");
     if (s->method == METHOD_MPM && s->cracks > 0)
         fprintf(out, "warning: method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent "
@@ -38,6 +38,18 @@ static void warn_of_materials(const struct engine *e, FILE *out)
             fprintf(out, "warning: material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the "
                          "strain at which bonds break\n", a->name, e->elastic[m].trigger, a->young * a->critical_stretch);
     }
+}
+
+static void warn_of_solver(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    if (s->solver == SOLVER_EXPLICIT) return;
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
+            fprintf(out, "warning: a static equilibrium has no velocities: those of `initial` are left out\n");
+    if (e->solver.applied == 0 && solver_largest(&e->solver.driven, s->dim, e->part.n) == 0)
+        fprintf(out, "warning: nothing loads the body at t = %.4g s: forces have their value at the end of the duration "
+                     "there (a step that ends before has none)\n", s->duration);
 }
 
 static void warn_of_empty(const struct engine *e, FILE *out)
@@ -68,6 +80,7 @@ void engine_warn(const struct engine *e, FILE *out)
 {
     warn_of_method(e, out);
     warn_of_materials(e, out);
+    warn_of_solver(e, out);
     warn_of_empty(e, out);
     warn_of_mirrors(e, out);
 }

@@ -79,7 +79,8 @@ static void mirror_make(struct loads *l, int which, const struct boundary *b, st
         images = 0;
         for (int64_t i = 0; i < before; i++) {
             real distance = fabs(p->X[b->axis][i] - b->at);
-            if (distance > reach || distance == 0 || (b->body >= 0 && p->body[i] != b->body)) continue;
+            if (distance > reach || distance <= PLACE_TOLERANCE * l->spacing) continue;
+            if (b->body >= 0 && p->body[i] != b->body) continue;
             if (pass == 1) l->image[have + images] = (struct image){(int32_t)i, (uint8_t)which};
             images++;
         }

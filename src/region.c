@@ -138,6 +138,36 @@ real time_function_at(const struct time_function *f, real t)
     }
 }
 
+/* Integral of a table over 0 .. t: piece by piece, and constant outside. */
+static real table_integral(const struct time_function *f, real t)
+{
+    real sum = 0, from = 0;
+    for (int k = 0; k <= f->n && from < t; k++) {
+        const real to = k < f->n ? real_min(f->t[k], t) : t;
+        if (to <= from) continue;
+        /* a jump is a pair of equal times: the middle of the piece tells its mean */
+        sum += (to - from) * table_at(f, 0.5 * (from + to));
+        from = to;
+    }
+    return sum;
+}
+
+real time_function_integral(const struct time_function *f, real t)
+{
+    static const real pi = 3.14159265358979323846;
+    const real length = f->until - f->from;
+    const real past = real_min(real_max(t - f->from, 0), length), before = real_min(real_max(-f->from, 0), length);
+    switch (f->kind) {
+    case TIME_STEP: return past - before;
+    case TIME_PULSE:
+        return 0.5 * (past - before) - length / (4 * pi) * (sin(2 * pi * past / length) - sin(2 * pi * before / length));
+    case TIME_RAMP:
+        return (square(past) - square(before)) / (2 * length) + real_max(t - real_max(f->until, 0), 0);
+    case TIME_TABLE: return table_integral(f, t);
+    default: return t;
+    }
+}
+
 /* ---- cracks ---------------------------------------------------------------------------------------- */
 
 /* What counts as touching, in lengths of the crack. */

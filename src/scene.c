@@ -52,7 +52,8 @@ static status read_nodes(struct reader *r, const struct node *root)
     TRY(read_initials(r, root));
     TRY(read_boundaries(r, root));
     TRY(read_probes(r, root));
-    return read_growths(r, root);
+    TRY(read_growths(r, root));
+    return check_solver(r, root);
 }
 
 static status read_all(struct reader *r, const char *text, size_t length)

@@ -65,6 +65,8 @@ static void resolve_defaults(struct reader *r, const struct node *root)
     if (!below(root, "pd", "normalisation")) s->bulk = s->model == MODEL_MOSPD;
     if (!below(root, "mpm", "shape"))
         s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
+    if (!below(root, "mpm", "transfer") && s->solver != SOLVER_EXPLICIT && s->shape != SHAPE_LINEAR)
+        s->transfer = TRANSFER_APIC;
     if (!below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
 }
 
@@ -93,6 +95,28 @@ static status check_model(struct reader *r, const struct node *root)
         if (material_yields(&s->material[m]))
             return fault(r, model, "%s does not yield in this version; model bond, or no yield_stress, is expected",
                          shown(r, model));
+    return OK;
+}
+
+/* What the static solvers cannot do. After materials and probes are read. */
+status check_solver(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *solver = node_find(root, "solver");
+    if (!solver || s->solver == SOLVER_EXPLICIT) return OK;
+    if (s->solver == SOLVER_CG && s->method != METHOD_PD)
+        return fault(r, solver, "cg is for method pd; relaxation is expected with material points");
+    if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
+        return fault(r, solver, "relaxation with transfer flip was measured to creep (light nodes at the border never "
+                                "come to rest); mpm.transfer apic, with a shape that is not linear, is expected");
+    for (int m = 0; m < s->materials; m++)
+        if (material_yields(&s->material[m]))
+            return fault(r, solver, "%s is for elastic materials, and %s yields; explicit is expected", shown(r, solver),
+                         s->material[m].name);
+    for (int k = 0; k < s->probes; k++)
+        if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
+            return fault(r, solver, "%s has no steps for probe %s to watch; explicit is expected", shown(r, solver),
+                         s->probe[k].name);
     return OK;
 }
 

@@ -140,6 +140,7 @@ status read_probes(struct reader *r, const struct node *root);
 /* What joins several keys (scene_check.c): keys without lists; the number of particles of the bodies read. */
 status check_scene(struct reader *r, const struct node *root);
 status check_size(struct reader *r, const struct node *root);
+status check_solver(struct reader *r, const struct node *root);
 
 /* The words of enum space and enum probe_kind. */
 extern const char *const space_names[];

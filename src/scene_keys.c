@@ -34,8 +34,14 @@ const struct key keys[] = {
     KEY("model", KEY_CHOICE, UNIT_NONE, AT(scene, model), ANY, "bond",
         "peridynamic law: bond-based; ordinary state-based; state-based with rotations (both: any Poisson's ratio)",
         .words = "bond|ospd|mospd"),
-    KEY("solver", KEY_CHOICE, UNIT_NONE, NOWHERE, ANY, "explicit",
-        "how time advances", .words = "explicit", .later = "relaxation|cg"),
+    KEY("solver", KEY_CHOICE, UNIT_NONE, AT(scene, solver), ANY, "explicit",
+        "explicit: steps in time; relaxation, cg: the static equilibrium under the loads at the end of the duration, "
+        "with supports where they have then moved to, by adaptive dynamic relaxation or (method pd, small strains) "
+        "conjugate gradients; bonds do not break in it", .words = "explicit|relaxation|cg"),
+    KEY("solver_tolerance", KEY_REAL, UNIT_NONE, AT(scene, solver_tolerance), BETWEEN(1e-12, 0.1), "1e-5",
+        "largest residual force over the applied force or the reactions (relaxation, cg)"),
+    KEY("solver_steps", KEY_INT, UNIT_NONE, AT(scene, solver_steps), BETWEEN(1, 1000000000), "200000",
+        "most steps (relaxation, cg); a run that needs more fails"),
     KEY("accuracy", KEY_LATER, UNIT_NONE, NOWHERE, ANY, NONE, "wanted accuracy", .later = "method auto"),
 
     KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "the one material; its keys follow"),
@@ -137,7 +143,8 @@ const struct key keys[] = {
         "node distance of the grid, in spacings"),
     KEY("mpm.shape", KEY_CHOICE, UNIT_NONE, AT(scene, shape), ANY,
         "(gimp; linear with coupling pm and pmg)", "shape functions", .words = "linear|gimp|cpgimp|quadratic|cubic"),
-    KEY("mpm.transfer", KEY_CHOICE, UNIT_NONE, AT(scene, transfer), ANY, "flip",
+    KEY("mpm.transfer", KEY_CHOICE, UNIT_NONE, AT(scene, transfer), ANY,
+        "(flip; apic with solver relaxation)",
         "grid to particle; apic not with linear", .words = "flip|apic"),
     KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, NOWHERE, ANY, "current",
         "configuration the grid lives in", .words = "current", .later = "reference|auto"),

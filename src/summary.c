@@ -103,6 +103,18 @@ static void put_run(struct json *j, const struct engine *e, status s, const char
     json_count(j, "bonds_peak", e->conversion.peak_bonds);
 }
 
+static void put_solver(struct json *j, const struct engine *e)
+{
+    static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
+    if (e->scene->solver == SOLVER_EXPLICIT) return;
+    json_open(j, "solver", '{');
+    json_text(j, "name", name[e->scene->solver]);
+    json_count(j, "steps", e->step);
+    json_real(j, "residual", e->solver.residual);
+    json_count(j, "bonds_past_limit", e->solver.past_limit);
+    json_close(j, '}');
+}
+
 static void put_ledger(struct json *j, const struct ledger *l)
 {
     json_open(j, "energy", '{');
@@ -213,6 +225,7 @@ static void summary_print(FILE *file, const struct engine *e, status s, const ch
     struct json j = {.file = file, .depth = 1};
     fputc('{', file);
     put_run(&j, e, s, message);
+    put_solver(&j, e);
     put_ledger(&j, &e->watch.now);
     put_crack(&j, e);
     put_conversion(&j, e);

@@ -100,7 +100,7 @@ done <<'END'
 5|method: magic|5:1|pd, mpm or adaptive
 5|method: auto|5:1|not in this version
 5|model: lps|5:1|bond, ospd or mospd
-5|solver: cg|5:1|not in this version
+5|solver: cg|5:1|cg is for method pd
 5|coupling: glue|5:1|partial stress, handshake, pm, pg, pmg or pgg
 6|material: {young: -1, density: 7800}|6:12|out of range
 6|material: {density: 7800}|6:1|young: missing

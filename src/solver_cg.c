@@ -1,0 +1,168 @@
+/* floor 5: conjugate gradients for K u = b (Hestenes & Stiefel 1952), without a matrix: K of the bonds at the reference
+ * positions by differences of their forces, preconditioned with Lambda. Self-adjoint in the sum that counts a particle on
+ * a plane of symmetry by half: the body beyond the plane has the other half. */
+#include <math.h>
+
+#include "solver_parts.h"
+
+#define CHECK_STEPS 50                   /* between looks at the true residual, which says the reactions, too */
+
+#define STALLS_MOST 5                    /* restarts that do not halve the residual: round-off has the rest */
+
+/* ---- sums ----------------------------------------------------------------------------------------------------- */
+
+static bool is_held(const struct solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
+
+/* d . K d of free components. */
+static void curvature_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct solver *s = context;
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = first; i < end; i++)
+            if (!is_held(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
+}
+
+/* u . K u. */
+static void energy_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct solver *s = context;
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = first; i < end; i++) sum[0] += s->weight[i] * s->u.of[d][i] * s->q.of[d][i];
+}
+
+/* r . r/Lambda and the plain r . r. */
+static void residual_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct solver *s = context;
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = first; i < end; i++) {
+            const real r2 = square(s->r.of[d][i]);
+            sum[0] += s->weight[i] * r2 / s->diagonal[i];
+            sum[1] += r2;
+        }
+}
+
+/* Stiffness of the whole body at unit strain: sum E V [J]. */
+static real unit_energy(const struct engine *e)
+{
+    real sum = 0;
+    for (int64_t i = 0; i < e->part.n; i++)
+        sum += e->scene->material[e->part.material[i]].young * e->part.volume0[i];
+    return sum;
+}
+
+/* ---- parts of a step ------------------------------------------------------------------------------------------ */
+
+/* part.f = b - K u; reactions on held components are measured and leave it. */
+static void true_residual(struct engine *e)
+{
+    struct solver *s = &e->solver;
+    struct particles *p = &e->part;
+    real energy;
+    solver_tangent(e, &s->u, &s->q, s->u_ratio);
+    team_sums(s->n, 1, energy_block, s, &energy);
+    if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(e)) / solver_largest(&s->u, s->dim, s->n);
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = 0; i < p->n; i++) p->f[d][i] = -s->q.of[d][i];
+    loads_static_force(&e->loads, p);
+    solver_measure(e);
+    loads_static_hold(&e->loads, p);
+}
+
+/* r = part.f, and the direction anew. */
+static void restart(struct engine *e)
+{
+    struct solver *s = &e->solver;
+    real sum[2];
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = 0; i < s->n; i++) {
+            s->r.of[d][i] = is_held(s, i, d) ? 0 : e->part.f[d][i];
+            s->d.of[d][i] = s->r.of[d][i] / s->diagonal[i];
+        }
+    team_sums(s->n, 2, residual_block, s, sum);
+    s->rz = sum[0];
+}
+
+static void start(struct engine *e)
+{
+    struct solver *s = &e->solver;
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = 0; i < s->n; i++)
+            s->u.of[d][i] = e->part.x[d][i] - e->part.X[d][i] + s->driven.of[d][i];
+    s->strain_ratio = s->u_ratio = 1 / e->scene->spacing;
+    s->least = INFINITY;
+    true_residual(e);
+    restart(e);
+}
+
+/* u += alpha d, r -= alpha K d; returns r . r. */
+static real advance(struct engine *e, real alpha)
+{
+    struct solver *s = &e->solver;
+    real sum[2];
+    for (int d = 0; d < s->dim; d++) {
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < s->n; i++) {
+            s->u.of[d][i] += alpha * s->d.of[d][i];
+            if (!is_held(s, i, d)) s->r.of[d][i] -= alpha * s->q.of[d][i];
+        }
+    }
+    team_sums(s->n, 2, residual_block, s, sum);
+    const real beta = sum[0] / s->rz;
+    s->rz = sum[0];
+    for (int d = 0; d < s->dim; d++) {
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < s->n; i++) s->d.of[d][i] = s->r.of[d][i] / s->diagonal[i] + beta * s->d.of[d][i];
+    }
+    return sum[1];
+}
+
+/* x = X + u; forces once more, for what energies and stresses of state-based models rest on. */
+static void place(struct engine *e)
+{
+    struct particles *p = &e->part;
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = 0; i < p->n; i++) p->x[d][i] = p->X[d][i] + e->solver.u.of[d][i];
+    solver_bond_force(e);
+}
+
+/* Does the true residual suffice? The recurrence's drifts off it by round-off; then it is replaced. */
+static status check(struct engine *e, real by_recurrence, bool *done)
+{
+    struct solver *s = &e->solver;
+    true_residual(e);
+    *done = s->residual <= e->scene->solver_tolerance;
+    if (*done) place(e);
+    if (*done || s->residual * s->scale <= 2 * by_recurrence) return OK;
+    s->stalls = s->residual < 0.5 * s->least ? 0 : s->stalls + 1;
+    s->least = real_min(s->least, s->residual);
+    restart(e);
+    if (s->stalls < STALLS_MOST) return OK;
+    return status_set(FAILED, "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
+                              "wanted; choose a larger solver_tolerance (below 1e-8 it is round-off), or see whether "
+                              "moments of the loads are balanced", (long long)e->step, s->least, e->scene->solver_tolerance);
+}
+
+status cg_step(struct engine *e, bool *done)
+{
+    struct solver *s = &e->solver;
+    real curvature;
+    if (e->step == 0) {
+        start(e);
+        if (s->rz == 0) return check(e, 0, done);
+    }
+    solver_tangent(e, &s->d, &s->q, s->strain_ratio);
+    lap(&e->laps, LAP_BONDS);
+    team_sums(s->n, 1, curvature_block, s, &curvature);
+    if (!(curvature > 0))
+        return status_set(FAILED, "conjugate gradients at step %lld: the body gives way without a force; is every "
+                                  "part of it held, or bonded to one that is?", (long long)e->step);
+    s->strain_ratio = sqrt(curvature / unit_energy(e)) / solver_largest(&s->d, s->dim, s->n);
+    const real left = sqrt(advance(e, s->rz / curvature));
+    s->residual = left / s->scale;
+    lap(&e->laps, LAP_WATCH);
+    const bool claimed = left <= 0.9 * e->scene->solver_tolerance * s->scale;
+    if (claimed || e->step % CHECK_STEPS == CHECK_STEPS - 1)
+        return check(e, left, done);
+    return OK;
+}

@@ -1,0 +1,80 @@
+/* floor 5: adaptive dynamic relaxation (Kilic & Madenci 2010): motion in a time of unit steps with a mass and a damping
+ * of its own choice, until nothing moves. */
+#include <math.h>
+
+#include "solver_parts.h"
+
+/* Supports go a part of their way. */
+static void supports_move(struct engine *e)
+{
+    const struct solver *s = &e->solver;
+    struct particles *p = &e->part;
+    if (e->step >= s->ramp) return;
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++)
+        for (int d = 0; d < p->dim; d++)
+            if (s->held[i] >> d & 1) p->x[d][i] += s->driven.of[d][i] / (real)s->ramp;
+}
+
+/* u^T k u with k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}), u^T u and v^T v, free components. */
+static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct engine *e = context;
+    const struct solver *s = &e->solver;
+    const struct particles *p = &e->part;
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = first; i < end; i++) {
+            if (s->held[i] >> d & 1) continue;
+            const real u = p->x[d][i] - p->X[d][i], v = p->v[d][i];
+            const real change = (p->f[d][i] - s->before.of[d][i]) / s->diagonal[i];
+            if (v != 0) sum[0] -= square(u) * change / v;
+            sum[1] += square(u);
+            sum[2] += square(v);
+        }
+}
+
+#define DAMPING_MOST 1.9                 /* 2 stops the motion */
+
+static real damping(const real *sum)
+{
+    const real ratio = sum[1] > 0 ? sum[0] / sum[1] : 0;
+    return ratio > 0 ? real_min(2 * sqrt(ratio), DAMPING_MOST) : 0;
+}
+
+/* v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c); the first half step from rest is f/(2 Lambda). */
+static void particles_move(struct engine *e, real c)
+{
+    struct solver *s = &e->solver;
+    struct particles *p = &e->part;
+    const real kick = e->step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++)
+        for (int d = 0; d < p->dim; d++) {
+            const real f = p->f[d][i];
+            s->before.of[d][i] = f;
+            if (s->held[i] >> d & 1) continue;
+            p->v[d][i] = keep * p->v[d][i] + kick * f / s->diagonal[i];
+            p->x[d][i] += p->v[d][i];
+        }
+}
+
+status relaxation_step(struct engine *e, bool *done)
+{
+    struct solver *s = &e->solver;
+    real sum[3];
+    supports_move(e);
+    solver_bond_force(e);
+    loads_static_force(&e->loads, &e->part);
+    lap(&e->laps, LAP_BONDS);
+    solver_measure(e);
+    loads_static_hold(&e->loads, &e->part);
+    team_sums(e->part.n, 3, damping_block, e, sum);
+    /* small forces alone may be those of a body that swings through its equilibrium */
+    s->way = real_max(s->way, sqrt(sum[1]));
+    *done = e->step >= s->ramp && s->residual <= e->scene->solver_tolerance &&
+            (s->residual == 0 || sqrt(sum[2]) <= 10 * e->scene->solver_tolerance * s->way);
+    if (*done) return OK;
+    particles_move(e, e->step > 0 ? damping(sum) : 0);
+    lap(&e->laps, LAP_WATCH);
+    return OK;
+}
