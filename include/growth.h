@@ -26,6 +26,10 @@ struct growth_rule {
     real toughness;                      /* K_Ic: it grows while K_eq is at least this      [Pa m^(1/2)]    */
 };
 
+/* Factors that rule a crack, and the direction of the tip in whose frame they were taken: the crack turns away from that
+ * one, however often it is asked before the next factors are known. */
+struct ruling { struct sif factors; real along[2]; };
+
 /* One fading entry of the rows: bond i-j, its weight before and the crack's length when it was crossed. */
 struct fading { int32_t i, j; float w; float pad; real length; };
 
@@ -34,6 +38,7 @@ struct growth {
     real place[2], along[2], speed;      /* now; speed 0 while it rests                             [m] [m/s] */
     real grown;                          /* length so far                                           [m]     */
     real start_time;                     /* of the first growth; NAN before                         [s]     */
+    real intensity;                      /* K_eq of the ruling factors; NAN: none known      [Pa m^(1/2)]    */
     int64_t n, room;
     struct fading *fading;
 };
@@ -41,10 +46,13 @@ struct growth {
 void growth_make(struct growth *g, const struct growth_rule *rule);
 void growth_free(struct growth *g);
 
-/* One step: the tip advances, what it crosses begins to fade, what fades goes on. K NULL: no factors known; they turn the
- * crack to the direction of the largest hoop stress once it grows. Returns directed bonds that were released. */
+/* One step: the tip advances, what it crosses begins to fade, what fades goes on. `ruling` NULL: no factors known; they
+ * turn the crack to the direction of the largest hoop stress once it grows. Returns directed bonds that were released. */
 int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
-                    const struct sif *K, real t, real dt);
+                    const struct ruling *ruling, real t, real dt);
+
+/* Angle of the chord from where it started against the direction then, 0..180 [degree]; NAN before it has grown. */
+real growth_angle(const struct growth *g);
 
 status growth_archive(struct growth *g, int which, struct archive *a);
 

@@ -26,6 +26,7 @@ enum probe_kind {
     PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
     PROBE_EXACT,             /* a bar against a closed form                                                */
     PROBE_SIF,               /* stress-intensity factors of a crack tip                                    */
+    PROBE_GROWTH,            /* a crack that grows as it is told: its tip, the path it took                */
     PROBES
 };
 
@@ -49,6 +50,7 @@ struct probe_request {
     real from[DIM_MAX], to[DIM_MAX];     /* LINE                                              [m]     */
     int points;                          /* LINE                                                      */
     char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
+    char of[NAME_MAX_LENGTH];            /* GROWTH: name of the crack; "": the first                    */
     enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]:   */
     real amplitude, period, wavelength, origin;
     struct number_list contours;         /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
@@ -128,8 +130,8 @@ void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
 /* Writes the profiles of LINE and EXACT probes as csv to `folder`/<name>_<frame>.csv. */
 status probes_profiles(const struct probes *s, const struct observed *o, const char *folder, int frame);
-/* Factors of the named SIF probe at the last sample; false: none yet. */
-bool probes_factors(const struct probes *s, const char *name, struct sif *found);
+/* Factors of the named SIF probe at the last sample, and the direction of its tip then; false: none yet. */
+bool probes_ruling(const struct probes *s, const char *name, struct ruling *found);
 status probes_archive(struct probes *s, struct archive *a);
 
 #endif

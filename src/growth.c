@@ -10,7 +10,7 @@
 
 void growth_make(struct growth *g, const struct growth_rule *rule)
 {
-    *g = (struct growth){.rule = rule, .start_time = NAN};
+    *g = (struct growth){.rule = rule, .start_time = NAN, .intensity = NAN};
     for (int d = 0; d < 2; d++) g->place[d] = rule->at[d], g->along[d] = rule->direction[d];
 }
 
@@ -22,19 +22,19 @@ void growth_free(struct growth *g)
 
 /* ---- does it grow, and where to --------------------------------------------------------------------------- */
 
-static bool grows(const struct growth *g, const struct sif *K, real t)
+static bool grows(const struct growth *g, real t)
 {
     const struct growth_rule *r = g->rule;
     if (t < r->start || g->grown >= r->length) return false;
     if (!r->probe[0]) return true;
-    return K && isfinite(K->K[0]) && crack_equivalent(K->K) >= r->toughness;
+    return g->intensity >= r->toughness;
 }
 
-/* The direction of the largest hoop stress, as seen from where the crack runs now. */
-static void turn(struct growth *g, const struct sif *K)
+/* To the direction of the largest hoop stress. */
+static void turn(struct growth *g, const struct ruling *ruling)
 {
-    const real angle = crack_direction(K->K), c = cos(angle), s = sin(angle);
-    const real x = g->along[0], y = g->along[1];
+    const real angle = crack_direction(ruling->factors.K), c = cos(angle), s = sin(angle);
+    const real x = ruling->along[0], y = ruling->along[1];
     g->along[0] = c * x - s * y, g->along[1] = s * x + c * y;
 }
 
@@ -123,12 +123,13 @@ static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, cons
 /* ---- a step ----------------------------------------------------------------------------------------------- */
 
 int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
-                    const struct sif *K, real t, real dt)
+                    const struct ruling *ruling, real t, real dt)
 {
     const real from[2] = {g->place[0], g->place[1]};
     g->speed = 0;
-    if (!grows(g, K, t)) return 0;
-    if (g->rule->probe[0]) turn(g, K);
+    g->intensity = ruling ? crack_equivalent(ruling->factors.K) : NAN;
+    if (!grows(g, t)) return 0;
+    if (g->rule->probe[0]) turn(g, ruling);
     g->speed = g->rule->speed;
     if (isnan(g->start_time)) g->start_time = t;
     for (int d = 0; d < 2; d++) g->place[d] += g->speed * dt * g->along[d];
@@ -137,15 +138,24 @@ int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, cons
     return fade(g, b, p, &source->family);
 }
 
+real growth_angle(const struct growth *g)
+{
+    const real *e = g->rule->direction, way[2] = {g->place[0] - g->rule->at[0], g->place[1] - g->rule->at[1]};
+    if (!(g->grown > 0)) return NAN;
+    return fabs(atan2(e[0] * way[1] - e[1] * way[0], dot(e, way, 2))) * 180 / 3.14159265358979323846;
+}
+
 status growth_archive(struct growth *g, int which, struct archive *a)
 {
     char name[64];
-    struct { real place[2], along[2], speed, grown, start_time; int64_t n; } s = {
-        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, g->speed, g->grown, g->start_time, g->n};
+    struct { real place[2], along[2], speed, grown, start_time, intensity; int64_t n; } s = {
+        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, g->speed, g->grown, g->start_time,
+        g->intensity, g->n};
     snprintf(name, sizeof name, "growth/%d", which);
     ARCHIVE_VALUE(a, name, s);
     for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d];
     g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
+    g->intensity = s.intensity;
     if (!a->saving) {
         memory_free(g->fading);
         g->n = g->room = s.n;

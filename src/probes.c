@@ -60,6 +60,9 @@ static void columns_add(struct probes *s, struct probe *q, int dim)
     case PROBE_SIF:
         for (int k = 0; k < SIF_FIGURES; k++) column_add(s, q, sif_figure[k].name, sif_figure[k].unit);
         break;
+    case PROBE_GROWTH:
+        for (int k = 0; k < GROWTH_FIGURES; k++) column_add(s, q, growth_figure[k].name, growth_figure[k].unit);
+        break;
     default: break;                      /* the others have figures only */
     }
 }
@@ -160,6 +163,13 @@ static status bind_support(const struct probe *q, const struct observed *o)
                       q->request.boundary, used > 0 ? known : "none");
 }
 
+static status bind_growth(struct probe *q, const struct observed *o)
+{
+    for (int k = o->growths - 1; k >= 0; k--)
+        if (!q->request.of[0] || strcmp(o->growth[k].rule->name, q->request.of) == 0) q->growth = k;
+    return OK;                           /* the reader knows that it is there */
+}
+
 static status probe_bind(struct probe *q, const struct observed *o)
 {
     switch (q->request.kind) {
@@ -172,6 +182,7 @@ static status probe_bind(struct probe *q, const struct observed *o)
     case PROBE_MOMENTUM: return bind_region(q, o);
     case PROBE_EXACT: return bar_make(q, o);
     case PROBE_SIF: return sif_bind(q, o);
+    case PROBE_GROWTH: return bind_growth(q, o);
     default: return OK;
     }
 }
@@ -291,6 +302,7 @@ void probes_sample(struct probes *s, const struct observed *o)
         case PROBE_ENERGY: sample_energy(q, o, value); break;
         case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
         case PROBE_EXACT: bar_figures(q->bar, o, value); break;
+        case PROBE_GROWTH: growth_readings(&o->growth[q->growth], value); break;
         default: break;
         }
     }

@@ -14,6 +14,7 @@ struct probe_memory {
     int64_t body;                        /* SPALL: the bar that broke                                 */
     real trail[2][2];                    /* SIF: where the tip came along, for its direction     [m]  */
     real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample      */
+    real along[2];                       /* SIF: direction of the tip at the last sample              */
 };
 
 struct probe {
@@ -24,6 +25,7 @@ struct probe {
     struct probe_memory memory;
     struct bar *bar;                     /* EXACT: probes_bar.c                                       */
     struct sif_watch *sif;               /* SIF: probes_sif.c                                         */
+    int growth;                          /* GROWTH: which of the run                                  */
 };
 
 /* ---- what a single particle tells: POINT and LINE ------------------------------------------------ */
@@ -61,6 +63,11 @@ struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o
  * part and of the rest [m/s]. */
 void spall_look(struct probe *q, const struct observed *o);
 void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
+
+/* GROWTH: place and length of the tip, its speed, K_eq of the factors that rule it. */
+enum { GROWTH_FIGURES = 5 };
+extern const struct column growth_figure[GROWTH_FIGURES];
+void growth_readings(const struct growth *g, real *value);
 
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------ */
 

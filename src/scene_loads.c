@@ -207,7 +207,7 @@ status read_boundaries(struct reader *r, const struct node *root)
 
 const char *const probe_names[PROBES] = {"tip",   "break", "reaction", "patch",   "spall",
                                          "point", "line",  "energy",   "momentum", "pulse",
-                                         "exact", "sif"};
+                                         "exact", "sif",   "growth"};
 
 /* The kind, and the mapping of its keys (NULL: none): `tip`, `tip:` or `tip: {at: [..]}`. */
 static status kind_of_probe(struct reader *r, const struct node *n, enum probe_kind *kind, const struct node **map)

@@ -210,12 +210,30 @@ static status read_growth(struct reader *r, const struct node *n, struct growth_
     return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
 }
 
+/* Probes watch cracks that are there. */
+static status check_growth_probes(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *list = node_find(root, "probes"), *n = list ? list->first : NULL;
+    for (int k = 0; k < s->probes; k++, n = n->next) {
+        bool found = false;
+        if (s->probe[k].kind != PROBE_GROWTH) continue;
+        if (s->growths == 0) return fault(r, n, "no crack grows as it is told; growth is expected");
+        for (int g = 0; g < s->growths; g++)
+            found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
+        if (!found)
+            return fault(r, node_find(n->first, "of"), "there is no growth %s; the first is %s", s->probe[k].of,
+                         s->growth[0].name);
+    }
+    return OK;
+}
+
 /* After the probes, which may rule it. */
 status read_growths(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     const struct node *list = node_find(root, "growth");
-    if (!list) return OK;
+    if (!list) return check_growth_probes(r, root);
     TRY(expect_list(r, key_find("", "growth"), list));
     if (s->dim != 2) return fault(r, list, "plane spaces only in this version");
     if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; pd or adaptive is expected");
@@ -223,5 +241,5 @@ status read_growths(struct reader *r, const struct node *root)
     s->growth = NEW("growth", list->n, struct growth_rule);
     const struct node *n = list->first;
     for (int k = 0; k < s->growths; k++, n = n->next) TRY(read_growth(r, n, &s->growth[k], k));
-    return OK;
+    return check_growth_probes(r, root);
 }
