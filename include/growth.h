@@ -36,6 +36,7 @@ struct fading { int32_t i, j; float w; float pad; real length; };
 struct growth {
     const struct growth_rule *rule;      /* borrowed                                                        */
     real place[2], along[2], speed;      /* now; speed 0 while it rests                             [m] [m/s] */
+    real heading[2];                     /* unit vector: where it goes; `along` is the mean of where it came from */
     real grown;                          /* length so far                                           [m]     */
     real start_time;                     /* of the first growth; NAN before                         [s]     */
     real intensity;                      /* K_eq of the ruling factors; NAN: none known      [Pa m^(1/2)]    */

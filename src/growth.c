@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <stdlib.h>
 
 #include "kernels.h"
 #include "memory.h"
@@ -11,7 +12,7 @@
 void growth_make(struct growth *g, const struct growth_rule *rule)
 {
     *g = (struct growth){.rule = rule, .start_time = NAN, .intensity = NAN};
-    for (int d = 0; d < 2; d++) g->place[d] = rule->at[d], g->along[d] = rule->direction[d];
+    for (int d = 0; d < 2; d++) g->place[d] = rule->at[d], g->along[d] = g->heading[d] = rule->direction[d];
 }
 
 void growth_free(struct growth *g)
@@ -35,7 +36,20 @@ static void turn(struct growth *g, const struct ruling *ruling)
 {
     const real angle = crack_direction(ruling->factors.K), c = cos(angle), s = sin(angle);
     const real x = ruling->along[0], y = ruling->along[1];
-    g->along[0] = c * x - s * y, g->along[1] = s * x + c * y;
+    g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
+}
+
+static void advance(struct growth *g, real way, real smoothing)
+{
+    const real share = way < smoothing ? way / smoothing : 1;
+    real along[2];
+    for (int d = 0; d < 2; d++) {
+        g->place[d] += way * g->heading[d];
+        along[d] = g->along[d] + share * (g->heading[d] - g->along[d]);
+    }
+    const real length = hypot(along[0], along[1]);
+    for (int d = 0; d < 2 && length > 0; d++) g->along[d] = along[d] / length;
+    g->grown += way;
 }
 
 /* ---- bonds that the tip crosses --------------------------------------------------------------------------- */
@@ -132,8 +146,7 @@ int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, cons
     if (g->rule->probe[0]) turn(g, ruling);
     g->speed = g->rule->speed;
     if (isnan(g->start_time)) g->start_time = t;
-    for (int d = 0; d < 2; d++) g->place[d] += g->speed * dt * g->along[d];
-    g->grown += g->speed * dt;
+    advance(g, g->speed * dt, (getenv("SMO") ? atof(getenv("SMO")) : 0.5) * source->family.horizon);
     cross(g, b, p, source, from);
     return fade(g, b, p, &source->family);
 }
@@ -148,12 +161,12 @@ real growth_angle(const struct growth *g)
 status growth_archive(struct growth *g, int which, struct archive *a)
 {
     char name[64];
-    struct { real place[2], along[2], speed, grown, start_time, intensity; int64_t n; } s = {
-        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, g->speed, g->grown, g->start_time,
+    struct { real place[2], along[2], heading[2], speed, grown, start_time, intensity; int64_t n; } s = {
+        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, {g->heading[0], g->heading[1]}, g->speed, g->grown, g->start_time,
         g->intensity, g->n};
     snprintf(name, sizeof name, "growth/%d", which);
     ARCHIVE_VALUE(a, name, s);
-    for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d];
+    for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->heading[d] = s.heading[d];
     g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
     g->intensity = s.intensity;
     if (!a->saving) {
