@@ -4,6 +4,14 @@
  *
  *     f_b = (1 - da/damping)^exponent,  0 <= da <= damping,  then 0;   damping = 0: released at once
  *
+ * A ruled crack turns by theta_c(K), the direction of the largest hoop stress, away from the direction in whose frame K was
+ * taken. That direction is the mean of where the tip headed, over the `smoothing` length of growth:
+ *
+ *     d(along)/da = (heading - along)/smoothing
+ *
+ * A tip that turns at once and is measured in its new frame, round a ring that its kink has not crossed, finds K_II
+ * reversed: theta_c(K) = -2 K_II/K_I is twice the turn that removes K_II, and the path would swing at every sample.
+ *
  * Both entries of a bond fade alike, so momentum stays exact; the energy that fading takes is fracture energy. */
 #ifndef CLEAVE_GROWTH_H
 #define CLEAVE_GROWTH_H
@@ -22,6 +30,7 @@ struct growth_rule {
     real start;                          /* it does not move before                                 [s]     */
     real length;                         /* it stops there; INFINITY: never                         [m]     */
     real damping, exponent;              /* damping NAN: half a horizon                             [m] [1] */
+    real smoothing;                      /* with a probe, NAN: a quarter of a horizon                   [m] */
     char probe[NAME_MAX_LENGTH];         /* sif probe that rules it; "": nothing does                       */
     real toughness;                      /* K_Ic: it grows while K_eq is at least this      [Pa m^(1/2)]    */
 };

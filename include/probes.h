@@ -51,6 +51,7 @@ struct probe_request {
     int points;                          /* LINE                                                      */
     char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
     char of[NAME_MAX_LENGTH];            /* GROWTH: name of the crack; "": the first                    */
+    real experiment;                     /* GROWTH: angle in an experiment, for pictures; NAN: none [degree]    */
     enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]:   */
     real amplitude, period, wavelength, origin;
     struct number_list contours;         /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */

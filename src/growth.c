@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <stdlib.h>
 
 #include "kernels.h"
 #include "memory.h"
@@ -39,8 +38,10 @@ static void turn(struct growth *g, const struct ruling *ruling)
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
 
-static void advance(struct growth *g, real way, real smoothing)
+/* `along` follows the heading over the smoothing length. */
+static void advance(struct growth *g, real way, real horizon)
 {
+    const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
     const real share = way < smoothing ? way / smoothing : 1;
     real along[2];
     for (int d = 0; d < 2; d++) {
@@ -72,7 +73,8 @@ static void fading_add(struct growth *g, int32_t i, int32_t j, float w, real len
 }
 
 /* Entries of the row of particle i that the way of the tip crosses. */
-static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way, int32_t i)
+static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way,
+                      int32_t i)
 {
     const int64_t row = b->row_of[i];
     real X[DIM_MAX], Y[DIM_MAX];
@@ -146,7 +148,7 @@ int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, cons
     if (g->rule->probe[0]) turn(g, ruling);
     g->speed = g->rule->speed;
     if (isnan(g->start_time)) g->start_time = t;
-    advance(g, g->speed * dt, (getenv("SMO") ? atof(getenv("SMO")) : 0.5) * source->family.horizon);
+    advance(g, g->speed * dt, source->family.horizon);
     cross(g, b, p, source, from);
     return fade(g, b, p, &source->family);
 }
@@ -162,8 +164,8 @@ status growth_archive(struct growth *g, int which, struct archive *a)
 {
     char name[64];
     struct { real place[2], along[2], heading[2], speed, grown, start_time, intensity; int64_t n; } s = {
-        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, {g->heading[0], g->heading[1]}, g->speed, g->grown, g->start_time,
-        g->intensity, g->n};
+        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, {g->heading[0], g->heading[1]},
+        g->speed, g->grown, g->start_time, g->intensity, g->n};
     snprintf(name, sizeof name, "growth/%d", which);
     ARCHIVE_VALUE(a, name, s);
     for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->heading[d] = s.heading[d];

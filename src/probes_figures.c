@@ -305,6 +305,8 @@ static void figures_growth(const struct emitter *e)
     put(e, "start_time", g->start_time);
     put(e, "length_end", g->grown);
     put(e, "angle_deg", growth_angle(g));
+    put(e, "direction_deg", atan2(g->rule->direction[1], g->rule->direction[0]) * 180 / 3.14159265358979323846);
+    put(e, "experiment_deg", e->q->request.experiment);
     put_place(e, g->place);
 }
 

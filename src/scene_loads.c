@@ -292,7 +292,7 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
         map = &short_form;
     }
     p->amplitude = p->period = p->wavelength = p->origin = NAN;
-    p->inner = p->outer = p->core = NAN;
+    p->inner = p->outer = p->core = p->experiment = NAN;
     strcat(group, probe_names[p->kind]);
     strcpy(p->name, probe_names[p->kind]);
     TRY(read_group(r, map ? map : n, map, group, p));

@@ -205,6 +205,8 @@ static status read_growth(struct reader *r, const struct node *n, struct growth_
     for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
     if (!g->probe[0] && node_find(n, "toughness"))
         return fault(r, node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
+    if (!g->probe[0] && !isnan(g->smoothing))
+        return fault(r, node_find(n, "smoothing"), "has no meaning without probe, the name of a sif probe");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
         if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
     return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
