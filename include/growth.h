@@ -1,16 +1,16 @@
-/* floor 3: cracks that grow as they are told: at a prescribed speed, or while the stress-intensity factors of a probe ask for
- * it. The tip runs on a straight line between changes of direction; a bond that it crosses fades out over the length that
- * the crack grows from then on (transition bonds, Imachi et al. 2019):
+/* floor 3: cracks that grow as they are told: at a prescribed speed, or while the stress-intensity factors of a probe
+ * ask for it. The tip runs on a straight line between changes of direction; a bond that it crosses fades out over the
+ * length that the crack grows from then on (transition bonds, Imachi et al. 2019):
  *
  *     f_b = (1 - da/damping)^exponent,  0 <= da <= damping,  then 0;   damping = 0: released at once
  *
- * A ruled crack turns by theta_c(K), the direction of the largest hoop stress, away from the direction in whose frame K was
- * taken. That direction is the mean of where the tip headed, over the `smoothing` length of growth:
+ * A ruled crack turns by theta_c(K), the direction of the largest hoop stress, away from the direction in whose frame K
+ * was taken. That direction is the mean of where the tip headed, over the `smoothing` length of growth:
  *
  *     d(along)/da = (heading - along)/smoothing
  *
  * A tip that turns at once and is measured in its new frame, round a ring that its kink has not crossed, finds K_II
- * reversed: theta_c(K) = -2 K_II/K_I is twice the turn that removes K_II, and the path would swing at every sample.
+ * reversed: theta_c = -2 K_II/K_I for small K_II is twice the turn that removes it, and the path swings at every sample.
  *
  * Both entries of a bond fade alike, so momentum stays exact; the energy that fading takes is fracture energy. */
 #ifndef CLEAVE_GROWTH_H
