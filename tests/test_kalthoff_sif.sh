@@ -1,12 +1,12 @@
 #!/bin/sh
 # floor 5: a crack led by stress-intensity factors: the plate with two notches of inputs/kalthoff_sif.yaml, on regular and
-# irregular particles, with factors known at every step and at every fourth only.
+# irregular particles, with factors known at every step, and seldom.
 test_name=test_kalthoff_sif
 . tests/summary.sh
 . tests/scenes.sh
 
 start regular kalthoff_sif
-start sparse kalthoff_sif -s output.samples=60 -s output.frames=0
+start sparse kalthoff_sif -s output.samples=100 -s output.frames=0
 wait
 start slightly kalthoff_sif -s particles.irregularity=0.3 -s output.frames=0
 start strongly kalthoff_sif -s particles.irregularity=0.6 -s output.frames=0
@@ -33,11 +33,9 @@ for run in regular slightly strongly sparse; do
     between "$run: growth" "$(f $run probes.growth.length_end)" 0.035 0.0405
     apart "$run: angle beside regular" "$(f $run probes.growth.angle_deg)" "$(f regular probes.growth.angle_deg)" 3
 done
-for run in regular slightly strongly; do between "$run: K_II" "$(worst $run)" 0 0.15; done
-
-# A crack that turned at every step by what one sample found would run in circles: its chord would be far shorter.
-end=$(compute "sqrt(($(f sparse probes.growth.x) - 0.05)^2 + ($(f sparse probes.growth.y) - 0.025)^2)")
-between "sparse: chord over length" "$(compute "$end/$(f sparse probes.growth.length_end)")" 0.97 1
+# Without the mean over the last growth K_II swings to 1.9 of K_I; turned again at every step by what the last sample found,
+# to 0.29 in the run that knows it seldom.
+for run in regular slightly strongly sparse; do between "$run: K_II" "$(worst $run)" 0 0.15; done
 
 # The tip that damage shows is where the growing one says: within the horizon.
 between "tip of damage" "$(f regular crack.angle_deg)" 68 78
