@@ -29,10 +29,12 @@ struct elastic {
 };
 
 /* Partial stress (src/partial_stress.c): the share of its stress that a material point leaves to the crossing
- * bonds. sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. */
+ * bonds. sigma_given = sigma - M sigma, M = T C^-1 over symmetric components, and minus the skew part where bonds carry
+ * forces off their line. */
 struct partial_stress {
     int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does   */
     real *matrix;                        /* [entries][symmetric^2], row major                         */
+    real *skew;                          /* [entries][skew symmetric], row major; NULL: there is none */
     int64_t entries, room;
 };
 
