@@ -138,6 +138,7 @@ static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_s
     particles_list(p);
     bonds_make(b, &old, p, source);
     bonds_free(&old);
+    if (source->modulus) state_know_table[p->dim][source->turns ? PD_MOSPD : PD_OSPD](b, p);
     return bond_break_all(b, p, &source->limit);
 }
 
