@@ -27,7 +27,7 @@ static ALWAYS_INLINE row_of_nodes stress_force(const real *s, const row_of_nodes
 static ALWAYS_INLINE void p2g_skew(struct grid *g, const struct particles *p, const struct transfer_data *t,
                                    const struct stencil *s, int64_t i, const int dim, const enum shape shape)
 {
-    static const int first[DIM_MAX] = {0, 1, 0}, second[DIM_MAX] = {1, 2, 2};
+    static const int first[DIM_MAX] = {0, 1, 2}, second[DIM_MAX] = {1, 2, 0};
     real skew[DIM_MAX];
     if (dim == 1 || t->bare || !stress_given_skew(p, t->partial, i, skew, dim)) return;
     FOR_ROWS(dim, shape) {

@@ -125,7 +125,7 @@ static ALWAYS_INLINE void stress_given(const struct particles *p, const struct p
     for (int a = 0; a < n; a++) stress[a] -= carried[a];
 }
 
-/* The skew part of what a point gives [Pa]: of sigma_ab, a < b, in the order xy yz xz. False: there is none. */
+/* The skew part of what a point gives [Pa]: of sigma_ab in the order xy yz zx. False: there is none. */
 static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const struct partial_stress *partial, int64_t i,
                                             real *skew, const int dim)
 {
