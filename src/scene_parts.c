@@ -56,6 +56,17 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
                  shown(r, tangent ? tangent : hardening));
 }
 
+/* From G_c: in closed form, or with rotations from the work that separates the lattice. */
+static real critical_stretch(const struct scene *s, const struct material *m)
+{
+    const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
+    if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
+    struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
+    const struct state_modulus modulus = state_modulus_of(m, s->space, true);
+    family_make(&f, s->space, s->spacing, s->horizon, s->space == SPACE_LINE ? s->section : s->thickness);
+    return sqrt(m->energy_release_rate / family_separation(&f, &modulus, !s->bulk));
+}
+
 static status read_material(struct reader *r, const struct node *n, struct material *m)
 {
     const struct scene *s = r->scene;
@@ -69,7 +80,7 @@ static status read_material(struct reader *r, const struct node *n, struct mater
     TRY(read_hardening(r, n, m));
     material_derive(m, s->space);
     if (!isnan(m->energy_release_rate))
-        m->critical_stretch = material_critical_stretch(m, s->space, s->horizon * s->spacing, (enum stretch_of)s->model);
+        m->critical_stretch = critical_stretch(s, m);
     if (m->critical_stretch > 0) return OK;
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
 }
