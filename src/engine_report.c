@@ -84,7 +84,7 @@ static bool wants_stress(const struct engine *e)
 {
     for (int k = 0; k < e->scene->probes; k++) {
         const struct probe_request *q = &e->scene->probe[k];
-        if (q->kind == PROBE_POINT || (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE)) return true;
+        if (q->kind == PROBE_POINT || q->kind == PROBE_RIGID || (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE)) return true;
     }
     return false;
 }

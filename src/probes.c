@@ -60,6 +60,9 @@ static void columns_add(struct probes *s, struct probe *q, int dim)
     case PROBE_SIF:
         for (int k = 0; k < SIF_FIGURES; k++) column_add(s, q, sif_figure[k].name, sif_figure[k].unit);
         break;
+    case PROBE_RIGID:
+        for (int k = 0; k < RIGID_FIGURES; k++) column_add(s, q, rigid_figure[k].name, rigid_figure[k].unit);
+        break;
     default: break;                      /* the others have figures only */
     }
 }
@@ -172,6 +175,7 @@ static status probe_bind(struct probe *q, const struct observed *o)
     case PROBE_MOMENTUM: return bind_region(q, o);
     case PROBE_EXACT: return bar_make(q, o);
     case PROBE_SIF: return sif_bind(q, o);
+    case PROBE_RIGID: TRY(bind_region(q, o)); return rigid_bind(q, o);
     default: return OK;
     }
 }
@@ -282,7 +286,7 @@ void probes_sample(struct probes *s, const struct observed *o)
 {
     real displacement[DIM_MAX];
     for (int k = 0; k < s->n; k++) {
-        const struct probe *q = &s->probe[k];
+        struct probe *q = &s->probe[k];
         real *value = s->value + q->first;
         switch (q->request.kind) {
         case PROBE_TIP: sample_tip(q, o, value); break;
@@ -291,6 +295,7 @@ void probes_sample(struct probes *s, const struct observed *o)
         case PROBE_ENERGY: sample_energy(q, o, value); break;
         case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
         case PROBE_EXACT: bar_figures(q->bar, o, value); break;
+        case PROBE_RIGID: rigid_sample(q, o, value); break;
         default: break;
         }
     }
