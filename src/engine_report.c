@@ -84,7 +84,8 @@ static bool wants_stress(const struct engine *e)
 {
     for (int k = 0; k < e->scene->probes; k++) {
         const struct probe_request *q = &e->scene->probe[k];
-        if (q->kind == PROBE_POINT || q->kind == PROBE_RIGID || (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE)) return true;
+        if (q->kind == PROBE_POINT || q->kind == PROBE_RIGID) return true;
+        if (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE) return true;
     }
     return false;
 }
@@ -175,7 +176,8 @@ void engine_sample_rest(struct engine *e)
     sample_write(e, e->t, 0, 0);
 }
 
-/* After the last step no force follows, but for what energies of state-based models rest on: kinetic energy and the supports' work go on as in that step. */
+/* After the last step no force follows, but for what energies of state-based models rest on: kinetic energy and the
+ * supports' work go on as in that step. */
 static void sample_last(struct engine *e)
 {
     refresh_states(e);

@@ -147,7 +147,7 @@ done <<'END'
 19|output: {compress: maybe}|19:10|true or false
 20|probes: [crack]|20:10|does not belong here
 20|probes: [sif: {inner: 21 mm}]|20:16|is not less than outer
-20|probes: [rigid: {region: here}]|20:26|
+20|probes: [rigid: {region: here}]|20:18|region
 20|probes: [tip, tip]|20:15|name of another probe
 20|probes: [exact: step bar]|20:10|space line is expected
 19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
