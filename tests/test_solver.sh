@@ -6,7 +6,7 @@ test_name=test_solver
 . tests/trust.sh
 seed=4
 
-crack="inputs/edge_crack_k1.yaml -s particles.spacing=0.2mm"
+crack="inputs/edge_crack_k1.yaml -s particles.spacing=0.2mm -s model=bond -s material.poisson=1/3"
 
 # ---- the edge crack ------------------------------------------------------------------------------------------------
 
