@@ -27,6 +27,7 @@ enum probe_kind {
     PROBE_EXACT,             /* a bar against a closed form                                                */
     PROBE_SIF,               /* stress-intensity factors of a crack tip                                    */
     PROBE_GROWTH,            /* a crack that grows as it is told: its tip, the path it took                */
+    PROBE_RIGID,             /* a body that turns as a whole (plane)                                       */
     PROBES
 };
 
@@ -43,7 +44,7 @@ enum probe_kind {
 struct probe_request {
     char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
     enum probe_kind kind;
-    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM; empty: everywhere         */
+    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere  */
     bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface  [m]     */
     bool has_direction;                  /* SIF                                                       */
     real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */

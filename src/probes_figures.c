@@ -310,6 +310,11 @@ static void figures_growth(const struct emitter *e)
     put_place(e, g->place);
 }
 
+static void figures_rigid(const struct emitter *e)
+{
+    for (int k = 0; k < RIGID_FIGURES; k++) put(e, rigid_figure[k].name, e->q->memory.rigid.most[k]);
+}
+
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context)
 {
@@ -318,7 +323,7 @@ void probes_figures(const struct probes *s, const struct observed *o,
         [PROBE_PATCH] = figures_patch,   [PROBE_SPALL] = figures_spall,       [PROBE_POINT] = figures_point,
         [PROBE_LINE] = figures_line,     [PROBE_ENERGY] = figures_energy,     [PROBE_MOMENTUM] = figures_momentum,
         [PROBE_PULSE] = figures_pulse,   [PROBE_EXACT] = figures_exact,       [PROBE_SIF] = figures_sif,
-        [PROBE_GROWTH] = figures_growth,
+        [PROBE_GROWTH] = figures_growth, [PROBE_RIGID] = figures_rigid,
     };
     for (int k = 0; k < s->n; k++)
         figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o});

@@ -375,7 +375,10 @@ const struct key keys[] = {
         .has = FLAG(probe_request, has_at)),
     KEY("probes.pulse.direction", KEY_POINT, UNIT_NONE, AT(probe_request, direction), ANY, "(x)",
         "normal of the interface, away from where the packet comes from"),
-    KEY("probes.rigid", KEY_LATER, UNIT_NONE, NOWHERE, ANY, NONE, "rigid rotation", .later = "rigid rotation"),
+    KEY("probes.rigid", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
+        "a body that turns as a whole: angle, stresses, angular momentum and kinetic energy (plane spaces)"),
+    KEY("probes.rigid.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(rigid)", "name in the results"),
+    KEY("probes.rigid.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
 };
 const int keys_count = COUNT_OF(keys);
 

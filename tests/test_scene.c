@@ -75,7 +75,8 @@ static const char plate[] =
     "  - line: {from: [0, 0], to: [1, 1], points: 11}\n"
     "  - energy: {region: {all: true}}\n"
     "  - momentum: {}\n"
-    "  - sif: {at: [1 mm, 2 mm], contours: [30 mm, 50 mm], stress: particle, weight: cubic, speed: 1 km/s, reach: 2}\n";
+    "  - sif: {at: [1 mm, 2 mm], contours: [30 mm, 50 mm], stress: particle, weight: cubic, speed: 1 km/s, reach: 2}\n"
+    "  - rigid: {region: {all: true}}\n";
 
 static const char bar[] =
     "space: line\n"
@@ -231,7 +232,7 @@ static void test_plate_probes(void **state)
     (void)state;
     static const enum probe_kind kinds[] = {PROBE_TIP,   PROBE_TIP,   PROBE_BREAK, PROBE_REACTION, PROBE_PATCH,
                                             PROBE_SPALL, PROBE_POINT, PROBE_LINE,  PROBE_ENERGY,   PROBE_MOMENTUM,
-                                            PROBE_SIF};
+                                            PROBE_SIF,   PROBE_RIGID};
     struct scene s = read_ok(plate, NULL, 0);
     const struct probe_request *p = s.probe;
     assert_int_equal(s.probes, COUNT_OF(kinds));
