@@ -4,8 +4,8 @@
  * with l_q the share of the bond's reference segment inside the cell of point q and e its direction; bonds of state-based
  * models answer to the strain's trace and in other directions, too (struct response). The point gives the
  * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Geometric, exact in one dimension. Forces off the
- * bond's line (models with rotations) make T_q : eps unsymmetric: its first index is the force's, its second the bond's, and
- * its skew part goes to the grid too. The torque of such forces on a point is the one its skew stress takes away, so
+ * bond's line (models with rotations) make T_q : eps unsymmetric: its first index is the force's, its second the bond's,
+ * and its skew part goes to the grid too. The torque of such forces on a point is the one its skew stress takes away, so
  * uniform strain leaves neither force nor torque behind. */
 #include <math.h>
 #include <string.h>

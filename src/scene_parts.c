@@ -78,6 +78,9 @@ static status read_material(struct reader *r, const struct node *n, struct mater
     TRY(check_poisson(r, n, m));
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
+    if (s->model != MODEL_BOND && material_yields(m))
+        return fault(r, node_find(n, "yield_stress"), "state-based models do not yield in this version; model bond, or no "
+                                                      "yield_stress, is expected");
     material_derive(m, s->space);
     if (!isnan(m->energy_release_rate))
         m->critical_stretch = critical_stretch(s, m);

@@ -5,6 +5,13 @@ test_name=test_state_adaptive
 . tests/scenes.sh
 . tests/trust.sh
 
+# ---- what they cannot do ---------------------------------------------------------------------------------------------
+
+sed 's/energy_release_rate/yield_stress: 1 GPa, energy_release_rate/' inputs/kalthoff_winkler.yaml >"$work/yields.yaml"
+"$cleave" check "$work/yields.yaml" -s model=ospd >"$work/out" 2>"$work/err"
+is "a state-based material that yields: exit status" $? 2
+holds "a state-based material that yields: the message" grep -q ':17:.*state-based models do not yield' "$work/err"
+
 # ---- trust ---------------------------------------------------------------------------------------------------------
 
 for model in ospd mospd; do
@@ -54,7 +61,8 @@ for run in "ospd pd.normalisation=bulk" "mospd pd.influence=one"; do
         between "$run: angle" "$(f $run crack.angle_deg)" 62 74
         apart "$run: a pair, y" "$(f $run crack.tips.0.y)" "$(compute "-($(f $run crack.tips.1.y))")" 1.001e-3
     done
-    apart "kalthoff, $1: pd and adaptive" "$(f kalthoff_$1_pd crack.angle_deg)" "$(f kalthoff_$1_adaptive crack.angle_deg)" 3
+    apart "kalthoff, $1: pd and adaptive" \
+        "$(f kalthoff_$1_pd crack.angle_deg)" "$(f kalthoff_$1_adaptive crack.angle_deg)" 3
 done
 
 # A critical stretch that stands for G_c: both models break as much as bonds do per length of crack. Bonds leave some
@@ -63,7 +71,8 @@ for model in bond ospd mospd; do start plate_$model plate_crack -s method=pd -s 
 wait
 for model in bond ospd mospd; do
     grown=$(compute "2 * $(f plate_$model crack.length_end) * 0.1e-3")
-    between "plate_$model: energy of the bonds cut over G_c" "$(compute "$(f plate_$model energy.fracture) / ($grown * 82907)")" 1 1.3
+    between "plate_$model: energy of the bonds cut over G_c" \
+        "$(compute "$(f plate_$model energy.fracture) / ($grown * 82907)")" 1 1.3
 done
 
 finish

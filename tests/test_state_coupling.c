@@ -1,5 +1,5 @@
-/* floor 4: state-based bonds as partners of material points: uniform strain across a flat interface leaves neither force nor
- * torque, and converting a block costs nothing. */
+/* floor 4: state-based bonds as partners of material points: uniform strain across a flat interface leaves neither force
+ * nor torque, and converting a block costs nothing. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -210,8 +210,8 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     return came;
 }
 
-/* The block's sides cost nothing: the energy is that of four corners, whatever its size, load and model: bonds round a corner
- * run less than half their way in material points. In the ordinary model the lattice differs from the points, by 1.4 %
+/* The block's sides cost nothing: the energy is that of four corners, whatever its size, load and model: bonds round a
+ * corner run less than half their way in material points. In the ordinary model the lattice differs from the points, by 1.4 %
  * axially and 3.4 % in shear (its fourth moments), over the block and half of the bonds round it. */
 #define CORNER (-0.08604)
 static void test_energy(void **state)
