@@ -4,7 +4,8 @@
  *
  *     f_b = (1 - da/damping)^exponent,  0 <= da <= damping,  then 0;   damping = 0: released at once
  *
- * Both entries of a bond fade alike, so momentum stays exact; the energy that fading takes is fracture energy. */
+ * Both entries of a bond fade alike, so momentum stays exact; the energy that fading takes is fracture energy. A crack
+ * that comes to rest keeps its bonds as they are. */
 #ifndef CLEAVE_GROWTH_H
 #define CLEAVE_GROWTH_H
 
@@ -26,14 +27,16 @@ struct growth_rule {
     real toughness;                      /* K_Ic: it grows while K_eq is at least this      [Pa m^(1/2)]    */
 };
 
-/* One fading entry of the rows: bond i-j, its weight before and the crack's length when it was crossed. */
-struct fading { int32_t i, j; float w; float pad; real length; };
+/* One fading entry of the rows: bond i-j, its weight when whole, one step ago and now, and the crack's length when it was
+ * crossed. */
+struct fading { int32_t i, j; float whole, before, now, spare; real length; };
 
 struct growth {
     const struct growth_rule *rule;      /* borrowed                                                        */
     real place[2], along[2], speed;      /* now; speed 0 while it rests                             [m] [m/s] */
     real grown;                          /* length so far                                           [m]     */
     real start_time;                     /* of the first growth; NAN before                         [s]     */
+    real turned_by[2];                   /* factors that it has turned by; NAN before     [Pa m^(1/2)]      */
     int64_t n, room;
     struct fading *fading;
 };
