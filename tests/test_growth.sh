@@ -102,7 +102,7 @@ shaking()
                 sum += (force[i] - (b0 * s4 - b2 * s2) / (s0 * s4 - s2 * s2)) ^ 2
                 m++
             }
-            print m > 250 ? sqrt(sum / m) / force[n] : "too few"
+            print (m > 250 ? sqrt(sum / m) / force[n] : "too few")
         }' "$work/$1/history.csv"
 }
 # measured: 0.016 % and 0.61 %
