@@ -53,14 +53,14 @@ struct job {
         {G2P, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},
 #define TRANSFER_JOBS(D, S) TRANSFER_VARIANTS(TRANSFER_JOB, D, S)
 
-static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS)
+static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS)
                                           SHAPE_VARIANTS(TRANSFER_JOBS)};
 enum { JOBS = COUNT_OF(all_jobs) };
 
 /* What is timed on: for each dimension a peridynamic body, and one of material points. */
 struct ground {
-    struct scene scene[2];
-    struct engine engine[2]; /* [0] bonds, [1] points */
+    struct scene scene[3];
+    struct engine engine[3]; /* [0] bonds, [1] points, [2] bonds of state-based particles (not in 1D) */
     int32_t *list;
     real *value, *field; /* of spread */
 };
@@ -79,7 +79,7 @@ struct bench {
 /* ---- ground -------------------------------------------------------------------------------------------- */
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
-static status body_make(struct engine *e, struct scene *s, int dim, const char *method)
+static status body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model)
 {
     static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
                                                    "solid"};
@@ -89,10 +89,11 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
     char text[1024];
     snprintf(
         text, sizeof text,
-        "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800%s}\n"
+        "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmodel: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800%s}\n"
         "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
         "mpm: {shape: cpgimp, transfer: apic}\noutput: {samples: 1, frames: 0}\n",
-        space[dim], method, poisson[dim], strcmp(method, "pd") ? "" : ", yield_stress: 1 GPa", corner[dim], size[dim]);
+        space[dim], method, model, poisson[dim],
+        strcmp(method, "pd") || strcmp(model, "bond") ? "" : ", yield_stress: 1 GPa", corner[dim], size[dim]);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < e->part.n; i++) {
@@ -104,8 +105,9 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
 
 static status ground_make(struct ground *g, int dim)
 {
-    TRY(body_make(&g->engine[0], &g->scene[0], dim, "pd"));
-    TRY(body_make(&g->engine[1], &g->scene[1], dim, "mpm"));
+    TRY(body_make(&g->engine[0], &g->scene[0], dim, "pd", "bond"));
+    TRY(body_make(&g->engine[1], &g->scene[1], dim, "mpm", "bond"));
+    if (dim > 1) TRY(body_make(&g->engine[2], &g->scene[2], dim, "pd", "mospd"));
     struct engine *points = &g->engine[1];
     points->transfer.dt = points->transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
     g->list = NEW("bench.list", points->part.n, int32_t);
@@ -117,7 +119,7 @@ static status ground_make(struct ground *g, int dim)
 
 static void ground_free(struct ground *g)
 {
-    for (int k = 0; k < 2; k++) bench_engine_free(&g->engine[k], &g->scene[k]);
+    for (int k = 0; k < 3; k++) bench_engine_free(&g->engine[k], &g->scene[k]);
     memory_free(g->list);
     memory_free(g->value);
     memory_free(g->field);
@@ -127,17 +129,19 @@ static void ground_free(struct ground *g)
 
 static void job_call(const struct job *j, struct ground *g)
 {
-    struct engine *pd = &g->engine[0], *e = &g->engine[1];
+    struct engine *pd = &g->engine[j->model >= PD_OSPD ? 2 : 0], *e = &g->engine[1];
+    struct kernels k;
+    kernels_choose(&k, j->dim, j->model, j->shape, j->transfer);
     real impulse[DIM_MAX] = {0}, work = 0;
     switch (j->kind) {
     case BOND_FORCE:
-        bond_force_table[j->dim][j->model](&pd->bonds, &pd->part, &pd->source.limit);
+        k.bond_force(&pd->bonds, &pd->part, &pd->source.limit);
         break;
     case BOND_ENERGY:
-        bond_energy_table[j->dim][j->model](&pd->bonds, &pd->part);
+        k.bond_energy(&pd->bonds, &pd->part);
         break;
     case BOND_STRESS:
-        bond_stress_table[j->dim][j->model](&pd->bonds, &pd->part);
+        k.bond_stress(&pd->bonds, &pd->part);
         break;
     case PD_MOVE:
         pd_move_table[j->dim](&pd->part, 1e-12, 1e-12);
@@ -204,10 +208,12 @@ static void time_all(struct bench *b, int repetitions)
  * points of their cell. */
 static double job_bytes(const struct job *j, const struct ground *g)
 {
-    const struct engine *e = &g->engine[1], *pd = &g->engine[0];
+    const struct engine *e = &g->engine[1], *pd = &g->engine[j->model >= PD_OSPD ? 2 : 0];
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
     const double node = r * (double)e->grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
-    const double bond = 12.5 * LANES * (double)pd->bonds.slots / (double)pd->part.n,
+    /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
+    const double stored = 12.5 * (j->model >= PD_OSPD ? 2 : 1) + (j->model == PD_BOND_PLASTIC ? 36 : 0);
+    const double bond = stored * LANES * (double)pd->bonds.slots / (double)pd->part.n,
                  apic = j->transfer == TRANSFER_APIC;
     switch (j->kind) {
     case BOND_FORCE:

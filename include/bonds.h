@@ -62,6 +62,11 @@ struct bond_plasticity { real stretch, path; };
 
 /* State-based materials: A and B of kernels/state_laws.h, and the bulk modulus of the space [Pa]. */
 struct state_modulus { real A, B, bulk; };
+static inline struct state_modulus state_modulus_of(const struct material *m, enum space space, bool turns)
+{
+    const real D = space_dim(space);
+    return (struct state_modulus){D * D * (turns ? m->c12 : m->c12 - m->shear), (turns ? 2 : D + 2) * D * m->shear, m->bulk};
+}
 
 /* Where a mirror image comes from, and the axis that its mirror turns round (-1: none, a clamped plane). */
 struct state_image { int32_t source; int axis; };
@@ -126,6 +131,9 @@ struct bond_source {
 void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
 /* c of a material in this family [N/m^6]. */
 real family_micro_modulus(const struct family *f, const struct material *m);
+/* Work that separates a lattice of the model with rotations normal to a plane, over the square of the stretch at which its
+ * bonds break [N/m] (separation.c). */
+real family_separation(const struct family *f, const struct state_modulus *m, bool local);
 /* beta x omega x shell weight of a reference bond of components xi and length r [1]. */
 real family_weight(const struct family *f, const real *xi, real r);
 

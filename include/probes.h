@@ -26,6 +26,8 @@ enum probe_kind {
     PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
     PROBE_EXACT,             /* a bar against a closed form                                                */
     PROBE_SIF,               /* stress-intensity factors of a crack tip                                    */
+    PROBE_GROWTH,            /* a crack that grows as it is told: its tip, the path it took                */
+    PROBE_RIGID,             /* a body that turns as a whole (plane)                                       */
     PROBES
 };
 
@@ -42,13 +44,15 @@ enum probe_kind {
 struct probe_request {
     char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
     enum probe_kind kind;
-    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM; empty: everywhere         */
+    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere  */
     bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface  [m]     */
     bool has_direction;                  /* SIF                                                       */
     real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */
     real from[DIM_MAX], to[DIM_MAX];     /* LINE                                              [m]     */
     int points;                          /* LINE                                                      */
     char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
+    char of[NAME_MAX_LENGTH];            /* GROWTH: name of the crack; "": the first                    */
+    real experiment;                     /* GROWTH: angle in an experiment, for pictures; NAN: none [degree]    */
     enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]:   */
     real amplitude, period, wavelength, origin;
     struct number_list contours;         /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
@@ -128,8 +132,8 @@ void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
 /* Writes the profiles of LINE and EXACT probes as csv to `folder`/<name>_<frame>.csv. */
 status probes_profiles(const struct probes *s, const struct observed *o, const char *folder, int frame);
-/* Factors of the named SIF probe at the last sample; false: none yet. */
-bool probes_factors(const struct probes *s, const char *name, struct sif *found);
+/* Factors of the named SIF probe at the last sample, and the direction of its tip then; false: none yet. */
+bool probes_ruling(const struct probes *s, const char *name, struct ruling *found);
 status probes_archive(struct probes *s, struct archive *a);
 
 #endif

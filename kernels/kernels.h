@@ -29,10 +29,12 @@ struct elastic {
 };
 
 /* Partial stress (src/partial_stress.c): the share of its stress that a material point leaves to the crossing
- * bonds. sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. */
+ * bonds. sigma_given = sigma - M sigma, M = T C^-1 over symmetric components, and minus the skew part where bonds carry
+ * forces off their line. */
 struct partial_stress {
     int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does   */
     real *matrix;                        /* [entries][symmetric^2], row major                         */
+    real *skew;                          /* [entries][skew symmetric], row major; NULL: there is none */
     int64_t entries, room;
 };
 
@@ -54,6 +56,10 @@ struct transfer_data {
  * per bond from memory on a lattice (inverse_length 8, w 4, first 1/2), 16.5 elsewhere (nbr 4); positions come from
  * cache. Returns the directed bonds broken. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit);
+
+/* What particles know of their families, into b->state: the first half of a state-based force. Whoever breaks bonds of rows
+ * just made calls it before: the energy of a bond is in it. */
+typedef void state_know_fn(struct bonds *b, const struct particles *p);
 
 /* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then
  * may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
@@ -112,6 +118,7 @@ extern bond_stress_fn *const bond_stress_table[DIM_MAX + 1][PD_MODELS];
 extern bond_force_fn *const state_force_table[DIM_MAX + 1][PD_MODELS];
 extern bond_energy_fn *const state_energy_table[DIM_MAX + 1][PD_MODELS];
 extern bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS];
+extern state_know_fn *const state_know_table[DIM_MAX + 1][PD_MODELS];
 extern pd_move_fn *const pd_move_table[DIM_MAX + 1];
 extern p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS];
 extern remap_fn *const remap_table[DIM_MAX + 1][SHAPES];

@@ -23,6 +23,25 @@ static ALWAYS_INLINE row_of_nodes stress_force(const real *s, const row_of_nodes
     return s[5] * grad[0] + s[4] * grad[1] + s[2] * grad[2];
 }
 
+/* Force of the skew part of the stress given: f_a = -V sum_b skew_ab grad_b. Few points have one (partial_stress.c). */
+static ALWAYS_INLINE void p2g_skew(struct grid *g, const struct particles *p, const struct transfer_data *t,
+                                   const struct stencil *s, int64_t i, const int dim, const enum shape shape)
+{
+    static const int first[DIM_MAX] = {0, 1, 2}, second[DIM_MAX] = {1, 2, 0};
+    real skew[DIM_MAX];
+    if (dim == 1 || t->bare || !stress_given_skew(p, t->partial, i, skew, dim)) return;
+    FOR_ROWS(dim, shape) {
+        const int64_t I = stencil_row(s, g, k1, k2, dim);
+        row_of_nodes grad[DIM_MAX];
+        stencil_gradient(s, k1, k2, grad, dim);
+        for (int c = 0; c < dim * (dim - 1) / 2; c++) {
+            const real force = skew[c] * p->volume[i];
+            row_add(g->force[first[c]] + I, -force * grad[second[c]]);
+            row_add(g->force[second[c]] + I, force * grad[first[c]]);
+        }
+    }
+}
+
 static ALWAYS_INLINE void p2g_particle(struct grid *g, const struct particles *p, const struct transfer_data *t,
                                        int64_t i, const int dim, const enum shape shape, const enum transfer transfer)
 {
@@ -60,6 +79,7 @@ static ALWAYS_INLINE void p2g_particle(struct grid *g, const struct particles *p
             row_add(g->force[d] + I, force[d] * N - stress_force(stress, grad, d, dim));
         }
     }
+    if (t->partial && t->partial->skew) p2g_skew(g, p, t, &s, i, dim, shape);
 }
 
 #define INSTANCE(D, S, T)                                                                                           \

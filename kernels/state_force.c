@@ -127,15 +127,19 @@ static ALWAYS_INLINE bool force_group(const struct bonds *b, struct particles *p
 }
 
 #define INSTANCE(D, M)                                                                                       \
-    static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit) \
+    static void state_know_##D##d_##M(struct bonds *b, const struct particles *p)                            \
     {                                                                                                        \
-        int64_t broken = 0;                                                                                  \
         _Pragma("omp parallel for schedule(static)")                                                         \
         for (int64_t g = 0; g < b->groups; g++) state_group(b, p, g, D, PD_##M);                             \
         _Pragma("omp parallel for schedule(static)")                                                         \
         for (int64_t row = 0; row < b->rows; row++)                                                          \
             if (p->kind[b->particle[row]] == KIND_MPM) state_of_point(b, p, row, D, PD_##M);                 \
         state_of_images(b, p, D, state_turns(PD_##M));                                                       \
+    }                                                                                                        \
+    static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit) \
+    {                                                                                                        \
+        int64_t broken = 0;                                                                                  \
+        state_know_##D##d_##M(b, p);                                                                         \
         _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                                   \
         for (int64_t g = 0; g < b->groups; g++) {                                                            \
             if (!force_group(b, p, g, 1, D, PD_##M)) continue;                                               \
@@ -149,3 +153,6 @@ STATE_VARIANTS(INSTANCE)
 
 #define ENTRY(D, M) [D][PD_##M] = state_force_##D##d_##M,
 bond_force_fn *const state_force_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(ENTRY)};
+
+#define KNOW(D, M) [D][PD_##M] = state_know_##D##d_##M,
+state_know_fn *const state_know_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(KNOW)};

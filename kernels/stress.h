@@ -125,4 +125,18 @@ static ALWAYS_INLINE void stress_given(const struct particles *p, const struct p
     for (int a = 0; a < n; a++) stress[a] -= carried[a];
 }
 
+/* The skew part of what a point gives [Pa]: of sigma_ab in the order xy yz zx. False: there is none. */
+static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const struct partial_stress *partial, int64_t i,
+                                            real *skew, const int dim)
+{
+    const int n = dim * (dim + 1) / 2, rows = n - dim;
+    if (!partial || !partial->skew || partial->index[i] < 0) return false;
+    const real *M = partial->skew + (int64_t)partial->index[i] * rows * n;
+    for (int a = 0; a < rows; a++) {
+        skew[a] = 0;
+        for (int b = 0; b < n; b++) skew[a] -= M[a * n + b] * p->stress[b][i];
+    }
+    return true;
+}
+
 #endif

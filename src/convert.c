@@ -96,6 +96,14 @@ static bool any_flag(const struct particles *p)
     return any != 0;
 }
 
+/* Particles whose other bonds grow stiffer as theirs break (normalisation local): partial stress is to follow. */
+static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p)
+{
+    if (!s->modulus || !s->local) return;
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->kind[i] == KIND_PD && p->flag[i] & FLAG_CUT) list_add(l, i);
+}
+
 static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
@@ -138,6 +146,7 @@ static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_s
     particles_list(p);
     bonds_make(b, &old, p, source);
     bonds_free(&old);
+    if (source->modulus) state_know_table[p->dim][source->turns ? PD_MOSPD : PD_OSPD](b, p);
     return bond_break_all(b, p, &source->limit);
 }
 
@@ -145,20 +154,23 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
                 const struct bond_source *source, struct partial_stress *partial, real t)
 {
     if (!any_flag(p)) return 0;
-    struct index_list changed = {0};
+    struct index_list changed = {0}, touched = {0};
     int64_t had;
     do {                                 /* a bond that breaks when made takes its other end along, in the same step */
         had = changed.n;
+        list_stiffened(&touched, source, p);
         convert_marked(c, rule, p, source, &changed, t);
     } while (changed.n > had && rebuild(p, b, source) > 0);
+    for (int64_t k = 0; k < changed.n; k++) list_add(&touched, changed.at[k]);
+    if (partial && touched.n > 0) partial_stress_make(partial, p, b, source, touched.at, touched.n);
     if (changed.n > 0) {
-        if (partial) partial_stress_make(partial, p, b, source, changed.at, changed.n);
         c->converted += changed.n;
         c->events++;
         if (b->n > c->peak_bonds) c->peak_bonds = b->n;
     }
     int64_t converted = changed.n;
     memory_free(changed.at);
+    memory_free(touched.at);
     return converted;
 }
 

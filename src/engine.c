@@ -94,9 +94,9 @@ static int64_t grow(struct engine *e)
 {
     int64_t released = 0;
     for (int k = 0; k < e->scene->growths; k++) {
-        struct sif K;
-        const bool known = probes_factors(&e->probes, e->scene->growth[k].probe, &K);
-        released += growth_step(&e->growth[k], &e->bonds, &e->part, &e->source, known ? &K : NULL, e->t, e->dt);
+        struct ruling r;
+        const bool known = probes_ruling(&e->probes, e->scene->growth[k].probe, &r);
+        released += growth_step(&e->growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL, e->t, e->dt);
     }
     return released;
 }

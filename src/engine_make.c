@@ -55,15 +55,10 @@ static void make_yields(struct engine *e)
 static void make_states(struct engine *e)
 {
     const struct scene *s = e->scene;
-    const real D = s->dim;
     if (s->model == MODEL_BOND) return;
     e->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
-    for (int k = 0; k < s->materials; k++) {
-        const struct material *m = &s->material[k];
-        const bool turns = s->model == MODEL_MOSPD;
-        e->modulus[k] = (struct state_modulus){D * D * (turns ? m->c12 : m->c12 - m->shear),
-                                               turns ? 2 * D * m->shear : D * (D + 2) * m->shear, m->bulk};
-    }
+    for (int k = 0; k < s->materials; k++)
+        e->modulus[k] = state_modulus_of(&s->material[k], s->space, s->model == MODEL_MOSPD);
     e->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
     for (int b = 0; b < s->boundaries; b++)
         e->mirror_axis[b] = s->boundary[b].hold_tangential ? -1 : s->boundary[b].axis;

@@ -84,15 +84,34 @@ static bool wants_stress(const struct engine *e)
 {
     for (int k = 0; k < e->scene->probes; k++) {
         const struct probe_request *q = &e->scene->probe[k];
-        if (q->kind == PROBE_POINT || (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE)) return true;
+        if (q->kind == PROBE_POINT || q->kind == PROBE_RIGID) return true;
+        if (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE) return true;
     }
     return false;
+}
+
+/* Families as they are now: a step moves particles after its forces, and a body that turns would show the stress of a
+ * step's rotation. Nothing breaks; the forces are made anew by the next step. */
+static void refresh_states(struct engine *e)
+{
+    if (!e->source.modulus) return;
+    const int pairs = e->source.limit.materials * e->source.limit.materials;
+    real *never = NEW("report.never", pairs, real);
+    for (int k = 0; k < pairs; k++) never[k] = INFINITY;
+    e->kernels.bond_force(&e->bonds, &e->part, &(struct bond_limit){never, e->source.limit.materials});
+    memory_free(never);
+}
+
+static void make_stress(struct engine *e)
+{
+    refresh_states(e);
+    e->kernels.bond_stress(&e->bonds, &e->part);
 }
 
 /* What stands still while the energies of a sample are gathered. */
 static void sample_state(struct engine *e)
 {
-    if (wants_stress(e)) e->kernels.bond_stress(&e->bonds, &e->part);
+    if (wants_stress(e)) make_stress(e);
     watch_momentum(&e->watch, &e->part, e->loads.impulse);
     tips_sample(&e->tips, &e->part, &e->cells, e->t);
     struct observed o = engine_observed(e);
@@ -128,7 +147,7 @@ void engine_sample_begin(struct engine *e)
     e->sampling.held_work = e->loads.held_work;
     if (e->sampling.due) sample_state(e);
     if (!e->sampling.due && e->step < e->steps - 1) return;
-    if (!e->sampling.due && wants_stress(e)) e->kernels.bond_stress(&e->bonds, &e->part);
+    if (!e->sampling.due && wants_stress(e)) make_stress(e);
     struct observed o = engine_observed(e);
     probes_keep(&e->probes, &o);
     e->sampling.kinetic = watch_kinetic(&e->part);
@@ -157,9 +176,11 @@ void engine_sample_rest(struct engine *e)
     sample_write(e, e->t, 0, 0);
 }
 
-/* After the last step no force follows: kinetic energy and the supports' work go on as in that step. */
+/* After the last step no force follows, but for what energies of state-based models rest on: kinetic energy and the
+ * supports' work go on as in that step. */
 static void sample_last(struct engine *e)
 {
+    refresh_states(e);
     sample_state(e);
     sample_energy(e);
     real kinetic = watch_kinetic(&e->part);
@@ -208,7 +229,7 @@ void engine_residual(struct engine *e)
 
 static status write_frame(struct engine *e)
 {
-    e->kernels.bond_stress(&e->bonds, &e->part);
+    make_stress(e);
     TRY(output_frame(e->out, &e->part, e->t, e->step, e->scene->text));
     struct observed o = engine_observed(e);
     return probes_profiles(&e->probes, &o, e->out->folder, e->out->frames - 1);

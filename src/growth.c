@@ -10,8 +10,8 @@
 
 void growth_make(struct growth *g, const struct growth_rule *rule)
 {
-    *g = (struct growth){.rule = rule, .start_time = NAN, .turned_by = {NAN, NAN}};
-    for (int d = 0; d < 2; d++) g->place[d] = rule->at[d], g->along[d] = rule->direction[d];
+    *g = (struct growth){.rule = rule, .start_time = NAN, .intensity = NAN};
+    for (int d = 0; d < 2; d++) g->place[d] = rule->at[d], g->along[d] = g->heading[d] = rule->direction[d];
 }
 
 void growth_free(struct growth *g)
@@ -22,23 +22,35 @@ void growth_free(struct growth *g)
 
 /* ---- does it grow, and where to --------------------------------------------------------------------------- */
 
-static bool grows(const struct growth *g, const struct sif *K, real t)
+static bool grows(const struct growth *g, real t)
 {
     const struct growth_rule *r = g->rule;
     if (t < r->start || g->grown >= r->length) return false;
     if (!r->probe[0]) return true;
-    return K && isfinite(K->K[0]) && crack_equivalent(K->K) >= r->toughness;
+    return g->intensity >= r->toughness;
 }
 
-/* The direction of the largest hoop stress, as seen from where the crack ran when the factors were taken: once for each
- * sample. */
-static void turn(struct growth *g, const struct sif *K)
+/* To the direction of the largest hoop stress. */
+static void turn(struct growth *g, const struct ruling *ruling)
 {
-    if (K->K[0] == g->turned_by[0] && K->K[1] == g->turned_by[1]) return;
-    for (int d = 0; d < 2; d++) g->turned_by[d] = K->K[d];
-    const real angle = crack_direction(K->K), c = cos(angle), s = sin(angle);
-    const real x = g->along[0], y = g->along[1];
-    g->along[0] = c * x - s * y, g->along[1] = s * x + c * y;
+    const real angle = crack_direction(ruling->factors.K), c = cos(angle), s = sin(angle);
+    const real x = ruling->along[0], y = ruling->along[1];
+    g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
+}
+
+/* `along` follows the heading over the smoothing length. */
+static void advance(struct growth *g, real way, real horizon)
+{
+    const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
+    const real share = way < smoothing ? way / smoothing : 1;
+    real along[2];
+    for (int d = 0; d < 2; d++) {
+        g->place[d] += way * g->heading[d];
+        along[d] = g->along[d] + share * (g->heading[d] - g->along[d]);
+    }
+    const real length = hypot(along[0], along[1]);
+    for (int d = 0; d < 2 && length > 0; d++) g->along[d] = along[d] / length;
+    g->grown += way;
 }
 
 /* ---- bonds that the tip crosses --------------------------------------------------------------------------- */
@@ -61,7 +73,8 @@ static void fading_add(struct growth *g, int32_t i, int32_t j, float w, real len
 }
 
 /* Entries of the row of particle i that the way of the tip crosses. */
-static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way, int32_t i)
+static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way,
+                      int32_t i)
 {
     const int64_t row = b->row_of[i];
     real X[DIM_MAX], Y[DIM_MAX];
@@ -164,40 +177,42 @@ static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, cons
 
 /* ---- a step ----------------------------------------------------------------------------------------------- */
 
-static void advance(struct growth *g, const struct sif *K, real t, real dt)
-{
-    const real way = real_min(g->rule->speed * dt, g->rule->length - g->grown);
-    if (g->rule->probe[0]) turn(g, K);
-    if (isnan(g->start_time)) g->start_time = t;
-    g->speed = g->rule->speed;
-    for (int d = 0; d < 2; d++) g->place[d] += way * g->along[d];
-    g->grown += way;
-}
-
 int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
-                    const struct sif *K, real t, real dt)
+                    const struct ruling *ruling, real t, real dt)
 {
     const real from[2] = {g->place[0], g->place[1]};
     g->speed = 0;
+    g->intensity = ruling ? crack_equivalent(ruling->factors.K) : NAN;
     /* where the crack begins among material points, it waits a step for the bonds that it is to cross */
-    if (grows(g, K, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
-        advance(g, K, t, dt);
+    if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
+        if (g->rule->probe[0]) turn(g, ruling);
+        g->speed = g->rule->speed;
+        if (isnan(g->start_time)) g->start_time = t;
+        advance(g, real_min(g->speed * dt, g->rule->length - g->grown), source->family.horizon);
         cross(g, b, p, source, from);
         claim(g, p, source);
     }
     return fade(g, b, p, &source->family);
 }
 
+real growth_angle(const struct growth *g)
+{
+    const real *e = g->rule->direction, way[2] = {g->place[0] - g->rule->at[0], g->place[1] - g->rule->at[1]};
+    if (!(g->grown > 0)) return NAN;
+    return fabs(atan2(e[0] * way[1] - e[1] * way[0], dot(e, way, 2))) * 180 / 3.14159265358979323846;
+}
+
 status growth_archive(struct growth *g, int which, struct archive *a)
 {
     char name[64];
-    struct { real place[2], along[2], turned_by[2], speed, grown, start_time; int64_t n; } s = {
-        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, {g->turned_by[0], g->turned_by[1]}, g->speed, g->grown,
-        g->start_time, g->n};
+    struct { real place[2], along[2], heading[2], speed, grown, start_time, intensity; int64_t n; } s = {
+        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, {g->heading[0], g->heading[1]},
+        g->speed, g->grown, g->start_time, g->intensity, g->n};
     snprintf(name, sizeof name, "growth/%d", which);
     ARCHIVE_VALUE(a, name, s);
-    for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->turned_by[d] = s.turned_by[d];
+    for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->heading[d] = s.heading[d];
     g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
+    g->intensity = s.intensity;
     if (!a->saving) {
         memory_free(g->fading);
         g->n = g->room = s.n;

@@ -43,12 +43,10 @@ static real critical_bond(const struct material *m, enum space space, real horiz
 
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model)
 {
-    const real G = m->shear, lambda = m->c12, dim = space_dim(space);
+    const real G = m->shear, dim = space_dim(space);
     real stiffness = dim == 2 ? 6 * G / pi + 16 * (m->bulk - 2 * G) / (9 * pi * pi)
                               : 3 * G + 81.0 / 256 * (m->bulk - 5 * G / 3);
     if (model == STRETCH_BOND) return critical_bond(m, space, horizon);
-    if (model == STRETCH_MOSPD) stiffness = dim == 2 ? 3 * G / pi + 16 * lambda / (9 * pi * pi)
-                                                     : 1.2 * G + 81.0 / 256 * lambda;
     return sqrt(m->energy_release_rate / (horizon * stiffness));
 }
 

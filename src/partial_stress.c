@@ -3,7 +3,10 @@
  *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
  * with l_q the share of the bond's reference segment inside the cell of point q and e its direction; bonds of state-based
  * models answer to the strain's trace and in other directions, too (struct response). The point gives the
- * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Symmetric, geometric, exact in one dimension. */
+ * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Geometric, exact in one dimension. Forces off the
+ * bond's line (models with rotations) make T_q : eps unsymmetric: its first index is the force's, its second the bond's,
+ * and its skew part goes to the grid too. The torque of such forces on a point is the one its skew stress takes away, so
+ * uniform strain leaves neither force nor torque behind. */
 #include <math.h>
 #include <string.h>
 
@@ -62,7 +65,29 @@ struct response { real central, pressure, vector; };
 
 static bool same(int a, int b) { return a == b; }
 
-/* Adds the part of one bond, from p (a material point) to m: T_abcd = l e_b dF_a/deps_cd, symmetric in ab and cd. */
+/* Rows of a matrix from symmetric stress: its symmetric components, then those of its skew part (partial_stress_skew). */
+enum { ROWS_MAX = SYM_MAX + DIM_MAX };
+static int skew_count(int dim) { return dim * (dim - 1) / 2; }
+static int rows_of(const struct bond_source *s, int dim)
+{
+    return symmetric_count(dim) + (s->modulus && s->turns ? skew_count(dim) : 0);
+}
+
+/* Adds to the skew part (T_ab - T_ba)/2 of one bond; only forces along eps e have one. */
+static void tensor_add_skew(real *T, const real *e, real vector, int dim)
+{
+    const int n = symmetric_count(dim);
+    for (int s = n; s < n + skew_count(dim); s++)
+        for (int t = 0; t < n; t++) {
+            int a, b, c, d;
+            component_axes(dim, s - skew_count(dim), &a, &b);
+            component_axes(dim, t, &c, &d);
+            T[s * n + t] += 0.25 * vector * (e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) -
+                                             e[a] * e[d] * same(b, c) - e[a] * e[c] * same(b, d));
+        }
+}
+
+/* Adds the part of one bond, from p (a material point) to m: T_abcd = l e_b dF_a/deps_cd, symmetric in cd. */
 static void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim)
 {
     real share = segment_share(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
@@ -81,6 +106,7 @@ static void tensor_add(real *T, const real *xp, const real *xm, const real *X, r
             T[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] + k.pressure * e[a] * e[b] * same(c, d) +
                                      0.25 * k.vector * turned);
         }
+    if (k.vector != 0) tensor_add_skew(T, e, share * k.vector, dim);
 }
 
 /* V/Q of a particle of a row: of a full family where it has no row of its own [m]. */
@@ -137,8 +163,8 @@ static int ends_near(const struct particles *p, const struct bond_source *s, int
 static bool partial_matrix(real *M, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            int64_t i, int32_t *found, int room)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
-    real X[DIM_MAX], T[SYM_MAX * SYM_MAX] = {0}, compliance[SYM_MAX * SYM_MAX], half = half_edge(p, s, i);
+    const int dim = p->dim, n = symmetric_count(dim), rows = rows_of(s, dim);
+    real X[DIM_MAX], T[ROWS_MAX * SYM_MAX] = {0}, compliance[SYM_MAX * SYM_MAX], half = half_edge(p, s, i);
     for (int d = 0; d < dim; d++) X[d] = p->X[d][i];
     int near = ends_near(p, s, i, found, room);
     assert(near <= room);
@@ -147,7 +173,7 @@ static bool partial_matrix(real *M, const struct particles *p, const struct bond
             tensor_add_row(T, p, b, s, found[k], X, half);
     material_compliance(&s->material[p->material[i]], dim, compliance);
     real largest = 0;
-    for (int a = 0; a < n; a++)
+    for (int a = 0; a < rows; a++)
         for (int c = 0; c < n; c++) {
             M[a * n + c] = 0;
             for (int k = 0; k < n; k++)
@@ -185,24 +211,26 @@ static int64_t mark_dirty(const struct particles *p, const struct bond_source *s
     return dirties;
 }
 
-static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size)
+static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int skew)
 {
     if (partial->index[i] < 0) {
         if (partial->entries == partial->room) {
-            int64_t room = partial->room ? 2 * partial->room : 256;
-            partial->matrix =
-                memory_resize("partial.matrix", partial->matrix, partial->room * size, room * size, sizeof(real));
+            const int64_t had = partial->room, room = had ? 2 * had : 256;
+            partial->matrix = memory_resize("partial.matrix", partial->matrix, had * size, room * size, sizeof(real));
+            if (skew) partial->skew = memory_resize("partial.skew", partial->skew, had * skew, room * skew, sizeof(real));
             partial->room = room;
         }
         partial->index[i] = (int32_t)partial->entries++;
     }
     memcpy(partial->matrix + (int64_t)partial->index[i] * size, M, (size_t)size * sizeof *M);
+    if (skew) memcpy(partial->skew + (int64_t)partial->index[i] * skew, M + size, (size_t)skew * sizeof *M);
 }
 
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n)
 {
-    const int size = symmetric_count(p->dim) * symmetric_count(p->dim);
+    const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
+    const int whole = rows_of(source, p->dim) * n_symmetric;
     if (!partial->index) {
         partial->index = NEW("partial.index", p->n, int32_t);
         for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
@@ -221,18 +249,18 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         int near = ends_near(p, source, list[k], NULL, 0);
         if (near > room) room = near;
     }
-    real *M = NEW("partial.new", dirties * size, real);
+    real *M = NEW("partial.new", dirties * whole, real);
 #pragma omp parallel
     {
         int32_t *found = NEW("partial.found", room, int32_t);
 #pragma omp for schedule(dynamic, 16)
         for (int64_t k = 0; k < dirties; k++)    /* dirty becomes: 2 if a bond crosses the cell */
-            if (p->kind[list[k]] == KIND_MPM && partial_matrix(M + k * size, p, b, source, list[k], found, room))
+            if (p->kind[list[k]] == KIND_MPM && partial_matrix(M + k * whole, p, b, source, list[k], found, room))
                 dirty[list[k]] = 2;
         memory_free(found);
     }
     for (int64_t k = 0; k < dirties; k++) {
-        if (dirty[list[k]] == 2) entry_put(partial, list[k], M + k * size, size);
+        if (dirty[list[k]] == 2) entry_put(partial, list[k], M + k * whole, size, whole - size);
         else partial->index[list[k]] = -1;
     }
     memory_free(M);
@@ -244,5 +272,6 @@ void partial_stress_free(struct partial_stress *partial)
 {
     memory_free(partial->index);
     memory_free(partial->matrix);
+    memory_free(partial->skew);
     memset(partial, 0, sizeof *partial);
 }

@@ -3,6 +3,7 @@
 #define CLEAVE_PLOT_H
 
 #include "gnuplot.h"
+#include "history.h"
 #include "output.h"
 
 /* Is there a file of this name in the folder of a run? */
@@ -56,7 +57,27 @@ void raster_paint(struct colour *pixel, int width, int height, const struct view
 status maps_draw(const char *path, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds);
 
-/* history.csv: crack.png and energy.png in `pictures`. */
+/* What is drawn over time: one row a sample, sent as the gnuplot data block $data. */
+struct series {
+    const struct history *h;
+    int time;                            /* column                                                    */
+    struct unit second;
+};
+/* Largest |value| of a column; 0 where there is none. */
+double curves_largest(const struct history *h, int column);
+/* Sends `columns` over time, each divided by its factor; some thousand rows at most, the last one always. */
+void curves_send(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
+/* `title` and `what` above the picture; the axis of time below it. */
+void curves_title(FILE *to, const char *title, const char *what);
+void curves_time_axis(FILE *to, const struct series *s);
+
+/* sif.png: stress-intensity factors over time, below how far contours differ; nothing without sif probes. */
+status factors_draw(const char *pictures, const char *title, const struct series *s);
+/* path.png: the ways that tips watched by growth probes have gone, beside the angle of an experiment where the scene
+ * tells one; nothing without such probes. */
+status paths_draw(const char *folder, const char *pictures, const char *title, const struct history *h);
+
+/* history.csv: crack.png, energy.png, sif.png and path.png in `pictures`. */
 status curves_draw(const char *folder, const char *pictures, const char *title);
 
 /* One-dimensional frames: velocity, stress, damage along the bar. */

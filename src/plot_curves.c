@@ -9,15 +9,7 @@
 
 enum { POINTS_MAX = 4000, PATH_LENGTH = 4096, CURVES_MAX = 8 };
 
-/* What is drawn over time: one row a sample, sent as the gnuplot data block $data. */
-struct series {
-    const struct history *h;
-    int time;                            /* column                            */
-    struct unit second;
-};
-
-/* Largest |value| of a column; 0 where there is none. */
-static double largest_of(const struct history *h, int column)
+double curves_largest(const struct history *h, int column)
 {
     double largest = 0;
     for (int64_t i = 0; i < h->rows; i++) {
@@ -27,8 +19,7 @@ static double largest_of(const struct history *h, int column)
     return largest;
 }
 
-/* Sends `columns` over time, each divided by its factor; at most POINTS_MAX rows, the last one always. */
-static void send_series(FILE *to, const struct series *s, const int *column, const double *factor, int columns)
+void curves_send(FILE *to, const struct series *s, const int *column, const double *factor, int columns)
 {
     int64_t stride = s->h->rows / POINTS_MAX + 1;
     fputs("$data << EOD\n", to);
@@ -45,7 +36,7 @@ static void send_series(FILE *to, const struct series *s, const int *column, con
     fputs("EOD\n", to);
 }
 
-static void set_title(FILE *to, const char *title, const char *what)
+void curves_title(FILE *to, const char *title, const char *what)
 {
     char text[512];
     snprintf(text, sizeof text, "%s%s", title, what);
@@ -54,7 +45,7 @@ static void set_title(FILE *to, const char *title, const char *what)
     fputs(" at screen 0.1,0.955 left font ',16' textcolor rgb '#111111'\n", to);
 }
 
-static void set_time_axis(FILE *to, const struct series *s)
+void curves_time_axis(FILE *to, const struct series *s)
 {
     double end = history_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
     fprintf(to, "set xrange [0:%.9g]\nset xlabel 'time [%s]' textcolor rgb '#333333'\n", end > 0 ? end : 1,
@@ -74,16 +65,16 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
 static status draw_crack(const char *path, const char *title, const struct series *s)
 {
     int column[2] = {history_column(s->h, "crack_length"), history_column(s->h, "pd_share")};
-    double largest[2] = {largest_of(s->h, column[0]), largest_of(s->h, column[1])};
+    double largest[2] = {curves_largest(s->h, column[0]), curves_largest(s->h, column[1])};
     struct unit metre = unit_for_length(largest[0]);
     double factor[2] = {metre.factor, 0.01};         /* the share in percent */
     char label[64];
     struct gnuplot g;
     if (column[0] < 0 && column[1] < 0) return OK;
     TRY(gnuplot_open(&g, path, PICTURE_PNG, 1000, 600));
-    send_series(g.to, s, column, factor, 2);
-    set_title(g.to, title, "crack");
-    set_time_axis(g.to, s);
+    curves_send(g.to, s, column, factor, 2);
+    curves_title(g.to, title, "crack");
+    curves_time_axis(g.to, s);
     snprintf(label, sizeof label, "crack length [%s]", metre.name);
     set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0]);
     set_axis(g.to, "y2", "share of peridynamic particles [%]", 1, 1.25 * largest[1] / factor[1]);
@@ -116,7 +107,7 @@ static void choose_energies(struct energies *e, const struct history *h)
     *e = (struct energies){0};
     for (int k = 0; k < (int)COUNT_OF(known); k++) {
         int column = history_column(h, known[k].name);
-        double top = largest_of(h, column);
+        double top = curves_largest(h, column);
         if (column < 0 || top == 0) continue;
         e->column[e->n] = column;
         e->label[e->n++] = known[k].label;
@@ -148,7 +139,7 @@ static double tic_distance(double top)
 static void plot_balance(FILE *to, const struct series *s, double largest)
 {
     double top = largest > 0 ? 120 * largest : 1;    /* percent, a fifth above the largest */
-    set_time_axis(to, s);
+    curves_time_axis(to, s);
     fprintf(to, "unset label\nunset key\nset format x '%%g'\nset tmargin at screen 0.255\nset bmargin at screen 0.105\n"
                 "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel 'balance error [%%]'\n"
                 "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
@@ -164,9 +155,9 @@ static status draw_energy(const char *path, const char *title, const struct seri
     choose_energies(&e, s->h);
     if (e.n == 0) return OK;
     TRY(gnuplot_open(&g, path, PICTURE_PNG, 1000, balance >= 0 ? 760 : 600));
-    send_series(g.to, s, e.column, e.factor, e.n);
-    set_title(g.to, title, "energy");
-    set_time_axis(g.to, s);
+    curves_send(g.to, s, e.column, e.factor, e.n);
+    curves_title(g.to, title, "energy");
+    curves_time_axis(g.to, s);
     fprintf(g.to,
             "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset key at screen 0.81,0.9 left top\n"
             "set ylabel 'energy [%s]'\n",
@@ -177,8 +168,8 @@ static status draw_energy(const char *path, const char *title, const struct seri
     plot_energies(g.to, &e);
     if (balance >= 0) {
         fputs("undefine $data\n", g.to);
-        send_series(g.to, s, &balance, &percent, 1);
-        plot_balance(g.to, s, largest_of(s->h, balance));
+        curves_send(g.to, s, &balance, &percent, 1);
+        plot_balance(g.to, s, curves_largest(s->h, balance));
         fputs("unset multiplot\n", g.to);
     }
     return gnuplot_close(&g);
@@ -197,6 +188,8 @@ status curves_draw(const char *folder, const char *pictures, const char *title)
         result = draw_crack(path, title, &s);
         snprintf(path, sizeof path, "%s/energy.png", pictures);
         if (result == OK) result = draw_energy(path, title, &s);
+        if (result == OK) result = factors_draw(pictures, title, &s);
+        if (result == OK) result = paths_draw(folder, pictures, title, &h);
     }
     history_free(&h);
     return result;
@@ -284,7 +277,7 @@ status profiles_draw(const char *path, const char *title, const struct frame *fr
     snprintf(label[2], sizeof label[2], "damage");
     TRY(gnuplot_open(&g, path, PICTURE_PNG, 1080, 920));
     for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, spacing, unit);
-    set_title(g.to, title, "");
+    curves_title(g.to, title, "");
     fputs("set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
           "set autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
           "set key at screen 0.875,0.92 left top\n",

@@ -60,6 +60,12 @@ static void columns_add(struct probes *s, struct probe *q, int dim)
     case PROBE_SIF:
         for (int k = 0; k < SIF_FIGURES; k++) column_add(s, q, sif_figure[k].name, sif_figure[k].unit);
         break;
+    case PROBE_GROWTH:
+        for (int k = 0; k < GROWTH_FIGURES; k++) column_add(s, q, growth_figure[k].name, growth_figure[k].unit);
+        break;
+    case PROBE_RIGID:
+        for (int k = 0; k < RIGID_FIGURES; k++) column_add(s, q, rigid_figure[k].name, rigid_figure[k].unit);
+        break;
     default: break;                      /* the others have figures only */
     }
 }
@@ -160,6 +166,13 @@ static status bind_support(const struct probe *q, const struct observed *o)
                       q->request.boundary, used > 0 ? known : "none");
 }
 
+static status bind_growth(struct probe *q, const struct observed *o)
+{
+    for (int k = o->growths - 1; k >= 0; k--)
+        if (!q->request.of[0] || strcmp(o->growth[k].rule->name, q->request.of) == 0) q->growth = k;
+    return OK;                           /* the reader knows that it is there */
+}
+
 static status probe_bind(struct probe *q, const struct observed *o)
 {
     switch (q->request.kind) {
@@ -172,6 +185,8 @@ static status probe_bind(struct probe *q, const struct observed *o)
     case PROBE_MOMENTUM: return bind_region(q, o);
     case PROBE_EXACT: return bar_make(q, o);
     case PROBE_SIF: return sif_bind(q, o);
+    case PROBE_GROWTH: return bind_growth(q, o);
+    case PROBE_RIGID: TRY(bind_region(q, o)); return rigid_bind(q, o);
     default: return OK;
     }
 }
@@ -282,7 +297,7 @@ void probes_sample(struct probes *s, const struct observed *o)
 {
     real displacement[DIM_MAX];
     for (int k = 0; k < s->n; k++) {
-        const struct probe *q = &s->probe[k];
+        struct probe *q = &s->probe[k];
         real *value = s->value + q->first;
         switch (q->request.kind) {
         case PROBE_TIP: sample_tip(q, o, value); break;
@@ -291,6 +306,8 @@ void probes_sample(struct probes *s, const struct observed *o)
         case PROBE_ENERGY: sample_energy(q, o, value); break;
         case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
         case PROBE_EXACT: bar_figures(q->bar, o, value); break;
+        case PROBE_GROWTH: growth_readings(&o->growth[q->growth], value); break;
+        case PROBE_RIGID: rigid_sample(q, o, value); break;
         default: break;
         }
     }

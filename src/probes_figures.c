@@ -44,6 +44,15 @@ void readings_of(const struct particles *p, int64_t i, real *value)
     *value = p->damage[i];
 }
 
+const struct column growth_figure[GROWTH_FIGURES] = {
+    {"x", "m"}, {"y", "m"}, {"length", "m"}, {"speed", "m/s"}, {"K_eq", "Pa m^(1/2)"}};
+
+void growth_readings(const struct growth *g, real *value)
+{
+    const real reading[GROWTH_FIGURES] = {g->place[0], g->place[1], g->grown, g->speed, g->intensity};
+    memcpy(value, reading, sizeof reading);
+}
+
 /* ---- tips and supports ------------------------------------------------------------------------------- */
 
 const struct tip *probe_tip(const struct probe *q, const struct tips *t)
@@ -290,6 +299,22 @@ static void figures_sif(const struct emitter *e)
     for (int k = 0; k < SIF_FIGURES; k++) put(e, sif_figure[k].name, e->q->memory.factors[k]);
 }
 
+static void figures_growth(const struct emitter *e)
+{
+    const struct growth *g = &e->o->growth[e->q->growth];
+    put(e, "start_time", g->start_time);
+    put(e, "length_end", g->grown);
+    put(e, "angle_deg", growth_angle(g));
+    put(e, "direction_deg", atan2(g->rule->direction[1], g->rule->direction[0]) * 180 / 3.14159265358979323846);
+    put(e, "experiment_deg", e->q->request.experiment);
+    put_place(e, g->place);
+}
+
+static void figures_rigid(const struct emitter *e)
+{
+    for (int k = 0; k < RIGID_FIGURES; k++) put(e, rigid_figure[k].name, e->q->memory.rigid.most[k]);
+}
+
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context)
 {
@@ -297,7 +322,8 @@ void probes_figures(const struct probes *s, const struct observed *o,
         [PROBE_TIP] = figures_tip,       [PROBE_BREAK] = figures_break,       [PROBE_REACTION] = figures_reaction,
         [PROBE_PATCH] = figures_patch,   [PROBE_SPALL] = figures_spall,       [PROBE_POINT] = figures_point,
         [PROBE_LINE] = figures_line,     [PROBE_ENERGY] = figures_energy,     [PROBE_MOMENTUM] = figures_momentum,
-        [PROBE_PULSE] = figures_pulse,             [PROBE_EXACT] = figures_exact,   [PROBE_SIF] = figures_sif,
+        [PROBE_PULSE] = figures_pulse,   [PROBE_EXACT] = figures_exact,       [PROBE_SIF] = figures_sif,
+        [PROBE_GROWTH] = figures_growth, [PROBE_RIGID] = figures_rigid,
     };
     for (int k = 0; k < s->n; k++)
         figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o});

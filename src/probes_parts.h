@@ -4,6 +4,14 @@
 
 #include "probes.h"
 
+enum { RIGID_FIGURES = 5 };
+/* RIGID: what was there at the start, and the figures: the angle followed so far, the largest |.| of the others. */
+struct rigid_memory {
+    real spin, spin_scale, kinetic;      /* angular momentum, sum of |m r x v| [kg m^2/s]; [J]        */
+    real angle;                          /* [rad]                                                     */
+    real most[RIGID_FIGURES];
+};
+
 /* All that a probe cannot find again in the state of the run. No padding: it goes to checkpoints as it is. */
 struct probe_memory {
     real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before  [s]      */
@@ -14,6 +22,8 @@ struct probe_memory {
     int64_t body;                        /* SPALL: the bar that broke                                 */
     real trail[2][2];                    /* SIF: where the tip came along, for its direction     [m]  */
     real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample      */
+    real along[2];                       /* SIF: direction of the tip at the last sample              */
+    struct rigid_memory rigid;           /* RIGID                                                     */
 };
 
 struct probe {
@@ -24,6 +34,7 @@ struct probe {
     struct probe_memory memory;
     struct bar *bar;                     /* EXACT: probes_bar.c                                       */
     struct sif_watch *sif;               /* SIF: probes_sif.c                                         */
+    int growth;                          /* GROWTH: which of the run                                  */
 };
 
 /* ---- what a single particle tells: POINT and LINE ------------------------------------------------ */
@@ -62,6 +73,11 @@ struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o
 void spall_look(struct probe *q, const struct observed *o);
 void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
 
+/* GROWTH: place and length of the tip, its speed, K_eq of the factors that rule it. */
+enum { GROWTH_FIGURES = 5 };
+extern const struct column growth_figure[GROWTH_FIGURES];
+void growth_readings(const struct growth *g, real *value);
+
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------ */
 
 enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
@@ -72,6 +88,13 @@ void sif_free(struct sif_watch *w);
 void sif_keep(struct probe *q, const struct observed *o);
 /* Fills q->memory.factors. */
 void sif_sample(struct probe *q, const struct observed *o, real t_velocity);
+
+/* ---- a body that turns: RIGID ------------------------------------------------------------------------ */
+
+extern const struct column rigid_figure[RIGID_FIGURES];
+status rigid_bind(struct probe *q, const struct observed *o);
+/* Fills value[] and q->memory.rigid. */
+void rigid_sample(struct probe *q, const struct observed *o, real *value);
 
 /* ---- a bar against a closed form: EXACT ------------------------------------------------------------- */
 

@@ -294,14 +294,16 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     const real factors[SIF_FIGURES] = {found[0].K[MODE_I], found[0].K[MODE_II], found[0].J,
                                        sif_spread(found + 1, w->contours - 1)};
     memcpy(q->memory.factors, factors, sizeof factors);
+    memcpy(q->memory.along, w->tip.along, sizeof q->memory.along);
 }
 
-bool probes_factors(const struct probes *s, const char *name, struct sif *found)
+bool probes_ruling(const struct probes *s, const char *name, struct ruling *found)
 {
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];
         if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
-        *found = (struct sif){{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]};
+        *found = (struct ruling){{{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
+                                 {q->memory.along[0], q->memory.along[1]}};
         return true;
     }
     return false;

@@ -91,10 +91,6 @@ static status check_model(struct reader *r, const struct node *root)
     if (surface && s->surface != SURFACE_NONE)
         return fault(r, surface, "%s is for model bond; with %s pd.normalisation says what surfaces get",
                      shown(r, surface), shown(r, model));
-    for (int m = 0; m < s->materials; m++)
-        if (material_yields(&s->material[m]))
-            return fault(r, model, "%s does not yield in this version; model bond, or no yield_stress, is expected",
-                         shown(r, model));
     return OK;
 }
 

@@ -142,6 +142,7 @@ static bool has_value(const struct key *k, const void *base, const void *place)
     if (k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
     if (k->has && !*((const bool *)base + (k->has - 1))) return false;
     if (k->type == KEY_REAL) return k->words || !isnan(*(const real *)place);
+    if (k->type == KEY_NAME) return *(const char *)place != '\0';
     if (k->type == KEY_REGION) return ((const struct region *)place)->n > 0;
     if (k->type == KEY_BODY) return *(const int *)place >= 0;
     if (k->type == KEY_SERIES) return ((const struct number_list *)place)->n > 0;

@@ -207,7 +207,7 @@ status read_boundaries(struct reader *r, const struct node *root)
 
 const char *const probe_names[PROBES] = {"tip",   "break", "reaction", "patch",   "spall",
                                          "point", "line",  "energy",   "momentum", "pulse",
-                                         "exact", "sif"};
+                                         "exact", "sif",   "growth",   "rigid"};
 
 /* The kind, and the mapping of its keys (NULL: none): `tip`, `tip:` or `tip: {at: [..]}`. */
 static status kind_of_probe(struct reader *r, const struct node *n, enum probe_kind *kind, const struct node **map)
@@ -260,6 +260,12 @@ static status check_exact(struct reader *r, const struct node *n, const struct n
     return OK;
 }
 
+static status check_rigid(struct reader *r, const struct node *n, const struct node *map, const struct probe_request *p)
+{
+    if (p->kind != PROBE_RIGID || r->dim == 2) return OK;
+    return fault(r, map ? map : n, "plane spaces only in this version");
+}
+
 /* What the numbers alone tell of a ring round a tip. */
 static status check_sif(struct reader *r, const struct node *n, const struct node *map, struct probe_request *p)
 {
@@ -292,7 +298,7 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
         map = &short_form;
     }
     p->amplitude = p->period = p->wavelength = p->origin = NAN;
-    p->inner = p->outer = p->core = NAN;
+    p->inner = p->outer = p->core = p->experiment = NAN;
     strcat(group, probe_names[p->kind]);
     strcpy(p->name, probe_names[p->kind]);
     TRY(read_group(r, map ? map : n, map, group, p));
@@ -300,6 +306,7 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
         return fault(r, map, "has no length; from and to are its two ends");
     TRY(check_exact(r, n, map, p));
     TRY(check_sif(r, n, map, p));
+    TRY(check_rigid(r, n, map, p));
     return check_probe_boundary(r, map ? node_find(map, "boundary") : n, p);
 }
 

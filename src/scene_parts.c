@@ -56,6 +56,17 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
                  shown(r, tangent ? tangent : hardening));
 }
 
+/* From G_c: in closed form, or with rotations from the work that separates the lattice. */
+static real critical_stretch(const struct scene *s, const struct material *m)
+{
+    const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
+    if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
+    struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
+    const struct state_modulus modulus = state_modulus_of(m, s->space, true);
+    family_make(&f, s->space, s->spacing, s->horizon, s->space == SPACE_LINE ? s->section : s->thickness);
+    return sqrt(m->energy_release_rate / family_separation(&f, &modulus, !s->bulk));
+}
+
 static status read_material(struct reader *r, const struct node *n, struct material *m)
 {
     const struct scene *s = r->scene;
@@ -67,9 +78,12 @@ static status read_material(struct reader *r, const struct node *n, struct mater
     TRY(check_poisson(r, n, m));
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
+    if (s->model != MODEL_BOND && material_yields(m))
+        return fault(r, node_find(n, "yield_stress"), "state-based models do not yield in this version; model bond, or no "
+                                                      "yield_stress, is expected");
     material_derive(m, s->space);
     if (!isnan(m->energy_release_rate))
-        m->critical_stretch = material_critical_stretch(m, s->space, s->horizon * s->spacing, (enum stretch_of)s->model);
+        m->critical_stretch = critical_stretch(s, m);
     if (m->critical_stretch > 0) return OK;
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
 }
@@ -205,9 +219,29 @@ static status read_growth(struct reader *r, const struct node *n, struct growth_
     for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
     if (!g->probe[0] && node_find(n, "toughness"))
         return fault(r, node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
+    if (!g->probe[0] && !isnan(g->smoothing))
+        return fault(r, node_find(n, "smoothing"), "has no meaning without probe, the name of a sif probe");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
         if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
     return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
+}
+
+/* Probes watch cracks that are there. */
+static status check_growth_probes(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *list = node_find(root, "probes"), *n = list ? list->first : NULL;
+    for (int k = 0; k < s->probes; k++, n = n->next) {
+        bool found = false;
+        if (s->probe[k].kind != PROBE_GROWTH) continue;
+        if (s->growths == 0) return fault(r, n, "no crack grows as it is told; growth is expected");
+        for (int g = 0; g < s->growths; g++)
+            found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
+        if (!found)
+            return fault(r, node_find(n->first, "of"), "there is no growth %s; the first is %s", s->probe[k].of,
+                         s->growth[0].name);
+    }
+    return OK;
 }
 
 /* After the probes, which may rule it. */
@@ -215,7 +249,7 @@ status read_growths(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     const struct node *list = node_find(root, "growth");
-    if (!list) return OK;
+    if (!list) return check_growth_probes(r, root);
     TRY(expect_list(r, key_find("", "growth"), list));
     if (s->dim != 2) return fault(r, list, "plane spaces only in this version");
     if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; pd or adaptive is expected");
@@ -223,5 +257,5 @@ status read_growths(struct reader *r, const struct node *root)
     s->growth = NEW("growth", list->n, struct growth_rule);
     const struct node *n = list->first;
     for (int k = 0; k < s->growths; k++, n = n->next) TRY(read_growth(r, n, &s->growth[k], k));
-    return OK;
+    return check_growth_probes(r, root);
 }

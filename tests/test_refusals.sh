@@ -147,7 +147,11 @@ done <<'END'
 19|output: {compress: maybe}|19:10|true or false
 20|probes: [crack]|20:10|does not belong here
 20|probes: [sif: {inner: 21 mm}]|20:16|is not less than outer
-20|probes: [rigid]|20:10|not in this version
+20|probes: [growth]|20:10|growth is expected
+20|probes: [growth: {of: a}]^growth: [{name: b, at: [10 mm, 5 mm], direction: [-1, 0], speed: 1 m/s}]|20:19|no growth a
+20|growth: [{at: [0, 0], direction: [1, 0], speed: 1 m/s, smoothing: 1 mm}]|20:56|without probe
+20|probes: [growth: {experiment: 200}]|20:19|out of range
+20|probes: [rigid: {region: here}]|20:18|region
 20|probes: [tip, tip]|20:15|name of another probe
 20|probes: [exact: step bar]|20:10|space line is expected
 19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two

@@ -75,7 +75,8 @@ static const char plate[] =
     "  - line: {from: [0, 0], to: [1, 1], points: 11}\n"
     "  - energy: {region: {all: true}}\n"
     "  - momentum: {}\n"
-    "  - sif: {at: [1 mm, 2 mm], contours: [30 mm, 50 mm], stress: particle, weight: cubic, speed: 1 km/s, reach: 2}\n";
+    "  - sif: {at: [1 mm, 2 mm], contours: [30 mm, 50 mm], stress: particle, weight: cubic, speed: 1 km/s, reach: 2}\n"
+    "  - rigid: {region: {all: true}}\n";
 
 static const char bar[] =
     "space: line\n"
@@ -115,6 +116,23 @@ static const char block[] =
     "cracks: [{polygon: [[0, 0, 0], [5 mm, 0, 0], [5 mm, 5 mm, 0], [0, 5 mm, 0]]}]\n"
     "initial: [{velocity_gradient: [0, 1, 2, 3, 4, 5, 6, 7, 8]}]\n"
     "boundary: [{velocity: [free, free, 2], region: {half-space: {point: [0, 0, 0], normal: [0, 0, 1]}}}]\n";
+
+static const char grown[] =
+    "space: plane stress\n"
+    "thickness: 1 mm\n"
+    "duration: 1 us\n"
+    "method: pd\n"
+    "material: {young: 70 GPa, density: 2700}\n"
+    "body: {box: {from: [0, 0], to: [40 mm, 40 mm]}}\n"
+    "particles: {spacing: 1 mm}\n"
+    "cracks: [{from: [-1 mm, 20 mm], to: [20 mm, 20 mm]}]\n"
+    "growth:\n"
+    "  - {name: told, at: [20 mm, 20 mm], direction: [3, 4], speed: 1 km/s, damping: 0, exponent: 1, length: 5 mm}\n"
+    "  - {at: [20 mm, 20 mm], direction: [1, 0], speed: 750 m/s, probe: sif, toughness: 68 MPa m^0.5, smoothing: 2 mm}\n"
+    "probes:\n"
+    "  - sif: {outer: 10 mm}\n"
+    "  - growth\n"
+    "  - growth: {name: ruled, of: growth1, experiment: 70}\n";
 
 static struct scene read_ok(const char *text, const struct scene_override *o, int n)
 {
@@ -214,7 +232,7 @@ static void test_plate_probes(void **state)
     (void)state;
     static const enum probe_kind kinds[] = {PROBE_TIP,   PROBE_TIP,   PROBE_BREAK, PROBE_REACTION, PROBE_PATCH,
                                             PROBE_SPALL, PROBE_POINT, PROBE_LINE,  PROBE_ENERGY,   PROBE_MOMENTUM,
-                                            PROBE_SIF};
+                                            PROBE_SIF,   PROBE_RIGID};
     struct scene s = read_ok(plate, NULL, 0);
     const struct probe_request *p = s.probe;
     assert_int_equal(s.probes, COUNT_OF(kinds));
@@ -263,6 +281,20 @@ static void test_closed_forms_and_frame_times(void **state)
     static const struct scene_override o[] = {{"output.times", ""}, {"probes[0].exact", "plastic bar"}};
     s = read_ok(rod, o, 2);
     assert_true(s.frames == 20 && s.times.n == 0 && s.probe[0].form == EXACT_PLASTIC_BAR && strstr(s.text, "frames: 20"));
+    scene_free(&s);
+}
+
+static void test_growth(void **state)
+{
+    (void)state;
+    struct scene s = read_ok(grown, NULL, 0);
+    assert_int_equal(s.growths, 2);
+    assert_true(s.growth[0].direction[1] == 0.8 && s.growth[0].damping == 0 && !s.growth[0].probe[0]);
+    assert_true(isnan(s.growth[0].smoothing) && isnan(s.growth[1].damping) && s.growth[1].smoothing == 2e-3);
+    assert_string_equal(s.growth[1].name, "growth1");
+    assert_true(s.probe[1].kind == PROBE_GROWTH && !s.probe[1].of[0] && isnan(s.probe[1].experiment));
+    assert_string_equal(s.probe[2].of, "growth1");
+    assert_true(s.probe[2].experiment == 70);
     scene_free(&s);
 }
 
@@ -378,7 +410,7 @@ static void check_round_trip(const struct scene *a)
 static void test_round_trip(void **state)
 {
     (void)state;
-    static const char *const texts[] = {plate, bar, rod, block};
+    static const char *const texts[] = {plate, bar, rod, block, grown};
     for (size_t k = 0; k < COUNT_OF(texts); k++) {
         struct scene s = read_ok(texts[k], NULL, 0);
         check_round_trip(&s);
@@ -489,6 +521,7 @@ int main(void)
         cmocka_unit_test(test_plate_scalars), cmocka_unit_test(test_plate_materials_bodies),
         cmocka_unit_test(test_plate_conditions), cmocka_unit_test(test_plate_probes),
         cmocka_unit_test(test_bar_and_defaults), cmocka_unit_test(test_block),
+        cmocka_unit_test(test_growth),
         cmocka_unit_test(test_closed_forms_and_frame_times),
         cmocka_unit_test(test_units), cmocka_unit_test(test_overrides),
         cmocka_unit_test(test_round_trip), cmocka_unit_test(test_mutations),
