@@ -12,7 +12,8 @@
  * A tip that turns at once and is measured in its new frame, round a ring that its kink has not crossed, finds K_II
  * reversed: theta_c = -2 K_II/K_I for small K_II is twice the turn that removes it, and the path swings at every sample.
  *
- * Both entries of a bond fade alike, so momentum stays exact; the energy that fading takes is fracture energy. */
+ * Both entries of a bond fade alike, so momentum stays exact; the energy that fading takes is fracture energy. A crack
+ * that comes to rest keeps its bonds as they are. */
 #ifndef CLEAVE_GROWTH_H
 #define CLEAVE_GROWTH_H
 
@@ -39,8 +40,9 @@ struct growth_rule {
  * one, however often it is asked before the next factors are known. */
 struct ruling { struct sif factors; real along[2]; };
 
-/* One fading entry of the rows: bond i-j, its weight before and the crack's length when it was crossed. */
-struct fading { int32_t i, j; float w; float pad; real length; };
+/* One fading entry of the rows: bond i-j, its weight when whole, one step ago and now, and the crack's length when it was
+ * crossed. */
+struct fading { int32_t i, j; float whole, before, now, spare; real length; };
 
 struct growth {
     const struct growth_rule *rule;      /* borrowed                                                        */

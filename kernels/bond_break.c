@@ -11,7 +11,7 @@ static real bond_stretch(const struct bonds *b, const struct particles *p, int64
 {
     real distance2 = 0;
     for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][j] - p->x[d][i]);
-    return sqrt(distance2) * b->inverse_length[q] - 1;
+    return sqrt(distance2) * fabs(b->inverse_length[q]) - 1;
 }
 
 /* Flags are set by the owner of a row and read by its neighbours' owners at the same time; the bit they read does not
@@ -26,12 +26,10 @@ static void set_flag(struct particles *p, int32_t i, int flag)
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* What a bond's row loses with it: half its energy; of a state-based bond, what this end's force state has put in [J]. */
-static real half_energy(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real stretch)
+/* Half the energy of a bond [J]. Of a state-based one it is not to be had: its row loses what state_row_energy tells. */
+static real half_energy(const struct bonds *b, int64_t q, real stretch)
 {
-    real T[DIM_MAX], xi[DIM_MAX];
-    if (b->state.modulus) return state_own_force(b, p, q, i, T, xi, p->dim, b->state.turn[0] != NULL);
-    return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / b->inverse_length[q];
+    return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / fabs(b->inverse_length[q]);
 }
 
 /* Q of a row whose bonds have broken, from those it has left: a difference would leave round-off for the last of them. */
@@ -58,39 +56,56 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 
 static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
 {
-    b->fracture_energy[row] += half_energy(b, p, q, i, stretch);
+    if (!b->state.modulus) b->fracture_energy[row] += half_energy(b, q, stretch);
     if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_stored(b, q);
     bond_end(b, p, row, q, i, j);
+}
+
+/* Weights of a row have changed. */
+static void row_changed(struct bonds *b, int64_t row)
+{
+    if (b->state.modulus && b->state.local && b->whole[row]) weigh_again(b, row);
 }
 
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, float w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
-    const real lost = 1 - w / b->w[q];
-    b->fracture_energy[row] += lost * half_energy(b, p, q, i, bond_stretch(b, p, q, i, j));
+    const bool state = b->state.modulus != NULL;
+    const real stretch = bond_stretch(b, p, q, i, j);
+    const real before = state ? state_row_energy(b, p, row) : half_energy(b, q, stretch);
     if (w > 0) b->w[q] = w;
-    else bond_end(b, p, row, q, i, j);
-    if (b->state.modulus && b->state.local && b->whole[row]) weigh_again(b, row);
+    else if (b->inverse_length[q] > 0) bond_end(b, p, row, q, i, j);
+    else b->w[q] = 0;
+    row_changed(b, row);
+    b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row) : half_energy(b, q, stretch)));
+}
+
+/* The rule of breaking on one row. */
+static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
+{
+    const int32_t i = b->particle[row];
+    int64_t broken = 0;
+    real before = 0;
+    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        if (b->w[q] == 0) continue;
+        const int32_t j = b->nbr[q];
+        const real stretch = bond_stretch(b, p, q, i, j);
+        if (!(stretch > limit->critical_stretch[p->material[i] * limit->materials + p->material[j]])) continue;
+        if (b->state.modulus && broken == 0) before = state_row_energy(b, p, row);
+        bond_break(b, p, row, q, i, j, stretch);
+        broken++;
+    }
+    if (broken == 0 || !b->state.modulus) return broken;
+    row_changed(b, row);
+    b->fracture_energy[row] += before - state_row_energy(b, p, row);
+    return broken;
 }
 
 int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
 {
     int64_t broken = 0;
-    for (int l = 0; l < LANES && group * LANES + l < b->rows; l++) {
-        int64_t row = group * LANES + l;
-        int32_t i = b->particle[row];
-        const int64_t before = broken;
-        for (int64_t k = 0; k < b->slot[group + 1] - b->slot[group]; k++) {
-            int64_t q = bond_index(b, group, k, l);
-            if (b->w[q] == 0) continue;
-            int32_t j = b->nbr[q];
-            real stretch = bond_stretch(b, p, q, i, j);
-            if (!(stretch > limit->critical_stretch[p->material[i] * limit->materials + p->material[j]])) continue;
-            bond_break(b, p, row, q, i, j, stretch);
-            broken++;
-        }
-        if (broken > before && b->state.modulus && b->state.local && b->whole[row]) weigh_again(b, row);
-    }
+    for (int l = 0; l < LANES && group * LANES + l < b->rows; l++) broken += break_row(b, p, limit, group * LANES + l);
     return broken;
 }
 

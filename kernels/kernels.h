@@ -66,9 +66,13 @@ typedef void state_know_fn(struct bonds *b, const struct particles *p);
 int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group);
 int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit);
 
-/* Takes weight from entry q of a row, down to w; 0 breaks it. What it loses of its energy is booked as fracture; the other
- * entry of the bond has to fade alike. */
+/* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as fracture:
+ * a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the next positions.
+ * The other entry of the bond has to fade alike. */
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, float w);
+
+/* Elastic energy of a row of a state-based model by its present weights and places, whatever the last sweep left [J]. */
+real state_row_energy(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Half the elastic energy of every row's intact bonds, added up in fixed blocks [J]. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);

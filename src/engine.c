@@ -101,6 +101,14 @@ static int64_t grow(struct engine *e)
     return released;
 }
 
+/* What material points give the grid hangs on the bonds that fade and on the sums of families that count what is left. */
+static void renew_partial(struct engine *e, bool changed)
+{
+    if (!e->uses_partial || (!e->bonds.state.local && e->scene->growths == 0)) return;
+    for (int k = 0; k < e->scene->growths; k++) changed |= e->growth[k].n > 0;
+    if (changed) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
+}
+
 /* ---- the step ------------------------------------------------------------------------------------------- */
 
 status engine_step(struct engine *e)
@@ -132,11 +140,13 @@ status engine_step(struct engine *e)
     loads_mirror(&e->loads, p);
     lap(&e->laps, LAP_GRID);
     engine_breaks(e, broken);
-    if (convert(&e->conversion, &s->conversion, p, &e->bonds, &e->source,   /* 8: material point -> peridynamic */
-                e->uses_partial ? &e->partial : NULL, e->t) > 0) {
+    const int64_t converted = convert(&e->conversion, &s->conversion, p, &e->bonds, &e->source,
+                                      e->uses_partial ? &e->partial : NULL, e->t);   /* 8: material point -> peridynamic */
+    if (converted > 0) {
         if (e->uses_partial && s->transfer == TRANSFER_FLIP) rim_make(&e->rim, p, &e->source);
         e->sort_needed = true;
     }
+    renew_partial(e, broken > 0 || converted > 0);
     lap(&e->laps, LAP_CONVERT);
     engine_sample_end(e);
     e->t = (real)(e->step + 1) * e->dt;

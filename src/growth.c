@@ -69,7 +69,7 @@ static void fading_add(struct growth *g, int32_t i, int32_t j, float w, real len
         g->fading = memory_resize("growth.fading", g->fading, g->room, larger, sizeof *g->fading);
         g->room = larger;
     }
-    g->fading[g->n++] = (struct fading){i, j, w, 0, length};
+    g->fading[g->n++] = (struct fading){i, j, w, w, w, 0, length};
 }
 
 /* Entries of the row of particle i that the way of the tip crosses. */
@@ -87,20 +87,41 @@ static void cross_row(struct growth *g, const struct bonds *b, const struct part
     }
 }
 
+/* Particles within a family of the way of the tip [found, to be freed]. */
+static int near_way(const struct growth *g, struct particles *p, const struct bond_source *s, const real from[2],
+                    int32_t **found)
+{
+    real X[DIM_MAX] = {from[0], from[1]};
+    const real radius = s->family.cutoff + hypot(g->place[0] - from[0], g->place[1] - from[1]);
+    const int room = cells_near(s->cells, p, X, radius, -1, NULL, 0);
+    *found = NEW("growth.found", room, int32_t);
+    return cells_near(s->cells, p, X, radius, -1, *found, room);
+}
+
+/* Cracks are peridynamic: material points that the tip comes near convert. Returns their number. */
+static int claim(const struct growth *g, struct particles *p, const struct bond_source *s)
+{
+    int32_t *found;
+    const int n = near_way(g, p, s, g->place, &found);
+    int claimed = 0;
+    for (int k = 0; k < n; k++) {
+        if (found[k] >= p->n || p->kind[found[k]] != KIND_MPM) continue;
+        p->flag[found[k]] |= FLAG_CUT;
+        claimed++;
+    }
+    memory_free(found);
+    return claimed;
+}
+
 static void cross(struct growth *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
-    real corner[2][DIM_MAX] = {{from[0], from[1]}, {g->place[0], g->place[1]}}, X[DIM_MAX] = {from[0], from[1]};
+    real corner[2][DIM_MAX] = {{from[0], from[1]}, {g->place[0], g->place[1]}};
     const struct crack way = {2, corner};
-    const real radius = s->family.cutoff + hypot(g->place[0] - from[0], g->place[1] - from[1]);
-    const int room = cells_near(s->cells, p, X, radius, -1, NULL, 0);
-    int32_t *found = NEW("growth.found", room, int32_t);
-    const int n = cells_near(s->cells, p, X, radius, -1, found, room);
-    for (int k = 0; k < n; k++) {
-        if (found[k] >= p->n) continue;
-        if (p->kind[found[k]] == KIND_MPM) p->flag[found[k]] |= FLAG_CUT;    /* converts: cracks are peridynamic */
-        cross_row(g, b, p, &way, found[k]);
-    }
+    int32_t *found;
+    const int n = near_way(g, p, s, from, &found);
+    for (int k = 0; k < n; k++)
+        if (found[k] < p->n) cross_row(g, b, p, &way, found[k]);
     memory_free(found);
 }
 
@@ -117,20 +138,38 @@ static int64_t entry_of(const struct bonds *b, int32_t i, int32_t j, int64_t *ro
     return -1;
 }
 
+/* Everything as it was one step ago; what has been broken meanwhile leaves the list. */
+static void step_back(struct growth *g, struct bonds *b)
+{
+    int64_t kept = 0, row;
+    for (int64_t k = 0; k < g->n; k++) {
+        struct fading *bond = &g->fading[k];
+        const int64_t q = entry_of(b, bond->i, bond->j, &row);
+        if (q < 0 || (b->w[q] == 0 && bond->now > 0)) continue;
+        b->w[q] = bond->before;
+        g->fading[kept++] = *bond;
+    }
+    g->n = kept;
+}
+
+/* Weights lost in the last step and in this one, half of both at the places of now (bond_fade). Rows change one after the
+ * other from what they were to what they will be, so their losses add up to the whole. Returns bonds released. */
 static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
     const real damping = isnan(r->damping) ? 0.5 * f->horizon : r->damping;
-    int64_t kept = 0, released = 0;
+    int64_t kept = 0, released = 0, row;
+    step_back(g, b);
     for (int64_t k = 0; k < g->n; k++) {
-        const struct fading *bond = &g->fading[k];
-        const real grown = g->grown - bond->length;
+        struct fading bond = g->fading[k];
+        const real grown = g->grown - bond.length;
         const real share = grown < damping ? pow(1 - grown / damping, r->exponent) : 0;
-        int64_t row, q = entry_of(b, bond->i, bond->j, &row);
-        if (q < 0 || b->w[q] == 0) continue;     /* broken meanwhile */
-        bond_fade(b, p, row, q, (float)(bond->w * share));
-        if (share > 0) g->fading[kept++] = *bond;
-        else released++;
+        const float next = (float)(bond.whole * share);
+        const int64_t q = entry_of(b, bond.i, bond.j, &row);
+        if (next != bond.before) bond_fade(b, p, row, q, next);
+        released += bond.now > 0 && next == 0;
+        bond.before = bond.now, bond.now = next;
+        if (bond.before > 0) g->fading[kept++] = bond;
     }
     g->n = kept;
     return released;
@@ -144,12 +183,15 @@ int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, cons
     const real from[2] = {g->place[0], g->place[1]};
     g->speed = 0;
     g->intensity = ruling ? crack_equivalent(ruling->factors.K) : NAN;
-    if (!grows(g, t)) return 0;
-    if (g->rule->probe[0]) turn(g, ruling);
-    g->speed = g->rule->speed;
-    if (isnan(g->start_time)) g->start_time = t;
-    advance(g, g->speed * dt, source->family.horizon);
-    cross(g, b, p, source, from);
+    /* where the crack begins among material points, it waits a step for the bonds that it is to cross */
+    if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
+        if (g->rule->probe[0]) turn(g, ruling);
+        g->speed = g->rule->speed;
+        if (isnan(g->start_time)) g->start_time = t;
+        advance(g, real_min(g->speed * dt, g->rule->length - g->grown), source->family.horizon);
+        cross(g, b, p, source, from);
+        claim(g, p, source);
+    }
     return fade(g, b, p, &source->family);
 }
 
