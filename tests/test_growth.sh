@@ -64,7 +64,7 @@ between "moving: least" "$(part "$found" 1)" "$(compute 0.95*0.8022)" "$(compute
 between "moving: largest" "$(part "$found" 2)" "$(compute 0.95*0.8022)" "$(compute 1.05*0.8022)"
 between "moving: samples" "$(part "$found" 4)" 33 37
 
-# full disc, as printed in the paper; measured 0.029 of 0.092
+# full disc, as printed in the paper; measured 0.029 of 0.098
 with=$(part "$(factors coarse disc 5)" 3) without=$(part "$(factors sudden disc 5)" 3)
 between "oscillation, transition bonds over sudden release" "$(compute "$with / $without")" 0.01 "$(compute 1/3)"
 
