@@ -40,7 +40,8 @@ real material_micro_modulus(const struct material *m, enum space space, real sig
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section);
 
 /* Critical stretch from G_c, the energy of all bonds that cross a unit plane; horizon [m]. Bond-based for the continuum
- * micro-modulus; ordinary state-based (Madenci & Oterkus 2014). That of the model with rotations has no continuum limit: family_separation. */
+ * micro-modulus; ordinary state-based (Madenci & Oterkus 2014). That of the model
+ * with rotations has no continuum limit: family_separation. */
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 

@@ -2,12 +2,13 @@
  *
  * With w = omega beta V_i V_j / V0^2, Y the bond now and xi before, r = |xi|, e = |Y| - r, n = Y/|Y|:
  *
- *     Q_i = sum_j w r^2  (or that of a full family: normalisation bulk),   S_i = sum_j w r e / Q_i       (uniform strain: its mean)
+ *     Q_i = sum_j w r^2  (or that of a full family: normalisation bulk)
+ *     S_i = sum_j w r e / Q_i  (uniform strain: its mean)
  *     P_i = A S_i V_i/Q_i,  g_i = B V_i/Q_i,   R_i the rotation that makes sum_j w |Y - R_i xi|^2 least
  *
  *     ordinary (Silling et al. 2007; Le, Chan & Schwartz 2014, one form for plane stress, plane strain and 3D)
  *         f_i = sum_j w [r (P_i + P_j) + e (g_i + g_j)] n,          A = D^2 (lambda' - G),  B = D (D + 2) G
- *     with effective displacements Y - R xi (the model of 2026, finite rotation; any Poisson's ratio, shear exact on lattices)
+ *     with effective displacements Y - R xi (modified model of 2026, here for finite rotation; shear exact on lattices)
  *         f_i = sum_j w {r (P_i + P_j) n + [g_i (Y - R_i xi) + g_j (Y - R_j xi)]},   A = D^2 lambda',  B = 2 D G
  *
  * Since R_i makes its own energy least, the force is the energy's exact gradient in cut families too: energy and angular
@@ -52,7 +53,8 @@ static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct bon
     s->r = lanes_choose(s->w > 0.0, s->r, lanes_of(0));
 }
 
-/* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side [J]. */
+/* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side
+ * [J]. */
 static inline real state_own_force(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real *T,
                                    real *xi, const int dim, const bool turns)
 {

@@ -36,7 +36,8 @@ static status check_poisson(struct reader *r, const struct node *n, const struct
     const struct scene *s = r->scene;
     real bond = material_bond_poisson(s->space);
     const struct node *poisson = node_find(n, "poisson");
-    if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE || fabs(m->poisson - bond) <= 1e-6) return OK;
+    if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
+    if (fabs(m->poisson - bond) <= 1e-6) return OK;
     return fault(r, poisson, "%s is impossible with bond-based peridynamics in space %s; %s is expected",
                  shown(r, poisson), space_names[s->space], s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4");
 }
