@@ -2,7 +2,7 @@
  *
  * Position r is counted in node distances h, l is the half width of the particle over h. A shape returns its lowest node
  * and the weights N and slopes dN/dr of shape_nodes() nodes from there. All are partitions of unity and reproduce
- * linear fields. Sheet 1.2; linear and GIMP: Bardenhagen & Kober 2004, Zeng et al. 2021, eq. 9. */
+ * linear fields. Linear and GIMP: Bardenhagen & Kober 2004, Zeng et al. 2021, eq. 9. */
 #ifndef CLEAVE_SHAPE_H
 #define CLEAVE_SHAPE_H
 
