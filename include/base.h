@@ -21,6 +21,12 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
 static inline int symmetric_count(int dim) { return dim * (dim + 1) / 2; }
+/* Row and column of symmetric component s. */
+static inline void symmetric_axes(int dim, int s, int *row, int *column)
+{
+    *row = s < dim ? s : s == dim ? 0 : s == dim + 1 ? 1 : 2;
+    *column = s < dim ? s : (*row + 1) % DIM_MAX;
+}
 
 /* What a function that can fail returns; the values are the exit statuses of the program. */
 typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;

@@ -60,6 +60,27 @@ struct bond_yield {
 /* What yielding has done to a bond: stretch without force, and the way it was yielded back and forth. */
 struct bond_plasticity { real stretch, path; };
 
+/* Block-Gershgorin bound of the eigenvalues of springs round one particle: the largest row sum of sum K n n plus sum K. */
+struct spring_bound { real block[DIM_MAX][DIM_MAX], total; };     /* [N/m] */
+
+static inline void spring_bound_add(struct spring_bound *s, real K, const real *n, int dim)
+{
+    for (int a = 0; a < dim; a++)
+        for (int c = 0; c < dim; c++) s->block[a][c] += K * n[a] * n[c];
+    s->total += K;
+}
+
+static inline real spring_bound_of(const struct spring_bound *s, int dim)
+{
+    real norm = 0;
+    for (int a = 0; a < dim; a++) {
+        real sum = 0;
+        for (int c = 0; c < dim; c++) sum += fabs(s->block[a][c]);
+        norm = real_max(norm, sum);
+    }
+    return norm + s->total;
+}
+
 /* State-based materials: A and B of kernels/state_laws.h, and the bulk modulus of the space [Pa]. */
 struct state_modulus { real A, B, bulk; };
 static inline struct state_modulus state_modulus_of(const struct material *m, enum space space, bool turns)
@@ -137,6 +158,9 @@ real family_separation(const struct family *f, const struct state_modulus *m, bo
 /* beta x omega x shell weight of a reference bond of components xi and length r [1]. */
 real family_weight(const struct family *f, const real *xi, real r);
 
+/* Does one of the cracks cut the line between two particles (reference positions)? */
+bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
+
 /* Most particles within the cutoff of any; reference positions do not move, so once is enough. */
 int bonds_room(const struct particles *p, const struct bond_source *s);
 
@@ -156,6 +180,8 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 /* The state that rows made anew do not know: what load has broken. */
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
 
+/* Q of what a row has left, bond by bond: a difference would leave round-off for the last of them [m^2]. */
+real state_weight_left(const struct bonds *b, int64_t row);
 /* Q of every row anew, for what is broken now. Nothing without state-based models. */
 void state_weigh(struct bonds *b, const struct particles *p, const struct family *f);
 

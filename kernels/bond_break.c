@@ -32,17 +32,6 @@ static real half_energy(const struct bonds *b, int64_t q, real stretch)
     return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / fabs(b->inverse_length[q]);
 }
 
-/* Q of a row whose bonds have broken, from those it has left: a difference would leave round-off for the last of them. */
-static void weigh_again(struct bonds *b, int64_t row)
-{
-    real Q = 0;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        if (b->w[q] != 0) Q += b->w[q] / square(b->inverse_length[q]);
-    }
-    b->state.weighted[row] = Q;
-}
-
 /* A bond without weight is broken for ever; what it held must be booked before. */
 static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j)
 {
@@ -64,7 +53,7 @@ static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_
 /* Weights of a row have changed. */
 static void row_changed(struct bonds *b, int64_t row)
 {
-    if (b->state.modulus && b->state.local && b->whole[row]) weigh_again(b, row);
+    if (b->state.modulus && b->state.local && b->whole[row]) b->state.weighted[row] = state_weight_left(b, row);
 }
 
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, float w)

@@ -26,7 +26,6 @@ static ALWAYS_INLINE real energy_row(const struct row_sum *s, int64_t row, const
 static ALWAYS_INLINE void stress_row(const struct bonds *b, struct particles *p, int64_t row, const int dim,
                                      const enum pd_model model)
 {
-    static const int first[SYM_MAX] = {0, 1, 2, 0, 1, 2}, second[SYM_MAX] = {0, 1, 2, 1, 2, 0};
     const int32_t i = b->particle[row];
     real stress[SYM_MAX] = {0}, T[DIM_MAX], xi[DIM_MAX];
     if (p->kind[i] != KIND_PD) return;
@@ -35,7 +34,8 @@ static ALWAYS_INLINE void stress_row(const struct bonds *b, struct particles *p,
         if (b->w[q] == 0) continue;
         state_own_force(b, p, q, i, T, xi, dim, state_turns(model));
         for (int s = 0; s < dim * (dim + 1) / 2; s++) {
-            const int a = s < dim ? s : first[3 + s - dim], c = s < dim ? s : second[3 + s - dim];
+            int a, c;
+            symmetric_axes(dim, s, &a, &c);
             stress[s] += 0.5 * (T[a] * xi[c] + T[c] * xi[a]) / p->volume0[i];
         }
     }

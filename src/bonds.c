@@ -302,23 +302,16 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
-/* omega^2 m of one particle: largest row sum of the 3x3 block sum K n n plus sum K [N/m]. */
+/* omega^2 m of one particle [N/m]. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
-    real block[DIM_MAX][DIM_MAX] = {{0}}, total = 0, norm = 0;
+    struct spring_bound bound = {{{0}}, 0};
     for (int k = 0; k < row->n; k++) {
-        real K = stiffness * row->w[k] * row->inverse_length[k], n[DIM_MAX] = {0};
+        real n[DIM_MAX] = {0};
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][row->nbr[k]] - p->X[d][i]) * row->inverse_length[k];
-        for (int a = 0; a < p->dim; a++)
-            for (int c = 0; c < p->dim; c++) block[a][c] += K * n[a] * n[c];
-        total += K;
+        spring_bound_add(&bound, stiffness * row->w[k] * row->inverse_length[k], n, p->dim);
     }
-    for (int a = 0; a < p->dim; a++) {
-        real sum = 0;
-        for (int c = 0; c < p->dim; c++) sum += fabs(block[a][c]);
-        norm = real_max(norm, sum);
-    }
-    return norm + total;
+    return spring_bound_of(&bound, p->dim);
 }
 
 real bonds_critical_step(const struct particles *p, const struct bond_source *s)

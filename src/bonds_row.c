@@ -51,12 +51,13 @@ int bonds_room(const struct particles *p, const struct bond_source *s)
     return most;
 }
 
-static bool cut_by_crack(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
+bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) a[d] = p->X[d][i], b[d] = p->X[d][j];
-    for (int c = 0; c < s->cracks; c++)
-        if (crack_cuts(&s->crack[c], a, b, p->dim)) return true;
+    particle_place(p, i, a);
+    particle_place(p, j, b);
+    for (int c = 0; c < cracks; c++)
+        if (crack_cuts(&crack[c], a, b, p->dim)) return true;
     return false;
 }
 
@@ -88,13 +89,13 @@ static void row_search(struct row *row, const struct bond_source *s, const struc
 /* Elastic strain C^-1 sigma of material point i along e. */
 static real elastic_strain_along(const struct particles *p, const struct material *m, int64_t i, const real *e)
 {
-    static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 2}, column[SYM_MAX] = {0, 1, 2, 1, 2, 0};
     const int dim = p->dim, n = symmetric_count(dim);
     real compliance[SYM_MAX * SYM_MAX], sum = 0;
     material_compliance(&m[p->material[i]], dim, compliance);
     for (int s = 0; s < n; s++) {
-        const int a = s < dim ? s : row[3 + s - dim], b = s < dim ? s : column[3 + s - dim];
+        int a, b;
         real strain = 0;
+        symmetric_axes(dim, s, &a, &b);
         for (int t = 0; t < n; t++) strain += compliance[s * n + t] * p->stress[t][i];
         sum += (s < dim ? 1 : 2) * e[a] * e[b] * strain;
     }
@@ -125,7 +126,7 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
         int32_t j = row->nbr[k];
         real xi[DIM_MAX], r2 = 0;
         for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
-        bool cut = s->cracks > 0 && cut_by_crack(s, p, i, j);
+        bool cut = cracks_part(s->crack, s->cracks, p, i, j);
         if (cut) row->cut_volume += p->volume0[j];
         row->inverse_length[k] = (cut ? -1 : 1) / sqrt(r2);
         row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, sqrt(r2));

@@ -3,16 +3,21 @@
 
 #include "memory.h"
 
-/* Q of a row: of all bonds it has, or of a full family on the lattice [m^2]. */
-static real weighted_of(const struct bonds *b, const struct particles *p, const struct family *f, int64_t row)
+real state_weight_left(const struct bonds *b, int64_t row)
 {
-    if (!b->state.local || !b->whole[row]) return f->weighted * p->volume0[b->particle[row]] / f->cell_volume;
     real Q = 0;
     for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] != 0) Q += b->w[q] / square(b->inverse_length[q]);
     }
     return Q;
+}
+
+/* Q of a row: of all bonds it has, or of a full family on the lattice [m^2]. */
+static real weighted_of(const struct bonds *b, const struct particles *p, const struct family *f, int64_t row)
+{
+    if (b->state.local && b->whole[row]) return state_weight_left(b, row);
+    return f->weighted * p->volume0[b->particle[row]] / f->cell_volume;
 }
 
 void state_weigh(struct bonds *b, const struct particles *p, const struct family *f)

@@ -48,14 +48,8 @@ static void images_follow(const struct bond_source *s, struct particles *p)
 
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const int32_t *found, int n)
 {
-    real a[DIM_MAX], b[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) a[d] = p->X[d][i];
-    for (int k = 0; k < n; k++) {
-        if (p->body[found[k]] != p->body[i]) continue;
-        for (int d = 0; d < p->dim; d++) b[d] = p->X[d][found[k]];
-        for (int c = 0; c < s->cracks; c++)
-            if (crack_cuts(&s->crack[c], a, b, p->dim)) return true;
-    }
+    for (int k = 0; k < n; k++)
+        if (p->body[found[k]] == p->body[i] && cracks_part(s->crack, s->cracks, p, i, found[k])) return true;
     return false;
 }
 

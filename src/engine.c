@@ -101,10 +101,10 @@ static int64_t grow(struct engine *e)
     return released;
 }
 
-/* What material points give the grid hangs on the bonds that fade and on the sums of families that count what is left. */
+/* What material points give the grid hangs on the bonds that fade; convert() has seen to what broke. */
 static void renew_partial(struct engine *e, bool changed)
 {
-    if (!e->uses_partial || (!e->bonds.state.local && e->scene->growths == 0)) return;
+    if (!e->uses_partial || e->scene->growths == 0) return;
     for (int k = 0; k < e->scene->growths; k++) changed |= e->growth[k].n > 0;
     if (changed) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
 }

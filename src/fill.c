@@ -297,12 +297,12 @@ static void start_velocity(struct particles *p, int64_t i, const struct scene_in
 static void start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
                          const real *arm)
 {
-    static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 2}, column[SYM_MAX] = {0, 1, 2, 1, 2, 0};
     const real *H = s->displacement_gradient;
     int dim = p->dim, count = symmetric_count(dim);
     real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX], growth = 1;
     for (int k = 0; k < count; k++) {
-        int a = k < dim ? k : row[3 + k - dim], b = k < dim ? k : column[3 + k - dim];
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
         strain[k] = 0.5 * (H[a * dim + b] + H[b * dim + a]);
     }
     material_stiffness(m, dim, stiffness);
@@ -318,12 +318,12 @@ static void start_strain(struct particles *p, int64_t i, const struct scene_init
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {
-    static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 2}, column[SYM_MAX] = {0, 1, 2, 1, 2, 0};
     const struct wave_state wave = wave_pulse_at(w, X, m->wave_speed, p->dim);
     const int dim = p->dim, count = symmetric_count(dim);
     real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX];
     for (int k = 0; k < count; k++) {
-        int a = k < dim ? k : row[3 + k - dim], b = k < dim ? k : column[3 + k - dim];
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
         strain[k] = wave.strain * w->direction[a] * w->direction[b];
     }
     material_stiffness(m, dim, stiffness);

@@ -52,13 +52,6 @@ static struct reflection reflection_of(const struct bond_source *s, const struct
 
 /* ---- the tensor -------------------------------------------------------------------------------------- */
 
-static void component_axes(int dim, int s, int *a, int *b)
-{
-    static const int first[SYM_MAX] = {0, 1, 2, 0, 1, 2}, second[SYM_MAX] = {0, 1, 2, 1, 2, 0};
-    int k = dim == 2 && s == 2 ? 3 : s;          /* 2D: xx yy xy */
-    *a = first[k], *b = second[k];
-}
-
 /* How the force F of a bond of direction e answers to a uniform strain, times the bond's length [N m]:
  *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
 struct response { real central, pressure, vector; };
@@ -80,8 +73,8 @@ static void tensor_add_skew(real *T, const real *e, real vector, int dim)
     for (int s = n; s < n + skew_count(dim); s++)
         for (int t = 0; t < n; t++) {
             int a, b, c, d;
-            component_axes(dim, s - skew_count(dim), &a, &b);
-            component_axes(dim, t, &c, &d);
+            symmetric_axes(dim, s - skew_count(dim), &a, &b);
+            symmetric_axes(dim, t, &c, &d);
             T[s * n + t] += 0.25 * vector * (e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) -
                                              e[a] * e[d] * same(b, c) - e[a] * e[c] * same(b, d));
         }
@@ -99,8 +92,8 @@ static void tensor_add(real *T, const real *xp, const real *xm, const real *X, r
     for (int s = 0; s < n; s++)
         for (int t = 0; t < n; t++) {
             int a, b, c, d;
-            component_axes(dim, s, &a, &b);
-            component_axes(dim, t, &c, &d);
+            symmetric_axes(dim, s, &a, &b);
+            symmetric_axes(dim, t, &c, &d);
             real turned = e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) + e[a] * e[d] * same(b, c) +
                           e[a] * e[c] * same(b, d);
             T[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] + k.pressure * e[a] * e[b] * same(c, d) +

@@ -19,16 +19,6 @@ struct search {
     int room;
 };
 
-static bool pair_cut(const struct search *s, int64_t i, int64_t j)
-{
-    real a[DIM_MAX], b[DIM_MAX];
-    particle_place(s->p, i, a);
-    particle_place(s->p, j, b);
-    for (int c = 0; c < s->source->cracks; c++)
-        if (crack_cuts(&s->source->crack[c], a, b, s->p->dim)) return true;
-    return false;
-}
-
 /* Free particles of the body of particle i within `radius` of it, ascending, images left out; into s->found. */
 static int search_near(struct search *s, int32_t i, real radius)
 {
@@ -90,7 +80,7 @@ static void pairs_make(struct rim *r, struct search *s, const int32_t *place)
         r->start[k] = pairs;
         for (int q = 0; q < n; q++) {
             int32_t m = place[s->found[q]];
-            if (m == OUTSIDE || (k >= r->points && m >= r->points) || pair_cut(s, r->particle[k], s->found[q])) continue;
+            if (m == OUTSIDE || (k >= r->points && m >= r->points) || cracks_part(s->source->crack, s->source->cracks, s->p, r->particle[k], s->found[q])) continue;
             r->neighbour[pairs++] = m;
         }
         if (pairs - r->start[k] > most) most = (int)(pairs - r->start[k]);

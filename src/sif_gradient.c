@@ -25,12 +25,7 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
 
 static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
 {
-    real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
-    particle_place(p, i, from);
-    particle_place(p, j, to);
-    for (int k = 0; k < s->cracks; k++)
-        if (crack_cuts(&s->crack[k], from, to, p->dim)) return true;
-    return bond_broken(s->bonds, i, j);
+    return cracks_part(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
 }
 
 static real between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }

@@ -85,29 +85,21 @@ static void field_free(struct field *v)
     for (int d = 0; d < DIM_MAX; d++) memory_free(v->of[d]);
 }
 
-/* The bonds of row r: block-Gershgorin bound of its eigenvalues, the norm of sum k n n plus sum k [N/m]. */
+/* Bound of the bonds of a row [N/m]. */
 static real row_bound(const struct engine *e, int64_t row)
 {
     const struct bonds *b = &e->bonds;
     const struct particles *p = &e->part;
     const int64_t g = row / LANES, i = b->particle[row];
-    real block[DIM_MAX][DIM_MAX] = {{0}}, total = 0, norm = 0;
+    struct spring_bound bound = {{{0}}, 0};
     for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
         const int64_t q = bond_index(b, g, k, (int)(row % LANES));
-        const real K = b->stiffness * b->w[q] * b->inverse_length[q];
         real n[DIM_MAX] = {0};
         if (b->w[q] == 0) continue;
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][b->nbr[q]] - p->X[d][i]) * b->inverse_length[q];
-        for (int a = 0; a < p->dim; a++)
-            for (int c = 0; c < p->dim; c++) block[a][c] += K * n[a] * n[c];
-        total += K;
+        spring_bound_add(&bound, b->stiffness * b->w[q] * b->inverse_length[q], n, p->dim);
     }
-    for (int a = 0; a < p->dim; a++) {
-        real sum = 0;
-        for (int c = 0; c < p->dim; c++) sum += fabs(block[a][c]);
-        norm = real_max(norm, sum);
-    }
-    return norm + total;
+    return spring_bound_of(&bound, p->dim);
 }
 
 static void vector_block(const void *context, int64_t first, int64_t end, real *sum)
