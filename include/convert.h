@@ -24,6 +24,9 @@ struct conversion_rule {
     bool block;                          /* the triggered particle takes its horizon neighbours along */
 };
 
+/* Has anything asked for conversion in this step? */
+bool convert_due(const struct particles *p);
+
 /* What conversion has done so far. */
 struct conversion {
     real first_time;                     /* [s], NAN before                                           */

@@ -13,6 +13,7 @@
 #include "grid.h"
 #include "kernels.h"
 #include "loads.h"
+#include "mesh_make.h"
 #include "output.h"
 #include "particles.h"
 #include "probes.h"
@@ -22,6 +23,9 @@
 #include "team.h"
 #include "tips.h"
 #include "watch.h"
+
+/* Frame of a body, and why where the scene does not say current. */
+struct frame_choice { bool reference; const char *reason; };
 
 struct engine {
     const struct scene *scene;           /* borrowed                                                  */
@@ -41,6 +45,10 @@ struct engine {
     struct carried carried;              /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct partial_stress partial;
     struct transfer_data transfer;
+    struct frame_choice *frame;          /* [bodies]                                                  */
+    struct mesh mesh;                    /* of the bodies in the reference frame                      */
+    struct mesh_source mesh_source;
+    struct elastic *cell_elastic;        /* [materials] constants of its cells                        */
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
     struct solver solver;
@@ -66,7 +74,7 @@ struct engine {
     bool sort_needed;                    /* material points moved to other cells or converted         */
     enum coupling coupling;              /* of the scene; hand-shake where nothing meets              */
     struct rim rim;                      /* damped beside peridynamic particles (FLIP, partial stress) */
-    real damped;                         /* energy that the rim's damping has taken               [J] */
+    real damped;                         /* energy that the rim's damping, and conversion of moving cells, took [J] */
     real rim_share;                      /* of a step; 0: not at all                                  */
     bool uses_partial;                   /* coupling by partial stress                                */
     real *record;                        /* one line of history.csv                                   */
@@ -96,6 +104,17 @@ status solver_make(struct engine *e);
 /* One step in time. */
 status engine_step(struct engine *e);
 void engine_free(struct engine *e);
+/* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
+ * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks; before and after
+ * conversion; the alarm. */
+status engine_frames(struct engine *e);
+status engine_mesh_make(struct engine *e);
+real engine_mesh_critical_step(const struct engine *e);
+void engine_mesh_move(struct engine *e, real middle, real dt_velocity);
+void engine_mesh_show(struct engine *e);
+void engine_mesh_before_conversion(struct engine *e);
+void engine_mesh_follow(struct engine *e, int64_t converted);
+status engine_mesh_alarm(struct engine *e);
 /* After the run: the same scene on material points alone, if a pulse probe wants to be compared with it. */
 status engine_baseline(struct engine *e);
 /* Saves or restores the state between two steps. */

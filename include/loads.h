@@ -59,6 +59,12 @@ struct load {
 /* A component of a node that is held as long as the grid keeps its box. */
 struct held { int32_t node; uint8_t component, load; };
 
+struct held_set {
+    int64_t n, room;
+    struct held *held;
+    int64_t first[DIM_MAX], count[DIM_MAX];   /* of the box of nodes they were found in                */
+};
+
 struct loads {
     int n;
     struct load *load;
@@ -70,9 +76,7 @@ struct loads {
     real spacing;                        /* [m]                                                       */
     real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
     int64_t share_room;
-    struct held *held;                   /* nodes in driven regions and on mirrors ...                */
-    int64_t helds, held_room;
-    int64_t held_first[DIM_MAX], held_count[DIM_MAX];   /* ... of the grid box they were found in     */
+    struct held_set held, held_mesh;     /* nodes in driven regions and on mirrors; driven ones of the mesh */
 };
 
 /* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
@@ -97,9 +101,15 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
 void loads_walls(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
                  real half_width, real t, real dt);
 
+/* The same for the mesh: found once, and again whenever it has lost points; their velocities in every step. */
+void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p);
+void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
+
 /* After the gather: driven material points take their velocity exactly; books reactions of walls and the work of
  * applied forces. */
 void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt_velocity);
+/* Reactions of the walls of one grid, or of the mesh. */
+void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
 
 /* Does a mirror's plane stand on a node of the grid or half-way between two? */
 bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);

@@ -17,7 +17,8 @@ enum particle_flag {
     FLAG_STRESSED = 2,                   /* largest principal stress passed the trigger          */
     FLAG_DRIVEN = 4,                     /* a velocity or fixed condition holds a component      */
     FLAG_CRACKED = 8,                    /* lost a bond to a particle, neither of them driven    */
-    FLAG_CARRIED = 16                    /* peridynamic, but moved by the grid (carry.h)         */
+    FLAG_CARRIED = 16,                   /* peridynamic, but moved by the grid (carry.h)         */
+    FLAG_MESHED = 32                     /* material point of the mesh (mesh.h)                  */
 };
 
 struct particles {
@@ -26,6 +27,8 @@ struct particles {
     int64_t n_of[KINDS];                 /* of the body                                          */
     int64_t n_carried;                   /* peridynamic particles that the grid moves            */
     int32_t *list[KINDS];                /* their indices, ascending; rebuilt by particles_list  */
+    int64_t n_free;                      /* material points on the grid, not of the mesh         */
+    int32_t *list_free;                  /* theirs                                               */
                                          /* ---- every array below has n_all (+ LANES) entries - */
     real *X[DIM_MAX];                    /* reference position                      [m]          */
     real *x[DIM_MAX];                    /* position                                [m]          */
@@ -84,7 +87,7 @@ void particles_free(struct particles *p);
 /* Sorts the body row by row: z, then y, then x, in rows of thickness `spacing`; ties by id. At set-up. */
 void particles_sort(struct particles *p, real spacing, int optional);
 
-/* Rebuilds n_of and list from kind. */
+/* Rebuilds n_of and list from kind, n_free and list_free from flag. */
 void particles_list(struct particles *p);
 
 #endif

@@ -16,6 +16,7 @@
 #include "region.h"
 
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE };
+enum grid_frame { FRAME_CURRENT, FRAME_REFERENCE, FRAME_AUTO };
 enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
 enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG };
@@ -26,6 +27,7 @@ struct scene_body {
     struct region shape;                 /* filled with a lattice ...                                 */
     char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
     real velocity[DIM_MAX];              /* [m/s]                                                     */
+    enum grid_frame frame;                    /* mpm.frame unless it has its own                           */
 };
 
 /* Initial state of the particles in a region; later entries overwrite earlier ones. */
@@ -72,6 +74,9 @@ struct scene {
     real cell;                           /* grid node distance, in spacings                           */
     enum shape shape;
     enum transfer transfer;
+    enum grid_frame frame;                    /* of the grid, body by body                                 */
+    bool small_strain;                   /* of a mesh in the reference frame                          */
+    bool lattice_constants;              /* its elastic constants are those of the bonds' lattice     */
     bool has_grid_origin; real grid_origin[DIM_MAX];   /* a node of the grid [m]                      */
 
     enum coupling coupling;

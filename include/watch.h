@@ -38,9 +38,9 @@ struct watch {
 /* Nothing seen yet. Call once, before step 0. */
 void watch_make(struct watch *w);
 
-/* Kinetic energy 1/2 sum m v^2 of the body [J]. */
+/* Kinetic energy 1/2 sum m v^2 of the body, without points of a mesh, which has its own [J]. */
 real watch_kinetic(const struct particles *p);
-/* Strain energy of the material points: 1/2 sum sigma_given : C^-1 sigma V, and in plane strain what flow has added to
+/* Strain energy of the material points on the grid: 1/2 sum sigma_given : C^-1 sigma V, and in plane strain what flow has added to
  * sigma_zz [J]. */
 real watch_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
@@ -68,8 +68,8 @@ real watch_energy_change(const struct watch *w);
 void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, real t);
 
 /* FAILED with place, step, cause and cure if a position or velocity is not finite or a particle outruns `limit`
- * [m/s] (the fastest wave of the scene). */
-status watch_alarm(const struct particles *p, real limit, int64_t step, real t, real dt);
+ * [m/s] (the fastest wave of the scene). Points of a mesh are looked at only if told so: their nodes are watched. */
+status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, real dt);
 
 status watch_archive(struct watch *w, struct archive *a);
 

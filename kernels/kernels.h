@@ -7,6 +7,7 @@
 #include "bonds.h"
 #include "cells.h"
 #include "grid.h"
+#include "mesh.h"
 #include "particles.h"
 
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
@@ -36,6 +37,8 @@ struct partial_stress {
     real *matrix;                        /* [entries][symmetric^2], row major                         */
     real *skew;                          /* [entries][skew symmetric], row major; NULL: there is none */
     int64_t entries, room;
+    int32_t *touched;                    /* particles whose entry was made anew; whoever follows them sets touches = 0 */
+    int64_t touches, touched_room;
 };
 
 /* What the transfers need besides particles and grid. */
@@ -141,5 +144,35 @@ void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real sm
 
 /* Step 6: momentum of the second map becomes its velocity, in place; walls prescribe. */
 void grid_remapped(struct grid *g, real smallest_mass);
+
+/* ---- the mesh of the reference frame (mesh.h), any dimension ---------------------------------------------- */
+
+/* f = 0. */
+void mesh_clear(struct mesh *mesh);
+/* Does a node move faster than `limit` [m/s], or is a velocity no number? */
+bool mesh_outruns(const struct mesh *mesh, real limit);
+
+/* Adds the internal forces of its cells to its nodes; runs whose points may be past their trigger are marked `stressed`.
+ * `finite`: strain of Biot in axes that turn with the cell, else the symmetric gradient (mesh_law.h). */
+void mesh_force(struct mesh *mesh, const struct elastic *m, bool finite);
+
+/* v += dt_velocity f/m, u += dt v of the nodes; walls prescribe their velocity, and what they gave joins impulse [N s] and
+ * work [J]. f becomes m dv/dt_velocity of each node. */
+void mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work);
+
+/* Position and velocity of its points among the n listed particles (list NULL: all). */
+void mesh_points_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+/* Adds the forces f of the n listed points to the nodes; serial. */
+void mesh_points_force(struct mesh *mesh, const struct particles *p, const int32_t *list, int64_t n);
+/* Cauchy stress and volume of all its points, for whoever looks. */
+void mesh_points_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite);
+/* FLAG_STRESSED for points past their trigger, in cut cells and in the runs that mesh_force marked. */
+void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite);
+
+/* Sum of 1/2 m v^2 of the nodes, and of 1/4 (dt f)^2/m [J]. */
+real mesh_kinetic(const struct mesh *mesh);
+real mesh_kick(const struct mesh *mesh, real dt);
+/* Elastic energy of the cells [J]. */
+real mesh_strain(const struct mesh *mesh, bool finite);
 
 #endif

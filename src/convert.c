@@ -82,7 +82,7 @@ static bool triggers(const struct conversion_rule *rule, const struct particles 
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
-static bool any_flag(const struct particles *p)
+bool convert_due(const struct particles *p)
 {
     int any = 0;
 #pragma omp parallel for simd schedule(static) reduction(| : any)
@@ -147,7 +147,7 @@ static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_s
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
                 const struct bond_source *source, struct partial_stress *partial, real t)
 {
-    if (!any_flag(p)) return 0;
+    if (!convert_due(p)) return 0;
     struct index_list changed = {0}, touched = {0};
     int64_t had;
     do {                                 /* a bond that breaks when made takes its other end along, in the same step */

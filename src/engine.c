@@ -30,12 +30,13 @@ static status points_sort(struct engine *e)
     bool changed;
     if (!e->sort_needed) return OK;
     for (int k = 0; k < KINDS; k++)
-        if (k == KIND_MPM || coupling_unified(e->coupling)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
+        if (k == KIND_MPM) bounds_widen(p, p->list_free, p->n_free, from, to);
+        else if (coupling_unified(e->coupling)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
     for (int d = 0; d < p->dim; d++)
-        if (!isfinite(to[d] - from[d])) return watch_alarm(p, e->wave_speed, e->step, e->t, e->dt);
+        if (!isfinite(to[d] - from[d])) return watch_alarm(p, false, e->wave_speed, e->step, e->t, e->dt);
     int64_t most = 64 * p->n + 1000000;          /* far more than any sound run needs; an index is 32 bits */
     TRY(grid_cover(&e->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
-    transfer_order_sort(&e->order, p, p->list[KIND_MPM], p->n_of[KIND_MPM], &e->grid);
+    transfer_order_sort(&e->order, p, p->list_free, p->n_free, &e->grid);
     e->sort_needed = false;
     return OK;
 }
@@ -43,7 +44,7 @@ static status points_sort(struct engine *e)
 /* Who is on the grid in this step, and where. */
 static status grid_sort(struct engine *e)
 {
-    if (e->part.n_of[KIND_MPM] == 0 && !coupling_unified(e->coupling)) {
+    if (e->part.n_free == 0 && !coupling_unified(e->coupling)) {
         carry_none(&e->carried, &e->part);
         return OK;
     }
@@ -134,19 +135,22 @@ status engine_step(struct engine *e)
     lap(&e->laps, LAP_WATCH);
     k->pd_move(p, e->dt, dt_velocity);                                      /* peridynamic particles move */
     lap(&e->laps, LAP_BONDS);
-    if (p->n_of[KIND_MPM] + p->n_carried > 0) step_grid(e, middle);         /* 1, 3, 4, 6, 7: material points move */
+    if (p->n_free + p->n_carried > 0) step_grid(e, middle);                 /* 1, 3, 4, 6, 7: material points move */
     else step_without_grid(e);
+    engine_mesh_move(e, middle, dt_velocity);                               /* the same in the reference frame */
     loads_hold(&e->loads, &e->grid, p, middle, dt_velocity);
     loads_mirror(&e->loads, p);
     lap(&e->laps, LAP_GRID);
     engine_breaks(e, broken);
+    engine_mesh_before_conversion(e);
     const int64_t converted = convert(&e->conversion, &s->conversion, p, &e->bonds, &e->source,
                                       e->uses_partial ? &e->partial : NULL, e->t);   /* 8: material point -> peridynamic */
     if (converted > 0) {
-        if (e->uses_partial && s->transfer == TRANSFER_FLIP) rim_make(&e->rim, p, &e->source);
+        if (e->uses_partial && s->transfer == TRANSFER_FLIP && p->n_free > 0) rim_make(&e->rim, p, &e->source);
         e->sort_needed = true;
     }
     renew_partial(e, broken > 0 || converted > 0);
+    engine_mesh_follow(e, converted);
     lap(&e->laps, LAP_CONVERT);
     engine_sample_end(e);
     e->t = (real)(e->step + 1) * e->dt;
@@ -162,7 +166,7 @@ status engine_run(struct engine *e)
     laps_start(&e->laps);
     while (e->step < e->steps) {
         TRY(engine_step(e));
-        TRY(watch_alarm(&e->part, e->wave_speed, e->step, e->t, e->dt));
+        TRY(engine_mesh_alarm(e));
         TRY(engine_report(e));
     }
     return engine_report_end(e);

@@ -129,7 +129,7 @@ static void make_partial(struct engine *e)
     e->coupling = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
     e->uses_partial = e->coupling == COUPLING_PARTIAL_STRESS;
     if (e->uses_partial) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    if (e->uses_partial && e->scene->transfer == TRANSFER_FLIP) rim_make(&e->rim, &e->part, &e->source);
+    if (e->uses_partial && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0) rim_make(&e->rim, &e->part, &e->source);
 }
 
 #define RIM_SHARE_MOST (1.0 / 16)        /* rim.h */
@@ -213,10 +213,11 @@ static status make_time_step(struct engine *e)
     const struct scene *s = e->scene;
     e->dt_critical = INFINITY;
     if (has_peridynamics(s)) e->dt_critical = critical_of_bonds(e);
-    if (s->method != METHOD_PD) {
+    if (e->part.n_free > 0 || e->part.n_carried > 0) {
         real share = s->transfer == TRANSFER_APIC ? STEP_APIC : STEP_FLIP;
         e->dt_critical = real_min(e->dt_critical, share * e->grid.h / (e->wave_speed + fastest(e)));
     }
+    e->dt_critical = real_min(e->dt_critical, engine_mesh_critical_step(e));
     real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
     if (s->solver != SOLVER_EXPLICIT) {
         e->steps = s->solver_steps, e->dt = dt;
@@ -331,6 +332,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     kernels_choose(&e->kernels, s->dim, law_of(e), s->shape, s->transfer);
     TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
+    TRY(named(s, engine_frames(e)));
     if (s->solver != SOLVER_EXPLICIT) {
         e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
         loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
@@ -342,6 +344,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     make_bonds(e);
     make_partial(e);
     make_grid(e);
+    TRY(named(s, engine_mesh_make(e)));
     TRY(named(s, make_time_step(e)));
     make_rim_share(e);
     e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false};
@@ -383,6 +386,9 @@ void engine_free(struct engine *e)
     memory_free(e->pair_hardening);
     memory_free(e->neighbour_volume);
     memory_free(e->elastic);
+    memory_free(e->cell_elastic);
+    memory_free(e->frame);
+    mesh_free(&e->mesh);
     memory_free(e->record);
     memory_free(e->pulse);
     memset(e, 0, sizeof *e);
@@ -421,6 +427,12 @@ status engine_archive(void *engine, struct archive *a)
     TRY(bonds_archive(&e->bonds, &e->part, a));
     if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
     if (!a->saving) make_partial(e);
+    if (!a->saving) {
+        mesh_free(&e->mesh);
+        memory_free(e->cell_elastic);
+        TRY(engine_mesh_make(e));
+    }
+    TRY(mesh_archive(&e->mesh, a));
     ARCHIVE_VALUE(a, "engine/t", e->t);
     ARCHIVE_VALUE(a, "engine/step", e->step);
     ARCHIVE_VALUE(a, "engine/steps", e->steps);

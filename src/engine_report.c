@@ -108,6 +108,8 @@ static void make_stress(struct engine *e)
     e->kernels.bond_stress(&e->bonds, &e->part);
 }
 
+static real kinetic_now(const struct engine *e) { return watch_kinetic(&e->part) + mesh_kinetic(&e->mesh); }
+
 /* What stands still while the energies of a sample are gathered. */
 static void sample_state(struct engine *e)
 {
@@ -122,7 +124,8 @@ static void sample_energy(struct engine *e)
 {
     const struct material *m = e->scene->material;
     e->sampling.energy = (struct energy){
-        .strain = e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, m, &e->partial),
+        .strain = e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, m, &e->partial) +
+                  mesh_strain(&e->mesh, !e->scene->small_strain),
         .plastic = bond_plastic_work(&e->bonds) + watch_plastic(&e->part, m, &e->partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .damped = e->damped,
@@ -145,12 +148,16 @@ void engine_sample_begin(struct engine *e)
     e->sampling.due = sample_due(e);
     e->sampling.work = e->loads.work;
     e->sampling.held_work = e->loads.held_work;
-    if (e->sampling.due) sample_state(e);
+    if (e->sampling.due) {
+        engine_mesh_show(e);
+        sample_state(e);
+    }
     if (!e->sampling.due && e->step < e->steps - 1) return;
+    if (!e->sampling.due) engine_mesh_show(e);
     if (!e->sampling.due && wants_stress(e)) make_stress(e);
     struct observed o = engine_observed(e);
     probes_keep(&e->probes, &o);
-    e->sampling.kinetic = watch_kinetic(&e->part);
+    e->sampling.kinetic = kinetic_now(e);
 }
 
 void engine_sample_energy(struct engine *e)
@@ -165,7 +172,7 @@ void engine_sample_end(struct engine *e)
         sample_write(e, e->t + 0.5 * e->dt, e->sampling.kinetic, e->sampling.work);
         return;
     }
-    real kinetic = 0.5 * (e->sampling.kinetic + watch_kinetic(&e->part)) - watch_kick(&e->part, e->dt);
+    real kinetic = 0.5 * (e->sampling.kinetic + kinetic_now(e)) - watch_kick(&e->part, e->dt) - mesh_kick(&e->mesh, e->dt);
     sample_write(e, e->t + 0.5 * e->dt, kinetic, e->sampling.work + 0.5 * (e->sampling.held_work + e->loads.held_work));
 }
 
@@ -181,9 +188,10 @@ void engine_sample_rest(struct engine *e)
 static void sample_last(struct engine *e)
 {
     refresh_states(e);
+    engine_mesh_show(e);
     sample_state(e);
     sample_energy(e);
-    real kinetic = watch_kinetic(&e->part);
+    real kinetic = kinetic_now(e);
     real work = e->loads.work + 1.5 * e->loads.held_work - 0.5 * e->sampling.held_work;
     sample_write(e, e->t - 0.5 * e->dt, 1.5 * kinetic - 0.5 * e->sampling.kinetic, work);
 }
@@ -203,19 +211,30 @@ static bool in_patch(const struct engine *e, const real *x)
     return false;
 }
 
-void engine_residual(struct engine *e)
+static bool wants_residual(const struct engine *e)
 {
     bool wanted = false;
     for (int k = 0; k < e->scene->probes; k++) wanted |= e->scene->probe[k].kind == PROBE_PATCH;
-    if (e->step > 0 || !wanted) return;
-    const struct grid *g = &e->grid;
-    const struct particles *p = &e->part;
+    return wanted && e->step == 0;
+}
+
+void engine_residual_of(struct engine *e, const struct grid *g)
+{
     real x[DIM_MAX];
+    if (!wants_residual(e)) return;
     for (int64_t I = 0; I < g->n; I++) {
         for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
         for (int d = 0; d < g->dim; d++)
             if (in_patch(e, x)) e->residual_step0 = real_max(e->residual_step0, fabs(g->force[d][I]));
     }
+}
+
+void engine_residual(struct engine *e)
+{
+    const struct particles *p = &e->part;
+    real x[DIM_MAX];
+    if (!wants_residual(e)) return;
+    engine_residual_of(e, &e->grid);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         int32_t i = p->list[KIND_PD][k];
         if (particle_on_grid(p, i)) continue;
@@ -229,6 +248,7 @@ void engine_residual(struct engine *e)
 
 static status write_frame(struct engine *e)
 {
+    engine_mesh_show(e);
     make_stress(e);
     TRY(output_frame(e->out, &e->part, e->t, e->step, e->scene->text));
     struct observed o = engine_observed(e);
@@ -237,6 +257,7 @@ static status write_frame(struct engine *e)
 
 static status write_checkpoint(struct engine *e)
 {
+    engine_mesh_show(e);
     e->last_checkpoint = team_clock();
     return checkpoint_write(e->out, e->scene->text, engine_archive, e);
 }

@@ -23,6 +23,8 @@ void engine_breaks(struct engine *e, int64_t broken);
 /* Largest nodal force of the first step, for patch probes. Called between the first map and the motion of the nodes; in
  * a body without material points it looks at the particles only. */
 void engine_residual(struct engine *e);
+/* The same of the nodes of one grid. */
+void engine_residual_of(struct engine *e, const struct grid *g);
 
 /* After every step: frame, checkpoint and progress line if due; INTERRUPTED after a checkpoint if asked to stop. */
 status engine_report(struct engine *e);

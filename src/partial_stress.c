@@ -256,6 +256,12 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         if (dirty[list[k]] == 2) entry_put(partial, list[k], M + k * whole, size, whole - size);
         else partial->index[list[k]] = -1;
     }
+    if (partial->touches + dirties > partial->touched_room) {
+        const int64_t room = 2 * (partial->touches + dirties);
+        partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, room, sizeof *list);
+        partial->touched_room = room;
+    }
+    for (int64_t k = 0; k < dirties; k++) partial->touched[partial->touches++] = list[k];
     memory_free(M);
     memory_free(list);
     memory_free(dirty);
@@ -266,5 +272,6 @@ void partial_stress_free(struct partial_stress *partial)
     memory_free(partial->index);
     memory_free(partial->matrix);
     memory_free(partial->skew);
+    memory_free(partial->touched);
     memset(partial, 0, sizeof *partial);
 }

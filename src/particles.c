@@ -71,6 +71,7 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional)
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(dim, optional); k++) put(p, f, k, memory_new(f->name, n + LANES, f->size));
     for (int kind = 0; kind < KINDS; kind++) p->list[kind] = NEW("particles.list", n, int32_t);
+    p->list_free = NEW("particles.list_free", n, int32_t);
     particles_list(p);
 }
 
@@ -89,6 +90,7 @@ void particles_free(struct particles *p)
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(DIM_MAX, WITH_EVERYTHING); k++) memory_free(get(p, f, k));
     for (int kind = 0; kind < KINDS; kind++) memory_free(p->list[kind]);
+    memory_free(p->list_free);
     *p = (struct particles){0};
 }
 
@@ -157,8 +159,10 @@ void particles_sort(struct particles *p, real spacing, int optional)
 void particles_list(struct particles *p)
 {
     for (int kind = 0; kind < KINDS; kind++) p->n_of[kind] = 0;
+    p->n_free = 0;
     for (int64_t i = 0; i < p->n; i++) {
         assert(p->kind[i] < KINDS);
         p->list[p->kind[i]][p->n_of[p->kind[i]]++] = (int32_t)i;
+        if (p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED)) p->list_free[p->n_free++] = (int32_t)i;
     }
 }

@@ -34,7 +34,7 @@ static int search_near(struct search *s, int32_t i, real radius)
     }
     for (int k = 0; k < n; k++) {
         int32_t j = s->found[k];
-        if (j < p->n && p->body[j] == p->body[i] && !(p->flag[j] & FLAG_DRIVEN)) s->found[kept++] = j;
+        if (j < p->n && p->body[j] == p->body[i] && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED))) s->found[kept++] = j;
     }
     return kept;
 }

@@ -81,6 +81,8 @@ const struct key keys[] = {
     KEY("bodies.particles", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(required, or shape)",
         "particle list (positions, volumes, material, body); sought in the scene's folder, then in the current one",
         .words = "file name, .csv or .h5"),
+    KEY("bodies.frame", KEY_CHOICE, UNIT_NONE, AT(scene_body, frame), ANY, "(mpm.frame)",
+        "its own mpm.frame", .words = "current|reference|auto"),
     KEY("bodies.velocity", KEY_POINT, UNIT_SPEED, AT(scene_body, velocity), ANY, "(0)", "initial velocity"),
 
     KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
@@ -146,8 +148,16 @@ const struct key keys[] = {
     KEY("mpm.transfer", KEY_CHOICE, UNIT_NONE, AT(scene, transfer), ANY,
         "(flip; apic with solver relaxation)",
         "grid to particle; apic not with linear", .words = "flip|apic"),
-    KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, NOWHERE, ANY, "current",
-        "configuration the grid lives in", .words = "current", .later = "reference|auto"),
+    KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, AT(scene, frame), ANY, "current",
+        "configuration the grid lives in; reference: linear cells with their state on the nodes and material points as "
+        "their quadrature, for bodies on a lattice that keep their neighbours and do not meet others (shape and transfer "
+        "have no meaning then); auto: reference where that is so", .words = "current|reference|auto"),
+    KEY("mpm.strain", KEY_CHOICE, UNIT_NONE, AT(scene, small_strain), ANY, "finite",
+        "frame reference: finite, in axes that turn with each cell; small does not know rotations",
+        .words = "finite|small"),
+    KEY("mpm.constants", KEY_CHOICE, UNIT_NONE, AT(scene, lattice_constants), ANY, "isotropic",
+        "frame reference: elastic constants of the material, or of its bonds on the lattice (model bond), which are not "
+        "quite isotropic", .words = "isotropic|lattice"),
     KEY("mpm.origin", KEY_POINT, UNIT_LENGTH, AT(scene, grid_origin), ANY,
         "(on the first mirror across each axis, else at the first body's lower corner)", "a node of the grid",
         .has = FLAG(scene, has_grid_origin)),

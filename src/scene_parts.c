@@ -144,6 +144,7 @@ static status read_body(struct reader *r, const struct node *n, struct scene_bod
     if (file) TRY(read_file(r, file, b));
     if (b->material < 0 && r->scene->materials > 1) return fault_missing(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;
+    if (!node_find(n, "frame")) b->frame = r->scene->frame;
     for (int j = 0; j < number; j++)
         if (strcmp(r->scene->body[j].name, b->name) == 0)
             return fault(r, n, "%s is the name of another body; every body has its own", b->name);
@@ -162,6 +163,7 @@ status read_bodies(struct reader *r, const struct node *root)
     s->body = NEW("bodies", s->bodies, struct scene_body);
     if (one) {
         strcpy(s->body->name, "body");
+        s->body->frame = s->frame;
         r->bounded = true;
         TRY(read_region(r, one, &s->body->shape));
         r->bounded = false;

@@ -18,6 +18,7 @@ static void kinetic_block(const void *context, int64_t first, int64_t end, real 
     const struct particles *p = context;
     for (int64_t i = first; i < end; i++) {
         real speed2 = 0;
+        if (p->flag[i] & FLAG_MESHED) continue;
         for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
         sum[0] += 0.5 * p->mass[i] * speed2;
     }
@@ -127,7 +128,7 @@ real watch_strain_of(const struct particles *p, const struct material *m, const 
 
 real watch_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial)
 {
-    return watch_strain_of(p, m, partial, p->list[KIND_MPM], p->n_of[KIND_MPM]);
+    return watch_strain_of(p, m, partial, p->list_free, p->n_free);
 }
 
 /* Integral of (sigma_y + H a) da. */
@@ -248,13 +249,23 @@ static status alarm_raise(const struct particles *p, int64_t i, real limit, int6
                       (long long)step, t, (int)p->id[i], place, what, dt);
 }
 
-status watch_alarm(const struct particles *p, real limit, int64_t step, real t, real dt)
+/* First of the listed particles that is out of hand, n_all if none is. */
+static int64_t first_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit2)
+{
+    int64_t first = p->n_all;
+#pragma omp parallel for schedule(static) reduction(min : first)
+    for (int64_t k = 0; k < n; k++)
+        if (out_of_hand(p, list[k], limit2) && list[k] < first) first = list[k];
+    return first;
+}
+
+status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, real dt)
 {
     assert(limit > 0);
-    int64_t first = p->n;
-#pragma omp parallel for schedule(static) reduction(min : first)
-    for (int64_t i = 0; i < p->n; i++)
-        if (out_of_hand(p, i, limit * limit) && i < first) first = i;
+    int64_t first = first_out_of_hand(p, p->list[KIND_PD], p->n_of[KIND_PD], limit * limit);
+    const int64_t free = everywhere ? first_out_of_hand(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit * limit)
+                                    : first_out_of_hand(p, p->list_free, p->n_free, limit * limit);
+    if (free < first) first = free;
     return first < p->n ? alarm_raise(p, first, limit, step, t, dt) : OK;
 }
 

@@ -1,0 +1,70 @@
+/* floor 1: a mesh of linear cells in the reference frame: the material point method for bodies that keep their neighbours.
+ *
+ * In the reference frame points never leave their cell, so that weights are constants and velocity and displacement can
+ * stay on the nodes: mapping them to points and back would change nothing but lose energy. What is left is a mesh of
+ * linear cells of two spacings; the material points, at a quarter and three quarters of each edge, are their quadrature
+ * and carry what happened to the material (total Lagrangian MPM: de Vaucorbeil, Nguyen & Hutchinson 2020).
+ *
+ * Layout: nodes are those of a struct grid that never changes. A cell is named by its lowest node I; its corner c has
+ * the node I + mesh->corner[c], and its point of place c lies next to that corner (bit d of c: upper in direction d).
+ *
+ *     cell I     0 .. 2^dim - 1      point[(I << dim) + c]: the particle there, -1 without
+ *
+ * Cells with all their points, of one material, none beside bonds, are whole: runs of them along x are swept eight at a
+ * time in closed form. All other cells that hold points are cut: each has its own stiffness. */
+#ifndef CLEAVE_MESH_H
+#define CLEAVE_MESH_H
+
+#include "grid.h"
+#include "particles.h"
+
+enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX };
+
+/* Whole cells side by side. */
+struct mesh_run {
+    int32_t cell, cells;                 /* first of them; how many                                   */
+    uint8_t material;
+    bool stressed;                       /* a point of it may have passed the trigger                 */
+};
+
+struct mesh {
+    struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused      */
+    int64_t points;                      /* particles in the mesh; 0: there is no mesh                */
+    int32_t corner[CORNERS_MAX];         /* node distance of a cell's corners                         */
+    real *displacement[DIM_MAX];         /* of the nodes                                    [m]       */
+    real *inverse_mass;                  /* of the nodes; 0 where there is no mass          [1/kg]    */
+    int32_t *point;                      /* [grid.n << dim] particle of a place of a cell, -1 without */
+    int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh        */
+    real volume;                         /* of a point in the reference frame               [m^3]     */
+
+    int64_t bands, *band;                /* layers of cells in bands: runs of band b: run[band[b]] .. run[band[b+1]-1] */
+    int64_t runs, runs_room;
+    struct mesh_run *run;
+    int64_t cuts, cuts_room;
+    int32_t *cut;                        /* [cuts] cut cells, ascending                               */
+    real *stiffness;                     /* [cuts] (corners dim)^2, column by column        [N/m]     */
+    real *skew;                          /* the same of forces that bonds off their line leave, NULL: none [N/m] */
+    real *whole;                         /* [materials] stiffness of a whole cell           [N/m]     */
+    real *cut_force;                     /* [cuts] corners x dim                            [N]       */
+    int64_t seen;
+    int32_t *see;                        /* [seen] points whose motion is needed in every step        */
+};
+
+/* Share of node `corner` in a point at `place` of its cell: 3/4 or 1/4 by direction. */
+static inline real mesh_weight(int dim, int corner, int place)
+{
+    real weight = 1;
+    for (int d = 0; d < dim; d++) weight *= (corner ^ place) >> d & 1 ? 0.25 : 0.75;
+    return weight;
+}
+
+/* Slope of that share along direction d [1/h]. */
+static inline real mesh_slope(int dim, int corner, int place, int d)
+{
+    real slope = corner >> d & 1 ? 1 : -1;
+    for (int b = 0; b < dim; b++)
+        if (b != d) slope *= (corner ^ place) >> b & 1 ? 0.25 : 0.75;
+    return slope;
+}
+
+#endif

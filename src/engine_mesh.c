@@ -1,0 +1,157 @@
+/* floor 5: bodies in the reference frame: which they are, their mesh, and its part of a step. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "engine.h"
+#include "engine_report.h"
+#include "memory.h"
+
+/* ---- which frame -------------------------------------------------------------------------------------------- */
+
+/* Why a body cannot be in the reference frame whatever it does; NULL: it can. */
+static const char *obstacle(const struct scene *s, int body)
+{
+    if (s->method == METHOD_PD) return "method pd has no material points";
+    if (s->solver != SOLVER_EXPLICIT) return "static solvers want frame current";
+    if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
+        return "couplings pm to pgg carry bonds on the grid of frame current";
+    if (s->cell != 2) return "it wants mpm.cell 2";
+    if (s->irregularity > 0) return "it wants a regular lattice";
+    if (material_yields(&s->material[s->body[body].material])) return "materials that yield want frame current";
+    return NULL;
+}
+
+/* `auto` leaves bodies that may meet in the frame that lets them. */
+static const char *reluctance(const struct scene *s, int body)
+{
+    const char *why = obstacle(s, body);
+    if (why) return why;
+    if (s->bodies > 1) return "bodies meet on the grid of frame current only";
+    if (s->body[body].file) return "particles from a list need not be a lattice";
+    return NULL;
+}
+
+status engine_frames(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->frame = NEW("engine.frame", s->bodies, struct frame_choice);
+    for (int b = 0; b < s->bodies; b++) {
+        struct frame_choice *f = &e->frame[b];
+        const char *why = s->body[b].frame == FRAME_AUTO ? reluctance(s, b) : obstacle(s, b);
+        if (s->body[b].frame == FRAME_CURRENT) continue;
+        if (why && s->body[b].frame == FRAME_REFERENCE && s->method != METHOD_PD)
+            return status_set(REFUSED, "mpm.frame: body %s cannot be in the reference frame: %s", s->body[b].name, why);
+        f->reference = !why;
+        f->reason = why ? why : s->body[b].frame == FRAME_AUTO ? "it keeps its neighbours and meets no other body" : "the scene says so";
+    }
+    for (int64_t i = 0; i < e->part.n; i++)
+        if (e->frame[e->part.body[i]].reference) e->part.flag[i] |= FLAG_MESHED;
+    return OK;
+}
+
+/* ---- the mesh ------------------------------------------------------------------------------------------------ */
+
+/* Constants of a lattice of bonds under uniform strain: C_abcd = 1/(2V) sum c V V w r e_a e_b e_c e_d, cubic. */
+static void lattice_constants(const struct engine *e, const struct material *m, struct elastic *to)
+{
+    const struct family *f = &e->source.family;
+    const int reach = (int)ceil(f->cutoff / f->spacing), dim = e->part.dim;
+    const real scale = 0.5 * family_micro_modulus(f, m) * f->cell_volume;
+    real c11 = 0, c12 = 0;
+    for (int z = dim > 2 ? -reach : 0; z <= (dim > 2 ? reach : 0); z++)
+        for (int y = dim > 1 ? -reach : 0; y <= (dim > 1 ? reach : 0); y++)
+            for (int x = -reach; x <= reach; x++) {
+                const real xi[DIM_MAX] = {x * f->spacing, y * f->spacing, z * f->spacing}, r = sqrt(dot(xi, xi, dim));
+                if (r == 0 || r > f->cutoff) continue;
+                const real k = scale * family_weight(f, xi, r) / (r * r * r);
+                c11 += k * square(square(xi[0])), c12 += k * square(xi[0] * xi[1]);
+            }
+    to->c11 = c11;
+    if (dim > 1) to->c12 = to->shear = c12;
+}
+
+static void make_constants(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->cell_elastic = NEW("engine.cell_elastic", s->materials, struct elastic);
+    for (int m = 0; m < s->materials; m++) {
+        e->cell_elastic[m] = e->elastic[m];
+        if (s->lattice_constants) lattice_constants(e, &s->material[m], &e->cell_elastic[m]);
+    }
+    e->mesh_source = (struct mesh_source){.elastic = e->cell_elastic, .isotropic = e->elastic, .materials = s->materials,
+                                          .partial = e->uses_partial ? &e->partial : NULL};
+}
+
+static void follow(struct engine *e)
+{
+    mesh_see(&e->mesh, &e->part, &e->bonds, &e->loads);
+    loads_mesh_find(&e->loads, &e->mesh, &e->part);
+    e->partial.touches = 0;
+}
+
+status engine_mesh_make(struct engine *e)
+{
+    make_constants(e);
+    TRY(mesh_make(&e->mesh, &e->part, &e->grid, &e->mesh_source));
+    follow(e);
+    return OK;
+}
+
+real engine_mesh_critical_step(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real density[UINT8_MAX], step = INFINITY;
+    for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
+    if (e->mesh.points > 0) step = mesh_critical_step(&e->mesh, &e->mesh_source, density, s->method == METHOD_ADAPTIVE);
+    return step;
+}
+
+/* ---- in a step ----------------------------------------------------------------------------------------------- */
+
+void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
+{
+    struct mesh *mesh = &e->mesh;
+    const bool finite = !e->scene->small_strain;
+    if (mesh->points == 0) return;
+    mesh_clear(mesh);
+    mesh_points_force(mesh, &e->part, mesh->see, mesh->seen);
+    mesh_force(mesh, e->cell_elastic, finite);
+    engine_residual_of(e, &mesh->grid);
+    if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->cell_elastic, finite);
+    loads_mesh_walls(&e->loads, mesh, middle, e->dt);
+    mesh_move(mesh, e->dt, dt_velocity, e->loads.impulse, &e->loads.held_work);
+    loads_react(&e->loads, &mesh->grid, dt_velocity);
+    mesh_points_move(mesh, &e->part, mesh->see, mesh->seen);
+}
+
+void engine_mesh_show(struct engine *e)
+{
+    if (e->mesh.points == 0) return;
+    mesh_points_move(&e->mesh, &e->part, NULL, e->part.n);
+    mesh_points_stress(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain);
+    loads_mirror(&e->loads, &e->part);
+}
+
+void engine_mesh_before_conversion(struct engine *e)
+{
+    if (e->mesh.points == 0 || !convert_due(&e->part)) return;
+    mesh_points_move(&e->mesh, &e->part, NULL, e->part.n);
+    loads_mirror(&e->loads, &e->part);
+}
+
+void engine_mesh_follow(struct engine *e, int64_t converted)
+{
+    if (e->mesh.points > 0 && (converted > 0 || e->partial.touches > 0)) {
+        e->damped += mesh_follow(&e->mesh, &e->part, &e->mesh_source, e->partial.touched, e->partial.touches);
+        follow(e);
+    }
+    e->partial.touches = 0;
+}
+
+status engine_mesh_alarm(struct engine *e)
+{
+    const bool wild = mesh_outruns(&e->mesh, e->wave_speed);
+    if (wild) mesh_points_move(&e->mesh, &e->part, NULL, e->part.n);
+    return watch_alarm(&e->part, wild, e->wave_speed, e->step, e->t, e->dt);
+}

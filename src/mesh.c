@@ -1,0 +1,389 @@
+/* floor 3: the mesh of the reference frame: who lies where, masses, runs of whole cells, cut cells, and conversion. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "memory.h"
+#include "mesh_parts.h"
+#include "team.h"
+
+#define PLACE_TOLERANCE 1e-6             /* of a cell */
+#define VOLUME_TOLERANCE 1e-9
+
+enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_CUT };
+
+/* ---- who lies where ---------------------------------------------------------------------------------------- */
+
+static status meshed_body(const struct particles *p, int64_t i, const char *what)
+{
+    return status_set(REFUSED, "mpm.frame reference: the particle at (%.6g, %.6g, %.6g) m %s; frame current is expected",
+                      p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
+}
+
+/* Cell and place of particle i, or -1 where it is not at a quarter or three quarters of each edge. */
+static int64_t place_of(const struct mesh *mesh, const struct particles *p, int64_t i)
+{
+    const struct grid *g = &mesh->grid;
+    int64_t cell = 0;
+    int q = 0;
+    for (int d = 0; d < p->dim; d++) {
+        const real at = (p->X[d][i] - g->anchor[d]) / g->h - (real)g->first[d];
+        const int64_t k = (int64_t)floor(at);
+        const bool upper = at - (real)k > 0.5;
+        if (fabs(at - (real)k - (upper ? 0.75 : 0.25)) > PLACE_TOLERANCE) return -1;
+        cell += k * g->stride[d];
+        q |= upper << d;
+    }
+    return (cell << p->dim) + q;
+}
+
+static status points_place(struct mesh *mesh, const struct particles *p)
+{
+    for (int64_t i = 0; i < p->n; i++) {
+        mesh->place[i] = -1;
+        if (!(p->flag[i] & FLAG_MESHED)) continue;
+        const int64_t place = place_of(mesh, p, i);
+        if (place < 0) return meshed_body(p, i, "is not one of two a cell and direction (a lattice, mpm.cell 2, "
+                                                "mpm.origin between particles)");
+        if (mesh->point[place] >= 0) return meshed_body(p, i, "shares its place with another");
+        if (mesh->points == 0) mesh->volume = p->volume0[i];
+        if (fabs(p->volume0[i] - mesh->volume) > VOLUME_TOLERANCE * mesh->volume)
+            return meshed_body(p, i, "has another volume than the others");
+        mesh->place[i] = (int32_t)place;
+        mesh->point[place] = (int32_t)i;
+        mesh->points++;
+    }
+    return OK;
+}
+
+/* Cells round a node hold its points: visits them in a fixed order. */
+static real node_mass(const struct mesh *mesh, const struct particles *p, int64_t I)
+{
+    const int dim = p->dim;
+    real mass = 0;
+    for (int c = (1 << dim) - 1; c >= 0; c--) {
+        const int64_t cell = I - mesh->corner[c];
+        for (int q = 0; q < 1 << dim && cell >= 0; q++) {
+            const int32_t i = mesh->point[(cell << dim) + q];
+            if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
+        }
+    }
+    return mass;
+}
+
+static void node_weigh(struct mesh *mesh, const struct particles *p, int64_t I)
+{
+    mesh->grid.mass[I] = node_mass(mesh, p, I);
+    mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
+}
+
+/* Two bodies on one node would be glued together. */
+static status bodies_apart(const struct mesh *mesh, const struct particles *p)
+{
+    uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t);      /* 1 + body of the node's points */
+    status s = OK;
+    for (int64_t i = 0; i < p->n && s == OK; i++)
+        for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
+            uint8_t *owner = &body[(mesh->place[i] >> p->dim) + mesh->corner[c]];
+            if (*owner != 0 && *owner != p->body[i] + 1)
+                s = meshed_body(p, i, "shares a node with another body, which would move with it");
+            *owner = (uint8_t)(p->body[i] + 1);
+        }
+    memory_free(body);
+    return s;
+}
+
+/* ---- cells -------------------------------------------------------------------------------------------------- */
+
+static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I)
+{
+    const int dim = p->dim;
+    int there = 0;
+    bool alike = true;
+    const int32_t *point = &mesh->point[I << dim];
+    for (int q = 0; q < 1 << dim; q++) {
+        if (point[q] < 0) continue;
+        there++;
+        alike = alike && (point[0] >= 0 && p->material[point[q]] == p->material[point[0]]) &&
+                !(s->partial && s->partial->index && s->partial->index[point[q]] >= 0);
+    }
+    return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_CUT;
+}
+
+static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
+{
+    struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
+    if (last && last->cell + last->cells == I && last->material == material) {
+        last->cells++;
+        return;
+    }
+    if (mesh->runs == mesh->runs_room) {
+        const int64_t room = mesh->runs_room ? 2 * mesh->runs_room : 256;
+        mesh->run = memory_resize("mesh.run", mesh->run, mesh->runs_room, room, sizeof *mesh->run);
+        mesh->runs_room = room;
+    }
+    mesh->run[mesh->runs++] = (struct mesh_run){(int32_t)I, 1, material, false};
+}
+
+/* Layers of cells (last direction) in a band: two bands apart share no node. */
+static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
+
+/* Runs of whole cells band by band, and the list of cut cells. */
+static void cells_list(struct mesh *mesh, const uint8_t *kind, const struct particles *p)
+{
+    const struct grid *g = &mesh->grid;
+    const int last = g->dim - 1;
+    const int64_t layers = g->dim == 1 ? 1 : g->count[last], each = band_layers(g->dim);
+    mesh->runs = mesh->bands = mesh->cuts = 0;
+    for (int64_t layer = 0; layer < layers; layer += each < layers ? each : layers) {
+        const int64_t end = layer + each < layers && each < layers ? layer + each : layers;
+        const int64_t from = g->dim == 1 ? 0 : layer * g->stride[last], to = g->dim == 1 ? g->n : end * g->stride[last];
+        mesh->band[mesh->bands] = mesh->runs;
+        for (int64_t I = from; I < to; I++) {
+            if (kind[I] == CELL_WHOLE) run_add(mesh, I, p->material[mesh->point[I << g->dim]]);
+            if (kind[I] != CELL_CUT) continue;
+            if (mesh->cuts == mesh->cuts_room) {
+                const int64_t room = mesh->cuts_room ? 2 * mesh->cuts_room : 256;
+                mesh->cut = memory_resize("mesh.cut", mesh->cut, mesh->cuts_room, room, sizeof *mesh->cut);
+                mesh->cuts_room = room;
+            }
+            mesh->cut[mesh->cuts++] = (int32_t)I;
+        }
+        mesh->bands++;
+    }
+    mesh->band[mesh->bands] = mesh->runs;
+}
+
+static void cut_make(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I, real *K, real *skew)
+{
+    const int dim = p->dim, n = (1 << dim) * dim;
+    unsigned done = 0;
+    memset(K, 0, sizeof *K * (size_t)(n * n));
+    if (skew) memset(skew, 0, sizeof *skew * (size_t)(n * n));
+    for (int q = 0; q < 1 << dim; q++) {         /* by material */
+        const int32_t first = mesh->point[(I << dim) + q];
+        if (first < 0 || done >> q & 1) continue;
+        real part[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX], turned[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX];
+        int32_t entry[CORNERS_MAX];
+        unsigned places = 0;
+        for (int r = q; r < 1 << dim; r++) {
+            const int32_t i = mesh->point[(I << dim) + r];
+            if (i < 0 || p->material[i] != p->material[first]) continue;
+            entry[r] = s->partial && s->partial->index ? s->partial->index[i] : -1;
+            places |= 1u << r;
+        }
+        done |= places;
+        mesh_stiffness(part, skew ? turned : NULL, &s->elastic[p->material[first]], &s->isotropic[p->material[first]], dim,
+                       mesh->grid.h, mesh->volume, places, s->partial, entry);
+        for (int k = 0; k < n * n; k++) K[k] += part[k];
+        for (int k = 0; k < n * n && skew; k++) skew[k] += turned[k];
+    }
+}
+
+/* Stiffness of every cut cell: taken over where nothing has changed, else made. `dirty` NULL: all. */
+static void cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
+                      const int32_t *old, int64_t olds)
+{
+    const int n = (1 << p->dim) * p->dim, size = n * n;
+    const bool skewed = s->partial && s->partial->skew;
+    real *K = NEW("mesh.stiffness", mesh->cuts * size, real);
+    real *skew = skewed ? NEW("mesh.skew", mesh->cuts * size, real) : NULL;
+    int64_t *from = NEW("mesh.from", mesh->cuts, int64_t);
+    for (int64_t k = 0, q = 0; k < mesh->cuts; k++) {
+        while (q < olds && old[q] < mesh->cut[k]) q++;
+        from[k] = dirty && q < olds && old[q] == mesh->cut[k] && !dirty[mesh->cut[k]] ? q : -1;
+    }
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t k = 0; k < mesh->cuts; k++) {
+        if (from[k] < 0) {
+            cut_make(mesh, p, s, mesh->cut[k], K + k * size, skew ? skew + k * size : NULL);
+            continue;
+        }
+        memcpy(K + k * size, mesh->stiffness + from[k] * size, sizeof *K * (size_t)size);
+        if (skew) memcpy(skew + k * size, mesh->skew + from[k] * size, sizeof *K * (size_t)size);
+    }
+    memory_free(from);
+    memory_free(mesh->stiffness);
+    memory_free(mesh->skew);
+    memory_free(mesh->cut_force);
+    mesh->stiffness = K, mesh->skew = skew;
+    mesh->cut_force = NEW("mesh.cut_force", mesh->cuts * n, real);
+}
+
+static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+{
+    int32_t *old = NEW("mesh.old", mesh->cuts, int32_t);
+    const int64_t olds = mesh->cuts;
+    if (olds > 0) memcpy(old, mesh->cut, sizeof *old * (size_t)olds);
+    uint8_t *kind = NEW("mesh.kind", mesh->grid.n, uint8_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < mesh->grid.n; I++) kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
+    cells_list(mesh, kind, p);
+    cuts_make(mesh, p, s, dirty, old, olds);
+    memory_free(kind);
+    memory_free(old);
+}
+
+/* ---- set-up ------------------------------------------------------------------------------------------------- */
+
+static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like)
+{
+    struct grid *g = &mesh->grid;
+    real from[DIM_MAX], to[DIM_MAX];
+    bool changed;
+    g->dim = p->dim, g->h = like->h;
+    for (int d = 0; d < p->dim; d++) {
+        g->anchor[d] = like->anchor[d];
+        from[d] = INFINITY, to[d] = -INFINITY;
+        for (int64_t i = 0; i < p->n; i++) {
+            from[d] = real_min(from[d], p->X[d][i]);
+            to[d] = real_max(to[d], p->X[d][i]);
+        }
+    }
+    to[0] += LANES * g->h;                       /* whole vectors may be read and added to behind the last cell of a row */
+    TRY(grid_cover(g, from, to, INT32_MAX >> p->dim, &changed));
+    for (int d = 0; d < p->dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
+    mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
+    for (int c = 0; c < 1 << p->dim; c++)
+        for (int d = 0; d < p->dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
+    mesh->point = NEW("mesh.point", g->n << p->dim, int32_t);
+    for (int64_t k = 0; k < g->n << p->dim; k++) mesh->point[k] = -1;
+    mesh->place = NEW("mesh.place", p->n, int32_t);
+    mesh->see = NEW("mesh.see", p->n, int32_t);
+    mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
+    return OK;
+}
+
+static void nodes_start(struct mesh *mesh, const struct particles *p)
+{
+    real *u[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) {
+        u[d] = NEW("mesh.u", p->n, real);
+        for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
+    }
+    mesh_project(mesh, p, u, mesh->displacement);
+    mesh_project(mesh, p, p->v, mesh->grid.velocity);
+    for (int d = 0; d < p->dim; d++) memory_free(u[d]);
+}
+
+static void wholes_make(struct mesh *mesh, const struct mesh_source *s)
+{
+    const int dim = mesh->grid.dim, n = (1 << dim) * dim;
+    mesh->whole = NEW("mesh.whole", (int64_t)s->materials * n * n, real);
+    for (int m = 0; m < s->materials; m++)
+        mesh_stiffness(mesh->whole + (int64_t)m * n * n, NULL, &s->elastic[m], &s->elastic[m], dim, mesh->grid.h, mesh->volume,
+                       (1u << (1 << dim)) - 1, NULL, NULL);
+}
+
+status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source)
+{
+    memset(mesh, 0, sizeof *mesh);
+    int64_t meshed = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->flag[i] & FLAG_MESHED && p->kind[i] != KIND_MPM) p->flag[i] &= (uint8_t)~FLAG_MESHED;
+        meshed += (p->flag[i] & FLAG_MESHED) != 0;
+    }
+    particles_list(p);
+    if (meshed == 0) return OK;
+    TRY(nodes_make(mesh, p, like));
+    TRY(points_place(mesh, p));
+    TRY(bodies_apart(mesh, p));
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < mesh->grid.n; I++) node_weigh(mesh, p, I);
+    wholes_make(mesh, source);
+    cells_sort_out(mesh, p, source, NULL);
+    nodes_start(mesh, p);
+    return OK;
+}
+
+void mesh_free(struct mesh *mesh)
+{
+    grid_free(&mesh->grid);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(mesh->displacement[d]);
+    memory_free(mesh->inverse_mass);
+    memory_free(mesh->point);
+    memory_free(mesh->place);
+    memory_free(mesh->band);
+    memory_free(mesh->run);
+    memory_free(mesh->cut);
+    memory_free(mesh->stiffness);
+    memory_free(mesh->skew);
+    memory_free(mesh->whole);
+    memory_free(mesh->cut_force);
+    memory_free(mesh->see);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+/* ---- conversion ------------------------------------------------------------------------------------------------ */
+
+/* Returns the energy that its motion at the nodes had over its own. */
+static real release(struct mesh *mesh, struct particles *p, int64_t i)
+{
+    const int64_t place = mesh->place[i];
+    real energy = 0;
+    for (int d = 0; d < p->dim; d++) {
+        for (int c = 0; c < 1 << p->dim; c++)
+            energy += 0.5 * p->mass[i] * mesh_weight(p->dim, c, place & ((1 << p->dim) - 1)) *
+                      square(mesh->grid.velocity[d][(place >> p->dim) + mesh->corner[c]]);
+        energy -= 0.5 * p->mass[i] * square(p->v[d][i]);
+    }
+    mesh->place[i] = -1;
+    mesh->point[place] = -1;
+    mesh->points--;
+    p->flag[i] &= (uint8_t)~FLAG_MESHED;
+    for (int c = 0; c < 1 << p->dim; c++) {
+        const int64_t I = (place >> p->dim) + mesh->corner[c];
+        node_weigh(mesh, p, I);
+        for (int d = 0; d < p->dim && mesh->grid.mass[I] == 0; d++) mesh->grid.velocity[d][I] = mesh->displacement[d][I] = 0;
+    }
+    return energy;
+}
+
+real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n)
+{
+    real energy = 0;
+    if (!mesh->place) return 0;
+    uint8_t *dirty = changed ? NEW("mesh.dirty", mesh->grid.n, uint8_t) : NULL;
+    for (int64_t k = 0; k < n && changed; k++)
+        if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
+    for (int64_t i = 0; i < p->n; i++)
+        if (mesh->place[i] >= 0 && p->kind[i] != KIND_MPM) {
+            if (dirty) dirty[mesh->place[i] >> p->dim] = 1;
+            energy += release(mesh, p, i);
+        }
+    particles_list(p);
+    cells_sort_out(mesh, p, source, dirty);
+    memory_free(dirty);
+    return energy;
+}
+
+void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
+{
+    if (!mesh->place) return;
+    uint8_t *seen = NEW("mesh.seen", p->n, uint8_t);
+    for (int64_t row = 0; row < b->rows; row++) seen[b->particle[row]] = 1;
+    for (int k = 0; k < l->n; k++)
+        for (int64_t q = 0; q < l->load[k].n; q++) seen[l->load[k].particle[q]] = 1;
+    for (int64_t k = 0; k < b->slots * LANES; k++) {      /* images that bonds look at move as their sources */
+        int64_t i = b->nbr[k];
+        while (i >= p->n) i = l->image[i - p->n].source;
+        if (b->nbr[k] >= p->n) seen[i] = 1;
+    }
+    mesh->seen = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (seen[i] && mesh->place[i] >= 0) mesh->see[mesh->seen++] = (int32_t)i;
+    memory_free(seen);
+}
+
+status mesh_archive(struct mesh *mesh, struct archive *a)
+{
+    if (mesh->grid.n == 0) return OK;
+    for (int d = 0; d < mesh->grid.dim; d++) {
+        char name[48];
+        snprintf(name, sizeof name, "mesh/displacement%d", d);
+        TRY(a->exchange(a, name, mesh->displacement[d], (size_t)mesh->grid.n * sizeof(real)));
+        snprintf(name, sizeof name, "mesh/velocity%d", d);
+        TRY(a->exchange(a, name, mesh->grid.velocity[d], (size_t)mesh->grid.n * sizeof(real)));
+    }
+    return OK;
+}

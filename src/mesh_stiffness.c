@@ -1,0 +1,116 @@
+/* floor 3: stiffness of single cells of the mesh, point by point, and the time step they allow. */
+#include <math.h>
+#include <string.h>
+
+#include "memory.h"
+#include "mesh_parts.h"
+#include "mesh_point.h"
+
+/* Stress that a point gives for the displacement gradient g: symmetric part of C : sym g less what bonds carry, and the skew
+ * part that goes with it. */
+static void given(const struct elastic *m, const struct elastic *isotropic, const struct partial_stress *partial,
+                  int32_t entry, const real *g, real *P, real *S, int dim)
+{
+    const int n = symmetric_count(dim), rows = n - dim;
+    real s[SYM_MAX] = {0}, left[SYM_MAX] = {0};
+    mesh_point_stress(isotropic, g, s, dim);
+    mesh_point_stress(m, g, left, dim);
+    memset(S, 0, sizeof(real) * (size_t)(dim * dim));
+    if (entry >= 0) {
+        const real *M = partial->matrix + (int64_t)entry * n * n;
+        for (int k = 0; k < n; k++) left[k] -= dot(&M[k * n], s, n);
+        for (int k = 0; k < rows && partial->skew; k++) {
+            int a, b;
+            symmetric_axes(dim, dim + k, &a, &b);
+            const real skew = -dot(partial->skew + ((int64_t)entry * rows + k) * n, s, n);
+            S[a * dim + b] += skew, S[b * dim + a] -= skew;
+        }
+    }
+    for (int k = 0; k < n; k++) {
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
+        P[a * dim + b] = P[b * dim + a] = left[k];
+    }
+}
+
+void mesh_stiffness(real *K, real *skew, const struct elastic *m, const struct elastic *isotropic, int dim, real h, real V, unsigned places,
+                    const struct partial_stress *partial, const int32_t *entry)
+{
+    const int corners = 1 << dim, n = corners * dim;
+    memset(K, 0, sizeof *K * (size_t)(n * n));
+    if (skew) memset(skew, 0, sizeof *skew * (size_t)(n * n));
+    for (int q = 0; q < corners; q++) {
+        if (!(places >> q & 1)) continue;
+        for (int column = 0; column < n; column++) {
+            real g[DIM_MAX * DIM_MAX] = {0}, P[DIM_MAX * DIM_MAX], S[DIM_MAX * DIM_MAX];
+            for (int b = 0; b < dim; b++) g[column % dim * dim + b] = mesh_slope(dim, column / dim, q, b) / h;
+            given(m, isotropic, partial, entry ? entry[q] : -1, g, P, S, dim);
+            for (int c = 0; c < corners; c++)
+                for (int a = 0; a < dim; a++)
+                    for (int b = 0; b < dim; b++) {
+                        const real slope = V * mesh_slope(dim, c, q, b) / h;
+                        K[column * n + c * dim + a] += slope * P[a * dim + b];
+                        if (skew) skew[column * n + c * dim + a] += slope * S[a * dim + b];
+                    }
+        }
+    }
+}
+
+/* ---- time step -------------------------------------------------------------------------------------------- */
+
+enum { ITERATIONS = 200 };
+
+/* Largest eigenvalue of m^-1 K by power iteration on m^-1/2 K m^-1/2, a little above [1/s^2]. */
+static real largest_eigenvalue(const real *K, const real *mass, int n, int dim)
+{
+    real x[CELL_UNKNOWNS_MAX], y[CELL_UNKNOWNS_MAX], value = 0;
+    for (int a = 0; a < n; a++) x[a] = 1 + 0.37 * a - 0.11 * a * a;      /* no mode is orthogonal to it */
+    for (int k = 0; k < ITERATIONS; k++) {
+        real size = 0;
+        for (int a = 0; a < n; a++) size += x[a] * x[a];
+        for (int a = 0; a < n; a++) x[a] /= sqrt(size);
+        for (int a = 0; a < n; a++) {
+            y[a] = 0;
+            for (int b = 0; b < n; b++) y[a] += K[b * n + a] * x[b] / sqrt(mass[a / dim] * mass[b / dim]);
+        }
+        value = sqrt(dot(y, y, n));
+        memcpy(x, y, sizeof x);
+    }
+    return value * 1.001;
+}
+
+/* A mesh moves no faster than its stiffest cell would alone, with the masses of its own points. */
+static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
+{
+    const int corners = 1 << dim;
+    real K[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX], mass[CORNERS_MAX] = {0};
+    for (int c = 0; c < corners; c++)
+        for (int q = 0; q < corners; q++)
+            if (places >> q & 1) mass[c] += density * V * mesh_weight(dim, c, q);
+    mesh_stiffness(K, NULL, m, m, dim, h, V, places, NULL, NULL);
+    return largest_eigenvalue(K, mass, corners * dim, dim);
+}
+
+static unsigned places_of(const struct mesh *mesh, int64_t I)
+{
+    const int dim = mesh->grid.dim;
+    unsigned places = 0;
+    for (int q = 0; q < 1 << dim; q++) places |= (unsigned)(mesh->point[(I << dim) + q] >= 0) << q;
+    return places;
+}
+
+real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any)
+{
+    const int dim = mesh->grid.dim, sets = 1 << (1 << dim);
+    bool *there = NEW("mesh.there", sets, bool);
+    for (int64_t k = 0; k < mesh->cuts; k++) there[places_of(mesh, mesh->cut[k])] = true;
+    real most = 0;
+    for (int set = 1; set < sets; set++) {
+        if (!any && !there[set] && set != sets - 1) continue;
+        for (int m = 0; m < source->materials; m++)
+            most = real_max(most, cell_eigenvalue(&source->elastic[m], dim, mesh->grid.h, mesh->volume, density[m],
+                                                  (unsigned)set));
+    }
+    memory_free(there);
+    return 2 / sqrt(most);
+}
