@@ -35,12 +35,20 @@ struct conversion {
     int64_t peak_bonds;                  /* directed bonds stored, most at any time                   */
 };
 
+/* Who must bring particles up to date whose motion is kept elsewhere (mesh.h), before bonds are made between them. */
+struct conversion_look {
+    void (*look)(void *context, const int32_t *list, int64_t n);
+    void *context;
+};
+
 /* Converts every material point flagged FLAG_STRESSED or FLAG_CUT (as the criteria say), both ends of a bond that
  * broke, and with `block` their neighbours within the horizon; clears the flags of the step. Rows of bonds and partial
  * stresses (`partial` NULL: hand-shake without them) are rebuilt only if something converted. Bonds that are past their
- * limit when made are cut at once and their energy is booked as fracture. Returns the number of particles converted. */
+ * limit when made are cut at once and their energy is booked as fracture. `look` may be NULL. Returns the number of particles
+ * converted. */
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-                const struct bond_source *source, struct partial_stress *partial, real t);
+                const struct bond_source *source, struct partial_stress *partial,
+                const struct conversion_look *look, real t);
 
 /* Marks as peridynamic, before step 0, every particle one of whose bonds a pre-crack cuts (Zeng et al. 2022,
  * eq. 28), and those in `region` (NULL: none). */

@@ -49,6 +49,7 @@ struct engine {
     struct mesh mesh;                    /* of the bodies in the reference frame                      */
     struct mesh_source mesh_source;
     struct elastic *cell_elastic;        /* [materials] constants of its cells                        */
+    real mesh_speed;                     /* largest component of a nodal velocity              [m/s]  */
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
     struct solver solver;
@@ -105,14 +106,14 @@ status solver_make(struct engine *e);
 status engine_step(struct engine *e);
 void engine_free(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
- * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks; before and after
- * conversion; the alarm. */
+ * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
+ * of some; after conversion; the alarm. */
 status engine_frames(struct engine *e);
 status engine_mesh_make(struct engine *e);
 real engine_mesh_critical_step(const struct engine *e);
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity);
 void engine_mesh_show(struct engine *e);
-void engine_mesh_before_conversion(struct engine *e);
+void engine_mesh_look(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
 status engine_mesh_alarm(struct engine *e);
 /* After the run: the same scene on material points alone, if a pulse probe wants to be compared with it. */

@@ -37,15 +37,19 @@ struct mesh {
     int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh        */
     real volume;                         /* of a point in the reference frame               [m^3]     */
 
+    int64_t rows;                        /* of nodes along x                                          */
+    int32_t *span;                       /* [rows][2] first node of a row that has mass, and behind the last */
     int64_t bands, *band;                /* layers of cells in bands: runs of band b: run[band[b]] .. run[band[b+1]-1] */
     int64_t runs, runs_room;
     struct mesh_run *run;
     int64_t cuts, cuts_room;
     int32_t *cut;                        /* [cuts] cut cells, ascending                               */
+    uint8_t *cut_material;               /* [cuts] of their points, the one that converts first       */
     real *stiffness;                     /* [cuts] (corners dim)^2, column by column        [N/m]     */
     real *skew;                          /* the same of forces that bonds off their line leave, NULL: none [N/m] */
     real *whole;                         /* [materials] stiffness of a whole cell           [N/m]     */
     real *cut_force;                     /* [cuts] corners x dim                            [N]       */
+    bool *cut_stressed;                  /* [cuts] as of a run                                        */
     int64_t seen;
     int32_t *see;                        /* [seen] points whose motion is needed in every step        */
 };
@@ -53,9 +57,10 @@ struct mesh {
 /* Share of node `corner` in a point at `place` of its cell: 3/4 or 1/4 by direction. */
 static inline real mesh_weight(int dim, int corner, int place)
 {
-    real weight = 1;
-    for (int d = 0; d < dim; d++) weight *= (corner ^ place) >> d & 1 ? 0.25 : 0.75;
-    return weight;
+    static const real weight[DIM_MAX + 1][CORNERS_MAX] = {     /* by the directions in which they are apart */
+        {1}, {0.75, 0.25}, {0.5625, 0.1875, 0.1875, 0.0625},
+        {0.421875, 0.140625, 0.140625, 0.046875, 0.140625, 0.046875, 0.046875, 0.015625}};
+    return weight[dim][corner ^ place];
 }
 
 /* Slope of that share along direction d [1/h]. */

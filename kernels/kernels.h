@@ -149,16 +149,15 @@ void grid_remapped(struct grid *g, real smallest_mass);
 
 /* f = 0. */
 void mesh_clear(struct mesh *mesh);
-/* Does a node move faster than `limit` [m/s], or is a velocity no number? */
-bool mesh_outruns(const struct mesh *mesh, real limit);
 
 /* Adds the internal forces of its cells to its nodes; runs whose points may be past their trigger are marked `stressed`.
  * `finite`: strain of Biot in axes that turn with the cell, else the symmetric gradient (mesh_law.h). */
 void mesh_force(struct mesh *mesh, const struct elastic *m, bool finite);
 
 /* v += dt_velocity f/m, u += dt v of the nodes; walls prescribe their velocity, and what they gave joins impulse [N s] and
- * work [J]. f becomes m dv/dt_velocity of each node. */
-void mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work);
+ * work [J]. f becomes m dv/dt_velocity of each node. Returns the largest component of a velocity, infinite where one is no
+ * number [m/s]. */
+real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work);
 
 /* Position and velocity of its points among the n listed particles (list NULL: all). */
 void mesh_points_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
@@ -166,7 +165,7 @@ void mesh_points_move(const struct mesh *mesh, struct particles *p, const int32_
 void mesh_points_force(struct mesh *mesh, const struct particles *p, const int32_t *list, int64_t n);
 /* Cauchy stress and volume of all its points, for whoever looks. */
 void mesh_points_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite);
-/* FLAG_STRESSED for points past their trigger, in cut cells and in the runs that mesh_force marked. */
+/* FLAG_STRESSED for points past their trigger, in the cut cells and runs that mesh_force marked. */
 void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite);
 
 /* Sum of 1/2 m v^2 of the nodes, and of 1/4 (dt f)^2/m [J]. */

@@ -6,6 +6,7 @@
 
 #include "mesh_cut.h"
 #include "mesh_law.h"
+#include "mesh_point.h"
 
 /* ---- whole cells ------------------------------------------------------------------------------------------ */
 
@@ -54,16 +55,17 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
 
-static ALWAYS_INLINE void bands_force(struct mesh *mesh, const struct elastic *m, const int dim, const bool finite)
-{
-#pragma omp parallel
-    for (int colour = 0; colour < 2; colour++) {
-#pragma omp for schedule(static)
-        for (int64_t b = colour; b < mesh->bands; b += 2)
-            for (int64_t r = mesh->band[b]; r < mesh->band[b + 1]; r++)
-                run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], dim, finite);
+/* Two colours of bands. The parallel region stands in each instance, where dimension and strain are literals. */
+#define BANDS(D, FINITE)                                                                                             \
+    static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                               \
+    {                                                                                                                \
+        _Pragma("omp parallel") for (int colour = 0; colour < 2; colour++)                                           \
+        {                                                                                                            \
+            _Pragma("omp for schedule(static)") for (int64_t b = colour; b < mesh->bands; b += 2)                    \
+                for (int64_t r = mesh->band[b]; r < mesh->band[b + 1]; r++)                                          \
+                    run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], D, FINITE);                            \
+        }                                                                                                            \
     }
-}
 
 /* ---- cut cells -------------------------------------------------------------------------------------------- */
 
@@ -109,7 +111,23 @@ static ALWAYS_INLINE void cut_balance(real h, const real *u, const real *U, real
     }
 }
 
-static ALWAYS_INLINE void cut_force(const struct mesh *mesh, int64_t k, const int dim, const bool finite)
+/* May a point of the cell be past the trigger? The bound of whole cells (mesh_law.h), of the corners' displacements. */
+static ALWAYS_INLINE bool cut_tension(const struct elastic *m, real h, const real *u, const int dim)
+{
+    real e[DIM_MAX * DIM_MAX], s[SYM_MAX], bent = 0;
+    for (int a = 0; a < dim; a++)
+        for (int M = 1; M < 1 << dim; M++) {
+            real mode = 0;
+            for (int c = 0; c < 1 << dim; c++) mode += (__builtin_popcount(M & ~c) & 1 ? -1 : 1) * u[c * dim + a];
+            mode /= h * (1 << (dim - __builtin_popcount(M)));
+            if (M & (M - 1)) bent += fabs(mode);
+            else e[a * dim + (M == 1 ? 0 : M == 2 ? 1 : 2)] = mode;
+        }
+    mesh_point_stress(m, e, s, dim);
+    return stress_bound(s, dim) + bent * (m->c11 + m->shear) * 0.25 > m->trigger;
+}
+
+static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct elastic *m, int64_t k, const int dim, const bool finite)
 {
     const int corners = 1 << dim, n = corners * dim;
     const bool turns = finite && dim > 1;
@@ -119,6 +137,7 @@ static ALWAYS_INLINE void cut_force(const struct mesh *mesh, int64_t k, const in
     times(mesh->stiffness + k * n * n, u, pull, n);
     for (int a = 0; a < n; a++) out[a] = -pull[a];
     if (turns) cut_balance(mesh->grid.h, u, U, out, dim);
+    mesh->cut_stressed[k] = cut_tension(m, mesh->grid.h, u, dim);
     if (mesh->skew) {
         times(mesh->skew + k * n * n, u, pull, n);
         for (int a = 0; a < n; a++) out[a] -= pull[a];
@@ -131,26 +150,36 @@ static ALWAYS_INLINE void cut_force(const struct mesh *mesh, int64_t k, const in
 }
 
 /* Few, and several may share a node: computed by the team, added in order. */
-static ALWAYS_INLINE void cuts_force(struct mesh *mesh, const int dim, const bool finite)
+static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
     const int corners = 1 << dim;
-#pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < mesh->cuts; k++) cut_force(mesh, k, dim, finite);
     for (int64_t k = 0; k < mesh->cuts; k++)
         for (int c = 0; c < corners; c++)
             for (int a = 0; a < dim; a++)
                 mesh->grid.force[a][mesh->cut[k] + mesh->corner[c]] += mesh->cut_force[(k * corners + c) * dim + a];
 }
 
+#define CUTS(D, FINITE)                                                                                              \
+    static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                \
+    {                                                                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < mesh->cuts; k++)                        \
+            cut_force(mesh, &m[mesh->cut_material[k]], k, D, FINITE);                                                \
+        cuts_add(mesh, D);                                                                                           \
+    }
+
 /* ---- all -------------------------------------------------------------------------------------------------- */
+
+#define MESH_FORCES(X) X(1, 0) X(2, 0) X(2, 1) X(3, 0) X(3, 1)
+MESH_FORCES(BANDS)
+MESH_FORCES(CUTS)
 
 void mesh_force(struct mesh *mesh, const struct elastic *m, bool finite)
 {
-    switch (mesh->grid.dim * 2 + finite) {
-    case 2: case 3: bands_force(mesh, m, 1, false); cuts_force(mesh, 1, false); break;
-    case 4: bands_force(mesh, m, 2, false); cuts_force(mesh, 2, false); break;
-    case 5: bands_force(mesh, m, 2, true); cuts_force(mesh, 2, true); break;
-    case 6: bands_force(mesh, m, 3, false); cuts_force(mesh, 3, false); break;
-    case 7: bands_force(mesh, m, 3, true); cuts_force(mesh, 3, true); break;
+#define CASE(D, FINITE)                                                                                              \
+    if (mesh->grid.dim == D && (D == 1 || finite == FINITE)) {                                                       \
+        bands_force_##D##_##FINITE(mesh, m);                                                                         \
+        cuts_force_##D##_##FINITE(mesh, m);                                                                          \
     }
+    MESH_FORCES(CASE)
+#undef CASE
 }

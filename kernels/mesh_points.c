@@ -18,20 +18,24 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
     }
 }
 
-static ALWAYS_INLINE void points_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n, const int dim)
-{
-#pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < n; k++) {
-        const int64_t i = list ? list[k] : k;
-        if (mesh->place[i] >= 0) point_move(mesh, p, i, dim);
+#define MOVE(D)                                                                                                      \
+    static void points_move_##D(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)        \
+    {                                                                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < n; k++)                                 \
+        {                                                                                                            \
+            const int64_t i = list ? list[k] : k;                                                                    \
+            if (mesh->place[i] >= 0) point_move(mesh, p, i, D);                                                      \
+        }                                                                                                            \
     }
-}
+MOVE(1)
+MOVE(2)
+MOVE(3)
 
 void mesh_points_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
 {
-    if (p->dim == 1) points_move(mesh, p, list, n, 1);
-    else if (p->dim == 2) points_move(mesh, p, list, n, 2);
-    else points_move(mesh, p, list, n, 3);
+    if (p->dim == 1) points_move_1(mesh, p, list, n);
+    else if (p->dim == 2) points_move_2(mesh, p, list, n);
+    else points_move_3(mesh, p, list, n);
 }
 
 void mesh_points_force(struct mesh *mesh, const struct particles *p, const int32_t *list, int64_t n)
@@ -50,7 +54,7 @@ void mesh_points_force(struct mesh *mesh, const struct particles *p, const int32
 static void point_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t i, bool finite)
 {
     const int dim = p->dim, n = symmetric_count(dim);
-    real R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, e[9], s[SYM_MAX], S[9], T[9], det = 1;
+    real R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, e[9], s[SYM_MAX] = {0}, S[9], T[9], det = 1;
     mesh_point_strain(mesh, i, R, e, dim, finite);
     mesh_point_stress(m, e, s, dim);
     if (!finite) {
@@ -108,18 +112,22 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
     }
 }
 
-static ALWAYS_INLINE void cells_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, const int dim, bool finite)
-{
-#pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < mesh->cuts; k++) cell_mark(mesh, p, m, mesh->cut[k], dim, finite);
-    for (int64_t r = 0; r < mesh->runs; r++)
-        for (int64_t k = 0; mesh->run[r].stressed && k < mesh->run[r].cells; k++)
-            cell_mark(mesh, p, m, mesh->run[r].cell + k, dim, finite);
-}
+#define MARK(D)                                                                                                      \
+    static void cells_mark_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)   \
+    {                                                                                                                \
+        for (int64_t k = 0; k < mesh->cuts; k++)                                                                     \
+            if (mesh->cut_stressed[k]) cell_mark(mesh, p, m, mesh->cut[k], D, finite);                               \
+        for (int64_t r = 0; r < mesh->runs; r++)                                                                     \
+            for (int64_t k = 0; mesh->run[r].stressed && k < mesh->run[r].cells; k++)                                \
+                cell_mark(mesh, p, m, mesh->run[r].cell + k, D, finite);                                             \
+    }
+MARK(1)
+MARK(2)
+MARK(3)
 
 void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)
 {
-    if (p->dim == 1) cells_mark(mesh, p, m, 1, finite);
-    else if (p->dim == 2) cells_mark(mesh, p, m, 2, finite);
-    else cells_mark(mesh, p, m, 3, finite);
+    if (p->dim == 1) cells_mark_1(mesh, p, m, finite);
+    else if (p->dim == 2) cells_mark_2(mesh, p, m, finite);
+    else cells_mark_3(mesh, p, m, finite);
 }

@@ -132,6 +132,22 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     memory_free(found.at);
 }
 
+/* Everybody within the horizon of those just converted, changed[had] and on: bonds are about to see them. */
+static void look_at(const struct conversion_look *look, const struct particles *p, const struct bond_source *source,
+                    const struct index_list *changed, int64_t had)
+{
+    struct index_list found = {0}, near = {0};
+    if (!look) return;
+    for (int64_t k = had; k < changed->n; k++) {
+        const int n = near_particle(source, p, changed->at[k], &found);
+        list_add(&near, changed->at[k]);
+        for (int m = 0; m < n; m++) list_add(&near, root_of(source, p, found.at[m]));
+    }
+    if (near.n > 0) look->look(look->context, near.at, near.n);
+    memory_free(found.at);
+    memory_free(near.at);
+}
+
 /* Rows for the new who-is-what; bonds made past their limit break at once. */
 static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
 {
@@ -145,7 +161,8 @@ static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_s
 }
 
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-                const struct bond_source *source, struct partial_stress *partial, real t)
+                const struct bond_source *source, struct partial_stress *partial,
+                const struct conversion_look *look, real t)
 {
     if (!convert_due(p)) return 0;
     struct index_list changed = {0}, touched = {0};
@@ -154,6 +171,7 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
         had = changed.n;
         list_stiffened(&touched, source, p);
         convert_marked(c, rule, p, source, &changed, t);
+        look_at(look, p, source, &changed, had);
     } while (changed.n > had && rebuild(p, b, source) > 0);
     for (int64_t k = 0; k < changed.n; k++) list_add(&touched, changed.at[k]);
     if (partial && touched.n > 0) partial_stress_make(partial, p, b, source, touched.at, touched.n);

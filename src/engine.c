@@ -142,9 +142,9 @@ status engine_step(struct engine *e)
     loads_mirror(&e->loads, p);
     lap(&e->laps, LAP_GRID);
     engine_breaks(e, broken);
-    engine_mesh_before_conversion(e);
     const int64_t converted = convert(&e->conversion, &s->conversion, p, &e->bonds, &e->source,
-                                      e->uses_partial ? &e->partial : NULL, e->t);   /* 8: material point -> peridynamic */
+                                      e->uses_partial ? &e->partial : NULL,
+                                      &(struct conversion_look){engine_mesh_look, e}, e->t);   /* 8: material point -> peridynamic */
     if (converted > 0) {
         if (e->uses_partial && s->transfer == TRANSFER_FLIP && p->n_free > 0) rim_make(&e->rim, p, &e->source);
         e->sort_needed = true;

@@ -120,7 +120,7 @@ void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
     engine_residual_of(e, &mesh->grid);
     if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->cell_elastic, finite);
     loads_mesh_walls(&e->loads, mesh, middle, e->dt);
-    mesh_move(mesh, e->dt, dt_velocity, e->loads.impulse, &e->loads.held_work);
+    e->mesh_speed = mesh_move(mesh, e->dt, dt_velocity, e->loads.impulse, &e->loads.held_work);
     loads_react(&e->loads, &mesh->grid, dt_velocity);
     mesh_points_move(mesh, &e->part, mesh->see, mesh->seen);
 }
@@ -133,10 +133,11 @@ void engine_mesh_show(struct engine *e)
     loads_mirror(&e->loads, &e->part);
 }
 
-void engine_mesh_before_conversion(struct engine *e)
+void engine_mesh_look(void *engine, const int32_t *list, int64_t n)
 {
-    if (e->mesh.points == 0 || !convert_due(&e->part)) return;
-    mesh_points_move(&e->mesh, &e->part, NULL, e->part.n);
+    struct engine *e = engine;
+    if (e->mesh.points == 0) return;
+    mesh_points_move(&e->mesh, &e->part, list, n);
     loads_mirror(&e->loads, &e->part);
 }
 
@@ -151,7 +152,7 @@ void engine_mesh_follow(struct engine *e, int64_t converted)
 
 status engine_mesh_alarm(struct engine *e)
 {
-    const bool wild = mesh_outruns(&e->mesh, e->wave_speed);
+    const bool wild = e->mesh.points > 0 && !(e->mesh_speed <= e->wave_speed / sqrt(e->part.dim));
     if (wild) mesh_points_move(&e->mesh, &e->part, NULL, e->part.n);
     return watch_alarm(&e->part, wild, e->wave_speed, e->step, e->t, e->dt);
 }

@@ -128,6 +128,19 @@ static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 /* Layers of cells (last direction) in a band: two bands apart share no node. */
 static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
 
+/* Where each row of nodes has mass. */
+static void rows_span(struct mesh *mesh)
+{
+    const struct grid *g = &mesh->grid;
+#pragma omp parallel for schedule(static)
+    for (int64_t r = 0; r < mesh->rows; r++) {
+        int64_t first = r * g->count[0], end = first + g->count[0];
+        while (first < end && g->mass[first] == 0) first++;
+        while (end > first && g->mass[end - 1] == 0) end--;
+        mesh->span[2 * r] = (int32_t)first, mesh->span[2 * r + 1] = (int32_t)end;
+    }
+}
+
 /* Runs of whole cells band by band, and the list of cut cells. */
 static void cells_list(struct mesh *mesh, const uint8_t *kind, const struct particles *p)
 {
@@ -152,6 +165,18 @@ static void cells_list(struct mesh *mesh, const uint8_t *kind, const struct part
         mesh->bands++;
     }
     mesh->band[mesh->bands] = mesh->runs;
+}
+
+/* Of the points of a cell, that with the lowest trigger. */
+static uint8_t cut_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I)
+{
+    int least = -1;
+    for (int q = 0; q < 1 << p->dim; q++) {
+        const int32_t i = mesh->point[(I << p->dim) + q];
+        if (i < 0) continue;
+        if (least < 0 || s->elastic[p->material[i]].trigger < s->elastic[least].trigger) least = p->material[i];
+    }
+    return (uint8_t)least;
 }
 
 static void cut_make(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I, real *K, real *skew)
@@ -206,6 +231,11 @@ static void cuts_make(struct mesh *mesh, const struct particles *p, const struct
     memory_free(mesh->stiffness);
     memory_free(mesh->skew);
     memory_free(mesh->cut_force);
+    memory_free(mesh->cut_stressed);
+    memory_free(mesh->cut_material);
+    mesh->cut_stressed = NEW("mesh.cut_stressed", mesh->cuts, bool);
+    mesh->cut_material = NEW("mesh.cut_material", mesh->cuts, uint8_t);
+    for (int64_t k = 0; k < mesh->cuts; k++) mesh->cut_material[k] = cut_material(mesh, p, s, mesh->cut[k]);
     mesh->stiffness = K, mesh->skew = skew;
     mesh->cut_force = NEW("mesh.cut_force", mesh->cuts * n, real);
 }
@@ -218,6 +248,7 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
     uint8_t *kind = NEW("mesh.kind", mesh->grid.n, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++) kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
+    rows_span(mesh);
     cells_list(mesh, kind, p);
     cuts_make(mesh, p, s, dirty, old, olds);
     memory_free(kind);
@@ -249,6 +280,8 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     mesh->point = NEW("mesh.point", g->n << p->dim, int32_t);
     for (int64_t k = 0; k < g->n << p->dim; k++) mesh->point[k] = -1;
     mesh->place = NEW("mesh.place", p->n, int32_t);
+    mesh->rows = g->n / g->count[0];
+    mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->see = NEW("mesh.see", p->n, int32_t);
     mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
     return OK;
@@ -310,7 +343,10 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->skew);
     memory_free(mesh->whole);
     memory_free(mesh->cut_force);
+    memory_free(mesh->cut_stressed);
+    memory_free(mesh->cut_material);
     memory_free(mesh->see);
+    memory_free(mesh->span);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -362,8 +398,8 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
     if (!mesh->place) return;
     uint8_t *seen = NEW("mesh.seen", p->n, uint8_t);
     for (int64_t row = 0; row < b->rows; row++) seen[b->particle[row]] = 1;
-    for (int k = 0; k < l->n; k++)
-        for (int64_t q = 0; q < l->load[k].n; q++) seen[l->load[k].particle[q]] = 1;
+    for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
+        for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
     for (int64_t k = 0; k < b->slots * LANES; k++) {      /* images that bonds look at move as their sources */
         int64_t i = b->nbr[k];
         while (i >= p->n) i = l->image[i - p->n].source;

@@ -257,9 +257,9 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         else partial->index[list[k]] = -1;
     }
     if (partial->touches + dirties > partial->touched_room) {
-        const int64_t room = 2 * (partial->touches + dirties);
-        partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, room, sizeof *list);
-        partial->touched_room = room;
+        const int64_t more = 2 * (partial->touches + dirties);
+        partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *list);
+        partial->touched_room = more;
     }
     for (int64_t k = 0; k < dirties; k++) partial->touched[partial->touches++] = list[k];
     memory_free(M);

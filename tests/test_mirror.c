@@ -179,8 +179,8 @@ static void test_mirror_convert(void **state)
     for (int64_t j = 0; j < whole->n; j++)
         if (fabs(fabs(whole->X[0][j]) - part->X[0][marked]) + fabs(fabs(whole->X[1][j]) - part->X[1][marked]) < 1e-9)
             whole->flag[j] |= FLAG_STRESSED;
-    int64_t converted = convert(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], 1e-6);
-    assert_int_equal(convert(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], 1e-6),
+    int64_t converted = convert(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], NULL, 1e-6);
+    assert_int_equal(convert(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], NULL, 1e-6),
                      4 * converted);
     for (int64_t i = 0; i < part->n; i++) assert_int_equal(part->kind[i], whole->kind[q.twin[i]]);
     check_forces(&q);
