@@ -1,0 +1,390 @@
+/* floor 3: the mesh of the reference frame against plain sums over its points: forces are the exact gradient of the energy,
+ * patches carry uniform strain, nothing resists a rotation, momentum of both kinds is kept, converted points take their
+ * share along, and the critical step is that of the mesh. */
+#include "mesh_parts.h"
+
+#include "cloud.h"
+#include "near.h"
+#include "polar.h"
+
+static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+
+/* A block of points with a hole in one corner, so that it has whole and cut cells. */
+struct block {
+    struct cloud c;
+    struct mesh mesh;
+    struct elastic elastic[CLOUD_MATERIALS];
+    struct mesh_source source;
+};
+
+static void block_make(struct block *b, enum space space, bool hole, bool cubic)
+{
+    static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {27, 0, 0}, {23, 12, 0}, {21, 6, 6}};
+    struct cloud_plan plan = {.space = space, .horizon = 3};
+    const int dim = space_dim(space);
+    struct grid like = {.dim = dim, .h = 2 * CLOUD_SPACING};
+    memset(b, 0, sizeof *b);
+    memcpy(plan.count, size[dim], sizeof plan.count);
+    cloud_make(&b->c, &plan);
+    struct particles *p = &b->c.p;
+    for (int m = 0; m < CLOUD_MATERIALS; m++) {
+        const struct material *k = &b->c.material[m];
+        b->elastic[m] = (struct elastic){.c11 = k->c11, .c12 = (cubic ? 0.8 : 1) * k->c12, .shear = k->shear,
+                                         .trigger = INFINITY, .space = space};
+    }
+    b->source = (struct mesh_source){.elastic = b->elastic, .isotropic = b->elastic, .materials = CLOUD_MATERIALS};
+    for (int d = 0; d < dim; d++) {
+        like.anchor[d] = INFINITY;
+        for (int64_t i = 0; i < p->n; i++) like.anchor[d] = real_min(like.anchor[d], p->X[d][i] - 0.5 * CLOUD_SPACING);
+    }
+    for (int64_t i = 0; i < p->n; i++) {
+        bool out = hole;
+        for (int d = 0; d < dim; d++) out = out && p->X[d][i] - like.anchor[d] < 3 * CLOUD_SPACING;
+        p->kind[i] = out ? KIND_PD : KIND_MPM;
+        p->flag[i] |= FLAG_MESHED;
+    }
+    assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
+    assert_true(b->mesh.runs > 0 && b->mesh.cuts > 0);
+}
+
+static void block_free(struct block *b)
+{
+    mesh_free(&b->mesh);
+    cloud_free(&b->c);
+}
+
+/* Displacement of every node that has mass. */
+static void shake(struct block *b, real by, uint64_t seed)
+{
+    for (int64_t I = 0; I < b->mesh.grid.n; I++)
+        for (int d = 0; d < b->c.p.dim; d++)
+            b->mesh.displacement[d][I] = b->mesh.grid.mass[I] > 0 ? cloud_between(&seed, -by, by) * CLOUD_SPACING : 0;
+}
+
+static real node_place(const struct mesh *mesh, int64_t I, int d)
+{
+    return grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
+}
+
+/* u = (R - 1) X by an angle about z, then stretched along x. */
+static void turn(struct block *b, real angle, real stretch)
+{
+    const int dim = b->c.p.dim;
+    for (int64_t I = 0; I < b->mesh.grid.n; I++) {
+        real X[DIM_MAX] = {0}, x[DIM_MAX];
+        if (b->mesh.grid.mass[I] == 0) continue;
+        for (int d = 0; d < dim; d++) X[d] = node_place(&b->mesh, I, d);
+        x[0] = (1 + stretch) * X[0], x[1] = X[1], x[2] = X[2];
+        const real y[DIM_MAX] = {dim > 1 ? cos(angle) * x[0] - sin(angle) * x[1] : x[0], sin(angle) * x[0] + cos(angle) * x[1], x[2]};
+        for (int d = 0; d < dim; d++) b->mesh.displacement[d][I] = y[d] - X[d];
+    }
+}
+
+/* ---- plain twin: energy point by point -------------------------------------------------------------------- */
+
+static real point_energy(const struct block *b, int64_t i, bool finite)
+{
+    const struct mesh *mesh = &b->mesh;
+    const int dim = b->c.p.dim, place = mesh->place[i] & ((1 << dim) - 1);
+    const int64_t I = mesh->place[i] >> dim;
+    const struct elastic *m = &b->elastic[b->c.p.material[i]];
+    real F[9] = {0}, mean[9] = {0}, R[9] = {1}, e[9], normal = 0, shear = 0, trace = 0;
+    for (int a = 0; a < dim; a++)
+        for (int k = 0; k < dim; k++) {
+            F[a * dim + k] = mean[a * dim + k] = a == k;
+            for (int c = 0; c < 1 << dim; c++) {
+                real slope = 1, flat = 1;        /* of the hat functions at the point, at the cell's centre */
+                for (int d = 0; d < dim; d++) {
+                    const real xi = place >> d & 1 ? 0.75 : 0.25, sign = c >> d & 1 ? 1 : -1;
+                    slope *= d == k ? sign : c >> d & 1 ? xi : 1 - xi;
+                    flat *= d == k ? sign : 0.5;
+                }
+                F[a * dim + k] += slope / mesh->grid.h * mesh->displacement[a][I + mesh->corner[c]];
+                mean[a * dim + k] += flat / mesh->grid.h * mesh->displacement[a][I + mesh->corner[c]];
+            }
+        }
+    for (int a = 0; a < dim * dim; a++) R[a] = a % (dim + 1) == 0;
+    if (finite && dim > 1) polar_rotation(mean, R, dim);
+    for (int a = 0; a < dim; a++)
+        for (int k = 0; k < dim; k++) {
+            e[a * dim + k] = -(a == k);
+            for (int c = 0; c < dim; c++) e[a * dim + k] += R[c * dim + a] * F[c * dim + k];
+        }
+    for (int a = 0; a < dim; a++) {
+        normal += square(e[a * dim + a]), trace += e[a * dim + a];
+        for (int k = 0; k < a; k++) shear += square(e[a * dim + k] + e[k * dim + a]);
+    }
+    return 0.5 * mesh->volume * ((m->c11 - m->c12) * normal + m->c12 * square(trace) + m->shear * shear);
+}
+
+static real plain_energy(const struct block *b, bool finite)
+{
+    real sum = 0;
+    for (int64_t i = 0; i < b->c.p.n; i++)
+        if (b->mesh.place[i] >= 0) sum += point_energy(b, i, finite);
+    return sum;
+}
+
+static void forces(struct block *b, bool finite)
+{
+    mesh_clear(&b->mesh);
+    mesh_force(&b->mesh, b->elastic, finite);
+}
+
+static real largest_force(const struct block *b)
+{
+    real most = 0;
+    for (int64_t I = 0; I < b->mesh.grid.n; I++)
+        for (int d = 0; d < b->c.p.dim; d++) most = real_max(most, fabs(b->mesh.grid.force[d][I]));
+    return most;
+}
+
+/* ---- tests -------------------------------------------------------------------------------------------------- */
+
+/* f = -dW/du by central differences of the plain energy of the cells round a node. Their error is third derivatives times the
+ * square of the step, and round-off of the energy over the step: 1e-7 of the largest force together. */
+static void gradient_of(enum space space, bool finite, bool cubic)
+{
+    struct block b;
+    block_make(&b, space, true, cubic);
+    shake(&b, 0.15, 5);
+    forces(&b, finite);
+    const real scale = largest_force(&b), step = 1e-4 * CLOUD_SPACING;
+    const real energy = plain_energy(&b, finite);
+    assert_close(mesh_strain(&b.mesh, finite), energy, 1e-12);
+    for (int64_t I = 0; I < b.mesh.grid.n; I++)
+        for (int d = 0; d < b.c.p.dim; d++) {
+            real *u = &b.mesh.displacement[d][I], W[2] = {0};
+            if (b.mesh.grid.mass[I] == 0) {
+                assert_exact(b.mesh.grid.force[d][I], 0);
+                continue;
+            }
+            for (int side = 0; side < 2; side++) {
+                *u += side ? -2 * step : step;
+                for (int64_t i = 0; i < b.c.p.n; i++) {
+                    bool near = b.mesh.place[i] >= 0;
+                    for (int c = 0, touches = 0; c < 1 << b.c.p.dim && near; c++) {
+                        touches += (b.mesh.place[i] >> b.c.p.dim) + b.mesh.corner[c] == I;
+                        if (c + 1 == 1 << b.c.p.dim) near = touches > 0;
+                    }
+                    if (near) W[side] += point_energy(&b, i, finite);
+                }
+            }
+            *u += step;
+            assert_near(b.mesh.grid.force[d][I], -(W[0] - W[1]) / (2 * step), 1e-7 * scale);
+        }
+    block_free(&b);
+}
+
+static void test_gradient(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++)
+        for (int finite = 0; finite < 2; finite++) gradient_of(spaces[s], finite, false);
+    gradient_of(SPACE_PLANE_STRESS, true, true);         /* constants of a lattice, not isotropic */
+    gradient_of(SPACE_SOLID, true, true);
+}
+
+/* The closed form of whole cells and the stiffness of cut ones are the same sums over points, to round-off. */
+static void test_whole_and_cut(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++)
+        for (int finite = 0; finite < 2; finite++) {
+            struct block b;
+            block_make(&b, spaces[s], false, true);
+            const int n = (1 << b.c.p.dim) * b.c.p.dim;
+            shake(&b, 0.2, 11);
+            forces(&b, finite);
+            real *whole[DIM_MAX];
+            for (int d = 0; d < b.c.p.dim; d++) {
+                whole[d] = NEW("test.whole", b.mesh.grid.n, real);
+                memcpy(whole[d], b.mesh.grid.force[d], sizeof(real) * (size_t)b.mesh.grid.n);
+            }
+            struct mesh other = b.mesh;          /* the same with every cell cut */
+            int64_t cells = other.cuts;
+            for (int64_t r = 0; r < other.runs; r++) cells += other.run[r].cells;
+            other.cut = NEW("test.cut", cells, int32_t);
+            other.stiffness = NEW("test.stiffness", cells * n * n, real);
+            other.cut_force = NEW("test.force", cells * n, real);
+            other.cut_stressed = NEW("test.stressed", cells, bool);
+            other.cut_material = NEW("test.material", cells, uint8_t);
+            memcpy(other.cut, b.mesh.cut, sizeof(int32_t) * (size_t)b.mesh.cuts);
+            memcpy(other.stiffness, b.mesh.stiffness, sizeof(real) * (size_t)(b.mesh.cuts * n * n));
+            for (int64_t r = 0; r < other.runs; r++)
+                for (int64_t k = 0; k < other.run[r].cells; k++) {
+                    memcpy(other.stiffness + other.cuts * n * n, other.whole, sizeof(real) * (size_t)(n * n));
+                    other.cut[other.cuts++] = other.run[r].cell + (int32_t)k;
+                }
+            other.bands = 0;
+            mesh_clear(&other);
+            mesh_force(&other, b.elastic, finite);
+            for (int64_t I = 0; I < b.mesh.grid.n; I++)
+                for (int d = 0; d < b.c.p.dim; d++)
+                    assert_near(other.grid.force[d][I], whole[d][I], 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
+            memory_free(other.cut), memory_free(other.stiffness), memory_free(other.cut_force);
+            memory_free(other.cut_stressed), memory_free(other.cut_material);
+            for (int d = 0; d < b.c.p.dim; d++) memory_free(whole[d]);
+            block_free(&b);
+        }
+}
+
+/* Uniform strain leaves no force inside, whole cells and cut ones: round-off of sums of stresses times faces. Inside are nodes
+ * all of whose neighbours have their full mass. */
+static void test_patch(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++)
+        for (int finite = 0; finite < 2; finite++) {
+            struct block b;
+            block_make(&b, spaces[s], false, false);
+            turn(&b, finite ? 0.7 : 0, 0.01);
+            forces(&b, finite);
+            real full = 0;
+            int inside = 0;
+            for (int64_t I = 0; I < b.mesh.grid.n; I++) full = real_max(full, b.mesh.grid.mass[I]);
+            const real scale = b.elastic[0].c11 * 0.01 * b.mesh.volume / CLOUD_SPACING;
+            assert_true(largest_force(&b) > 0.1 * scale);    /* its edges do feel it */
+            for (int64_t I = 0; I < b.mesh.grid.n; I++) {
+                if (b.mesh.grid.mass[I] < full * (1 - 1e-12)) continue;
+                inside++;
+                for (int d = 0; d < b.c.p.dim; d++) assert_near(b.mesh.grid.force[d][I], 0, 1e-11 * scale);
+            }
+            assert_true(inside > 8);
+            block_free(&b);
+        }
+}
+
+/* A rotation costs nothing at finite strain, and any displacement leaves neither force nor moment on the whole body: 1e-13 of
+ * the sums' terms. Small strain keeps the force, and fails the moment. */
+static void test_momentum(void **state)
+{
+    (void)state;
+    for (unsigned s = 1; s < COUNT_OF(spaces); s++)
+        for (int finite = 0; finite < 2; finite++) {
+            struct block b;
+            block_make(&b, spaces[s], true, true);
+            if (finite) {
+                turn(&b, 2.5, 0);
+                forces(&b, true);
+                assert_near(largest_force(&b), 0, 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
+            }
+            shake(&b, 0.25, 3);
+            forces(&b, finite);
+            real sum[DIM_MAX] = {0}, moment = 0, scale = 0, arms = 0;
+            for (int64_t I = 0; I < b.mesh.grid.n; I++) {
+                real x[2];
+                for (int d = 0; d < b.c.p.dim; d++) sum[d] += b.mesh.grid.force[d][I], scale += fabs(b.mesh.grid.force[d][I]);
+                for (int d = 0; d < 2; d++) x[d] = node_place(&b.mesh, I, d) + b.mesh.displacement[d][I];
+                moment += x[0] * b.mesh.grid.force[1][I] - x[1] * b.mesh.grid.force[0][I];
+                arms += fabs(x[0] * b.mesh.grid.force[1][I]) + fabs(x[1] * b.mesh.grid.force[0][I]);
+            }
+            for (int d = 0; d < b.c.p.dim; d++) assert_near(sum[d], 0, 1e-13 * scale);
+            if (finite) assert_near(moment, 0, 1e-13 * arms);
+            else assert_true(fabs(moment) > 1e-6 * arms);
+            block_free(&b);
+        }
+}
+
+/* Least squares give linear fields back to their nodes, and to the points again: the residual's tolerance times the condition of
+ * the mass matrix. */
+static void test_start(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++) {
+        struct block b;
+        block_make(&b, spaces[s], true, false);
+        struct particles *p = &b.c.p;
+        for (int64_t i = 0; i < p->n; i++)
+            for (int d = 0; d < p->dim; d++) p->v[d][i] = 3 + 1000 * p->X[0][i] - (p->dim > 1 ? 400 * p->X[1][i] : 0);
+        mesh_project(&b.mesh, p, p->v, b.mesh.grid.velocity);
+        for (int64_t I = 0; I < b.mesh.grid.n; I++) {
+            if (b.mesh.grid.mass[I] == 0) continue;
+            const real exact = 3 + 1000 * node_place(&b.mesh, I, 0) - (p->dim > 1 ? 400 * node_place(&b.mesh, I, 1) : 0);
+            assert_near(b.mesh.grid.velocity[0][I], exact, 1e-9 * 20);
+        }
+        block_free(&b);
+    }
+}
+
+/* Converted points take their share of mass and momentum along; what is left is the mesh of the points that stay. */
+static void test_release(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++) {
+        struct block b, fresh;
+        block_make(&b, spaces[s], false, false);
+        block_make(&fresh, spaces[s], true, false);
+        struct particles *p = &b.c.p;
+        uint64_t seed = 9;
+        for (int64_t I = 0; I < b.mesh.grid.n; I++) b.mesh.grid.velocity[0][I] = b.mesh.grid.mass[I] > 0 ? cloud_random(&seed) : 0;
+        real before = 0, after = 0, kinetic = mesh_kinetic(&b.mesh);
+        for (int64_t I = 0; I < b.mesh.grid.n; I++) before += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
+        mesh_points_move(&b.mesh, p, NULL, p->n);
+        for (int64_t i = 0; i < p->n; i++) p->kind[i] = fresh.c.p.kind[i];
+        kinetic -= mesh_follow(&b.mesh, p, &b.source, NULL, 0);
+        for (int64_t I = 0; I < b.mesh.grid.n; I++) {
+            after += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
+            assert_exact(b.mesh.grid.mass[I], fresh.mesh.grid.mass[I]);
+        }
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->kind[i] == KIND_PD) after += p->mass[i] * p->v[0][i], kinetic -= 0.5 * p->mass[i] * square(p->v[0][i]);
+        assert_close(after, before, 1e-14);
+        assert_close(kinetic, mesh_kinetic(&b.mesh), 1e-13);
+        assert_int_equal(b.mesh.points, fresh.mesh.points);
+        assert_int_equal(b.mesh.runs, fresh.mesh.runs);
+        assert_int_equal(b.mesh.cuts, fresh.mesh.cuts);
+        block_free(&b);
+        block_free(&fresh);
+    }
+}
+
+/* Whole cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a single point in a cell to 1.5 D/c: omega^2 = 16/3
+ * (1 + nu) c^2/h^2. In a bar h/c. */
+static void test_step(void **state)
+{
+    (void)state;
+    struct block b;
+    real density[CLOUD_MATERIALS];
+    block_make(&b, SPACE_PLANE_STRESS, false, false);
+    for (int m = 0; m < CLOUD_MATERIALS; m++) density[m] = b.c.material[m].density;
+    b.source.materials = 1;
+    const real c = b.c.material[0].wave_speed;
+    assert_close(mesh_critical_step(&b.mesh, &b.source, density, true), sqrt(0.75 / (4.0 / 3)) * 2 * CLOUD_SPACING / c, 0.002);
+    block_free(&b);
+    block_make(&b, SPACE_LINE, false, false);
+    b.source.materials = 1;
+    assert_close(mesh_critical_step(&b.mesh, &b.source, density, false), 2 * CLOUD_SPACING / b.c.material[0].wave_speed * sqrt(0.75), 0.002);
+    block_free(&b);
+}
+
+/* What is no lattice of two points a cell is refused by name of the place. */
+static void test_refused(void **state)
+{
+    (void)state;
+    struct block b;
+    block_make(&b, SPACE_PLANE_STRESS, false, false);
+    struct mesh other;
+    struct grid like = {.dim = 2, .h = 2 * CLOUD_SPACING, .anchor = {0.3 * CLOUD_SPACING, 0}};
+    assert_refused(mesh_make(&other, &b.c.p, &like, &b.source), "is not one of two a cell");
+    mesh_free(&other);
+    like = b.mesh.grid, like.n = 0;
+    b.c.p.volume0[7] *= 1.01;
+    assert_refused(mesh_make(&other, &b.c.p, &like, &b.source), "another volume");
+    mesh_free(&other);
+    b.c.p.volume0[7] /= 1.01;
+    b.c.p.body[b.c.p.n - 1] = 1;
+    assert_refused(mesh_make(&other, &b.c.p, &like, &b.source), "shares a node with another body");
+    mesh_free(&other);
+    block_free(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gradient), cmocka_unit_test(test_whole_and_cut), cmocka_unit_test(test_patch),
+        cmocka_unit_test(test_momentum), cmocka_unit_test(test_start), cmocka_unit_test(test_release),
+        cmocka_unit_test(test_step), cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
