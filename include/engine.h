@@ -109,6 +109,7 @@ void engine_free(struct engine *e);
  * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
  * of some; after conversion; the alarm. */
 status engine_frames(struct engine *e);
+bool engine_has_mesh(const struct engine *e);
 status engine_mesh_make(struct engine *e);
 real engine_mesh_critical_step(const struct engine *e);
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity);

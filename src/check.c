@@ -10,13 +10,15 @@
 #define SECONDS_PER_BOND 0.8e-9
 #define SECONDS_PER_POINT 80e-9
 #define SECONDS_PER_NODE 4e-9
+#define SECONDS_PER_MESHED 3e-9
 
 static double step_seconds(const struct engine *e)
 {
-    double points = (double)e->part.n_of[KIND_MPM];
+    double points = (double)e->part.n_free, meshed = (double)e->mesh.points;
     double nodes = points / pow(e->scene->cell, e->scene->dim) * SECONDS_PER_NODE;
     double wide = pow(e->scene->shape == SHAPE_LINEAR ? 1 : e->scene->shape == SHAPE_CUBIC ? 2 : 1.4, e->scene->dim);
-    return (double)e->bonds.n * SECONDS_PER_BOND + points * SECONDS_PER_POINT * wide + nodes;
+    return (double)e->bonds.n * SECONDS_PER_BOND + points * SECONDS_PER_POINT * wide + nodes +
+           meshed * SECONDS_PER_MESHED;
 }
 
 static void say_particles(const struct engine *e)
@@ -28,6 +30,16 @@ static void say_particles(const struct engine *e)
     if (driven) printf("; %lld driven", (long long)driven);
     if (e->loads.images) printf("; %lld mirror images", (long long)e->loads.images);
     printf("\nbonds          %lld directed in %lld rows\n", (long long)e->bonds.n, (long long)e->bonds.rows);
+}
+
+static void say_frames(const struct engine *e)
+{
+    for (int b = 0; b < e->scene->bodies; b++)
+        if (e->frame[b].reason)
+            printf("frame          body %s: %s, as %s\n", e->scene->body[b].name,
+                   e->frame[b].reference ? "reference" : "current", e->frame[b].reason);
+    if (e->mesh.points > 0)
+        printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n", (long long)e->mesh.points);
 }
 
 static void say_steps(const struct engine *e, int threads)
@@ -70,6 +82,7 @@ status command_check(int argc, char **argv)
         printf("%s is sound\n", a.scene);
         say_particles(&e);
         say_materials(&e);
+        say_frames(&e);
         say_steps(&e, threads);
         if (s.method != METHOD_PD && s.bodies > 1)
             printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "

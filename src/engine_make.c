@@ -151,6 +151,13 @@ static real node_place(const struct scene *s, int axis, real corner)
     return corner;
 }
 
+/* The corner moved by less than half a spacing, to where it lies midway between particles of a lattice. */
+static real between_particles(const struct engine *e, int axis)
+{
+    const real steps = (e->part.X[axis][0] - e->grid.anchor[axis]) / e->scene->spacing - 0.5;
+    return e->grid.anchor[axis] + (steps - nearbyint(steps)) * e->scene->spacing;
+}
+
 /* The lower corner is that of the first body's shape, of the particles if it comes from a file. */
 static void make_grid(struct engine *e)
 {
@@ -165,6 +172,7 @@ static void make_grid(struct engine *e)
             for (int64_t i = 0; i < e->part.n; i++) from[d] = real_min(from[d], e->part.X[d][i] - 0.5 * s->spacing);
         }
         e->grid.anchor[d] = node_place(s, d, from[d]);
+        if (engine_has_mesh(e) && e->grid.anchor[d] == from[d]) e->grid.anchor[d] = between_particles(e, d);
     }
     real section = s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness, lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);

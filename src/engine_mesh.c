@@ -50,6 +50,13 @@ status engine_frames(struct engine *e)
     return OK;
 }
 
+bool engine_has_mesh(const struct engine *e)
+{
+    for (int b = 0; b < e->scene->bodies; b++)
+        if (e->frame[b].reference) return true;
+    return false;
+}
+
 /* ---- the mesh ------------------------------------------------------------------------------------------------ */
 
 /* Constants of a lattice of bonds under uniform strain: C_abcd = 1/(2V) sum c V V w r e_a e_b e_c e_d, cubic. */
