@@ -13,17 +13,17 @@
  * reversed: theta_c = -2 K_II/K_I for small K_II is twice the turn that removes it, and the path swings at every sample.
  *
  * A crack may follow its toughness: it runs at the speed at which K_eq, taken with the fields of a moving tip, stays equal to
- * K_Ic, and rests while K_eq at rest is less (the crack-tip equation of motion, Freund 1990, chapter 7). Whatever the body and its load,
- * K follows a change of speed at once as K = k(v) K*(t, length), and k, which falls from 1 at rest to 0 at the Rayleigh speed
+ * K_Ic, and rests while K_eq at rest is less (crack-tip equation of motion, Freund 1990, chapter 7). Whatever body and load, K
+ * follows a change of speed at once as K = k(v) K*(t, length), and k, which falls from 1 at rest to 0 at the Rayleigh speed
  * c_R, is the same for all (Freund 1990, chapters 6 and 7). Each new set of factors makes one secant step along that curve,
  *
  *     k(v_wanted) = k(v_felt) K_Ic/K_eq,   0 <= v_wanted <= fastest,   v += (v_wanted - v) (1 - exp(-dt_sample/(0.3 T)))
  *     dv_felt/dt = (v - v_felt)/T,         T = horizon/c_R
  *
  * with the fixed point K_eq = K_Ic, whatever k is. v_felt is the speed that the factors tell of: the process zone, about a
- * horizon, passes a change of speed on to the field that K is taken from in about T. A law that takes v for it swings (without
- * it 280 m/s rms about the closed form, with it 60, inputs/running_crack.yaml). The change in a step is bounded by the mean
- * over 0.3 T, which is there for the noise of K as the tip goes from particle to particle.
+ * horizon, passes a change of speed on to the field that K is taken from in about T. A law that takes v for it swings (283 m/s
+ * rms about the closed form instead of 61, inputs/running_crack.yaml). The mean over 0.3 T bounds the change in a step: K
+ * is noisy as the tip goes from particle to particle.
  *
  * Both entries of a bond fade alike, so momentum stays exact; the energy that fading takes is fracture energy. A crack
  * that comes to rest keeps its bonds as they are. */
