@@ -57,7 +57,8 @@ start whole "$work/whole.yaml"; start shaken "$work/shaken.yaml"; wait
 # off RUN PROBE MODE F A: relative error of a factor; F sigma sqrt(pi A), A in mm.
 off() { compute "$(f "$1" "probes.$2.K_$3") / (($4) * 1e6 * sqrt(3.14159265358979e-3 * ($5))) - 1"; }
 
-# Tada's correction of the secant: (1 - 0.025 w^2 + 0.06 w^4) sqrt(sec(pi w/2)), w = 2a/W = 0.4 (0.1 %); collocation, H = 2 W: 1.110
+# Tada's correction of the secant: (1 - 0.025 w^2 + 0.06 w^4) sqrt(sec(pi w/2)), w = 2a/W = 0.4 (0.1 %); by
+# collocation, H = 2 W: 1.110
 for probe in sif other; do between "centre: $probe" "$(off centre $probe I 1.110 2)" -0.01 0.01; done
 # a square plate, its height matters: 1.334 (Isida 1971), by collocation 1.3337; the secant alone has 1.186
 between "square: K_I" "$(off square sif I 1.334 2.5)" -0.01 0.01
