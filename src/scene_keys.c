@@ -133,7 +133,7 @@ const struct key keys[] = {
     KEY("pd.influence", KEY_CHOICE, UNIT_NONE, AT(scene, influence), ANY, "(inverse with ospd and mospd, else one)",
         "weight of a bond by its length: 1, exp(-(r/delta)^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing)",
         .words = "one|gaussian|inverse|inverse square|linear"),
-    KEY("pd.normalisation", KEY_CHOICE, UNIT_NONE, AT(scene, bulk), ANY, "(bulk with mospd, else local)",
+    KEY("pd.normalisation", KEY_CHOICE, UNIT_NONE, AT(scene, bulk), ANY, "(bulk with mospd and irregularity 0, else local)",
         "ospd and mospd: constants from the family a particle has, or from a full one", .words = "local|bulk"),
     KEY("pd.region", KEY_REGION, UNIT_NONE, AT(scene, pd_region), ANY, NONE,
         "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
@@ -343,7 +343,8 @@ const struct key keys[] = {
     KEY("probes.sif.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, "(the first pre-crack's end in the body)",
         "the tip; followed where it is the end of a pre-crack", .has = FLAG(probe_request, has_at)),
     KEY("probes.sif.direction", KEY_POINT, UNIT_NONE, AT(probe_request, direction), ANY, "(along the crack)",
-        "ahead of the tip, any length; required with a tip that is no end of a pre-crack",
+        "ahead of the tip, any length; required with a tip that is no end of a pre-crack, such as the end of a gap in "
+        "material points, which must be wider than two cells: across less they touch",
         .has = FLAG(probe_request, has_direction)),
     KEY("probes.sif.inner", KEY_REAL, UNIT_LENGTH, AT(probe_request, inner), ABOVE(0), "(half of outer)",
         "radius within which the weight is 1"),
