@@ -40,6 +40,9 @@ wait
 start pulse_mospd plate_pulse -s model=mospd
 start wide_mospd "$work/wide.yaml" -s model=mospd
 wait
+for run in pulse_bond pulse_ospd pulse_mospd wide_mospd; do
+    between "$run: momentum, of a pulse too weak to hide what mirrors round" "$(f $run momentum_error)" 0 1e-13
+done
 apart "pulse: ordinary as bonds" "$(f pulse_ospd probes.pulse.reflected)" "$(f pulse_bond probes.pulse.reflected)" 1e-6
 between "pulse: with rotations" "$(f pulse_mospd probes.pulse.reflected)" 0.004 0.0075
 between "pulse, 64 spacings: with rotations" "$(f wide_mospd probes.pulse.reflected)" 0.001 0.003
