@@ -71,6 +71,7 @@ struct loads {
     real spacing;                        /* [m]                                                       */
     real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
                                             loads' moment [1/s^2], 0: none                            */
+    real place_step;                     /* places across mirrors are multiples of it         [m]     */
     real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
     int64_t share_room;
     struct held *held;                   /* nodes in driven regions and on mirrors ...                */
@@ -88,7 +89,15 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
                   real reach, int optional);
 void loads_free(struct loads *l);
 
-/* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. */
+#define LOADS_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it    */
+
+/* ---- mirrors (loads_mirror.c) ---------------------------------------------------------------------- */
+
+/* The part of loads_make that checks mirrors and appends their images. Refuses a mirror that cuts its body. */
+status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional);
+
+/* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. Places of the sources across the
+ * mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */
 void loads_mirror(const struct loads *l, struct particles *p);
 
 /* Before bonds: f = 0 on every loaded particle. After bonds: books what mirror images gave, adds applied forces; for

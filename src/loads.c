@@ -8,75 +8,6 @@
 #include "memory.h"
 #include "team.h"
 
-#define PLACE_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it */
-
-/* ---- mirrors --------------------------------------------------------------------------------------- */
-
-/* Adds the images of one mirror: of everything near its plane, images of earlier mirrors included, so that corners get
- * theirs. Nothing on the plane itself: such a particle is its own image. */
-static void mirror_make(struct loads *l, int which, const struct boundary *b, struct particles *p, real reach,
-                        int optional)
-{
-    int64_t before = p->n_all, images = 0, have = l->images;
-    for (int pass = 0; pass < 2; pass++) {
-        images = 0;
-        for (int64_t i = 0; i < before; i++) {
-            real distance = fabs(p->X[b->axis][i] - b->at);
-            if (distance > reach || distance <= PLACE_TOLERANCE * l->spacing) continue;
-            if (b->body >= 0 && p->body[i] != b->body) continue;
-            if (pass == 1) l->image[have + images] = (struct image){(int32_t)i, (uint8_t)which};
-            images++;
-        }
-        if (pass == 0) l->image = memory_resize("loads.image", l->image, have, have + images, sizeof *l->image);
-    }
-    particles_add_images(p, images, optional);
-    l->images += images;
-    for (int64_t k = have; k < l->images; k++) {
-        int64_t g = p->n + k, i = l->image[k].source;
-        for (int d = 0; d < p->dim; d++) p->X[d][g] = d == b->axis ? 2 * b->at - p->X[d][i] : p->X[d][i];
-        p->volume0[g] = p->volume0[i], p->volume[g] = p->volume[i], p->mass[g] = p->mass[i];
-        p->material[g] = p->material[i], p->body[g] = p->body[i], p->id[g] = p->id[i];
-    }
-}
-
-void loads_mirror(const struct loads *l, struct particles *p)
-{
-    for (int64_t k = 0; k < l->images; k++) {
-        int64_t g = p->n + k, i = l->image[k].source;
-        const struct boundary *b = l->load[l->image[k].load].boundary;
-        for (int d = 0; d < p->dim; d++) {
-            real sign = d == b->axis || b->hold_tangential ? -1 : 1;
-            p->x[d][g] = p->X[d][g] + sign * (p->x[d][i] - p->X[d][i]);
-            p->v[d][g] = sign * p->v[d][i];
-        }
-        p->kind[g] = p->kind[i];
-        p->flag[g] = p->flag[i] & FLAG_DRIVEN;
-    }
-}
-
-/* A mirror with body on both sides would lay images upon particles. */
-static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
-{
-    bool below = false, above = false;
-    for (int64_t i = 0; i < p->n; i++) {
-        if (b->body >= 0 && p->body[i] != b->body) continue;
-        below = below || p->X[b->axis][i] < b->at - PLACE_TOLERANCE * spacing;
-        above = above || p->X[b->axis][i] > b->at + PLACE_TOLERANCE * spacing;
-    }
-    if (!(below && above)) return OK;
-    return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border",
-                      b->name, "xyz"[b->axis], b->at);
-}
-
-/* The side of a mirror that holds no body: -1 below, +1 above. */
-static int mirror_outside(const struct boundary *b, const struct particles *p)
-{
-    real sum = 0;
-    for (int64_t i = 0; i < p->n; i++)
-        if (b->body < 0 || p->body[i] == b->body) sum += p->X[b->axis][i] - b->at;
-    return sum > 0 ? -1 : 1;
-}
-
 /* ---- set-up ---------------------------------------------------------------------------------------- */
 
 status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
@@ -87,19 +18,11 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->n = n;
     l->spacing = spacing;
     l->load = NEW("loads.load", n, struct load);
-    for (int b = 0; b < n; b++) {
-        load_select(&l->load[b], &boundary[b], p, spacing);
-        if (boundary[b].kind == BOUNDARY_MIRROR) {
-            TRY(mirror_checked(&boundary[b], p, spacing));
-            l->load[b].outside = mirror_outside(&boundary[b], p);
-            mirror_make(l, b, &boundary[b], p, reach, optional);
-        }
-    }
+    for (int b = 0; b < n; b++) load_select(&l->load[b], &boundary[b], p, spacing);
     for (int b = 0; b < n; b++)
         if (l->load[b].n == 0 && (boundary[b].kind == BOUNDARY_TRACTION || boundary[b].kind == BOUNDARY_BODY_FORCE))
             return status_set(REFUSED, "boundary %s: no particle lies in its region", boundary[b].name);
-    loads_mirror(l, p);
-    return OK;
+    return loads_mirrors_make(l, p, reach, optional);
 }
 
 void loads_free(struct loads *l)
@@ -237,7 +160,7 @@ static bool node_held(const struct load *load, const real *x, int dim, real tole
 bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing)
 {
     const real steps = 2 * (b->at - g->anchor[b->axis]) / g->h;
-    return fabs(steps - nearbyint(steps)) * g->h <= 2 * PLACE_TOLERANCE * spacing;
+    return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
 /* Node k of the box reflected in a mirror that it lies beyond, within reach of the widest shape: places and components
@@ -247,7 +170,7 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     const struct boundary *b = load->boundary;
     if (b->kind != BOUNDARY_MIRROR) return true;
     const real away = b->at - grid_position(g, b->axis, k[b->axis]);
-    if (-load->outside * away <= PLACE_TOLERANCE * spacing) return true;
+    if (-load->outside * away <= LOADS_TOLERANCE * spacing) return true;
     const int64_t whole = llround(2 * away / g->h);
     if (!mirror_on_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
     k[b->axis] += whole;
@@ -294,7 +217,7 @@ static void held_find(struct loads *l, struct grid *g)
         for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
         for (int b = 0; b < l->n; b++)
             for (int d = 0; d < g->dim; d++)
-                if (node_held(&l->load[b], x, g->dim, PLACE_TOLERANCE * l->spacing, d)) held_add(l, I, d, b);
+                if (node_held(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d)) held_add(l, I, d, b);
     }
 }
 

@@ -5,7 +5,6 @@
 #include "loads.h"
 #include "memory.h"
 
-#define PLACE_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it             */
 #define LAYER_LEAST (0.5 - 1e-6)         /* depth at which a layer can end, from its outermost particle        */
 #define LAYER_MOST 1.1                   /*                                                         [spacings] */
 #define LAYERS_SEEN 1.5
@@ -17,7 +16,7 @@ static bool selects(const struct boundary *b, const struct particles *p, int64_t
     particle_place(p, i, X);
     if (b->body >= 0 && p->body[i] != b->body) return false;
     if (outward != 0) X[b->face] += b->side * outward;
-    return region_contains(&b->region, X, p->dim, PLACE_TOLERANCE * spacing);
+    return region_contains(&b->region, X, p->dim, LOADS_TOLERANCE * spacing);
 }
 
 /* ---- the layers of a face --------------------------------------------------------------------------- */
