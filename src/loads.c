@@ -1,4 +1,4 @@
-/* floor 3: boundary conditions at work: who is loaded, mirror images, forces, walls, and their impulse and work. */
+/* floor 3: boundary conditions at work: mirror images, forces, walls, and their impulse and work. */
 #include "loads.h"
 
 #include <math.h>
@@ -7,132 +7,6 @@
 
 #include "memory.h"
 #include "team.h"
-
-#define PLACE_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it */
-
-/* ---- who is loaded --------------------------------------------------------------------------------- */
-
-static bool load_selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
-{
-    real X[DIM_MAX];
-    particle_place(p, i, X);
-    if (b->body >= 0 && p->body[i] != b->body) return false;
-    return region_contains(&b->region, X, p->dim, PLACE_TOLERANCE * spacing);
-}
-
-/* Outermost coordinate of the selected particles along a traction's normal. */
-static real face_place(const struct boundary *b, const struct particles *p, const uint8_t *selected)
-{
-    real place = -INFINITY;
-    for (int64_t i = 0; i < p->n; i++)
-        if (selected[i]) place = real_max(place, b->side * p->X[b->face][i]);
-    return place;
-}
-
-static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
-{
-    real X[DIM_MAX], along = 0;
-    if (f->kind == PROFILE_UNIFORM) return 1;
-    particle_place(p, i, X);
-    for (int d = 0; d < p->dim; d++) along += (X[d] - f->origin[d]) * f->direction[d];
-    return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
-}
-
-static real load_share(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
-{
-    return p->volume0[i] * (b->kind == BOUNDARY_TRACTION ? 1 / spacing : profile_at(&b->profile, p, i));
-}
-
-static void load_make(struct load *l, const struct boundary *b, struct particles *p, real spacing)
-{
-    l->boundary = b;
-    if (b->kind == BOUNDARY_MIRROR) return;
-    uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
-    for (int64_t i = 0; i < p->n; i++) selected[i] = load_selects(b, p, i, spacing);
-    if (b->kind == BOUNDARY_TRACTION) {      /* the outermost layer only: within half a spacing of the farthest */
-        real place = face_place(b, p, selected);
-        for (int64_t i = 0; i < p->n; i++)
-            selected[i] = selected[i] && b->side * p->X[b->face][i] > place - 0.5 * spacing;
-    }
-    for (int64_t i = 0; i < p->n; i++) l->n += selected[i];
-    l->particle = NEW("loads.particle", l->n, int32_t);
-    l->share = NEW("loads.share", l->n, real);
-    l->before = NEW("loads.before", l->n * p->dim, real);
-    for (int64_t i = 0, k = 0; i < p->n; i++) {
-        if (!selected[i]) continue;
-        l->particle[k] = (int32_t)i;
-        l->share[k++] = load_share(b, p, i, spacing);
-        if (b->kind == BOUNDARY_VELOCITY) p->flag[i] |= FLAG_DRIVEN;
-    }
-    memory_free(selected);
-}
-
-/* ---- mirrors --------------------------------------------------------------------------------------- */
-
-/* Adds the images of one mirror: of everything near its plane, images of earlier mirrors included, so that corners get
- * theirs. Nothing on the plane itself: such a particle is its own image. */
-static void mirror_make(struct loads *l, int which, const struct boundary *b, struct particles *p, real reach,
-                        int optional)
-{
-    int64_t before = p->n_all, images = 0, have = l->images;
-    for (int pass = 0; pass < 2; pass++) {
-        images = 0;
-        for (int64_t i = 0; i < before; i++) {
-            real distance = fabs(p->X[b->axis][i] - b->at);
-            if (distance > reach || distance <= PLACE_TOLERANCE * l->spacing) continue;
-            if (b->body >= 0 && p->body[i] != b->body) continue;
-            if (pass == 1) l->image[have + images] = (struct image){(int32_t)i, (uint8_t)which};
-            images++;
-        }
-        if (pass == 0) l->image = memory_resize("loads.image", l->image, have, have + images, sizeof *l->image);
-    }
-    particles_add_images(p, images, optional);
-    l->images += images;
-    for (int64_t k = have; k < l->images; k++) {
-        int64_t g = p->n + k, i = l->image[k].source;
-        for (int d = 0; d < p->dim; d++) p->X[d][g] = d == b->axis ? 2 * b->at - p->X[d][i] : p->X[d][i];
-        p->volume0[g] = p->volume0[i], p->volume[g] = p->volume[i], p->mass[g] = p->mass[i];
-        p->material[g] = p->material[i], p->body[g] = p->body[i], p->id[g] = p->id[i];
-    }
-}
-
-void loads_mirror(const struct loads *l, struct particles *p)
-{
-    for (int64_t k = 0; k < l->images; k++) {
-        int64_t g = p->n + k, i = l->image[k].source;
-        const struct boundary *b = l->load[l->image[k].load].boundary;
-        for (int d = 0; d < p->dim; d++) {
-            real sign = d == b->axis || b->hold_tangential ? -1 : 1;
-            p->x[d][g] = p->X[d][g] + sign * (p->x[d][i] - p->X[d][i]);
-            p->v[d][g] = sign * p->v[d][i];
-        }
-        p->kind[g] = p->kind[i];
-        p->flag[g] = p->flag[i] & FLAG_DRIVEN;
-    }
-}
-
-/* A mirror with body on both sides would lay images upon particles. */
-static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
-{
-    bool below = false, above = false;
-    for (int64_t i = 0; i < p->n; i++) {
-        if (b->body >= 0 && p->body[i] != b->body) continue;
-        below = below || p->X[b->axis][i] < b->at - PLACE_TOLERANCE * spacing;
-        above = above || p->X[b->axis][i] > b->at + PLACE_TOLERANCE * spacing;
-    }
-    if (!(below && above)) return OK;
-    return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border",
-                      b->name, "xyz"[b->axis], b->at);
-}
-
-/* The side of a mirror that holds no body: -1 below, +1 above. */
-static int mirror_outside(const struct boundary *b, const struct particles *p)
-{
-    real sum = 0;
-    for (int64_t i = 0; i < p->n; i++)
-        if (b->body < 0 || p->body[i] == b->body) sum += p->X[b->axis][i] - b->at;
-    return sum > 0 ? -1 : 1;
-}
 
 /* ---- set-up ---------------------------------------------------------------------------------------- */
 
@@ -144,19 +18,11 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->n = n;
     l->spacing = spacing;
     l->load = NEW("loads.load", n, struct load);
-    for (int b = 0; b < n; b++) {
-        load_make(&l->load[b], &boundary[b], p, spacing);
-        if (boundary[b].kind == BOUNDARY_MIRROR) {
-            TRY(mirror_checked(&boundary[b], p, spacing));
-            l->load[b].outside = mirror_outside(&boundary[b], p);
-            mirror_make(l, b, &boundary[b], p, reach, optional);
-        }
-    }
+    for (int b = 0; b < n; b++) load_select(&l->load[b], &boundary[b], p, spacing);
     for (int b = 0; b < n; b++)
         if (l->load[b].n == 0 && (boundary[b].kind == BOUNDARY_TRACTION || boundary[b].kind == BOUNDARY_BODY_FORCE))
             return status_set(REFUSED, "boundary %s: no particle lies in its region", boundary[b].name);
-    loads_mirror(l, p);
-    return OK;
+    return loads_mirrors_make(l, p, reach, optional);
 }
 
 void loads_free(struct loads *l)
@@ -235,7 +101,7 @@ static void apply(struct loads *l, struct load *load, struct particles *p, real 
     real given[DIM_MAX] = {0};
     for (int64_t k = 0; k < load->n; k++)
         for (int d = 0; d < p->dim; d++) {
-            real force = factor * load->boundary->value[d] * load->share[k];
+            real force = factor * load->boundary->value[d] * load->share[k * p->dim + d];
             load->before[k * p->dim + d] = p->x[d][load->particle[k]];
             p->f[d][load->particle[k]] += force;
             given[d] += force;
@@ -295,7 +161,7 @@ static void applied_work(struct loads *l, const struct load *load, const struct 
     real work = 0;
     for (int64_t k = 0; k < load->n; k++)
         for (int d = 0; d < p->dim; d++)
-            work += factor * load->boundary->value[d] * load->share[k] *
+            work += factor * load->boundary->value[d] * load->share[k * p->dim + d] *
                     (p->x[d][load->particle[k]] - load->before[k * p->dim + d]);
     l->work += work;
 }

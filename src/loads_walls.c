@@ -5,8 +5,6 @@
 #include "loads.h"
 #include "memory.h"
 
-#define PLACE_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it */
-
 /* ---- walls of the grid ----------------------------------------------------------------------------- */
 
 static void held_add(struct held_set *s, int64_t node, int component, int load)
@@ -31,7 +29,7 @@ static bool node_held(const struct load *load, const real *x, int dim, real tole
 bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing)
 {
     const real steps = 2 * (b->at - g->anchor[b->axis]) / g->h;
-    return fabs(steps - nearbyint(steps)) * g->h <= 2 * PLACE_TOLERANCE * spacing;
+    return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
 /* Node k of the box reflected in a mirror that it lies beyond, within reach of the widest shape: places and components
@@ -41,7 +39,7 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     const struct boundary *b = load->boundary;
     if (b->kind != BOUNDARY_MIRROR) return true;
     const real away = b->at - grid_position(g, b->axis, k[b->axis]);
-    if (-load->outside * away <= PLACE_TOLERANCE * spacing) return true;
+    if (-load->outside * away <= LOADS_TOLERANCE * spacing) return true;
     const int64_t whole = llround(2 * away / g->h);
     if (!mirror_on_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
     k[b->axis] += whole;
@@ -88,7 +86,7 @@ static void held_find(const struct loads *l, struct held_set *s, struct grid *g)
         for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
         for (int b = 0; b < l->n; b++)
             for (int d = 0; d < g->dim; d++)
-                if (node_held(&l->load[b], x, g->dim, PLACE_TOLERANCE * l->spacing, d)) held_add(s, I, d, b);
+                if (node_held(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d)) held_add(s, I, d, b);
     }
 }
 

@@ -74,6 +74,18 @@ static int growth_meant(const struct sif_watch *w, const struct observed *o)
     return -1;
 }
 
+/* A crack is led by the factors of its own tip: without `at` every probe watches the first. */
+static status own_growth(const struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+{
+    for (int k = 0; k < o->growths; k++) {
+        const struct growth_rule *g = o->growth[k].rule;
+        if (strcmp(g->probe, r->name) == 0 && k != w->growth)
+            return status_set(REFUSED, "probe \"%s\": it rules %s but watches the tip at (%.6g, %.6g) m; at: [%.6g m, %.6g m] "
+                              "is expected", r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
+    }
+    return OK;
+}
+
 static status find_tip(struct sif_watch *w, const struct probe_request *r, const struct observed *o)
 {
     w->follows = tip_meant(r, o);
@@ -88,7 +100,7 @@ static status find_tip(struct sif_watch *w, const struct probe_request *r, const
     const real length = hypot(along[0], along[1]);
     for (int d = 0; d < 2; d++) w->tip.place[d] = place[d], w->tip.along[d] = along[d] / length;
     w->growth = growth_meant(w, o);
-    return OK;
+    return own_growth(w, r, o);
 }
 
 /* Pre-cracks hide particles; behind a tip that is the end of none lies a straight crack. Particles on a crack are on the
@@ -295,6 +307,7 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
                                        sif_spread(found + 1, w->contours - 1)};
     memcpy(q->memory.factors, factors, sizeof factors);
     memcpy(q->memory.along, w->tip.along, sizeof q->memory.along);
+    q->memory.time = o->t;
 }
 
 bool probes_ruling(const struct probes *s, const char *name, struct ruling *found)
@@ -302,8 +315,9 @@ bool probes_ruling(const struct probes *s, const char *name, struct ruling *foun
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];
         if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
-        *found = (struct ruling){{{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
-                                 {q->memory.along[0], q->memory.along[1]}};
+        *found = (struct ruling){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
+                                 .along = {q->memory.along[0], q->memory.along[1]}, .time = q->memory.time,
+                                 .medium = q->sif->tip.medium};
         return true;
     }
     return false;

@@ -30,7 +30,11 @@ OMP_NUM_THREADS=1 "$cleave" bench efficiency --quick >out || fail "efficiency fa
 cd results/bench
 [ "$(head -1 efficiency.csv)" = scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference ] ||
     fail "columns of efficiency.csv"
-[ "$(wc -l <efficiency.csv)" -eq 2 ] || fail "one scene gives one line"
+[ "$(wc -l <efficiency.csv)" -eq 2 ] || fail "one scene gives one line, of bonds where time is short"
+awk -F, 'NR == 2 { exit $2 != "bond" }' efficiency.csv || fail "the model"
+[ "$(head -1 efficiency_runs.csv)" = \
+    scene,model,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg ] ||
+    fail "columns of efficiency_runs.csv"
 # t_r is what the two times before it say, to the nine digits written
 awk -F, 'NR == 2 { d = $5 - (1 - $3 / $4); exit !($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6) }' efficiency.csv || fail "t_r"
 for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; do [ -s $file ] || fail "$file is missing"; done

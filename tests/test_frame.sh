@@ -40,7 +40,7 @@ between "pulse of 32 spacings: energy" "$(figure "$work/pulse32" probes.pulse.en
 
 # ---- uniform strain across an interface ------------------------------------------------------------------------------
 
-# With the constants of the lattice what bonds carry and what cells carry is the same: no force but round-off of stress times face.
+# With the constants of the lattice what bonds carry and what cells carry is the same but for squares of the strain, 1e-6 here.
 # With isotropic ones the difference of both shows (C11 +1.1 %, C12 -3.4 %).
 scene patch <<'END'
 space: plane stress
@@ -60,13 +60,15 @@ for constants in lattice isotropic; do
     go patch_$constants patch $mesh -s mpm.constants=$constants
 done
 landed
-between "patch, constants of the lattice" "$(f patch_lattice probes.patch.residual_max)" 0 1e-8
+between "patch, constants of the lattice" "$(f patch_lattice probes.patch.residual_max)" 0 1e-6
 between "patch, isotropic constants" "$(f patch_isotropic probes.patch.residual_max)" 1e-3 0.04
 
 # ---- a spinning square -----------------------------------------------------------------------------------------------
 
 # A tenth of a turn at 10 m/s (see test_physics.sh), here with the edge node's bias of current-frame grids gone: centrifugal stress of
-# rho v^2/2 = 0.4 MPa and no shear beside it, and the energy of the start.
+# rho v^2/2 = 0.4 MPa and nothing beside it; the body grows by some rho v^2/E = 4e-6 and falls behind as much. Angular momentum is
+# that of the nodes; summed over points it follows what happens within cells, (h/L)^2 of that. At small strain points go straight
+# on: tan(angle) = 0.628.
 scene spin <<'END'
 space: plane stress
 thickness: 1 mm
@@ -82,11 +84,11 @@ END
 go spin spin $mesh
 go spin_small spin $mesh -s mpm.strain=small
 landed
-near "spin: angle" "$(f spin probes.rigid.angle)" 0.628318531 1e-6
+near "spin: angle" "$(f spin probes.rigid.angle)" 0.628318531 5e-6
 between "spin: stress" "$(f spin probes.rigid.stress_max)" 0.1e6 1.5e6
-between "spin: angular momentum" "$(f spin probes.rigid.angular_momentum_error)" -1e-9 1e-9
+between "spin: angular momentum" "$(f spin probes.rigid.angular_momentum_error)" -1e-8 1e-8
 between "spin: kinetic energy" "$(f spin probes.rigid.kinetic_energy_error)" -1e-4 1e-4
-between "spin at small strain must fail: stress" "$(f spin_small probes.rigid.stress_max)" 1e9 1e12
+near "spin at small strain must fail: angle" "$(f spin_small probes.rigid.angle)" 0.560982 1e-3
 
 # ---- a crack ---------------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
  * stresses, conversion. */
 #include <stdarg.h>
 #include <setjmp.h>
+#include <math.h>
 #include <stdlib.h>
 #include <cmocka.h>
 
@@ -336,9 +337,40 @@ static void test_mirror_points(void **state)
             }
 }
 
+/* Of a strip between two mirrors, far from the origin of one and near that of the other, moved by less than a bond can
+ * resolve: i is as far from the image of j as j from that of i, to the last bit, so no force remains along the mirrors. */
+static void test_mirror_places(void **state)
+{
+    (void)state;
+    static const struct boundary strip[] = {
+        {.name = "low", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 0},
+        {.name = "high", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 4 * CLOUD_SPACING},
+    };
+    struct cloud c;
+    struct loads l;
+    const real reach = 3.015 * CLOUD_SPACING;
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {6, 4, 1}, .horizon = 3.015});
+    assert_int_equal(loads_make(&l, strip, COUNT_OF(strip), &c.p, CLOUD_SPACING, reach, 0), OK);
+    for (int64_t i = 0; i < c.p.n; i++)
+        for (int d = 0; d < 2; d++) c.p.x[d][i] = c.p.X[d][i] + 1e-13 * CLOUD_SPACING * sin((real)(i + d));
+    loads_mirror(&l, &c.p);
+    for (int64_t a = 0; a < l.images; a++)
+        for (int64_t b = 0; b < l.images; b++) {
+            const struct image *i = &l.image[a], *j = &l.image[b];
+            if (i->load != j->load || i->source >= c.p.n || j->source >= c.p.n) continue;
+            const int64_t of_i = c.p.n + a, of_j = c.p.n + b;
+            assert_true(c.p.X[1][of_j] - c.p.X[1][i->source] == c.p.X[1][of_i] - c.p.X[1][j->source]);
+            assert_true(c.p.x[1][of_j] - c.p.x[1][i->source] == c.p.x[1][of_i] - c.p.x[1][j->source]);
+            assert_true(c.p.x[0][of_j] - c.p.x[0][i->source] == -(c.p.x[0][of_i] - c.p.x[0][j->source]));
+        }
+    loads_free(&l);
+    cloud_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_mirror_places),
         cmocka_unit_test(test_mirror),
         cmocka_unit_test(test_mirror_convert),
         cmocka_unit_test(test_mirror_points),

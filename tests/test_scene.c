@@ -1,5 +1,4 @@
-/* Scenes: every key is read, units are exact, overrides lay over, what is written reads back bit by bit, and no bytes
- * bring the reader down. */
+/* floor 5: scenes: every key is read, units are exact, overrides lay over. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,136 +9,7 @@
 #include <cmocka.h>
 
 #include "memory.h"
-#include "scene.h"
-
-static const char plate[] =
-    "name: plate-1\n"
-    "space: plane stress\n"
-    "thickness: 10 mm\n"
-    "duration: 50 us\n"
-    "method: mpm\n"
-    "model: bond\n"
-    "solver: explicit\n"
-    "coupling: handshake\n"
-    "materials:\n"
-    "  - {name: steel, young: 190 GPa, poisson: 0.3, density: 7.8 g/cm^3, energy_release_rate: 69 kJ/m^2}\n"
-    "  - {name: glass, young: 72e9, poisson: 1/4, density: 2440 kg/m3, critical_stretch: 0.1 %}\n"
-    "  - {name: tough, young: 200 GPa, density: 8000, toughness: 60 MPa sqrt(m)}\n"
-    "  - {name: hard, young: 1 MPa, density: 1, critical_stretch: inf}\n"
-    "bodies:\n"
-    "  - {name: bar, material: glass, velocity: [3 mm/us, -1 km/s], shape: {box: {from: [0, 0], to: [0.1, 20 cm]}}}\n"
-    "  - name: plate\n"
-    "    material: steel\n"
-    "    shape:\n"
-    "      - box: {from: [0.2, 0], to: [0.3, 0.2]}\n"
-    "      - subtract: {disc: {centre: [0.25, 0.1], radius: 5 mm}}\n"
-    "      - add: {ball: {centre: [0.25, 0.1], radius: 2500 um}}\n"
-    "      - subtract: {half-space: {point: [0, 0.01], normal: [0, 2]}}\n"
-    "  - {material: tough, particles: grains.csv}\n"
-    "particles: {spacing: 1 mm, horizon: 4.015, irregularity: 0.25, seed: 18446744073709551615}\n"
-    "pd:\n"
-    "  volume: cut-ramp\n"
-    "  calibration: vmpd\n"
-    "  surface: volume\n"
-    "  weights: isotropic\n"
-    "  region: [{all: true}, {subtract: {box: {from: [-inf, 0], to: [0.1, inf]}}}]\n"
-    "mpm: {cell: 1.5, shape: cubic, transfer: apic, frame: current, origin: [0.5 mm, 0]}\n"
-    "conversion: {stress: 3.8 GPa, alpha: 0.9, block: false, criteria: [stress]}\n"
-    "cracks:\n"
-    "  - {from: [0, 25 mm], to: [50 mm, 25 mm]}\n"
-    "  - {from: [0, -25 mm], to: [50 mm, -25 mm]}\n"
-    "crack: {speed_window: 2 us}\n"
-    "initial:\n"
-    "  - {body: bar, velocity: [1, 2], velocity_gradient: [0, 100 1/s, -100 Hz, 0], centre: [1 nm, 0]}\n"
-    "  - {region: {all: true}, displacement_gradient: [[1e-3, 0], [0, 2 %]]}\n"
-    "boundary:\n"
-    "  - {name: impact, region: {box: {from: [0, 0], to: [3 mm, 1]}}, velocity: [22 m/s, free],\n"
-    "     time: {step: {until: 5 us}}}\n"
-    "  - {body: bar, fixed: [y], time: {pulse: {from: 1 us, until: 2 us}}}\n"
-    "  - {fixed: all, time: {ramp: {until: 1 ms}}}\n"
-    "  - {traction: [1 MPa, 0], face: y-, time: {table: [[0, 0], [1 us, 1], [2 us, 50 %]]}}\n"
-    "  - {body_force: [0, 1e5 N/m^3], time: constant}\n"
-    "  - {body_force: [0, 2], profile: {sine: {wavelength: 20 cm, origin: [1 mm, 0], direction: [1, 3]}}}\n"
-    "  - {body_force: [1, 0], profile: {sine: {wavelength: 1/3}}}\n"
-    "  - {mirror: {axis: y, at: 1 mm, tangential: held}}\n"
-    "time: {step: 20 ns, safety: 1.5}\n"
-    "output: {frames: 0, samples: 10, checkpoint: 5 s, compress: true}\n"
-    "probes:\n"
-    "  - tip\n"
-    "  - tip: {name: second, at: [1, 2]}\n"
-    "  - break: {region: {disc: {centre: [0, 0], radius: 1}}}\n"
-    "  - reaction: {boundary: impact}\n"
-    "  - patch:\n"
-    "  - spall\n"
-    "  - point: {name: p, at: [1, 1]}\n"
-    "  - line: {from: [0, 0], to: [1, 1], points: 11}\n"
-    "  - energy: {region: {all: true}}\n"
-    "  - momentum: {}\n"
-    "  - sif: {at: [1 mm, 2 mm], contours: [30 mm, 50 mm], stress: particle, weight: cubic, speed: 1 km/s, reach: 2}\n"
-    "  - rigid: {region: {all: true}}\n";
-
-static const char bar[] =
-    "space: line\n"
-    "duration: 1 ms\n"
-    "material: {young: 1e4, density: 1, critical_stretch: 0.14}\n"
-    "bodies:\n"
-    "  - {name: impactor, velocity: 30, shape: {box: {from: -30 mm, to: 0}}}\n"
-    "  - {name: bar, shape: [{box: {from: [0], to: [70 mm]}}, {subtract: {ball: {centre: 0.03, radius: 1 mm}}}]}\n"
-    "particles: {spacing: 1 mm}\n"
-    "cracks: [{at: 20 mm}, {at: [0.05]}]\n"
-    "boundary: [{velocity: 3, body: bar}, {mirror: {axis: x, at: 0}}, {traction: 1 kPa, face: x+}]\n"
-    "initial: [{velocity_gradient: 3}]\n";
-
-static const char rod[] =
-    "space: line\n"
-    "duration: 10 ms\n"
-    "material: {young: 1e4, density: 1}\n"
-    "body: {box: {from: [0], to: [1]}}\n"
-    "particles: {spacing: 5 mm}\n"
-    "boundary: [{traction: 1, face: x+}]\n"
-    "output: {times: [1 ms, 5 ms, 0.01]}\n"
-    "probes:\n"
-    "  - exact: step bar\n"
-    "  - exact: {form: plastic bar, name: yields}\n"
-    "  - exact: {form: pulse, name: packet}\n"
-    "  - exact: {form: manufactured, name: made, amplitude: 1 mm, period: 2 ms, wavelength: 50 cm, origin: -1 mm}\n";
-
-static const char block[] =
-    "space: solid\n"
-    "duration: 1e-5\n"
-    "method: pd\n"
-    "material: {young: 70 GPa, density: 2700, energy_release_rate: 10}\n"
-    "body:\n"
-    "  - cylinder: {from: [0, 0, 0], to: [0, 0, 1 cm], radius: 1 cm}\n"
-    "  - ball: {centre: [0, 0, 0], radius: 0.01}\n"
-    "particles: {spacing: 1 mm}\n"
-    "cracks: [{polygon: [[0, 0, 0], [5 mm, 0, 0], [5 mm, 5 mm, 0], [0, 5 mm, 0]]}]\n"
-    "initial: [{velocity_gradient: [0, 1, 2, 3, 4, 5, 6, 7, 8]}]\n"
-    "boundary: [{velocity: [free, free, 2], region: {half-space: {point: [0, 0, 0], normal: [0, 0, 1]}}}]\n";
-
-static const char grown[] =
-    "space: plane stress\n"
-    "thickness: 1 mm\n"
-    "duration: 1 us\n"
-    "method: pd\n"
-    "material: {young: 70 GPa, density: 2700}\n"
-    "body: {box: {from: [0, 0], to: [40 mm, 40 mm]}}\n"
-    "particles: {spacing: 1 mm}\n"
-    "cracks: [{from: [-1 mm, 20 mm], to: [20 mm, 20 mm]}]\n"
-    "growth:\n"
-    "  - {name: told, at: [20 mm, 20 mm], direction: [3, 4], speed: 1 km/s, damping: 0, exponent: 1, length: 5 mm}\n"
-    "  - {at: [20 mm, 20 mm], direction: [1, 0], speed: 750 m/s, probe: sif, toughness: 68 MPa m^0.5, smoothing: 2 mm}\n"
-    "probes:\n"
-    "  - sif: {outer: 10 mm}\n"
-    "  - growth\n"
-    "  - growth: {name: ruled, of: growth1, experiment: 70}\n";
-
-static struct scene read_ok(const char *text, const struct scene_override *o, int n)
-{
-    struct scene s;
-    if (scene_read_text(&s, text, strlen(text), "dir/given.yaml", o, n) != OK) fail_msg("%s", status_message());
-    return s;
-}
+#include "scene_texts.h"
 
 /* ---- every key ------------------------------------------------------------------------------------------ */
 
@@ -378,154 +248,19 @@ static void test_overrides(void **state)
     scene_free(&s);
 }
 
-/* ---- round trip ----------------------------------------------------------------------------------------- */
-
-/* Name and path aside, the second reading is the first: same text, same numbers. */
-static void check_round_trip(const struct scene *a)
-{
-    struct scene b;
-    if (scene_read_text(&b, a->text, strlen(a->text), "again.yaml", NULL, 0) != OK)
-        fail_msg("%s in\n%s", status_message(), a->text);
-    assert_string_equal(a->text, b.text);
-    assert_true(a->materials == b.materials && a->bodies == b.bodies && a->cracks == b.cracks);
-    assert_true(a->initials == b.initials && a->boundaries == b.boundaries && a->probes == b.probes);
-    for (int k = 0; k < a->materials; k++) assert_memory_equal(&a->material[k], &b.material[k], sizeof *a->material);
-    for (int k = 0; k < a->bodies; k++) {
-        const struct region *p = &a->body[k].shape, *q = &b.body[k].shape;
-        assert_int_equal(p->n, q->n);
-        if (p->n) assert_memory_equal(p->solid, q->solid, (size_t)p->n * sizeof *p->solid);
-    }
-    for (int k = 0; k < a->cracks; k++)
-        assert_memory_equal(a->crack[k].corner, b.crack[k].corner, (size_t)a->crack[k].n * sizeof *a->crack->corner);
-    for (int k = 0; k < a->boundaries; k++) {
-        assert_memory_equal(a->boundary[k].value, b.boundary[k].value, sizeof a->boundary->value);
-        assert_int_equal(a->boundary[k].components, b.boundary[k].components);
-        assert_memory_equal(&a->boundary[k].profile, &b.boundary[k].profile, sizeof a->boundary->profile);
-    }
-    assert_true(a->duration == b.duration && a->spacing == b.spacing && a->speed_window == b.speed_window);
-    assert_true(a->surface == b.surface && a->thickness == b.thickness && a->section == b.section);
-    scene_free(&b);
-}
-
-static void test_round_trip(void **state)
-{
-    (void)state;
-    static const char *const texts[] = {plate, bar, rod, block, grown};
-    for (size_t k = 0; k < COUNT_OF(texts); k++) {
-        struct scene s = read_ok(texts[k], NULL, 0);
-        check_round_trip(&s);
-        scene_free(&s);
-    }
-    static const struct scene_override awkward[] = {{"bodies[2].particles", "\"gr\\u00e4 \\\"1\\\\ \\x01.csv\""},
-                                                    {"particles.spacing", "1/3 mm"}, {"name", "\"---\""}};
-    struct scene s = read_ok(plate, awkward, 3);
-    check_round_trip(&s);
-    scene_free(&s);
-}
-
-/* ---- any bytes ------------------------------------------------------------------------------------------ */
-
-static unsigned draw(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (unsigned)(*seed >> 33);
-}
-
-/* Some bytes changed, a piece doubled or cut out. Returns the length. */
-static size_t mutate(char *text, size_t length, uint64_t *seed)
-{
-    static const char letters[] = "[]{}:,-&*!|>'\"#%@ \n\t\\0123456789.eE/inf_x\xc3\x00";
-    for (unsigned k = draw(seed) % 4 + 1; k > 0; k--) {
-        size_t at = draw(seed) % length, piece = draw(seed) % 40 + 1;
-        if (at + piece > length) piece = length - at;
-        switch (draw(seed) % 4) {
-        case 0: text[at] = letters[draw(seed) % (sizeof letters - 1)]; break;
-        case 1: text[at] = (char)draw(seed); break;
-        case 2: memmove(text + at + piece, text + at, length - at), length += piece; break;
-        default: if (piece < length) memmove(text + at, text + at + piece, length - at - piece), length -= piece;
-        }
-    }
-    return length;
-}
-
-static void test_mutations(void **state)
-{
-    (void)state;
-    static const char *const texts[] = {plate, bar, block};
-    uint64_t seed = 1;
-    int accepted = 0, line, column;
-    for (int k = 0; k < 20000; k++) {
-        struct scene s;
-        const char *text = texts[k % 3];
-        size_t length = strlen(text);
-        char *copy = test_malloc(length + 1000);
-        memcpy(copy, text, length);
-        length = mutate(copy, length, &seed);
-        char *exact = test_malloc(length);              /* so that reading beyond the end shows */
-        memcpy(exact, copy, length);
-        status result = scene_read_text(&s, exact, length, "m.yaml", NULL, 0);
-        if (result == OK) {
-            if (accepted++ % 10 == 0) check_round_trip(&s);
-            scene_free(&s);
-        } else {
-            assert_int_equal(result, REFUSED);
-            assert_null(s.text);
-            if (sscanf(status_message(), "m.yaml:%d:%d: ", &line, &column) != 2 || line < 1 || column < 1 ||
-                strchr(status_message(), '\n'))
-                fail_msg("no place in: %s", status_message());
-        }
-        test_free(exact);
-        test_free(copy);
-    }
-    assert_true(accepted > 100 && accepted < 19000);
-}
-
-/* ---- help ----------------------------------------------------------------------------------------------- */
-
-static char *help_of(const char *key, status expected)
-{
-    char *text = NULL;
-    size_t length;
-    FILE *out = open_memstream(&text, &length);
-    assert_int_equal(scene_help(out, key), expected);
-    fclose(out);
-    return text;
-}
-
-static void test_help(void **state)
-{
-    (void)state;
-    char *all = help_of(NULL, OK), *one = help_of("materials[0].young", OK), *some = help_of("mpm", OK);
-    assert_non_null(strstr(all, "particles.horizon"));
-    assert_non_null(strstr(one, "number [Pa]; > 0; required"));
-    assert_null(strstr(one, "density"));
-    assert_non_null(strstr(some, "mpm.cell"));
-    assert_non_null(strstr(some, "number; 1 .. 8; default 2"));
-    assert_null(strstr(some, "output"));
-    free(all), free(one), free(some);
-    free(help_of("yuong", REFUSED));
-    assert_string_equal(status_message(), "yuong: unknown key; the nearest is material.young");
-    char *text = NULL;
-    size_t length;
-    FILE *out = open_memstream(&text, &length);
-    assert_int_equal(scene_manual(out), OK);
-    fclose(out);
-    assert_true(strncmp(text, ".TH CLEAVE 1", 12) == 0);
-    assert_non_null(strstr(text, ".B particles.horizon\n"));
-    free(text);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plate_scalars), cmocka_unit_test(test_plate_materials_bodies),
-        cmocka_unit_test(test_plate_conditions), cmocka_unit_test(test_plate_probes),
-        cmocka_unit_test(test_bar_and_defaults), cmocka_unit_test(test_block),
+        cmocka_unit_test(test_plate_scalars),
+        cmocka_unit_test(test_plate_materials_bodies),
+        cmocka_unit_test(test_plate_conditions),
+        cmocka_unit_test(test_plate_probes),
+        cmocka_unit_test(test_bar_and_defaults),
+        cmocka_unit_test(test_block),
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_closed_forms_and_frame_times),
-        cmocka_unit_test(test_units), cmocka_unit_test(test_overrides),
-        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_mutations),
-        cmocka_unit_test(test_help),
+        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_overrides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,110 @@
+/* floor 3: mirror images of particles: who has them, and where they are. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "loads.h"
+#include "memory.h"
+
+/* Along a mirror the forces of i on the image of j and of j on the image of i cancel if both bonds are the same to the
+ * last bit, so if reflecting rounds nothing; else the round-off of their lengths moves slow bodies. Places across mirrors
+ * of what has images are therefore multiples of one step: the last bit of twice the farthest place there is. */
+static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach)
+{
+    real farthest = 0;
+    for (int b = 0; b < n; b++) {
+        if (boundary[b].kind != BOUNDARY_MIRROR) continue;
+        farthest = real_max(farthest, 2 * fabs(boundary[b].at));
+        for (int64_t i = 0; i < p->n; i++) farthest = real_max(farthest, fabs(p->X[boundary[b].axis][i]));
+    }
+    return scalbn(1, ilogb(farthest + reach) + 2 - DBL_MANT_DIG);
+}
+
+static real stepped(const struct loads *l, real place) { return l->place_step * nearbyint(place / l->place_step); }
+
+/* Adds the images of one mirror: of everything near its plane, images of earlier mirrors included, so that corners get
+ * theirs. Nothing on the plane itself: such a particle is its own image. */
+static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
+{
+    const struct boundary *b = l->load[which].boundary;
+    int64_t before = p->n_all, images = 0, have = l->images;
+    for (int pass = 0; pass < 2; pass++) {
+        images = 0;
+        for (int64_t i = 0; i < before; i++) {
+            real distance = fabs(p->X[b->axis][i] - b->at);
+            if (distance > reach || distance <= LOADS_TOLERANCE * l->spacing) continue;
+            if (b->body >= 0 && p->body[i] != b->body) continue;
+            if (pass == 1) {
+                l->image[have + images] = (struct image){(int32_t)i, (uint8_t)which};
+                p->X[b->axis][i] = stepped(l, p->X[b->axis][i]);
+            }
+            images++;
+        }
+        if (pass == 0) l->image = memory_resize("loads.image", l->image, have, have + images, sizeof *l->image);
+    }
+    particles_add_images(p, images, optional);
+    l->images += images;
+    for (int64_t k = have; k < l->images; k++) {
+        int64_t g = p->n + k, i = l->image[k].source;
+        for (int d = 0; d < p->dim; d++) p->X[d][g] = d == b->axis ? stepped(l, 2 * b->at) - p->X[d][i] : p->X[d][i];
+        p->volume0[g] = p->volume0[i], p->volume[g] = p->volume[i], p->mass[g] = p->mass[i];
+        p->material[g] = p->material[i], p->body[g] = p->body[i], p->id[g] = p->id[i];
+    }
+}
+
+void loads_mirror(const struct loads *l, struct particles *p)
+{
+    for (int64_t k = 0; k < l->images; k++) {                /* all first: corners have images of images */
+        const int axis = l->load[l->image[k].load].boundary->axis;
+        const int64_t i = l->image[k].source;
+        if (i < p->n) p->x[axis][i] = stepped(l, p->x[axis][i]);
+    }
+    for (int64_t k = 0; k < l->images; k++) {
+        int64_t g = p->n + k, i = l->image[k].source;
+        const struct boundary *b = l->load[l->image[k].load].boundary;
+        for (int d = 0; d < p->dim; d++) {
+            const bool odd = d == b->axis || b->hold_tangential;
+            p->x[d][g] = odd ? p->X[d][g] - (p->x[d][i] - p->X[d][i]) : p->x[d][i];
+            p->v[d][g] = odd ? -p->v[d][i] : p->v[d][i];
+        }
+        p->kind[g] = p->kind[i];
+        p->flag[g] = p->flag[i] & FLAG_DRIVEN;
+    }
+}
+
+/* A mirror with body on both sides would lay images upon particles. */
+static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
+{
+    bool below = false, above = false;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (b->body >= 0 && p->body[i] != b->body) continue;
+        below = below || p->X[b->axis][i] < b->at - LOADS_TOLERANCE * spacing;
+        above = above || p->X[b->axis][i] > b->at + LOADS_TOLERANCE * spacing;
+    }
+    if (!(below && above)) return OK;
+    return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border",
+                      b->name, "xyz"[b->axis], b->at);
+}
+
+/* The side of a mirror that holds no body: -1 below, +1 above. */
+static int mirror_outside(const struct boundary *b, const struct particles *p)
+{
+    real sum = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (b->body < 0 || p->body[i] == b->body) sum += p->X[b->axis][i] - b->at;
+    return sum > 0 ? -1 : 1;
+}
+
+status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional)
+{
+    const struct boundary *boundary = l->n ? l->load[0].boundary : NULL;
+    l->place_step = place_step(boundary, l->n, p, reach);
+    for (int b = 0; b < l->n; b++) {
+        if (boundary[b].kind != BOUNDARY_MIRROR) continue;
+        TRY(mirror_checked(&boundary[b], p, l->spacing));
+        l->load[b].outside = mirror_outside(&boundary[b], p);
+        mirror_make(l, b, p, reach, optional);
+    }
+    loads_mirror(l, p);
+    return OK;
+}
