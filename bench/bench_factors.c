@@ -7,7 +7,7 @@
 #include "memory.h"
 #include "summary_read.h"
 
-/* ---- runs -------------------------------------------------------------------------------------------------- */
+/* ---- runs ------------------------------------------------------------------------------------------------ */
 
 static status job_start(struct factors_job *job, struct bench_child *child, int threads)
 {
@@ -45,7 +45,7 @@ double factors_figure(const char *folder, const char *key)
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* ---- what is asked ------------------------------------------------------------------------------------------- */
+/* ---- what is asked --------------------------------------------------------------------------------------- */
 
 void factors_ask(struct factors_targets *t, double measured, double asked, const char *name, ...)
 {
@@ -97,7 +97,7 @@ static void draw_targets(FILE *to, const void *context)
             t->n + 0.7);
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------------- */
+/* ---- all ------------------------------------------------------------------------------------------------- */
 
 static bool scenes_here(void)
 {

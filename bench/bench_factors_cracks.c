@@ -1,11 +1,11 @@
-/* floor 5: what fading bonds make of the reaction of a plate whose crack runs slowly (Imachi et al. 2019, section 5.4), and
- * the paths of Kalthoff's cracks, led by stress-intensity factors (section 5.5). */
+/* floor 5: what fading bonds make of the reaction of a plate whose crack runs slowly (Imachi et al. 2019, section 5.4),
+ * and the paths of Kalthoff's cracks, led by stress-intensity factors (section 5.5). */
 #include <math.h>
 
 #include "factors.h"
 #include "memory.h"
 
-/* ---- reactions -------------------------------------------------------------------------------------------------- */
+/* ---- reactions ------------------------------------------------------------------------------------------- */
 
 /* rms about a parabola that moves along over 5 us, from 22 to 78 us. */
 static const double half = 2.5e-6, judged[2] = {22e-6, 78e-6};
@@ -17,7 +17,9 @@ struct reaction_row {
     double *t, *force; /* [s] [N] */
 };
 enum { RELEASES = 2 };
-struct reaction_table { struct reaction_row row[RELEASES]; };
+struct reaction_table {
+    struct reaction_row row[RELEASES];
+};
 
 /* Value at `at` of the parabola that fits the points around best (Savitzky & Golay 1964); they lie evenly. */
 static double smooth_at(const struct reaction_row *r, int at, int reach)
@@ -52,8 +54,8 @@ static status take_reaction(void *row, const char *folder)
         sum += rest * rest, n++;
     }
     r->rough = sqrt(sum / n), r->last = r->force[r->n - 1];
-    printf("  %-34s rms %7.2f N, %.4f %% of the last value, %.0f N\n", r->name, r->rough, 100 * r->rough / fabs(r->last),
-           fabs(r->last));
+    printf("  %-34s rms %7.2f N, %.4f %% of the last value, %.0f N\n", r->name, r->rough,
+           100 * r->rough / fabs(r->last), fabs(r->last));
     return OK;
 }
 
@@ -63,10 +65,13 @@ static void draw_reactions(FILE *to, const void *context)
     static const char *const colour[RELEASES] = {"#0072b2", "#d55e00"};
     for (int k = 0; k < RELEASES; k++) {
         fprintf(to, "$reaction%d << EOD\n", k);
-        for (int i = 0; i < t->row[k].n; i++) fprintf(to, "%.6g %.6g\n", 1e6 * t->row[k].t[i], 1e-3 * fabs(t->row[k].force[i]));
+        for (int i = 0; i < t->row[k].n; i++)
+            fprintf(to, "%.6g %.6g\n", 1e6 * t->row[k].t[i], 1e-3 * fabs(t->row[k].force[i]));
         fputs("EOD\n", to);
     }
-    fputs("set xrange [0:80]\nset xlabel 'time [us]'\nset ylabel 'reaction [kN]'\nset title 'a crack runs slowly'\nplot ", to);
+    fputs(
+        "set xrange [0:80]\nset xlabel 'time [us]'\nset ylabel 'reaction [kN]'\nset title 'a crack runs slowly'\nplot ",
+        to);
     for (int k = RELEASES - 1; k >= 0; k--)
         fprintf(to, "$reaction%d using 1:2 with lines lw 2 lc rgb '%s' title '%s'%s", k, colour[k], t->row[k].name,
                 k ? ", " : "\n");
@@ -95,7 +100,8 @@ static status write_reactions(const struct reaction_table *t)
 
 static status reactions(struct factors_targets *asked)
 {
-    struct reaction_table t = {{{.name = "fading bonds", .damping = "half"}, {.name = "sudden release", .damping = "0 mm"}}};
+    struct reaction_table t = {
+        {{.name = "fading bonds", .damping = "half"}, {.name = "sudden release", .damping = "0 mm"}}};
     struct factors_job job[RELEASES];
     printf("\n  reaction of a plate whose crack runs slowly, about a parabola that moves along\n");
     for (int k = 0; k < RELEASES; k++) {
@@ -109,7 +115,7 @@ static status reactions(struct factors_targets *asked)
     return s;
 }
 
-/* ---- paths ---------------------------------------------------------------------------------------------------------- */
+/* ---- paths ----------------------------------------------------------------------------------------------- */
 
 struct path_row {
     const char *name, *key, *value;
@@ -160,8 +166,10 @@ static status paths(void)
     struct path_row row[PATHS];
     struct factors_job job[PATHS];
     struct bench_table rows;
-    printf("\n  Kalthoff's plate, led by its factors (Imachi et al. 2019: 73.6 degrees; experiment: 70); one thread each\n"
-           "  %-34s %7s %10s %10s %11s %8s\n", "", "angle", "length mm", "start us", "K_II/K_I", "s");
+    printf(
+        "\n  Kalthoff's plate, led by its factors (Imachi et al. 2019: 73.6 degrees; experiment: 70); one thread each\n"
+        "  %-34s %7s %10s %10s %11s %8s\n",
+        "", "angle", "length mm", "start us", "K_II/K_I", "s");
     for (int k = 0; k < PATHS; k++) {
         row[k] = path_row[k];
         job[k] = (struct factors_job){.path = "inputs/kalthoff_sif.yaml", .row = &row[k], .take = take_path};

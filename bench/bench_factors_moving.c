@@ -1,6 +1,6 @@
-/* floor 5: plane waves load a semi-infinite crack, at rest or moving: K_I(t) beside Freund's solution, and what the way of
- * releasing bonds, the time step, the horizon, the spacing and irregular particles make of it (Imachi et al. 2019, figures
- * 6, 7 and 9 to 12). Ripple: rms about a parabola over 5 to 9 us, over the mean; also of the whole disc's sum, as the
+/* floor 5: plane waves load a semi-infinite crack, at rest or moving: K_I(t) beside Freund's solution, and what the way
+ * of releasing bonds, the time step, the horizon, the spacing and irregular particles make of it (Imachi et al. 2019,
+ * figures 6, 7 and 9 to 12). Ripple: rms about a parabola over 5 to 9 us, over the mean; also of the whole disc's sum, as the
  * paper takes it: the probe's own leaves out the process zone. */
 #include <math.h>
 #include <string.h>
@@ -12,22 +12,34 @@
 
 #define SCENE "inputs/semi_infinite_crack.yaml"
 
-static const double speed = 1000, stress = 2e6, way = 20e-3;   /* of the crack [m/s]; on its plane [Pa]; of the waves [m] */
-static const double window[2] = {5e-6, 9e-6}, settled = 5.5e-6; /* of ripple; a moving crack is judged from then on [s] */
+static const double speed = 1000;             /* of the crack [m/s]                       */
+static const double stress = 2e6, way = 20e-3; /* on its plane [Pa]; of the waves to it [m] */
+static const double window[2] = {5e-6, 9e-6};  /* of ripple [s]                            */
+static const double settled = 5.5e-6;          /* a moving crack is judged from then on [s] */
 
 /* Figures of the paper. */
 enum { LENGTH = 1, EXPONENT = 2, STEP = 4, HORIZON = 8, SPACING = 16, IRREGULAR = 32, OTHER = 64, EACH = 63 };
-static const struct { int bit; const char *name, *title; } group[] = {
-    {LENGTH, "damping", "damping length, exponent 1 (figure 6)"}, {EXPONENT, "exponent", "exponent, half a horizon (figure 7)"},
-    {STEP, "step", "time step (figure 9)"},                        {HORIZON, "horizon", "horizon (figure 10)"},
-    {SPACING, "spacing", "spacing (figure 11)"},                   {IRREGULAR, "irregular", "irregular particles (figure 12)"}};
+static const struct {
+    int bit;
+    const char *name, *title;
+} group[] = {{LENGTH, "damping", "damping length, exponent 1 (figure 6)"},
+             {EXPONENT, "exponent", "exponent, half a horizon (figure 7)"},
+             {STEP, "step", "time step (figure 9)"},
+             {HORIZON, "horizon", "horizon (figure 10)"},
+             {SPACING, "spacing", "spacing (figure 11)"},
+             {IRREGULAR, "irregular", "irregular particles (figure 12)"}};
 
-#define SUDDEN {"growth[0].damping", "0 mm"}
+#define SUDDEN                                                                                                         \
+    {                                                                                                                  \
+        "growth[0].damping", "0 mm"                                                                                    \
+    }
 enum { PAIRS = 4, QUICK = 2 /* rows, the first; one moves */ };
 static const struct moving_case {
     const char *name;
     int groups;
-    struct { const char *key, *value; } pair[PAIRS];
+    struct {
+        const char *key, *value;
+    } pair[PAIRS];
 } moving_case[] = {
     {"at rest", OTHER, {{"growth", ""}}},
     {"moving: as it stands", EACH, {{NULL, NULL}}},
@@ -76,7 +88,7 @@ struct moving_table {
     int n;
 };
 
-/* ---- the closed form ---------------------------------------------------------------------------------------------- */
+/* ---- the closed form ------------------------------------------------------------------------------------- */
 
 static status closed_form(struct moving_table *t)
 {
@@ -94,7 +106,7 @@ static double at_rest(const struct moving_table *t, double time)
     return crack_suddenly_loaded(&t->medium, stress, time - way / t->medium.longitudinal);
 }
 
-/* ---- ripple ------------------------------------------------------------------------------------------------------- */
+/* ---- ripple ---------------------------------------------------------------------------------------------- */
 
 /* rms about the parabola that fits n points best, over their mean; by orthogonal polynomials of the points. */
 static double ripple_of(const double *x, const double *y, int n)
@@ -116,7 +128,7 @@ static double ripple_of(const double *x, const double *y, int n)
     return sqrt(square_sum / n) / mean;
 }
 
-/* ---- runs ------------------------------------------------------------------------------------------------------------ */
+/* ---- runs ------------------------------------------------------------------------------------------------ */
 
 static status read_curves(struct moving_row *r, const char *folder)
 {
@@ -144,7 +156,8 @@ static void find_figures(struct moving_row *r, const struct moving_table *t)
         r->low = fmin(r->low, ratio), r->high = fmax(r->high, ratio), r->mean += ratio, judged++;
     }
     r->mean /= judged;
-    for (int p = 0; p < 2; p++) r->ripple[p] = end > first ? ripple_of(r->t + first, r->K[p] + first, end - first) : NAN;
+    for (int p = 0; p < 2; p++)
+        r->ripple[p] = end > first ? ripple_of(r->t + first, r->K[p] + first, end - first) : NAN;
 }
 
 static struct moving_table *table; /* of the run that is being read */
@@ -164,7 +177,8 @@ static struct factors_job job_of(struct moving_row *r, const struct moving_case 
 {
     struct factors_job job = {.path = SCENE, .row = r, .take = take_row};
     *r = (struct moving_row){.at = c, .moves = !c->pair[0].key || strcmp(c->pair[0].key, "growth") != 0};
-    for (int k = 0; k < PAIRS && c->pair[k].key; k++) bench_override(&job.overrides, c->pair[k].key, "%s", c->pair[k].value);
+    for (int k = 0; k < PAIRS && c->pair[k].key; k++)
+        bench_override(&job.overrides, c->pair[k].key, "%s", c->pair[k].value);
     return job;
 }
 
@@ -178,7 +192,7 @@ static status run_all(struct moving_table *t, bool quick)
     return factors_run(job, t->n, team_make(0));
 }
 
-/* ---- files ------------------------------------------------------------------------------------------------------------ */
+/* ---- files ----------------------------------------------------------------------------------------------- */
 
 static void fill_curves(struct bench_table *rows, const struct moving_table *t)
 {
@@ -211,7 +225,10 @@ static status write_tables(const struct moving_table *t)
     return s;
 }
 
-struct moving_picture { const struct moving_table *t; int group; };
+struct moving_picture {
+    const struct moving_table *t;
+    int group;
+};
 
 static bool is_sudden(const struct moving_case *c)
 {
@@ -228,7 +245,8 @@ static void put_curves(FILE *to, const struct moving_table *t, int groups)
         const struct moving_row *r = &t->row[k];
         if (!(r->at->groups & groups)) continue;
         fprintf(to, "$moving%d << EOD\n", k);
-        for (int i = 0; i < r->n; i++) fprintf(to, "%.6g %.6g %.6g\n", 1e6 * r->t[i], r->K[0][i] / size, r->K[1][i] / size);
+        for (int i = 0; i < r->n; i++)
+            fprintf(to, "%.6g %.6g %.6g\n", 1e6 * r->t[i], r->K[0][i] / size, r->K[1][i] / size);
         fputs("EOD\n", to);
     }
     fputs("$exact << EOD\n", to);
@@ -239,21 +257,33 @@ static void put_curves(FILE *to, const struct moving_table *t, int groups)
     fputs("EOD\n", to);
 }
 
-/* Above, bonds that fade; below, those released at once: the whole disc's sum, as the paper has it. */
+static bool ways_of_release(int groups) { return groups == LENGTH || groups == EXPONENT; }
+
+/* Where ways of release are compared, both panels show all; else those that fade are above, those released at once
+ * below. */
+static bool is_shown(const struct moving_case *c, int groups, int column)
+{
+    return (c->groups & groups) && (ways_of_release(groups) || is_sudden(c) == (column == 2));
+}
+
+/* Column 1, above: the probe's own sum; 2, below: the whole disc's, as the paper has it. */
 static void draw_panel(FILE *to, const struct moving_table *t, int groups, int column, const char *what)
 {
     const double above = column < 2 ? 0.93 : 0.45;
     int colour = 0;
-    fprintf(to, "set lmargin at screen 0.07\nset rmargin at screen 0.67\nset tmargin at screen %g\nset bmargin at screen %g\n"
-            "set title '%s'\nset key at screen 0.68,%g left top vertical maxrows 12\n", above, above - 0.36, what, above);
-    fputs("plot $exact using ($1 >= 4.4 ? $1 : NaN):3 with lines lw 2 dt (6,4) lc rgb '#111111' title 'exact, 1000 m/s', "
-          "'' using ($1 >= 4.4 ? $1 : NaN):4 with lines lw 2 dt (2,3) lc rgb '#777777' title 'printed approximation', "
-          "'' using 1:2 with lines lw 1.4 dt (6,4) lc rgb '#777777' title 'exact, at rest'", to);
+    fprintf(
+        to,
+        "set lmargin at screen 0.07\nset rmargin at screen 0.67\nset tmargin at screen %g\nset bmargin at screen %g\n"
+        "set title '%s'\nset key at screen 0.68,%g left top vertical maxrows 12\n",
+        above, above - 0.36, what, above);
+    fputs(
+        "plot $exact using ($1 >= 4.4 ? $1 : NaN):3 with lines lw 2 dt (6,4) lc rgb '#111111' title 'exact, 1000 m/s', "
+        "'' using ($1 >= 4.4 ? $1 : NaN):4 with lines lw 2 dt (2,3) lc rgb '#777777' title 'printed approximation', "
+        "'' using 1:2 with lines lw 1.4 dt (6,4) lc rgb '#777777' title 'exact, at rest'",
+        to);
     for (int k = 0; k < t->n; k++) {
         const struct moving_case *c = t->row[k].at;
-        if (!(c->groups & groups) || is_sudden(c) != (column == 2 && groups != LENGTH && groups != EXPONENT)) {
-            if (!(c->groups & groups) || column == 1 || (groups != LENGTH && groups != EXPONENT)) continue;
-        }
+        if (!is_shown(c, groups, column)) continue;
         fprintf(to, ", $moving%d using 1:%d with lines lw 2.4 lc rgb '%s' title '%s'", k, column + 1,
                 curve_colour[colour++ % CURVE_COLOURS], c->name);
     }
@@ -264,14 +294,14 @@ static void draw(FILE *to, const void *context)
 {
     const struct moving_picture *p = context;
     const int groups = group[p->group].bit;
-    const bool releases = groups == LENGTH || groups == EXPONENT;
     put_curves(to, p->t, groups);
     fputs("set multiplot\nset xrange [3:9.2]\nset yrange [0:1.2]\nset xlabel 'time [us]'\n"
-          "set ylabel 'K_I over {/Symbol s} ({/Symbol p} a)^{1/2}'\n", to);
+          "set ylabel 'K_I over {/Symbol s} ({/Symbol p} a)^{1/2}'\n",
+          to);
     char title[160];
     snprintf(title, sizeof title, "%s: without the process zone", group[p->group].title);
     draw_panel(to, p->t, groups, 1, title);
-    draw_panel(to, p->t, groups, 2, releases ? "the whole disc" : "released at once, the whole disc");
+    draw_panel(to, p->t, groups, 2, ways_of_release(groups) ? "the whole disc" : "released at once, the whole disc");
     fputs("unset multiplot\n", to);
 }
 
@@ -286,7 +316,7 @@ static status draw_groups(const struct moving_table *t)
     return OK;
 }
 
-/* ---- what is asked ------------------------------------------------------------------------------------------------------ */
+/* ---- what is asked --------------------------------------------------------------------------------------- */
 
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 
@@ -308,9 +338,10 @@ status moving_bench(struct factors_targets *asked, bool quick)
     struct moving_table *t = NEW("bench.moving", 1, struct moving_table);
     status s = closed_form(t);
     if (s == OK) {
-        printf("\n  semi-infinite crack under plane waves, K_I over the exact one (5 to 9 us at rest, 5.5 to 9 us moving; "
-               "k(1000 m/s) = %.4f,\n  as usually printed %.4f); one thread each\n  %-34s %15s  %6s  %8s %8s %8s\n",
-               t->factor, t->printed, "", "low, high", "mean", "ripple", "disc", "s");
+        printf(
+            "\n  semi-infinite crack under plane waves, K_I over the exact one (5 to 9 us at rest, 5.5 to 9 us moving; "
+            "k(1000 m/s) = %.4f,\n  as usually printed %.4f); one thread each\n  %-34s %15s  %6s  %8s %8s %8s\n",
+            t->factor, t->printed, "", "low, high", "mean", "ripple", "disc", "s");
         s = run_all(t, quick);
     }
     if (s == OK) ask(asked, t);

@@ -35,14 +35,15 @@ struct factors_targets {
 void factors_ask(struct factors_targets *t, double measured, double asked, const char *name, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* ---- bench_factors_edge.c: an edge crack at rest, finer and finer ---------------------------------------------- */
+/* ---- bench_factors_edge.c: an edge crack at rest, finer and finer ---------------------------------------- */
 
 enum { EDGE_RINGS = 3 };
 struct edge_row {
     int model;  /* edge_model */
     int side;   /* particles  */
     bool relaxed;
-    double K, spread, steps, seconds, peak, ring[EDGE_RINGS]; /* [Pa m^0.5] [1] [1] [s] [bytes]; on 30, 50, 70 spacings */
+    double K, spread, steps, seconds, peak; /* [Pa m^0.5] [1] [1] [s] [bytes] */
+    double ring[EDGE_RINGS]; /* K_I on 30, 50, 70 spacings */
 };
 enum { EDGE_ROWS_MAX = 32 };
 struct edge_table {
@@ -51,15 +52,15 @@ struct edge_table {
 };
 status edge_bench(struct factors_targets *asked, bool quick);
 
-/* ---- bench_factors_inclined.c: both modes ----------------------------------------------------------------------- */
+/* ---- bench_factors_inclined.c: both modes ---------------------------------------------------------------- */
 
 status inclined_bench(struct factors_targets *asked, bool quick);
 
-/* ---- bench_factors_moving.c: plane waves load a crack at rest or on its way ----------------------------------- */
+/* ---- bench_factors_moving.c: plane waves load a crack at rest or on its way ------------------------------ */
 
 status moving_bench(struct factors_targets *asked, bool quick);
 
-/* ---- bench_factors_cracks.c: reactions and paths ------------------------------------------------------------------ */
+/* ---- bench_factors_cracks.c: reactions and paths --------------------------------------------------------- */
 
 status cracks_bench(struct factors_targets *asked);
 
