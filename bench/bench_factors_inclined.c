@@ -1,5 +1,6 @@
 /* floor 5: an inclined crack in a plate: K_I and K_II beside boundary collocation and Table 3 of the paper on the
- * modified ordinary state-based model. Deviations are shares of (K_I^2 + K_II^2)^0.5: at 75 degrees K_I is a third of K_II. */
+ * modified ordinary state-based model. Deviations are shares of (K_I^2 + K_II^2)^0.5: at 75 degrees K_I is a third of
+ * K_II. */
 #include <math.h>
 
 #include "factors.h"

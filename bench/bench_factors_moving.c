@@ -1,7 +1,7 @@
 /* floor 5: plane waves load a semi-infinite crack, at rest or moving: K_I(t) beside Freund's solution, and what the way
  * of releasing bonds, the time step, the horizon, the spacing and irregular particles make of it (Imachi et al. 2019,
- * figures 6, 7 and 9 to 12). Ripple: rms about a parabola over 5 to 9 us, over the mean; also of the whole disc's sum, as the
- * paper takes it: the probe's own leaves out the process zone. */
+ * figures 6, 7 and 9 to 12). Ripple: rms about a parabola over 5 to 9 us, over the mean; also of the whole disc's
+ * sum, as the paper takes it: the probe's own leaves out the process zone. */
 #include <math.h>
 #include <string.h>
 
@@ -237,10 +237,10 @@ static bool is_sudden(const struct moving_case *c)
     return false;
 }
 
-/* K over sigma (pi a)^0.5 with a = 12 mm, as the paper has it. */
+/* K over sigma (pi a)^0.5 with a = 12 mm, as the paper has it; sigma on the crack's plane. */
 static void put_curves(FILE *to, const struct moving_table *t, int groups)
 {
-    const double size = 1e6 * sqrt(3.14159265358979 * 12e-3);
+    const double size = stress * sqrt(3.14159265358979 * 12e-3);
     for (int k = 0; k < t->n; k++) {
         const struct moving_row *r = &t->row[k];
         if (!(r->at->groups & groups)) continue;
@@ -296,7 +296,7 @@ static void draw(FILE *to, const void *context)
     const int groups = group[p->group].bit;
     put_curves(to, p->t, groups);
     fputs("set multiplot\nset xrange [3:9.2]\nset yrange [0:1.2]\nset xlabel 'time [us]'\n"
-          "set ylabel 'K_I over {/Symbol s} ({/Symbol p} a)^{1/2}'\n",
+          "set ylabel 'K_I over sigma (pi a)^0.5'\n",
           to);
     char title[160];
     snprintf(title, sizeof title, "%s: without the process zone", group[p->group].title);
@@ -320,16 +320,22 @@ static status draw_groups(const struct moving_table *t)
 
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 
-/* What is said of a moving crack holds for spacings of 0.25 mm and less. */
+/* What is said of a moving crack holds for spacings of 0.25 mm and less. Bonds that fade over a whole horizon hold the
+ * crack back: it starts late. */
 static void ask(struct factors_targets *asked, const struct moving_table *t)
 {
-    double worst = 0;
+    double worst = 0, slow = 0;
     factors_ask(asked, farthest(&t->row[0]), 0.03, "crack at rest under waves, 5 to 9 us");
     factors_ask(asked, farthest(&t->row[1]), 0.05, "moving crack, 5.5 to 9 us");
-    for (int k = 2; k < t->n; k++)
-        if (!strstr(t->row[k].at->name, "0.5 mm")) worst = fmax(worst, farthest(&t->row[k]));
     if (t->n <= 2) return;
-    factors_ask(asked, worst, 0.05, "moving crack, worst of all ways at 0.25 mm and finer");
+    for (int k = 2; k < t->n; k++) {
+        const char *name = t->row[k].at->name;
+        if (strstr(name, "0.5 mm")) continue;
+        double *most = strstr(name, "of a horizon") ? &slow : &worst;
+        *most = fmax(*most, farthest(&t->row[k]));
+    }
+    factors_ask(asked, worst, 0.05, "moving crack, worst of all ways to 0.25 mm");
+    factors_ask(asked, slow, 0.05, "moving crack, damping of a whole horizon");
     factors_ask(asked, t->row[1].ripple[1] / t->row[2].ripple[1], 1.0 / 3, "ripple, fading over sudden, whole disc");
 }
 
