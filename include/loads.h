@@ -48,7 +48,8 @@ struct load {
     const struct boundary *boundary;     /* borrowed from the scene                                   */
     int64_t n;
     int32_t *particle;                   /* ascending                                                 */
-    real *share;                         /* TRACTION: area [m^2]; BODY_FORCE: volume times profile [m^3] */
+    real *share;                         /* [n dim] TRACTION: area [m^2], in the face's plane 3/2 of it in the outermost
+                                            layer, -1/2 in the next; BODY_FORCE: volume times profile [m^3] */
     real *before;                        /* [n dim] TRACTION, BODY_FORCE: where they were in this step [m] */
     real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
                                             moves the driven particles themselves             [N]     */
@@ -68,12 +69,17 @@ struct loads {
     real work;                           /* done by applied forces, up to where particles are [J]     */
     real held_work;                      /* done by supports, up to the velocities, half a step behind [J] */
     real spacing;                        /* [m]                                                       */
+    real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
+                                            loads' moment [1/s^2], 0: none                            */
     real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
     int64_t share_room;
     struct held *held;                   /* nodes in driven regions and on mirrors ...                */
     int64_t helds, held_room;
     int64_t held_first[DIM_MAX], held_count[DIM_MAX];   /* ... of the grid box they were found in     */
 };
+
+/* Finds the particles of one boundary (none of a mirror), ascending, and their shares; marks FLAG_DRIVEN. */
+void load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
 /* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
  * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is the layer thickness of
@@ -114,7 +120,11 @@ void loads_static_boundaries(struct boundary *to, const struct boundary *from, i
  * `held` by particle); where two overlap the later one holds, as in a run. */
 void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement, uint8_t *held);
 
-/* Adds the applied forces. */
+/* A body that nothing holds in the plane has no equilibrium under loads that turn it, and those on the scattered particles
+ * of a shaken lattice always do a little: from now on the forces of its inertia in that turn belong to the applied ones
+ * (inertia relief). Returns the moment over the largest that forces of their size could make there [1]. */
+real loads_static_balance(struct loads *l, const struct particles *p);
+/* Adds the applied forces to part.f. */
 void loads_static_force(const struct loads *l, struct particles *p);
 
 /* Forces on driven components become reactions and leave f. */

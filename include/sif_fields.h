@@ -52,6 +52,9 @@ real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v)
 enum speed_factor { SPEED_EXACT, SPEED_ROSE, SPEED_APPROXIMATE };
 real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real v);
 
+/* The speed v <= most (below c_R) at which the exact k(v) is `factor`; 0 where factor >= 1 [m/s]. */
+real crack_speed_of_factor(const struct crack_medium *m, real factor, real most);
+
 /* K_I of a semi-infinite crack at rest in plane strain, `age` [s] after a plane wave reached it that brings the normal
  * stress `stress` to its plane [Pa m^(1/2)]. */
 real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age);

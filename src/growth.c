@@ -8,6 +8,10 @@
 #include "kernels.h"
 #include "memory.h"
 
+#define FASTEST 0.9                      /* of the Rayleigh speed, where the scene gives no bound             */
+#define SLOWEST 0.01                     /* of it: factors at rest and at this speed are the same to 1e-4     */
+#define SMOOTHING 0.3                    /* of the settling time                                              */
+
 void growth_make(struct growth *g, const struct growth_rule *rule)
 {
     *g = (struct growth){.rule = rule, .start_time = NAN, .intensity = NAN};
@@ -20,6 +24,38 @@ void growth_free(struct growth *g)
     memset(g, 0, sizeof *g);
 }
 
+bool growth_follows(const struct growth_rule *rule) { return isnan(rule->speed); }
+
+/* ---- how fast a crack is that follows its toughness -------------------------------------------------------- */
+
+/* One step of the law in the header: the speed that the last factors ask for, once for each of them. */
+static void pace_find(struct growth *g, const struct ruling *ruling, real settling)
+{
+    const struct crack_medium *m = &ruling->medium;
+    const real bound = FASTEST * m->rayleigh, most = isnan(g->rule->fastest) ? bound : real_min(g->rule->fastest, bound);
+    real wanted = 0;
+    if (g->intensity > 0) {
+        const real felt = crack_speed_factor(m, SPEED_EXACT, g->felt);
+        wanted = crack_speed_of_factor(m, felt * g->rule->toughness / g->intensity, most);
+    }
+    g->pace += (wanted - g->pace) * -expm1(-(ruling->time - g->asked) / (SMOOTHING * settling));
+    if (wanted == 0 && g->pace < SLOWEST * m->rayleigh) g->pace = 0;
+}
+
+/* Before g->speed, the speed of the last step, is forgotten. */
+static void pace_update(struct growth *g, const struct ruling *ruling, real horizon, real t, real dt)
+{
+    if (!growth_follows(g->rule)) return;
+    if (!ruling) {
+        g->pace = 0;
+        return;
+    }
+    const real settling = horizon / ruling->medium.rayleigh;
+    g->felt += (g->speed - g->felt) * -expm1(-dt / settling);
+    if (t >= g->rule->start && ruling->time > g->asked) pace_find(g, ruling, settling);
+    g->asked = ruling->time;
+}
+
 /* ---- does it grow, and where to --------------------------------------------------------------------------- */
 
 static bool grows(const struct growth *g, real t)
@@ -27,6 +63,7 @@ static bool grows(const struct growth *g, real t)
     const struct growth_rule *r = g->rule;
     if (t < r->start || g->grown >= r->length) return false;
     if (!r->probe[0]) return true;
+    if (growth_follows(r)) return g->pace > 0;
     return g->intensity >= r->toughness;
 }
 
@@ -181,12 +218,13 @@ int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, cons
                     const struct ruling *ruling, real t, real dt)
 {
     const real from[2] = {g->place[0], g->place[1]};
-    g->speed = 0;
     g->intensity = ruling ? crack_equivalent(ruling->factors.K) : NAN;
+    pace_update(g, ruling, source->family.horizon, t, dt);
+    g->speed = 0;
     /* where the crack begins among material points, it waits a step for the bonds that it is to cross */
     if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
         if (g->rule->probe[0]) turn(g, ruling);
-        g->speed = g->rule->speed;
+        g->speed = growth_follows(g->rule) ? g->pace : g->rule->speed;
         if (isnan(g->start_time)) g->start_time = t;
         advance(g, real_min(g->speed * dt, g->rule->length - g->grown), source->family.horizon);
         cross(g, b, p, source, from);
@@ -205,14 +243,14 @@ real growth_angle(const struct growth *g)
 status growth_archive(struct growth *g, int which, struct archive *a)
 {
     char name[64];
-    struct { real place[2], along[2], heading[2], speed, grown, start_time, intensity; int64_t n; } s = {
+    struct { real place[2], along[2], heading[2], speed, grown, start_time, intensity, pace, felt, asked; int64_t n; } s = {
         {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, {g->heading[0], g->heading[1]},
-        g->speed, g->grown, g->start_time, g->intensity, g->n};
+        g->speed, g->grown, g->start_time, g->intensity, g->pace, g->felt, g->asked, g->n};
     snprintf(name, sizeof name, "growth/%d", which);
     ARCHIVE_VALUE(a, name, s);
     for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->heading[d] = s.heading[d];
     g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
-    g->intensity = s.intensity;
+    g->intensity = s.intensity, g->pace = s.pace, g->felt = s.felt, g->asked = s.asked;
     if (!a->saving) {
         memory_free(g->fading);
         g->n = g->room = s.n;

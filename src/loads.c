@@ -1,4 +1,4 @@
-/* floor 3: boundary conditions at work: who is loaded, mirror images, forces, walls, and their impulse and work. */
+/* floor 3: boundary conditions at work: mirror images, forces, walls, and their impulse and work. */
 #include "loads.h"
 
 #include <math.h>
@@ -9,63 +9,6 @@
 #include "team.h"
 
 #define PLACE_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it */
-
-/* ---- who is loaded --------------------------------------------------------------------------------- */
-
-static bool load_selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
-{
-    real X[DIM_MAX];
-    particle_place(p, i, X);
-    if (b->body >= 0 && p->body[i] != b->body) return false;
-    return region_contains(&b->region, X, p->dim, PLACE_TOLERANCE * spacing);
-}
-
-/* Outermost coordinate of the selected particles along a traction's normal. */
-static real face_place(const struct boundary *b, const struct particles *p, const uint8_t *selected)
-{
-    real place = -INFINITY;
-    for (int64_t i = 0; i < p->n; i++)
-        if (selected[i]) place = real_max(place, b->side * p->X[b->face][i]);
-    return place;
-}
-
-static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
-{
-    real X[DIM_MAX], along = 0;
-    if (f->kind == PROFILE_UNIFORM) return 1;
-    particle_place(p, i, X);
-    for (int d = 0; d < p->dim; d++) along += (X[d] - f->origin[d]) * f->direction[d];
-    return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
-}
-
-static real load_share(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
-{
-    return p->volume0[i] * (b->kind == BOUNDARY_TRACTION ? 1 / spacing : profile_at(&b->profile, p, i));
-}
-
-static void load_make(struct load *l, const struct boundary *b, struct particles *p, real spacing)
-{
-    l->boundary = b;
-    if (b->kind == BOUNDARY_MIRROR) return;
-    uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
-    for (int64_t i = 0; i < p->n; i++) selected[i] = load_selects(b, p, i, spacing);
-    if (b->kind == BOUNDARY_TRACTION) {      /* the outermost layer only: within half a spacing of the farthest */
-        real place = face_place(b, p, selected);
-        for (int64_t i = 0; i < p->n; i++)
-            selected[i] = selected[i] && b->side * p->X[b->face][i] > place - 0.5 * spacing;
-    }
-    for (int64_t i = 0; i < p->n; i++) l->n += selected[i];
-    l->particle = NEW("loads.particle", l->n, int32_t);
-    l->share = NEW("loads.share", l->n, real);
-    l->before = NEW("loads.before", l->n * p->dim, real);
-    for (int64_t i = 0, k = 0; i < p->n; i++) {
-        if (!selected[i]) continue;
-        l->particle[k] = (int32_t)i;
-        l->share[k++] = load_share(b, p, i, spacing);
-        if (b->kind == BOUNDARY_VELOCITY) p->flag[i] |= FLAG_DRIVEN;
-    }
-    memory_free(selected);
-}
 
 /* ---- mirrors --------------------------------------------------------------------------------------- */
 
@@ -145,7 +88,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->spacing = spacing;
     l->load = NEW("loads.load", n, struct load);
     for (int b = 0; b < n; b++) {
-        load_make(&l->load[b], &boundary[b], p, spacing);
+        load_select(&l->load[b], &boundary[b], p, spacing);
         if (boundary[b].kind == BOUNDARY_MIRROR) {
             TRY(mirror_checked(&boundary[b], p, spacing));
             l->load[b].outside = mirror_outside(&boundary[b], p);
@@ -234,7 +177,7 @@ static void apply(struct loads *l, struct load *load, struct particles *p, real 
     real given[DIM_MAX] = {0};
     for (int64_t k = 0; k < load->n; k++)
         for (int d = 0; d < p->dim; d++) {
-            real force = factor * load->boundary->value[d] * load->share[k];
+            real force = factor * load->boundary->value[d] * load->share[k * p->dim + d];
             load->before[k * p->dim + d] = p->x[d][load->particle[k]];
             p->f[d][load->particle[k]] += force;
             given[d] += force;
@@ -445,7 +388,7 @@ static void applied_work(struct loads *l, const struct load *load, const struct 
     real work = 0;
     for (int64_t k = 0; k < load->n; k++)
         for (int d = 0; d < p->dim; d++)
-            work += factor * load->boundary->value[d] * load->share[k] *
+            work += factor * load->boundary->value[d] * load->share[k * p->dim + d] *
                     (p->x[d][load->particle[k]] - load->before[k * p->dim + d]);
     l->work += work;
 }

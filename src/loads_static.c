@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#define ROUND_OFF 1e-12                  /* of the moment that forces could make: less is none */
+
 static bool is_force(const struct boundary *b)
 {
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE;
@@ -42,14 +44,51 @@ void loads_static_driven(struct loads *l, const struct particles *p, real ramp, 
     }
 }
 
+/* Moment of the applied forces about the centre of mass in the plane, and the largest that they could make. */
+static void moment(const struct loads *l, const struct particles *p, real *turning, real *most)
+{
+    *turning = *most = 0;
+    for (int c = 0; c < l->n; c++) {
+        const struct load *load = &l->load[c];
+        if (!is_force(load->boundary)) continue;
+        for (int64_t k = 0; k < load->n; k++) {
+            const real *value = load->boundary->value, *share = &load->share[k * p->dim];
+            const real x = p->X[0][load->particle[k]] - l->centre[0], y = p->X[1][load->particle[k]] - l->centre[1];
+            const real fx = value[0] * share[0], fy = value[1] * share[1];
+            *turning += x * fy - y * fx;
+            *most += hypot(x, y) * hypot(fx, fy);
+        }
+    }
+}
+
+real loads_static_balance(struct loads *l, const struct particles *p)
+{
+    real mass = 0, inertia = 0, turning, most;
+    memset(l->centre, 0, sizeof l->centre);
+    for (int64_t i = 0; i < p->n; i++) {
+        mass += p->mass[i];
+        for (int d = 0; d < 2; d++) l->centre[d] += p->mass[i] * p->X[d][i];
+    }
+    for (int d = 0; d < 2; d++) l->centre[d] /= mass;
+    for (int64_t i = 0; i < p->n; i++)
+        inertia += p->mass[i] * (square(p->X[0][i] - l->centre[0]) + square(p->X[1][i] - l->centre[1]));
+    moment(l, p, &turning, &most);
+    l->turn = fabs(turning) > ROUND_OFF * most ? turning / inertia : 0;
+    return most > 0 ? fabs(turning) / most : 0;
+}
+
 void loads_static_force(const struct loads *l, struct particles *p)
 {
+    for (int64_t i = 0; i < p->n && l->turn != 0; i++) {
+        p->f[0][i] += l->turn * p->mass[i] * (p->X[1][i] - l->centre[1]);
+        p->f[1][i] -= l->turn * p->mass[i] * (p->X[0][i] - l->centre[0]);
+    }
     for (int c = 0; c < l->n; c++) {
         const struct load *load = &l->load[c];
         if (!is_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++)
-                p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[k];
+                p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[k * p->dim + d];
     }
 }
 
@@ -80,7 +119,7 @@ void loads_static_work(struct loads *l, const struct particles *p)
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
                 const int32_t i = load->particle[k];
-                l->work += 0.5 * b->value[d] * load->share[k] * (p->x[d][i] - p->X[d][i]);
+                l->work += 0.5 * b->value[d] * load->share[k * p->dim + d] * (p->x[d][i] - p->X[d][i]);
             }
     }
 }

@@ -23,6 +23,7 @@ struct probe_memory {
     real trail[2][2];                    /* SIF: where the tip came along, for its direction     [m]  */
     real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample      */
     real along[2];                       /* SIF: direction of the tip at the last sample              */
+    real time;                           /* SIF: of the factors                                [s]    */
     struct rigid_memory rigid;           /* RIGID                                                     */
 };
 

@@ -295,6 +295,7 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
                                        sif_spread(found + 1, w->contours - 1)};
     memcpy(q->memory.factors, factors, sizeof factors);
     memcpy(q->memory.along, w->tip.along, sizeof q->memory.along);
+    q->memory.time = o->t;
 }
 
 bool probes_ruling(const struct probes *s, const char *name, struct ruling *found)
@@ -302,8 +303,9 @@ bool probes_ruling(const struct probes *s, const char *name, struct ruling *foun
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];
         if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
-        *found = (struct ruling){{{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
-                                 {q->memory.along[0], q->memory.along[1]}};
+        *found = (struct ruling){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
+                                 .along = {q->memory.along[0], q->memory.along[1]}, .time = q->memory.time,
+                                 .medium = q->sif->tip.medium};
         return true;
     }
     return false;

@@ -62,7 +62,8 @@ static void resolve_defaults(struct reader *r, const struct node *root)
     if (!below(root, "pd", "surface"))
         s->surface = s->method == METHOD_PD && s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
     if (!below(root, "pd", "influence")) s->influence = s->model == MODEL_BOND ? INFLUENCE_ONE : INFLUENCE_INVERSE;
-    if (!below(root, "pd", "normalisation")) s->bulk = s->model == MODEL_MOSPD;
+    if (!below(root, "pd", "normalisation"))        /* families of a shaken lattice are none of them full ones */
+        s->bulk = s->model == MODEL_MOSPD && s->irregularity == 0;
     if (!below(root, "mpm", "shape"))
         s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
     if (!below(root, "mpm", "transfer") && s->solver != SOLVER_EXPLICIT && s->shape != SHAPE_LINEAR)

@@ -222,6 +222,10 @@ static status read_growth(struct reader *r, const struct node *n, struct growth_
         return fault(r, node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
     if (!g->probe[0] && !isnan(g->smoothing))
         return fault(r, node_find(n, "smoothing"), "has no meaning without probe, the name of a sif probe");
+    if (growth_follows(g) && !(g->toughness > 0))
+        return fault(r, node_find(n, "speed"), "a speed that follows needs probe and toughness, the K_eq that it keeps");
+    if (!growth_follows(g) && !isnan(g->fastest))
+        return fault(r, node_find(n, "fastest"), "has no meaning beside a given speed; speed: follow is expected");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
         if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
     return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#define HALVINGS 45                      /* of a speed: to round-off of k */
 #define REST 0.01                        /* of c_s: slower cracks have the field of one at rest */
 
 static const real pi = 3.14159265358979323846;
@@ -154,6 +155,18 @@ real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, re
     if (form == SPEED_APPROXIMATE) return falling / sqrt(1 - v / c_d);
     const real h = 2 / c_d * square(c_s / m->rayleigh) * (1 - square(c_s / c_d));
     return falling / sqrt(1 - h * v);
+}
+
+real crack_speed_of_factor(const struct crack_medium *m, real factor, real most)
+{
+    real low = 0, high = most;
+    if (factor >= 1) return 0;
+    if (factor_exact(m, most) >= factor) return most;
+    for (int k = 0; k < HALVINGS; k++) {             /* falls from 1 at rest to 0 at c_R */
+        const real v = 0.5 * (low + high);
+        *(factor_exact(m, v) > factor ? &low : &high) = v;
+    }
+    return 0.5 * (low + high);
 }
 
 real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age)

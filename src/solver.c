@@ -9,6 +9,8 @@
 #include "memory.h"
 #include "solver_parts.h"
 
+#define TURNING_MOST 0.05                /* moment of loads over what they could make that scattered particles explain */
+
 /* ---- forces ----------------------------------------------------------------------------------------------- */
 
 void solver_bond_force(struct engine *e)
@@ -226,7 +228,7 @@ static bool component_held(const struct engine *e, int d)
 }
 
 /* Loads that nothing balances have no equilibrium. */
-static status balance_checked(const struct engine *e)
+static status balance_checked(struct engine *e)
 {
     for (int d = 0; d < e->part.dim; d++) {
         real sum = 0, size = 0;
@@ -234,14 +236,19 @@ static status balance_checked(const struct engine *e)
             const struct load *l = &e->loads.load[b];
             if (l->boundary->kind != BOUNDARY_TRACTION && l->boundary->kind != BOUNDARY_BODY_FORCE) continue;
             for (int64_t k = 0; k < l->n; k++) {
-                sum += l->share[k] * l->boundary->value[d];
-                size += fabs(l->share[k] * l->boundary->value[d]);
+                sum += l->share[k * e->part.dim + d] * l->boundary->value[d];
+                size += fabs(l->share[k * e->part.dim + d] * l->boundary->value[d]);
             }
         }
         if (fabs(sum) > 1e-9 * size && !component_held(e, d))
             return status_set(REFUSED, "nothing holds the body along %c against an applied force of %.4g N; balance the "
                                        "loads, or hold that component somewhere", "xyz"[d], sum);
     }
+    if (e->part.dim != 2 || e->scene->bodies != 1 || component_held(e, 0) || component_held(e, 1)) return OK;
+    const real turning = loads_static_balance(&e->loads, &e->part);
+    if (turning > TURNING_MOST)
+        return status_set(REFUSED, "nothing keeps the body from turning under loads whose moment is %.3g of what they could "
+                                   "make; balance the loads, or hold the body somewhere", turning);
     return OK;
 }
 

@@ -259,15 +259,95 @@ static void test_rule(void **state)
     steps(&s, 0, 2);
     assert_exact(s.g.grown, 0);
     s.ruled = true;
-    s.K = (struct ruling){{.K = {0.9e6, 0}}, {1, 0}};
+    s.K = (struct ruling){.factors.K = {0.9e6, 0}, .along = {1, 0}};
     steps(&s, 2, 2);
     assert_exact(s.g.grown, 0);
-    s.K = (struct ruling){{.K = {1e6, -0.2e6}}, {1, 0}};
+    s.K = (struct ruling){.factors.K = {1e6, -0.2e6}, .along = {1, 0}};
     const real first = crack_direction(s.K.factors.K);
     assert_true(first > 0.3 && first < 0.4);
     steps(&s, 4, 3);
     assert_close(s.g.grown, 3 * SPEED * STEP, 1e-12);
     assert_near(atan2(s.g.heading[1], s.g.heading[0]), first, 1e-14);
+    stage_free(&s);
+}
+
+/* ---- a speed that follows the toughness ---------------------------------------------------------------------------- */
+
+#define TOUGHNESS 1e6                    /* [Pa m^(1/2)] */
+
+/* Runs until `end` [s] under K = k(v_seen) K_still(t), v_seen behind the speed by `delay` [s]: Freund's law for any body,
+ * and what a field at a distance makes of it. Returns the largest speed on the way. */
+static real follow(struct stage *s, real (*still)(real t), real delay, real end)
+{
+    real seen = 0, fastest = 0;
+    s->ruled = true, s->K.along[0] = 1, s->K.along[1] = 0;
+    for (real t = 0; t < end; t += STEP / 4) {
+        seen = delay > 0 ? seen - (s->g.speed - seen) * expm1(-0.25 * STEP / delay) : s->g.speed;
+        s->K.time = t;
+        s->K.factors.K[MODE_I] = crack_speed_factor(&s->K.medium, SPEED_EXACT, seen) * still(t);
+        growth_step(&s->g, &s->c.bonds, &s->c.p, &s->c.source, &s->K, t, STEP / 4);
+        fastest = real_max(fastest, s->g.speed);
+    }
+    return fastest;
+}
+
+static real steady(real t) { (void)t; return 1.4 * TOUGHNESS; }
+static real weak(real t) { (void)t; return 0.99 * TOUGHNESS; }
+static real passing(real t) { return (t < 8e-6 ? 1.4 : 0.9) * TOUGHNESS; }
+static real rising(real t) { return TOUGHNESS * sqrt(t / 10e-6); }
+
+static void stage_follow(struct stage *s)
+{
+    stage_lay(s, PD_OSPD, true);
+    s->rule.toughness = TOUGHNESS, s->rule.speed = s->rule.fastest = NAN;
+    s->rule.at[0] = 2.3e-3, s->rule.direction[0] = 1, s->rule.direction[1] = 0;
+    snprintf(s->rule.probe, sizeof s->rule.probe, "sif");
+    stage_set(s);
+    s->K.medium = crack_medium_of(&s->c.material[0], SPACE_PLANE_STRAIN);
+}
+
+/* k(v) = K_Ic/K_still wherever K lags by what the law supposes, by nothing, or by twice as much. */
+static void test_follows(void **state)
+{
+    (void)state;
+    for (int lag = 0; lag < 3; lag++) {
+        struct stage s;
+        stage_follow(&s);
+        const struct crack_medium *m = &s.K.medium;
+        const real settling = HORIZON / m->rayleigh, wanted = crack_speed_of_factor(m, 1 / 1.4, 0.9 * m->rayleigh);
+        assert_close(crack_speed_factor(m, SPEED_EXACT, wanted), 1 / 1.4, 1e-12);
+        assert_true(wanted > 0.2 * m->rayleigh && wanted < 0.5 * m->rayleigh);
+        const real most = follow(&s, steady, lag * settling, 16 * settling);
+        assert_close(s.g.speed, wanted, lag < 2 ? 1e-3 : 0.05);
+        assert_true(most < (lag < 2 ? 1.02 : 1.3) * wanted);
+        stage_free(&s);
+    }
+}
+
+/* Rests while K is too small, stops for good when it gets so, is never faster than it may be, and starts as K passes K_Ic;
+ * while K rises as sqrt(t) it is behind by the smoothing alone. */
+static void test_follows_and_rests(void **state)
+{
+    (void)state;
+    struct stage s;
+    stage_follow(&s);
+    const struct crack_medium m = s.K.medium;
+    const real settling = HORIZON / m.rayleigh;
+    assert_exact(follow(&s, weak, settling, 8e-6), 0);
+    assert_exact(s.g.grown, 0);
+    stage_free(&s), stage_follow(&s);
+    assert_true(follow(&s, passing, settling, 8e-6 + 8 * settling) > 0);
+    assert_exact(s.g.speed, 0);
+    assert_true(s.g.grown > 1e-3);
+    stage_free(&s), stage_follow(&s);
+    s.rule.fastest = 300;
+    assert_true(follow(&s, steady, settling, 8e-6) <= 300 && s.g.speed > 299);
+    stage_free(&s), stage_follow(&s);
+    follow(&s, rising, settling, 14e-6);
+    assert_near(s.g.start_time, 10e-6, 2 * STEP);
+    const real now = crack_speed_of_factor(&m, sqrt(10.0 / 14), m.rayleigh * 0.9);
+    const real before = crack_speed_of_factor(&m, sqrt(10e-6 / (14e-6 - 0.6 * settling)), m.rayleigh * 0.9);
+    assert_true(s.g.speed < now && s.g.speed > before);
     stage_free(&s);
 }
 
@@ -336,6 +416,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_law),    cmocka_unit_test(test_energy_of_fading), cmocka_unit_test(test_energy_of_breaking),
         cmocka_unit_test(test_length), cmocka_unit_test(test_rule),             cmocka_unit_test(test_points),
-        cmocka_unit_test(test_restart)};
+        cmocka_unit_test(test_follows), cmocka_unit_test(test_follows_and_rests), cmocka_unit_test(test_restart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -157,6 +157,12 @@ refuse "$good, length: 0 mm" "length"
 refuse "$good, start: -1 us" "start"
 refuse "$good, probe: none" "no sif probe none"
 refuse "$good, toughness: 1 MPa m^0.5" "without probe"
+follow="at: [30 mm, 0], direction: [1, 0], speed: follow"
+refuse "$follow" "needs probe and toughness"
+refuse "$follow, probe: sif" "needs probe and toughness"
+refuse "$follow, toughness: 1 MPa m^0.5" "without probe"
+refuse "$follow, probe: sif, toughness: 1 MPa m^0.5, fastest: 0 m/s" "fastest"
+refuse "$good, fastest: 900 m/s" "beside a given speed"
 refuse "$good, colour: red" "colour"
 refuse "$good" "method mpm has no bonds" -s method=mpm
 finish

@@ -80,9 +80,76 @@ static void test_kicks(void **state)
     }
 }
 
+/* Every particle has its cell's volume, as where a scene fills a body. */
+static void even_volumes(struct particles *p)
+{
+    for (int64_t i = 0; i < p->n; i++) p->volume0[i] = square(CLOUD_SPACING) * 2e-3;
+}
+
+/* A traction's force is t A and its moment that of a force on the face, half a spacing outside the particles, whatever its
+ * direction and however far the lattice is shaken (shifts of 0.3 spacings: a layer 0.6 thick); the moment of what acts
+ * along the face is exact on the lattice, where the layers' depths are. */
+static void test_traction(void **state)
+{
+    (void)state;
+    const int rows = 30, columns = 12;
+    const real area = rows * CLOUD_SPACING * 2e-3, t[2] = {3e6, -7e6};
+    for (int shaken = 0; shaken < 2; shaken++)
+        for (int side = -1; side <= 1; side += 2) {
+            const struct boundary pull = {.name = "pull", .kind = BOUNDARY_TRACTION, .body = -1, .value = {t[0], t[1]},
+                                          .face = 0, .side = side};
+            struct cloud c;
+            struct loads l;
+            cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {columns, rows}, .horizon = 3,
+                                                .shake = shaken ? 0.3 : 0, .seed = 5});
+            real sum[2] = {0}, first = 0, *X = c.p.X[0];
+            even_volumes(&c.p);
+            assert_ok(loads_make(&l, &pull, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+            loads_static_force(&l, &c.p);
+            real low = INFINITY, high = -INFINITY;
+            for (int64_t i = 0; i < c.p.n; i++) low = fmin(low, X[i]), high = fmax(high, X[i]);
+            for (int64_t i = 0; i < c.p.n; i++) {
+                for (int d = 0; d < 2; d++) sum[d] += c.p.f[d][i];
+                first += c.p.f[1][i] * X[i];
+            }
+            for (int d = 0; d < 2; d++) assert_close(sum[d], t[d] * area, 1e-12);
+            if (!shaken) assert_near(first / (t[1] * area), (side > 0 ? high : low) + side * 0.5 * CLOUD_SPACING,
+                                     1e-9 * CLOUD_SPACING);
+            loads_free(&l);
+            cloud_free(&c);
+        }
+}
+
+/* What turns a body that nothing holds is met by its inertia: no moment is left, nor does a force come in. */
+static void test_relief(void **state)
+{
+    (void)state;
+    const struct boundary shear[] = {
+        {.name = "up", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 0}, .face = 1, .side = 1},
+        {.name = "down", .kind = BOUNDARY_TRACTION, .body = -1, .value = {-1e6, 0}, .face = 1, .side = -1}};
+    struct cloud c;
+    struct loads l;
+    real sum[2] = {0}, moment = 0, size = 0;
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {12, 9}, .horizon = 3, .shake = 0.2,
+                                        .seed = 3});
+    even_volumes(&c.p);
+    assert_ok(loads_make(&l, shear, 2, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    assert_true(loads_static_balance(&l, &c.p) > 0.3);       /* nothing but moment, not at the farthest from the centre */
+    loads_static_force(&l, &c.p);
+    for (int64_t i = 0; i < c.p.n; i++) {
+        for (int d = 0; d < 2; d++) sum[d] += c.p.f[d][i], size += fabs(c.p.f[d][i]);
+        moment += c.p.X[0][i] * c.p.f[1][i] - c.p.X[1][i] * c.p.f[0][i];
+    }
+    for (int d = 0; d < 2; d++) assert_near(sum[d], 0, 1e-12 * size);
+    assert_near(moment, 0, 1e-12 * size * 12 * CLOUD_SPACING);
+    loads_free(&l);
+    cloud_free(&c);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks),
+                                       cmocka_unit_test(test_traction), cmocka_unit_test(test_relief)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
