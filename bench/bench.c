@@ -12,7 +12,8 @@ struct bench {
 
 /* In the order in which they run: kernels first, while the process is still small. */
 static const struct bench benches[] = {
-    {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling}};
+    {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
+    {"factors", bench_factors}};
 enum { BENCHES = COUNT_OF(benches) };
 
 static status mark(const char *word, bool *asked)
@@ -25,8 +26,8 @@ static status mark(const char *word, bool *asked)
         }
     for (size_t k = 0; k < COUNT_OF(later); k++)
         if (!strcmp(word, later[k]))
-            return status_set(REFUSED, "bench %s: not in this version; kernels, efficiency and coupling are", word);
-    return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [--quick]", word);
+            return status_set(REFUSED, "bench %s: not in this version; kernels, efficiency, coupling and factors are", word);
+    return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [--quick]", word);
 }
 
 status command_bench(int argc, char **argv)

@@ -89,8 +89,16 @@ struct bench_figure { const char *probe, *quantity; double value; };
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
 /* Says in one line that there is no such scene here, if so. */
 bool bench_scene_exists(const char *path);
-/* Runs the scene as a process of its own (`cleave run`, one thread) and reads n numbers of its summary.json; nothing is
- * left of it. */
+/* A scene run as a process of its own (`cleave run`); what it leaves lies in `folder` until bench_child_free. */
+struct bench_child {
+    int process;     /* 0: none that runs */
+    char folder[64]; /* "": none          */
+};
+status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
+                         int threads);
+status bench_child_wait(struct bench_child *c); /* FAILED unless it ended well */
+void bench_child_free(struct bench_child *c);   /* waits if it still runs, removes its folder */
+/* Such a run on one thread, and n numbers of its summary.json; nothing is left of it. */
 status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
                            const char *const *key, double *value, int n);
 
@@ -121,6 +129,9 @@ void bench_floor_table(const struct floor *f, struct bench_table *t);
 
 /* bench_coupling.c: what an interface of material points and bonds does to waves and uniform strain. */
 status bench_coupling(bool quick);
+
+/* bench_factors.c: stress-intensity factors at rest and in motion beside closed forms and published tables. */
+status bench_factors(bool quick);
 
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */
 status bench_efficiency(bool quick);

@@ -152,7 +152,9 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
         draw(g.to, context);
         TRY(gnuplot_close(&g));
     }
-    printf("  written to " BENCH_FOLDER "/%s.csv, .json, .png, .svg\n\n", name);
+    char table[256];
+    snprintf(table, sizeof table, BENCH_FOLDER "/%s.csv", name);
+    printf("  written to " BENCH_FOLDER "/%s%s.png, .svg\n\n", name, path_is_file(table) ? ".csv, .json, " : "");
     return OK;
 }
 

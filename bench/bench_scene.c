@@ -106,19 +106,56 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
 /* ---- a process of its own ------------------------------------------------------------------------------- */
 
 /* fork() would copy a team of threads of which only one goes on: the child is started from the program's file. */
-static status spawn_and_wait(char **argv)
+static status spawn(char **argv, pid_t *child)
 {
-    pid_t child;
-    int ended;
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    int fault = posix_spawn(&child, "/proc/self/exe", &actions, NULL, argv, environ);
+    int fault = posix_spawn(child, "/proc/self/exe", &actions, NULL, argv, environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (fault) return status_set(FAILED, "bench: cannot start a run as a process of its own: %s", strerror(fault));
-    while (waitpid(child, &ended, 0) < 0)
+    if (!fault) return OK;
+    *child = 0;
+    return status_set(FAILED, "bench: cannot start a run as a process of its own: %s", strerror(fault));
+}
+
+enum { WORDS = 64, WORD_LENGTH = OVERRIDE_LENGTH + 64 };
+
+static status spawn_run(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
+                        int threads)
+{
+    char pair[WORDS / 2][WORD_LENGTH], team[16];
+    char *argv[WORDS] = {"cleave", "run", (char *)path, "-q", "-t", team, "-o", c->folder};
+    int words = 8;
+    snprintf(team, sizeof team, "%d", threads);
+    for (int k = 0; k < overrides && words + 3 < WORDS; k++) {
+        snprintf(pair[k], WORD_LENGTH, "%s=%s", override[k].key, override[k].value);
+        argv[words++] = "-s";
+        argv[words++] = pair[k];
+    }
+    return spawn(argv, &c->process);
+}
+
+status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
+                         int threads)
+{
+    *c = (struct bench_child){0};
+    TRY(bench_folder_make());
+    strcpy(c->folder, BENCH_FOLDER "/run-XXXXXX");
+    if (!mkdtemp(c->folder)) {
+        status s = file_fault(c->folder, errno);
+        c->folder[0] = 0;
+        return s;
+    }
+    return spawn_run(c, path, override, overrides, threads);
+}
+
+status bench_child_wait(struct bench_child *c)
+{
+    int ended;
+    while (waitpid(c->process, &ended, 0) < 0)
         if (errno != EINTR) return status_set(FAILED, "bench: %s", strerror(errno));
-    if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) return status_set(FAILED, "bench: the run of %s failed", argv[2]);
+    c->process = 0;
+    if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) return status_set(FAILED, "bench: a run has failed");
     return OK;
 }
 
@@ -128,29 +165,21 @@ static int remove_entry(const char *path, const struct stat *info, int kind, str
     return remove(path);
 }
 
-enum { WORDS = 64, WORD_LENGTH = 128 };
-
-static status run_child(const char *path, const char *folder, const struct scene_override *override, int overrides)
+void bench_child_free(struct bench_child *c)
 {
-    char pair[WORDS / 2][WORD_LENGTH];
-    char *argv[WORDS] = {"cleave", "run", (char *)path, "-q", "-t", "1", "-o", (char *)folder};
-    int words = 8;
-    for (int k = 0; k < overrides && words + 3 < WORDS; k++) {
-        snprintf(pair[k], WORD_LENGTH, "%s=%s", override[k].key, override[k].value);
-        argv[words++] = "-s";
-        argv[words++] = pair[k];
-    }
-    return spawn_and_wait(argv);
+    int ended;
+    if (c->process) waitpid(c->process, &ended, 0);
+    if (c->folder[0]) nftw(c->folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    *c = (struct bench_child){0};
 }
 
 status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
                            const char *const *key, double *value, int n)
 {
-    char folder[] = BENCH_FOLDER "/run-XXXXXX";
-    TRY(bench_folder_make());
-    if (!mkdtemp(folder)) return file_fault(folder, errno);
-    status s = run_child(path, folder, override, overrides);
-    for (int k = 0; k < n && s == OK; k++) s = summary_number(folder, key[k], &value[k]);
-    nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    struct bench_child c;
+    status s = bench_child_start(&c, path, override, overrides, 1);
+    if (s == OK) s = bench_child_wait(&c);
+    for (int k = 0; k < n && s == OK; k++) s = summary_number(c.folder, key[k], &value[k]);
+    bench_child_free(&c);
     return s;
 }

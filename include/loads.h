@@ -77,7 +77,7 @@ struct loads {
     real spacing;                        /* [m]                                                       */
     real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
                                             loads' moment [1/s^2], 0: none                            */
-    real place_step;                     /* places across mirrors are multiples of it         [m]     */
+    real place_step[DIM_MAX];            /* places across mirrors are multiples of it; 0: as they are [m] */
     real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
     int64_t share_room;
     struct held_set held, held_mesh;     /* nodes in driven regions and on mirrors; driven ones of the mesh */

@@ -69,7 +69,8 @@ struct sif_tip {
     int face;                            /* +-1: side of x_2 to which particles on the crack belong   */
     int body;                            /* whose particles count; -1: all                            */
     real speed;                          /* v; 0: at rest                                       [m/s] */
-    real core;                           /* left out of the second sum while the tip moves        [m] */
+    real core;                           /* where the second sum counts by half while the tip moves: not at all within a
+                                            third of it, whole from five thirds on                [m] */
     real thickness;                      /*                                                       [m] */
     enum sif_weight weight;
     enum sif_stress stress;
@@ -86,10 +87,10 @@ struct sif { real K[MODES], J; };        /* [Pa m^(1/2)], [J/m^2] */
 /* Weight and its slope at distance r. */
 void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope);
 
-/* What a point at x (local frame) adds to I, over its area [N/m / m^2]; the second sum only with `inside`. The sums
+/* What a point at x (local frame) adds to I, over its area [N/m / m^2]; the share `inside` of the second sum. The sums
  * above are symmetric in the two motions but for sigma u^a. */
 real sif_density(const struct sif_tip *tip, const struct contour *c, const real x[2], const struct crack_state *actual,
-                 const struct crack_state *auxiliary, bool inside);
+                 const struct crack_state *auxiliary, real inside);
 
 /* Factors for each of n contours: one pass over the particles for their gradients. */
 void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int n, const struct sif_motion *motion,

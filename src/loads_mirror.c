@@ -8,19 +8,24 @@
 
 /* Along a mirror the forces of i on the image of j and of j on the image of i cancel if both bonds are the same to the
  * last bit, so if reflecting rounds nothing; else the round-off of their lengths moves slow bodies. Places across mirrors
- * of what has images are therefore multiples of one step: the last bit of twice the farthest place there is. */
-static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach)
+ * of what has images are therefore multiples of one step: the last bit of twice the farthest place there is. Mirrors at 0 only
+ * change a sign and need none. */
+static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
 {
     real farthest = 0;
-    for (int b = 0; b < n; b++) {
-        if (boundary[b].kind != BOUNDARY_MIRROR) continue;
-        farthest = real_max(farthest, 2 * fabs(boundary[b].at));
-        for (int64_t i = 0; i < p->n; i++) farthest = real_max(farthest, fabs(p->X[boundary[b].axis][i]));
-    }
+    for (int b = 0; b < n; b++)
+        if (boundary[b].kind == BOUNDARY_MIRROR && boundary[b].axis == axis)
+            farthest = real_max(farthest, 2 * fabs(boundary[b].at));
+    if (farthest == 0) return 0;
+    for (int64_t i = 0; i < p->n; i++) farthest = real_max(farthest, fabs(p->X[axis][i]));
     return scalbn(1, ilogb(farthest + reach) + 2 - DBL_MANT_DIG);
 }
 
-static real stepped(const struct loads *l, real place) { return l->place_step * nearbyint(place / l->place_step); }
+static real stepped(const struct loads *l, int axis, real place)
+{
+    const real step = l->place_step[axis];
+    return step > 0 ? step * nearbyint(place / step) : place;
+}
 
 /* Adds the images of one mirror: of everything near its plane, images of earlier mirrors included, so that corners get
  * theirs. Nothing on the plane itself: such a particle is its own image. */
@@ -36,7 +41,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
             if (b->body >= 0 && p->body[i] != b->body) continue;
             if (pass == 1) {
                 l->image[have + images] = (struct image){(int32_t)i, (uint8_t)which};
-                p->X[b->axis][i] = stepped(l, p->X[b->axis][i]);
+                p->X[b->axis][i] = stepped(l, b->axis, p->X[b->axis][i]);
             }
             images++;
         }
@@ -46,7 +51,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
     l->images += images;
     for (int64_t k = have; k < l->images; k++) {
         int64_t g = p->n + k, i = l->image[k].source;
-        for (int d = 0; d < p->dim; d++) p->X[d][g] = d == b->axis ? stepped(l, 2 * b->at) - p->X[d][i] : p->X[d][i];
+        for (int d = 0; d < p->dim; d++) p->X[d][g] = d == b->axis ? stepped(l, d, 2 * b->at) - p->X[d][i] : p->X[d][i];
         p->volume0[g] = p->volume0[i], p->volume[g] = p->volume[i], p->mass[g] = p->mass[i];
         p->material[g] = p->material[i], p->body[g] = p->body[i], p->id[g] = p->id[i];
     }
@@ -57,7 +62,7 @@ void loads_mirror(const struct loads *l, struct particles *p)
     for (int64_t k = 0; k < l->images; k++) {                /* all first: corners have images of images */
         const int axis = l->load[l->image[k].load].boundary->axis;
         const int64_t i = l->image[k].source;
-        if (i < p->n) p->x[axis][i] = stepped(l, p->x[axis][i]);
+        if (i < p->n) p->x[axis][i] = stepped(l, axis, p->x[axis][i]);
     }
     for (int64_t k = 0; k < l->images; k++) {
         int64_t g = p->n + k, i = l->image[k].source;
@@ -98,7 +103,7 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
 status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional)
 {
     const struct boundary *boundary = l->n ? l->load[0].boundary : NULL;
-    l->place_step = place_step(boundary, l->n, p, reach);
+    for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, reach, d);
     for (int b = 0; b < l->n; b++) {
         if (boundary[b].kind != BOUNDARY_MIRROR) continue;
         TRY(mirror_checked(&boundary[b], p, l->spacing));

@@ -6,7 +6,7 @@
 #include "probes_parts.h"
 
 #define OUTER 20.0                       /* default radius                                         [spacings] */
-#define CORE 1.5                         /* default, left out of the inertial sum while it moves   [horizons] */
+#define CORE 1.5                         /* default, left out of the inertial sum (sif.h)         [horizons] */
 #define NARROWEST 3.0                    /* ring                                                   [spacings] */
 #define STEP_BACK 8.0                    /* the direction of a moving tip is that of its last 8 to 16 [spacings] */
 #define SAME_PLACE 1.0                   /* a tip this near is the one that is meant               [spacings] */

@@ -374,7 +374,8 @@ const struct key keys[] = {
     KEY("probes.sif.stress", KEY_CHOICE, UNIT_NONE, AT(probe_request, stress), ANY, "hooke",
         "Hooke's law of the gradient, or the particles' stress", .words = "hooke|particle"),
     KEY("probes.sif.core", KEY_REAL, UNIT_LENGTH, AT(probe_request, core), FROM(0), "(1.5 horizons)",
-        "radius left out of the inertial sum while the tip moves"),
+        "radius that the inertial sum leaves out while the tip moves (its share grows from 0 to 1 between a "
+        "third and five thirds of it)"),
     KEY("probes.sif.speed", KEY_REAL, UNIT_SPEED, AT(probe_request, speed), ABOVE(0), "auto",
         "of the tip once it moves; auto: of its growth over crack.speed_window", .words = "auto", .word_value = NAN),
     KEY("probes.growth", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,

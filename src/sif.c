@@ -48,13 +48,13 @@ static real disc_density(const struct crack_state *a, const struct crack_state *
 }
 
 real sif_density(const struct sif_tip *tip, const struct contour *c, const real x[2], const struct crack_state *actual,
-                 const struct crack_state *auxiliary, bool inside)
+                 const struct crack_state *auxiliary, real inside)
 {
     const real r = hypot(x[0], x[1]), n[2] = {x[0] / r, x[1] / r};
     real q, slope, sum = 0;
     sif_weight(tip->weight, c, r, &q, &slope);
     if (slope != 0) sum += slope * ring_density(actual, auxiliary, tip->medium.density, n);
-    if (inside && q > 0) sum += q * disc_density(actual, auxiliary, tip->medium.density);
+    if (inside > 0 && q > 0) sum += inside * q * disc_density(actual, auxiliary, tip->medium.density);
     return sum;
 }
 
@@ -156,6 +156,17 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
     }
 }
 
+/* How much of the second sum counts at distance r of the tip. It fades over particles: those that a sharp edge let in and
+ * out as the tip passes them would ring with it, once a spacing. */
+static real core_share(const struct sif_tip *tip, real r)
+{
+    const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
+    real q, slope;
+    if (tip->speed == 0 || tip->core == 0) return 1;
+    sif_weight(SIF_QUINTIC, &edge, r, &q, &slope);
+    return 1 - q;
+}
+
 /* Sums of both modes and of the actual motion with itself. */
 static void points_block(const void *context, int64_t first, int64_t end, real *sum)
 {
@@ -165,7 +176,7 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
         const struct sif_point *point = &s->point[k];
         const real r = hypot(point->x[0], point->x[1]);
         if (r >= s->contour->outer || (!s->inertia && r <= s->contour->inner)) continue;
-        const bool inside = s->inertia && (tip->speed == 0 || r > tip->core);
+        const real inside = s->inertia ? core_share(tip, r) : 0;
         struct crack_field field;
         for (int mode = 0; mode < MODES; mode++) {
             crack_field(&tip->medium, mode, tip->speed, point->x, &field);

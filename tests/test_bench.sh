@@ -11,7 +11,7 @@ cd "$work"
 fail() { echo "test_bench: $1" >&2; exit 1; }
 
 # Refused in one line, exit status 2, nothing written.
-for words in accuracy stability threads scale peers nonsense "--slow" "kernels nonsense" coupling efficiency; do
+for words in accuracy stability threads scale peers nonsense "--slow" "kernels nonsense" coupling factors efficiency; do
     set +e
     "$cleave" bench $words >out 2>err
     ended=$?
@@ -83,4 +83,28 @@ line coupling_patch.csv 'square,axial,2,partial stress,isotropic,' 6 0.001 0.06
 # an oblique interface throws back less of a wave with partial stress
 line coupling_plane.csv '45 degrees,16,flip,handshake,isotropic,' 7 0.018 0.030
 line coupling_plane.csv '45 degrees,16,flip,partial stress,isotropic,' 7 0.006 0.017
+
+# Stress-intensity factors, on coarser waves: what is asked of an edge crack on 100 x 100 particles, and of the others
+# what their particles are good for.
+cd ../..
+cp "$inputs/edge_crack_k1.yaml" "$inputs/inclined_crack.yaml" "$inputs/load_displacement.yaml" "$inputs/kalthoff_sif.yaml" \
+    inputs
+sed 's/spacing: 0.25 mm/spacing: 0.5 mm/; s/step: 20 ns/step: 40 ns/' "$inputs/semi_infinite_crack.yaml" \
+    >inputs/semi_infinite_crack.yaml
+"$cleave" bench factors --quick >out || fail "factors failed"
+cd results/bench
+for file in factors.csv factors.json factors.png edge_crack_convergence.csv edge_crack_convergence.png \
+    edge_crack_convergence_paper_rings.csv inclined_crack.csv inclined_crack.svg moving_crack.csv moving_crack_curves.csv; do
+    [ -s $file ] || fail "$file is missing"
+done
+line edge_crack_convergence.csv 'mospd bulk,cg,100,' 6 -0.003 0.003
+line edge_crack_convergence.csv 'mospd bulk,relaxation,100,' 6 -0.003 0.003
+line edge_crack_convergence.csv 'ospd local,cg,100,' 6 -0.01 0.01
+line edge_crack_convergence.csv 'mospd local,cg,50,' 6 -0.06 -0.03
+line edge_crack_convergence_paper_rings.csv 'mospd,200,70,' 5 0.0003 0.0005
+line inclined_crack.csv '45,local 1.5,' 7 -0.02 0.02
+line inclined_crack.csv '45,local 1.5,' 8 -0.02 0.02
+line moving_crack.csv 'at rest,' 4 0.97 1.03
+line moving_crack.csv 'moving: as it stands,' 4 0.95 1.05
+[ -z "$(ls -d run-* 2>/dev/null)" ] || fail "factors leaves runs behind"
 echo "test_bench: ok"
