@@ -119,7 +119,7 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
     {"transfer: flip, shape: gimp", "transfer: apic, shape: linear",
      "20:7: transfer: apic with shape linear was measured unstable (strains from velocities that are not "
      "mapped again); flip, or shape gimp, is expected"},
-    {"transfer: flip", "frame: sideways", "20:7: frame: sideways is none of its words; one of current, reference, auto is expected"},
+    {"transfer: flip", "frame: sideways", "20:7: frame: sideways is unknown; current, reference or auto is expected"},
     {"transfer: flip", "cell: 0.5", "20:7: cell: 0.5 is out of range; a plain number from 1 to 8 is expected"},
     {"[0, -100 mm]", "[0, -100 mm, 0]", "13:19: from: has 3 components; 2 are expected in space plane stress"},
     {"[0, -100 mm]", "0", "13:19: from: 0 is not a list; 2 components are expected in space plane stress"},
