@@ -176,6 +176,8 @@ void bonds_free(struct bonds *b);
 /* Critical time step of the peridynamic side [s]: 2 / omega_max with the block-Gershgorin bound over
  * all particles of the body as if all were peridynamic. */
 real bonds_critical_step(const struct particles *p, const struct bond_source *s);
+/* The same where all are peridynamic and no bond has been broken, from the rows that there are. */
+real bonds_critical_step_made(const struct bonds *b, const struct particles *p);
 
 /* The state that rows made anew do not know: what load has broken. */
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);

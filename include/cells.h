@@ -10,7 +10,8 @@
 struct cells {
     int dim;
     int64_t count[DIM_MAX], n;           /* cells per direction, in all                              */
-    real origin[DIM_MAX], edge;          /* lower corner; edge >= search radius            [m]       */
+    real origin[DIM_MAX];                /* lower corner                                   [m]       */
+    real edge, width;                    /* largest radius that is meant; of a cell        [m]       */
     int32_t *start;                      /* particles of cell c: order[start[c] .. start[c+1]-1]     */
     int32_t *order;                      /* ascending inside a cell                                  */
 };

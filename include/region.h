@@ -67,6 +67,8 @@ struct crack {
  * particle closer to the crack's plane than 1e-9 lengths counts as on its positive side; a bond that passes
  * exactly through a crack's end is cut. */
 bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
+/* False: it cuts no bond of a particle at X that is no longer than `reach` [m]. Quick, for the many that are far away. */
+bool crack_near(const struct crack *c, const real *X, real reach, int dim);
 
 /* ---- waves ---------------------------------------------------------------------------------------- */
 

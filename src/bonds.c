@@ -314,6 +314,25 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
     return spring_bound_of(&bound, p->dim);
 }
 
+real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
+{
+    real largest = 0;
+#pragma omp parallel for schedule(static) reduction(max : largest)
+    for (int64_t r = 0; r < b->rows; r++) {
+        const int32_t i = b->particle[r];
+        struct spring_bound bound = {{{0}}, 0};
+        for (int64_t k = 0; k < b->slot[r / LANES + 1] - b->slot[r / LANES]; k++) {
+            const int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES));
+            real n[DIM_MAX] = {0};
+            if (b->w[q] == 0) continue;
+            for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][b->nbr[q]] - p->X[d][i]) * b->inverse_length[q];
+            spring_bound_add(&bound, b->stiffness * b->w[q] * b->inverse_length[q], n, p->dim);
+        }
+        largest = real_max(largest, spring_bound_of(&bound, p->dim) / p->mass[i]);
+    }
+    return largest > 0 ? 2 / sqrt(largest) : INFINITY;
+}
+
 real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 {
     int most = bonds_room(p, s);

@@ -61,6 +61,16 @@ bool cracks_part(const struct crack *crack, int cracks, const struct particles *
     return false;
 }
 
+/* May a crack cut any bond of particle i? */
+static bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i)
+{
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    for (int c = 0; c < s->cracks; c++)
+        if (crack_near(&s->crack[c], X, s->family.cutoff, p->dim)) return true;
+    return false;
+}
+
 /* ---- one row --------------------------------------------------------------------------------------- */
 
 static float bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
@@ -121,16 +131,18 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
+    const bool near = cracks_near(s, p, i);
     row->trigger = INFINITY, row->cut_volume = 0;
     for (int k = 0; k < row->n; k++) {
         int32_t j = row->nbr[k];
         real xi[DIM_MAX], r2 = 0;
         for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
-        bool cut = cracks_part(s->crack, s->cracks, p, i, j);
+        bool cut = near && cracks_part(s->crack, s->cracks, p, i, j);
+        const real r = sqrt(r2);
         if (cut) row->cut_volume += p->volume0[j];
-        row->inverse_length[k] = (cut ? -1 : 1) / sqrt(r2);
-        row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, sqrt(r2));
-        if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, sqrt(r2));
+        row->inverse_length[k] = (cut ? -1 : 1) / r;
+        row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
+        if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
         real limit = s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]];
         row->trigger = real_min(row->trigger, limit * (1 - TRIGGER_MARGIN));
     }

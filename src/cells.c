@@ -13,13 +13,17 @@ static int64_t cell_of(const struct cells *c, const real *X)
 {
     int64_t index = 0;
     for (int d = c->dim - 1; d >= 0; d--) {
-        int64_t k = (int64_t)floor((X[d] - c->origin[d]) / c->edge);
+        int64_t k = (int64_t)floor((X[d] - c->origin[d]) / c->width);
         if (k < 0) k = 0;
         if (k >= c->count[d]) k = c->count[d] - 1;
         index = index * c->count[d] + k;
     }
     return index;
 }
+
+/* Cells an edge is cut into: at the usual horizon they are rows of the lattice, so that particles are found in their
+ * order, and the squares round a point hold fewer that are too far. */
+enum { CELLS_ACROSS = 3 };
 
 /* A box far larger than its particles would need more cells than particles: coarser cells search as well. */
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
@@ -33,11 +37,12 @@ static void cells_shape(struct cells *c, const struct particles *p, real edge)
         }
     }
     c->dim = p->dim;
-    for (c->edge = edge;; c->edge *= 1.5) {
+    c->edge = edge;
+    for (c->width = edge / CELLS_ACROSS;; c->width *= 1.5) {
         real cells = 1;
         for (int d = 0; d < c->dim; d++) {
             c->origin[d] = low[d];
-            c->count[d] = p->n_all > 0 ? (int64_t)floor((high[d] - low[d]) / c->edge) + 1 : 1;
+            c->count[d] = p->n_all > 0 ? (int64_t)floor((high[d] - low[d]) / c->width) + 1 : 1;
             cells *= (real)c->count[d];
         }
         if (cells <= 4.0 * (real)p->n_all + 64) break;
@@ -78,13 +83,13 @@ static void insert_ascending(int32_t *found, int n, int32_t index)
     found[k] = index;
 }
 
-static int near_in_row(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-                       int64_t first, int64_t last, int32_t *found, int room, int n)
+static inline int near_in_row(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
+                              int64_t first, int64_t last, int32_t *found, int room, int n, const int dim)
 {
     for (int32_t k = c->start[first]; k < c->start[last + 1]; k++) {
         int32_t j = c->order[k];
         real r2 = 0;
-        for (int d = 0; d < c->dim; d++) r2 += square(p->X[d][j] - X[d]);
+        for (int d = 0; d < dim; d++) r2 += square(p->X[d][j] - X[d]);
         if (r2 > radius * radius || j == skip) continue;
         if (n < room) insert_ascending(found, n, j);
         n++;
@@ -92,13 +97,13 @@ static int near_in_row(const struct cells *c, const struct particles *p, const r
     return n;
 }
 
-int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-               int32_t *found, int room)
+static inline int near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
+                       int32_t *found, int room, const int dim)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
-    for (int d = 0; d < c->dim; d++) {
-        int64_t reach = (int64_t)ceil(radius / c->edge);
-        int64_t k = (int64_t)floor((X[d] - c->origin[d]) / c->edge);
+    const int64_t reach = (int64_t)ceil(radius / c->width);
+    for (int d = 0; d < dim; d++) {
+        int64_t k = (int64_t)floor((X[d] - c->origin[d]) / c->width);
         low[d] = k - reach < 0 ? 0 : k - reach;
         high[d] = k + reach >= c->count[d] ? c->count[d] - 1 : k + reach;
         if (low[d] > high[d]) return 0;
@@ -106,11 +111,21 @@ int cells_near(const struct cells *c, const struct particles *p, const real *X, 
     int n = 0;
     for (int64_t a = low[2]; a <= high[2]; a++) {
         for (int64_t b = low[1]; b <= high[1]; b++) {
-            int64_t row = (a * (c->dim > 1 ? c->count[1] : 1) + b) * c->count[0];
-            n = near_in_row(c, p, X, radius, skip, row + low[0], row + high[0], found, room, n);
+            int64_t row = (a * (dim > 1 ? c->count[1] : 1) + b) * c->count[0];
+            n = near_in_row(c, p, X, radius, skip, row + low[0], row + high[0], found, room, n, dim);
         }
     }
     return n;
+}
+
+int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
+               int32_t *found, int room)
+{
+    switch (c->dim) {
+    case 1: return near(c, p, X, radius, skip, found, room, 1);
+    case 2: return near(c, p, X, radius, skip, found, room, 2);
+    default: return near(c, p, X, radius, skip, found, room, 3);
+    }
 }
 
 /* ---- transfer order --------------------------------------------------------------------------------- */

@@ -203,6 +203,7 @@ static real critical_of_bonds(struct engine *e)
 {
     const struct scene *s = e->scene;
     real step = INFINITY;
+    if (s->model == MODEL_BOND && s->method == METHOD_PD) return bonds_critical_step_made(&e->bonds, &e->part);
     if (s->model == MODEL_BOND) return bonds_critical_step(&e->part, &e->source);
     if (s->method == METHOD_PD) return critical_step_of(&e->bonds, &e->part, e->kernels.bond_force, s->spacing);
     for (int m = 0; m < s->materials; m++) {

@@ -142,12 +142,25 @@ static void permute(char *array, size_t size, const struct place *place, int64_t
     memcpy(array, scratch, (size_t)n * size);
 }
 
+static bool in_order(const struct place *place, int64_t n)
+{
+    bool sorted = true;
+#pragma omp parallel for schedule(static) reduction(&& : sorted)
+    for (int64_t i = 1; i < n; i++) sorted = sorted && compare_places(&place[i - 1], &place[i]) < 0;
+    return sorted;
+}
+
 void particles_sort(struct particles *p, real spacing, int optional)
 {
     assert(p->n_all == p->n && spacing > 0);
     struct place *place = NEW("particles.place", p->n, struct place);
-    char *scratch = NEW("particles.scratch", p->n * (int64_t)sizeof(real), char);
     find_places(p, spacing, place);
+    if (in_order(place, p->n)) {         /* one lattice is made in this order */
+        memory_free(place);
+        particles_list(p);
+        return;
+    }
+    char *scratch = NEW("particles.scratch", p->n * (int64_t)sizeof(real), char);
     qsort(place, (size_t)p->n, sizeof *place, compare_places);
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional); k++) permute(get(p, f, k), f->size, place, p->n, scratch);

@@ -265,6 +265,21 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
     return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
 }
 
+bool crack_near(const struct crack *c, const real *X, real reach, int dim)
+{
+    real far = -INFINITY, size = 0;      /* from the box round its corners; no tolerance above is larger than size/1e9 */
+    for (int d = 0; d < dim; d++) {
+        real low = INFINITY, high = -INFINITY;
+        for (int k = 0; k < c->n; k++) low = real_min(low, c->corner[k][d]), high = real_max(high, c->corner[k][d]);
+        far = real_max(far, real_max(low - X[d], X[d] - high));
+        size = real_max(size, high - low);
+    }
+    const real most = reach * (1 + 1e-6) + 1e-6 * size;
+    struct crack_plane plane;
+    if (far > most) return false;
+    return dim == 1 || (crack_plane(c, X, X, dim, &plane) && fabs(height(c, &plane, X, dim)) <= most);
+}
+
 /* ---- waves ---------------------------------------------------------------------------------------- */
 
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim)
