@@ -102,6 +102,20 @@ void bench_child_free(struct bench_child *c);   /* waits if it still runs, remov
 status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
                            const char *const *key, double *value, int n);
 
+/* ---- bench_blocks.c: blocks of any size ------------------------------------------------------------------ */
+
+/* A method on a square or a cube. */
+struct bench_block {
+    const char *name;
+    int dim;
+    const char *method, *frame; /* of the scene */
+};
+enum { BENCH_BLOCKS = 10 };
+extern const struct bench_block bench_blocks[BENCH_BLOCKS];
+/* About so many particles, at least 12 along an edge; `out` may be NULL. Free with bench_engine_free. */
+status bench_block_make(struct engine *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
+                        int frames, struct output *out);
+
 /* ---- the benches ---------------------------------------------------------------------------------------- */
 
 /* Every kernel instance beside the machine's limits, and the speed floor; few repetitions with `quick`. */
@@ -132,6 +146,15 @@ status bench_coupling(bool quick);
 
 /* bench_factors.c: stress-intensity factors at rest and in motion beside closed forms and published tables. */
 status bench_factors(bool quick);
+
+/* bench_threads.c: strong and weak scaling on 1 ... all cores. */
+status bench_threads(bool quick);
+
+/* bench_scale.c: time and memory per particle, set-up and output, over the number of particles. */
+status bench_scale(bool quick);
+
+/* bench_peers.c: a block and a plate by this program and by LAMMPS, where `lmp` is installed. */
+status bench_peers(bool quick);
 
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */
 status bench_efficiency(bool quick);

@@ -1,0 +1,73 @@
+/* floor 5: blocks of any size for timing: squares and cubes that move everywhere and break nowhere. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "bench.h"
+
+const struct bench_block bench_blocks[BENCH_BLOCKS] = {
+    {"pd", 2, "pd", "current"},           {"mpm", 2, "mpm", "current"},
+    {"mpm reference", 2, "mpm", "reference"}, {"adaptive", 2, "adaptive", "current"},
+    {"adaptive reference", 2, "adaptive", "reference"},
+    {"pd", 3, "pd", "current"},           {"mpm", 3, "mpm", "current"},
+    {"mpm reference", 3, "mpm", "reference"}, {"adaptive", 3, "adaptive", "current"},
+    {"adaptive reference", 3, "adaptive", "reference"},
+};
+
+/* A tenth of an adaptive block is peridynamic whatever its size, and half of that holds a crack. */
+static void block_parts(FILE *to, const struct bench_block *b, double edge)
+{
+    const double low = 0.45 * edge, high = 0.55 * edge, middle = 0.5 * edge;
+    if (strcmp(b->method, "mpm") == 0) return;
+    if (b->dim == 2) {
+        fprintf(to, "cracks: [{from: [%.9g, 0], to: [%.9g, %.9g]}]\n", middle, middle, middle);
+        if (strcmp(b->method, "adaptive") == 0)
+            fprintf(to, "pd: {region: {box: {from: [%.9g, 0], to: [%.9g, %.9g]}}}\n", low, high, edge);
+        return;
+    }
+    fprintf(to, "cracks: [{polygon: [[%.9g, 0, 0], [%.9g, %.9g, 0], [%.9g, %.9g, %.9g], [%.9g, 0, %.9g]]}]\n", middle,
+            middle, middle, middle, middle, edge, middle, edge);
+    if (strcmp(b->method, "adaptive") == 0)
+        fprintf(to, "pd: {region: {box: {from: [%.9g, 0, 0], to: [%.9g, %.9g, %.9g]}}}\n", low, high, edge, edge);
+}
+
+/* Edge of the block in particles. */
+static int64_t block_edge(const struct bench_block *b, double particles)
+{
+    const int64_t n = (int64_t)round(pow(particles, 1.0 / b->dim));
+    return n > 12 ? n : 12;
+}
+
+/* Every particle moves, or what rests might be left out; none gets far: a metre a second at the farthest corner. */
+static void block_text(FILE *to, const struct bench_block *b, double particles, int64_t steps, int frames)
+{
+    const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)block_edge(b, particles), rate = 1 / edge;
+    fprintf(to, "name: block\nspace: %s\n%s", b->dim == 2 ? "plane stress" : "solid", b->dim == 2 ? "thickness: 1 mm\n" : "");
+    fprintf(to, "method: %s\nduration: %.9g\ntime: {step: %.9g}\n", b->method, (double)steps * step, step);
+    fprintf(to, "material: {young: 72e9, density: 2440, critical_stretch: 0.1}\nparticles: {spacing: %.9g}\n", spacing);
+    fprintf(to, "mpm: {frame: %s}\noutput: {frames: %d, samples: 1}\n", b->frame, frames);
+    if (b->dim == 2)
+        fprintf(to, "body: {box: {from: [0, 0], to: [%.9g, %.9g]}}\ninitial: [{velocity_gradient: [[%.9g, 0], [0, %.9g]]}]\n",
+                edge, edge, rate, rate);
+    else
+        fprintf(to, "body: {box: {from: [0, 0, 0], to: [%.9g, %.9g, %.9g]}}\n"
+                "initial: [{velocity_gradient: [[%.9g, 0, 0], [0, %.9g, 0], [0, 0, %.9g]]}]\n", edge, edge, edge, rate, rate, rate);
+    block_parts(to, b, edge);
+}
+
+status bench_block_make(struct engine *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
+                        int frames, struct output *out)
+{
+    char text[2048];
+    FILE *to = fmemopen(text, sizeof text, "w");
+    if (!to) return status_set(FAILED, "bench: out of memory");
+    block_text(to, b, particles, steps, frames);
+    fclose(to);
+    *e = (struct engine){0};
+    *s = (struct scene){0};
+    TRY(scene_read_text(s, text, strlen(text), "block", NULL, 0));
+    status made = engine_make(e, s, out);
+    e->quiet = true;
+    if (made != OK) bench_engine_free(e, s);
+    return made;
+}
