@@ -30,6 +30,8 @@ enum { STEPS = 200, ROUNDS = 3 };
  * neighbours, those at sqrt(8) spacings, on the ramp with a share of 5/8, which has no round-off. */
 #define REACH_USUAL 3.015
 #define REACH_EXACT 2.95342712474619
+/* LPS weighs by 1/r too, of which nothing but the nearest neighbours' share 7/8 x 11/8 is free of round-off. */
+#define REACH_NEAREST 1.375
 
 struct peer_case {
     const char *name, *law;   /* "pmb" or "lps" */
@@ -42,10 +44,12 @@ static const struct peer_case cases[] = {
     {"plate", "pmb", 2, 100, 30, REACH_EXACT, true, false, false},
     {"plate", "lps", 2, 100, 40, REACH_USUAL, false, false, true},
     {"plate", "lps", 2, 100, 30, REACH_EXACT, true, false, false},
+    {"plate", "lps", 2, 100, 30, REACH_NEAREST, true, false, false},
     {"block", "pmb", 3, 32, 10, REACH_USUAL, false, false, true},
     {"block", "pmb", 3, 16, 8, REACH_EXACT, false, false, false},
     {"block", "lps", 3, 32, 10, REACH_USUAL, false, false, true},
     {"block", "lps", 3, 16, 8, REACH_EXACT, false, false, false},
+    {"block", "lps", 3, 16, 8, REACH_NEAREST, false, false, false},
     {"plate breaking", "pmb", 2, 100, 40, REACH_EXACT, true, true, false},
     {"plate breaking", "lps", 2, 100, 40, REACH_EXACT, true, true, false},
 };
@@ -377,6 +381,7 @@ static status measure(struct peer_result *result, bool quick)
     }
     bench_child_free(&folder);
     TRY(s);
+    printf("  shares of volume and influence are kept in single precision here: exact only where they have no round-off\n");
     printf("  where bonds break: here a bond acts with half its force in the step in which it breaks, there with all of it\n");
     TRY(write_table(result));
     return bench_draw("peers", 800, 500, draw, result);

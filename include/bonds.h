@@ -161,8 +161,8 @@ real family_weight(const struct family *f, const real *xi, real r);
 /* Does one of the cracks cut the line between two particles (reference positions)? */
 bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
 
-/* Most particles within the cutoff of any; reference positions do not move, so once is enough. */
-int bonds_room(const struct particles *p, const struct bond_source *s);
+/* No particle has more within the cutoff (cells_most); reference positions do not move, so once is enough. */
+int bonds_room(const struct bond_source *s);
 
 /* V_i^H = sum V_j beta of every particle, uncracked [m^3], n_all entries. */
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);

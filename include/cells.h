@@ -24,6 +24,10 @@ void cells_free(struct cells *c);
 int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
                int32_t *found, int room);
 
+/* At least as many as cells_near finds round any of the particles, themselves included; at most those of the square that
+ * holds the circle. Cheap: it counts cells. */
+int cells_most(const struct cells *c, real radius);
+
 /* ---- the order of transfers ------------------------------------------------------------------------ */
 
 /* Grid cells are grouped in blocks of BLOCK_EDGE^dim; a block has one of 2^dim colours, and blocks of one colour

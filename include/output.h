@@ -22,6 +22,7 @@ struct output {
     int64_t history_bytes;               /* length at the last sample                                 */
     int columns;
     bool broken;                         /* HDF5 failed to write: it must not be called again         */
+    struct frame_job *writing;           /* a frame on its way to the disk; NULL: none                */
 };
 
 /* Once per process, before any other HDF5 call: no exit handler, no error stack on the terminal; SIGXFSZ and
@@ -41,6 +42,12 @@ status output_text(const struct output *o, const char *name, const char *text, s
 /* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
  * written in the order of their id. Single precision but for the reference positions. */
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
+/* The same, written by a thread of its own while the particles go on: they are copied before it returns; `scene_text`
+ * must stay. One frame at a time: the next one, checkpoints and output_close wait for it. A fault is told by whichever
+ * waits. */
+status output_frame_begin(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
+/* Until no frame is on its way; OK without one. */
+status output_wait(struct output *o);
 
 /* history.csv: header `name [unit],...` of all `columns`, time and step first among them, then one line per sample
  * (%.9g), flushed. With `resume` the file is cut to the length that output_archive restored. */

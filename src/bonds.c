@@ -216,7 +216,7 @@ static void rows_carry(struct bonds *b, const struct bonds *old)
 void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
-    int most = bonds_room(p, s);
+    int most = bonds_room(s);
     uint8_t *wanted = NEW("bonds.wanted", p->n, uint8_t);
     mark_rows(s, p, most, wanted);
     rows_list(b, p, wanted);
@@ -239,10 +239,14 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     }
     rows_pass(b, old, p, s, &pairs, most, false);
     memory_free(pairs.ratio);
-    for (int64_t q = 0; q < b->slots * LANES; q++) b->n += b->inverse_length[q] != 0;
+    int64_t made = 0;
+#pragma omp parallel for schedule(static) reduction(+ : made)
+    for (int64_t q = 0; q < b->slots * LANES; q++) made += b->inverse_length[q] != 0;
+    b->n = made;
     if (old) rows_carry(b, old);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
+#pragma omp parallel for schedule(static)
     for (int64_t r = 0; r < b->rows; r++) {
         b->whole[r] = p->kind[b->particle[r]] == KIND_PD;
         if (b->whole[r])
@@ -279,7 +283,7 @@ void bonds_free(struct bonds *b)
 
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
 {
-    int most = bonds_room(p, s);
+    int most = bonds_room(s);
     struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
     plain.influence = INFLUENCE_ONE;
@@ -335,7 +339,7 @@ real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
 
 real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 {
-    int most = bonds_room(p, s);
+    int most = bonds_room(s);
     real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
     struct pair_table pairs = pairs_make(s);
     uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);

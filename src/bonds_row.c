@@ -37,18 +37,10 @@ int family_search(const struct bond_source *s, const struct particles *p, int32_
     return kept;
 }
 
-int bonds_room(const struct particles *p, const struct bond_source *s)
+int bonds_room(const struct bond_source *s)
 {
     if (s->room > 0) return s->room;
-    int most = 0;
-#pragma omp parallel for schedule(static) reduction(max : most)
-    for (int64_t i = 0; i < p->n_all; i++) {
-        real X[DIM_MAX];
-        particle_place(p, i, X);
-        int n = cells_near(s->cells, p, X, s->family.cutoff, (int32_t)i, NULL, 0);
-        if (n > most) most = n;
-    }
-    return most;
+    return cells_most(s->cells, s->family.cutoff);
 }
 
 bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)

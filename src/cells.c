@@ -30,11 +30,11 @@ static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
     real low[DIM_MAX], high[DIM_MAX];
     for (int d = 0; d < p->dim; d++) {
-        low[d] = INFINITY, high[d] = -INFINITY;
-        for (int64_t i = 0; i < p->n_all; i++) {
-            low[d] = real_min(low[d], p->X[d][i]);
-            high[d] = real_max(high[d], p->X[d][i]);
-        }
+        real least = INFINITY, most = -INFINITY;
+        const real *X = p->X[d];
+#pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most)
+        for (int64_t i = 0; i < p->n_all; i++) least = real_min(least, X[i]), most = real_max(most, X[i]);
+        low[d] = least, high[d] = most;
     }
     c->dim = p->dim;
     c->edge = edge;
@@ -45,7 +45,7 @@ static void cells_shape(struct cells *c, const struct particles *p, real edge)
             c->count[d] = p->n_all > 0 ? (int64_t)floor((high[d] - low[d]) / c->width) + 1 : 1;
             cells *= (real)c->count[d];
         }
-        if (cells <= 4.0 * (real)p->n_all + 64) break;
+        if (cells <= 4.0 * (real)p->n_all + 64 && cells < INT32_MAX) break;
     }
     c->n = 1;
     for (int d = 0; d < c->dim; d++) c->n *= c->count[d];
@@ -56,16 +56,17 @@ void cells_make(struct cells *c, const struct particles *p, real edge)
     cells_shape(c, p, edge);
     c->start = NEW("cells.start", c->n + 2, int32_t);
     c->order = NEW("cells.order", p->n_all, int32_t);
-    real X[DIM_MAX];
+    int32_t *cell = NEW("cells.cell", p->n_all, int32_t);
+#pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n_all; i++) {
+        real X[DIM_MAX];
         particle_place(p, i, X);
-        c->start[cell_of(c, X) + 2]++;
+        cell[i] = (int32_t)cell_of(c, X);
     }
+    for (int64_t i = 0; i < p->n_all; i++) c->start[cell[i] + 2]++;
     for (int64_t k = 0; k < c->n; k++) c->start[k + 2] += c->start[k + 1];
-    for (int64_t i = 0; i < p->n_all; i++) {
-        particle_place(p, i, X);
-        c->order[c->start[cell_of(c, X) + 1]++] = (int32_t)i;
-    }
+    for (int64_t i = 0; i < p->n_all; i++) c->order[c->start[cell[i] + 1]++] = (int32_t)i;
+    memory_free(cell);
 }
 
 void cells_free(struct cells *c)
@@ -101,11 +102,12 @@ static inline int near(const struct cells *c, const struct particles *p, const r
                        int32_t *found, int room, const int dim)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
-    const int64_t reach = (int64_t)ceil(radius / c->width);
     for (int d = 0; d < dim; d++) {
-        int64_t k = (int64_t)floor((X[d] - c->origin[d]) / c->width);
-        low[d] = k - reach < 0 ? 0 : k - reach;
-        high[d] = k + reach >= c->count[d] ? c->count[d] - 1 : k + reach;
+        const real reach = radius * (1 + 1e-12) + 1e-15 * fabs(X[d]);    /* round-off of the distance below */
+        low[d] = (int64_t)floor((X[d] - reach - c->origin[d]) / c->width);
+        high[d] = (int64_t)floor((X[d] + reach - c->origin[d]) / c->width);
+        if (low[d] < 0) low[d] = 0;
+        if (high[d] >= c->count[d]) high[d] = c->count[d] - 1;
         if (low[d] > high[d]) return 0;
     }
     int n = 0;
@@ -126,6 +128,38 @@ int cells_near(const struct cells *c, const struct particles *p, const real *X, 
     case 2: return near(c, p, X, radius, skip, found, room, 2);
     default: return near(c, p, X, radius, skip, found, room, 3);
     }
+}
+
+/* Particles in the cells round a cell, those at most `reach` cells away. */
+static int64_t around(const struct cells *c, int64_t cell, int64_t reach)
+{
+    int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, sum = 0;
+    for (int d = 0; d < c->dim; d++, cell /= c->count[d - 1]) {
+        const int64_t k = cell % c->count[d];
+        low[d] = k < reach ? 0 : k - reach;
+        high[d] = k + reach >= c->count[d] ? c->count[d] - 1 : k + reach;
+    }
+    for (int64_t a = low[2]; a <= high[2]; a++)
+        for (int64_t b = low[1]; b <= high[1]; b++) {
+            const int64_t row = (a * (c->dim > 1 ? c->count[1] : 1) + b) * c->count[0];
+            sum += c->start[row + high[0] + 1] - c->start[row + low[0]];
+        }
+    return sum;
+}
+
+int cells_most(const struct cells *c, real radius)
+{
+    real far = 0;
+    int64_t most = 0;
+    for (int d = 0; d < c->dim; d++)
+        far = real_max(far, real_max(fabs(c->origin[d]), fabs(c->origin[d] + (real)c->count[d] * c->width)));
+    const int64_t reach = (int64_t)ceil((radius * (1 + 2e-12) + 2e-15 * far) / c->width);
+#pragma omp parallel for schedule(static) reduction(max : most)
+    for (int64_t cell = 0; cell < c->n; cell++) {
+        const int64_t n = c->start[cell + 1] > c->start[cell] ? around(c, cell, reach) : 0;
+        if (n > most) most = n;
+    }
+    return (int)most;
 }
 
 /* ---- transfer order --------------------------------------------------------------------------------- */

@@ -218,6 +218,7 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
     struct footer end = {{0}, 0, 0};
+    TRY(output_wait(o));                 /* it counts on the frames before it, and HDF5 serves one thread at a time */
     if (o->broken) return FAILED;
     TRY(history_sync(o));
     TRY(state_write(o, newest.text, scene_text, archive_all, context));

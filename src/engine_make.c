@@ -111,7 +111,7 @@ static void make_bonds(struct engine *e)
 {
     const struct scene *s = e->scene;
     e->source.image = e->loads.image;
-    e->source.room = bonds_room(&e->part, &e->source);
+    e->source.room = bonds_room(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
         bonds_neighbour_volume(e->neighbour_volume, &e->part, &e->source);

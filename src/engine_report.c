@@ -250,7 +250,7 @@ static status write_frame(struct engine *e)
 {
     engine_mesh_show(e);
     make_stress(e);
-    TRY(output_frame(e->out, &e->part, e->t, e->step, e->scene->text));
+    TRY(output_frame_begin(e->out, &e->part, e->t, e->step, e->scene->text));
     struct observed o = engine_observed(e);
     return probes_profiles(&e->probes, &o, e->out->folder, e->out->frames - 1);
 }
@@ -367,5 +367,6 @@ status engine_report(struct engine *e)
 status engine_report_end(struct engine *e)
 {
     progress(e, true);
+    if (e->out) TRY(output_wait(e->out));
     return e->out && e->step > e->step_started ? write_checkpoint(e) : OK;
 }

@@ -261,7 +261,7 @@ static status check_distances(const struct particles *p, const struct draft *d, 
     int64_t first = p->n;
     int32_t other = -1;
     real X[DIM_MAX] = {0};
-    cells_make(&cells, p, spacing);
+    cells_make(&cells, p, 3 * spacing);  /* of about one particle each */
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t i = 0; i < p->n; i++) {
         real here[DIM_MAX];

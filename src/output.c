@@ -139,6 +139,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
 
 void output_close(struct output *o)
 {
+    (void)output_wait(o);                /* who wants to know how it ended has asked before */
     if (o->history) fclose(o->history);
     memory_free(o->folder);
     memory_free(o->frame_time);

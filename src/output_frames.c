@@ -4,6 +4,8 @@
  * Our own data live in /Cleave. A symmetric tensor has VTK's order xx yy zz xy yz xz; components that the
  * dimension does not have are 0. */
 #include <errno.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,32 +103,71 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-static void write_field(struct hdf *f, const struct frame_field *field, const struct particles *p, const int32_t *order)
+/* Everything a frame says, copied from the particles: they go on while it is written. */
+struct frame_job {
+    struct path path;
+    int64_t n, step;
+    int dim;
+    real t;
+    bool compress, yielding, broken;
+    const char *scene_text;              /* borrowed */
+    char *field[COUNT_OF(frame_fields)];
+    int64_t *number;                     /* [n + 1] 0, 1, 2 ... */
+    uint8_t *type;                       /* [n] of the cells     */
+    char *index[2];                      /* texts of the two indices that count this frame too */
+    size_t index_length[2];
+    pthread_t thread;
+    bool apart;                          /* the thread runs      */
+    status ended;
+    char message[512];
+};
+
+static void copy_field(struct frame_job *job, int k, const struct particles *p, const int32_t *order)
 {
-    int columns = field->columns ? field->columns : p->dim;
-    size_t row = hdf_size(field->type) * (size_t)columns;
-    char *data = NEW("output.field", p->n * (int64_t)row, char);
+    const struct frame_field *field = &frame_fields[k];
+    const size_t row = hdf_size(field->type) * (size_t)(field->columns ? field->columns : p->dim);
+    char *data = job->field[k] = NEW("output.field", p->n * (int64_t)row, char);
 #pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < p->n; k++) field->fill(p, order[k], data + (size_t)k * row);
-    hdf_rows(f, field->path, field->type, p->n, columns, data);
-    memory_free(data);
+    for (int64_t i = 0; i < p->n; i++) field->fill(p, order[i], data + (size_t)i * row);
+}
+
+static struct frame_job *job_make(const struct output *o, const struct particles *p, real t, int64_t step,
+                                  const char *scene_text)
+{
+    struct frame_job *job = NEW("output.job", 1, struct frame_job);
+    job->n = p->n, job->step = step, job->dim = p->dim, job->t = t;
+    job->compress = o->compress, job->yielding = p->plastic_strain != NULL, job->scene_text = scene_text;
+    int32_t *order = order_by_id(p);
+    for (int k = 0; k < (int)COUNT_OF(frame_fields); k++)
+        if (field_exists(&frame_fields[k], job->yielding)) copy_field(job, k, p, order);
+    memory_free(order);
+    job->number = NEW("output.cells", p->n + 1, int64_t);
+    job->type = NEW("output.types", p->n, uint8_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k <= p->n; k++) job->number[k] = k;
+    if (p->n > 0) memset(job->type, VTK_VERTEX, (size_t)p->n);
+    return job;
+}
+
+static void job_free(struct frame_job *job)
+{
+    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) memory_free(job->field[k]);
+    memory_free(job->number);
+    memory_free(job->type);
+    for (int k = 0; k < 2; k++) free(job->index[k]);
+    memory_free(job);
 }
 
 /* One vertex cell per particle: the k-th cell is point k and starts at k. */
-static void write_cells(struct hdf *f, int64_t n)
+static void write_cells(struct hdf *f, const struct frame_job *job)
 {
-    int64_t *number = NEW("output.cells", n + 1, int64_t);
-    for (int64_t k = 0; k <= n; k++) number[k] = k;
+    const int64_t n = job->n;
     hdf_rows(f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, 1, &n);
     hdf_rows(f, "/VTKHDF/NumberOfCells", HDF_I64, 1, 1, &n);
     hdf_rows(f, "/VTKHDF/NumberOfConnectivityIds", HDF_I64, 1, 1, &n);
-    hdf_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, number);
-    hdf_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, number);
-    memory_free(number);
-    uint8_t *type = NEW("output.types", n, uint8_t);
-    if (n > 0) memset(type, VTK_VERTEX, (size_t)n);
-    hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, type);
-    memory_free(type);
+    hdf_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, job->number);
+    hdf_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, job->number);
+    hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, job->type);
 }
 
 static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char *scene_text)
@@ -146,25 +187,24 @@ static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char
 }
 
 /* Writes PATH.tmp and publishes it. */
-static status frame_write(struct output *o, const char *path, const struct particles *p, real t, int64_t step,
-                          const char *scene_text)
+static status frame_write(struct frame_job *job)
 {
     struct hdf f;
-    hdf_create(&f, path_aside(path).text, o->compress);
-    write_marks(&f, p->dim, t, step, scene_text);
-    write_cells(&f, p->n);
-    int32_t *order = order_by_id(p);
+    hdf_create(&f, path_aside(job->path.text).text, job->compress);
+    write_marks(&f, job->dim, job->t, job->step, job->scene_text);
+    write_cells(&f, job);
     for (size_t k = 0; k < COUNT_OF(frame_fields); k++)
-        if (field_exists(&frame_fields[k], p->plastic_strain != NULL)) write_field(&f, &frame_fields[k], p, order);
-    memory_free(order);
+        if (job->field[k])
+            hdf_rows(&f, frame_fields[k].path, frame_fields[k].type, job->n,
+                     frame_fields[k].columns ? frame_fields[k].columns : job->dim, job->field[k]);
     if (!f.failed) hdf_close(&f);
     if (f.failed) {
-        o->broken = true;
-        file_discard(path);
-        return file_fault(path, f.cause);
+        job->broken = true;
+        file_discard(job->path.text);
+        return file_fault(job->path.text, f.cause);
     }
-    TRY(file_seal(path, NULL, 0));
-    return file_publish(path);
+    TRY(file_seal(job->path.text, NULL, 0));
+    return file_publish(job->path.text);
 }
 
 /* ---- indices --------------------------------------------------------------------------------------- */
@@ -233,26 +273,57 @@ static void xdmf_print(FILE *out, const struct output *o)
     fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
 }
 
-/* Composes a text in memory and writes it as DIR/name. */
-static status index_write(const struct output *o, const char *name, void (*print)(FILE *, const struct output *))
+/* ---- on their way ------------------------------------------------------------------------------------ */
+
+static const char *const index_name[2] = {"frames.hdf.series", "frames.xdmf"};
+
+/* Composes the text of an index in memory. */
+static status index_make(const struct output *o, struct frame_job *job, int which)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (out) print(out, o);
+    static void (*const print[2])(FILE *, const struct output *) = {series_print, xdmf_print};
+    FILE *out = open_memstream(&job->index[which], &job->index_length[which]);
+    if (out) print[which](out, o);
     bool whole = out && !ferror(out);
     if (out && fclose(out) != 0) whole = false;
-    status s = whole ? output_text(o, name, text, length) : file_fault(path_join(o->folder, name).text, ENOMEM);
-    free(text);
+    return whole ? OK : file_fault(path_join(o->folder, index_name[which]).text, ENOMEM);
+}
+
+/* The frame first: an index never names one that is not there. DIR is two folders above it. */
+static status job_write(struct frame_job *job)
+{
+    TRY(frame_write(job));
+    struct path folder = job->path;
+    for (int k = 0; k < 2; k++) *strrchr(folder.text, '/') = '\0';
+    for (int k = 0; k < 2; k++)
+        TRY(file_put(path_join(folder.text, index_name[k]).text, job->index[k], job->index_length[k]));
+    return OK;
+}
+
+static void *job_run(void *context)
+{
+    struct frame_job *job = context;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   /* a library made for threads keeps this for each of them */
+    job->ended = job_write(job);
+    if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
+    return NULL;
+}
+
+status output_wait(struct output *o)
+{
+    struct frame_job *job = o->writing;
+    if (!job) return OK;
+    if (job->apart) pthread_join(job->thread, NULL);
+    o->writing = NULL;
+    o->broken = o->broken || job->broken;
+    status s = job->ended == OK ? OK : status_set(job->ended, "%s", job->message);
+    if (s != OK) o->frames--;
+    job_free(job);
     return s;
 }
 
-status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
+/* Counts a frame that is on its way: output_wait takes it back. */
+static void frame_count(struct output *o, const struct particles *p, real t)
 {
-    char name[PATH_NAME_ROOM];
-    if (o->broken) return FAILED;
-    frame_name(name, sizeof name, o->frames);
-    TRY(frame_write(o, path_join(o->folder, name).text, p, t, step, scene_text));
     if (o->frames == o->frames_room) {
         int room = 2 * o->frames_room + 16;
         o->frame_time = memory_resize("output.frame_time", o->frame_time, o->frames_room, room, sizeof(real));
@@ -261,6 +332,36 @@ status output_frame(struct output *o, const struct particles *p, real t, int64_t
     o->frame_time[o->frames++] = t;
     o->frame_particles = p->n;
     o->frame_yielding = p->plastic_strain != NULL;
-    TRY(index_write(o, "frames.hdf.series", series_print));
-    return index_write(o, "frames.xdmf", xdmf_print);
+}
+
+/* Signals are for the thread that steps. */
+static void job_start(struct frame_job *job)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    job->apart = pthread_create(&job->thread, NULL, job_run, job) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (!job->apart) job_run(job);           /* no thread to be had: then now */
+}
+
+status output_frame_begin(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
+{
+    char name[PATH_NAME_ROOM];
+    TRY(output_wait(o));
+    if (o->broken) return FAILED;
+    struct frame_job *job = o->writing = job_make(o, p, t, step, scene_text);
+    frame_name(name, sizeof name, o->frames);
+    job->path = path_join(o->folder, name);
+    frame_count(o, p, t);
+    for (int k = 0; k < 2 && job->ended == OK; k++) job->ended = index_make(o, job, k);
+    if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
+    else job_start(job);
+    return OK;
+}
+
+status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
+{
+    TRY(output_frame_begin(o, p, t, step, scene_text));
+    return output_wait(o);
 }

@@ -11,7 +11,7 @@ cd "$work"
 fail() { echo "test_bench: $1" >&2; exit 1; }
 
 # Refused in one line, exit status 2, nothing written.
-for words in accuracy stability threads scale peers nonsense "--slow" "kernels nonsense" coupling factors efficiency; do
+for words in accuracy stability nonsense "--slow" "kernels nonsense" coupling factors efficiency; do
     set +e
     "$cleave" bench $words >out 2>err
     ended=$?
@@ -39,6 +39,26 @@ awk -F, 'NR == 2 { exit $2 != "bond" }' efficiency.csv || fail "the model"
 awk -F, 'NR == 2 { d = $5 - (1 - $3 / $4); exit !($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6) }' efficiency.csv || fail "t_r"
 for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; do [ -s $file ] || fail "$file is missing"; done
 [ "$(wc -l <efficiency_share.csv)" -eq 102 ] || fail "the share is noted at 100 samples and at the start"
+cd ../..
+
+# Scaling over threads and sizes: files, columns, and figures that follow from the others.
+OMP_NUM_THREADS=2 "$cleave" bench threads scale peers --quick >out || fail "threads, scale or peers failed"
+cd results/bench
+[ "$(head -1 threads.csv)" = method,scaling,threads,particles,step_seconds,ns_per_particle_step,efficiency ] ||
+    fail "columns of threads.csv"
+[ "$(wc -l <threads.csv)" -eq 21 ] || fail "five methods, two scalings, two teams give 20 lines"
+awk -F, 'NR > 1 { if ($3 == 1) one = $6; d = $7 * $3 * $6 / one - 1; if (d > 1e-6 || d < -1e-6) bad = 1 }
+    END { exit bad }' threads.csv || fail "the efficiency of threads.csv"
+[ "$(wc -l <scale.csv)" -eq 21 ] || fail "ten methods at two sizes give 20 lines"
+awk -F, 'NR > 1 && !($3 > 2000 && $5 > 0 && $6 > 0 && $8 > 0 && $9 > 0) { bad = 1 } END { exit bad }' scale.csv ||
+    fail "figures of scale.csv"
+[ "$(awk -F, 'NR > 1 && $12 > 0' scale.csv | wc -l)" -eq 5 ] || fail "output is measured for five methods"
+# The bonds of full families but for edges: sum over the 28 neighbours of (n - |a|)(n - |b|), n = 50
+awk -F, '$1 == "pd" && $2 == 2 && $3 == 2500 { n = $4 } END { exit n != 66436 }' scale.csv || fail "bonds of a square of 50"
+for file in threads.json threads.png threads.svg threads_memory.csv scale.json scale.png; do
+    [ -s $file ] || fail "$file is missing"
+done
+[ -z "$(ls -d run-* 2>/dev/null)" ] || fail "scaling leaves runs behind"
 cd ../..
 
 # Couplings: the columns, and figures known from the literature's couplings and from an independent prototype.
