@@ -246,10 +246,23 @@ static real height(const struct crack *c, const struct crack_plane *plane, const
     return sum;
 }
 
+/* Do the boxes round the crack and round a bond stay apart, by far more than what counts as touching? */
+static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
+{
+    for (int d = 0; d < dim && dim > 1; d++) {
+        real low = c->corner[0][d], high = low;
+        for (int k = 1; k < c->n; k++) low = real_min(low, c->corner[k][d]), high = real_max(high, c->corner[k][d]);
+        const real slack = 1e-3 * (fabs(a[d] - b[d]) + high - low) + 1e-6 * (fabs(low) + fabs(high));
+        if (real_max(a[d], b[d]) < low - slack || real_min(a[d], b[d]) > high + slack) return true;
+    }
+    return false;
+}
+
 bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
 {
     struct crack_plane plane;
     int d = 0;
+    if (far_apart(c, a, b, dim)) return false;
     while (d < dim && a[d] == b[d]) d++;
     if (d == dim) return false;
     if (a[d] > b[d]) {                   /* one order of the ends, so both directions give the same bits */
