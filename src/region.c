@@ -249,12 +249,14 @@ static real height(const struct crack *c, const struct crack_plane *plane, const
 /* Do the boxes round the crack and round a bond stay apart, by far more than what counts as touching? */
 static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
 {
-    for (int d = 0; d < dim && dim > 1; d++) {
-        real low = c->corner[0][d], high = low;
-        for (int k = 1; k < c->n; k++) low = real_min(low, c->corner[k][d]), high = real_max(high, c->corner[k][d]);
-        const real slack = 1e-3 * (fabs(a[d] - b[d]) + high - low) + 1e-6 * (fabs(low) + fabs(high));
-        if (real_max(a[d], b[d]) < low - slack || real_min(a[d], b[d]) > high + slack) return true;
+    real low[DIM_MAX], high[DIM_MAX], size = 0;
+    for (int d = 0; d < dim; d++) {
+        low[d] = high[d] = c->corner[0][d];
+        for (int k = 1; k < c->n; k++) low[d] = real_min(low[d], c->corner[k][d]), high[d] = real_max(high[d], c->corner[k][d]);
+        size += fabs(a[d] - b[d]) + high[d] - low[d];
     }
+    for (int d = 0; d < dim && dim > 1; d++)
+        if (real_max(a[d], b[d]) < low[d] - 1e-3 * size || real_min(a[d], b[d]) > high[d] + 1e-3 * size) return true;
     return false;
 }
 
