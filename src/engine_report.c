@@ -146,6 +146,7 @@ static void sample_energy(struct engine *e)
 /* t_velocity: when the velocities of now are known [s]. */
 static void sample_write(struct engine *e, real t_velocity, real kinetic, real work)
 {
+    show_probes(e);
     struct observed o = engine_observed(e);
     probes_sample_end(&e->probes, &o, t_velocity);
     e->sampling.energy.kinetic = kinetic;
