@@ -23,7 +23,7 @@ static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
 struct size_result {
     bool known;
     double particles, bonds, setup, step, bytes;   /* [1] [1] [s] [s] [byte] */
-    double frame, frame_all, frame_bytes;          /* a frame holds the loop [s]; until it is on the disk [s]; its size [byte] */
+    double frame, frame_bytes;                     /* a frame holds the loop [s]; its size [byte per particle] */
 };
 
 struct scale_bench { struct size_result at[BENCH_BLOCKS][SIZES]; };
@@ -42,7 +42,7 @@ static double memory_from_here(void)
     return fclose(f) == 0 && put ? (double)memory_peak() : NAN;
 }
 
-/* Twice the largest need that was measured, with half of the machine left alone. */
+/* Bytes of a particle of the hungriest method, and a frame of it on its way. */
 static bool machine_holds(const struct bench_block *block, double particles)
 {
     const double each = block->dim == 2 ? 900 : 4000;
@@ -63,9 +63,7 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     TRY(bench_block_make(&e, &s, block, particles, 2 * FRAME_EVERY, 2, &out));
     status ran = output_open(&out, folder.folder, s.text, false, false);
     if (ran == OK) {
-        const double start = team_clock();
         ran = engine_run(&e);
-        r->frame_all = (team_clock() - start - e.loop_seconds) / 3;
         r->frame = e.laps.spent[LAP_OUTPUT] / 2;
         FILE *f = fopen(path_join(folder.folder, "frames/000001.hdf").text, "r");
         if (f && fseek(f, 0, SEEK_END) == 0) r->frame_bytes = (double)ftell(f) / (double)e.part.n;
@@ -208,9 +206,7 @@ static status measure_way(struct scale_bench *b, int way, int sizes, bool quick)
         }
         struct size_result *r = &b->at[way][k];
         TRY(time_size(r, block, particles));
-        if (k == (quick ? 0 : 2) && block->dim == 2) {
-            TRY(time_frames(r, block, particles));
-        }
+        if (k == (quick ? 0 : 2) && block->dim == 2) TRY(time_frames(r, block, particles));
         print_size(b, way, k);
     }
     return OK;

@@ -42,8 +42,8 @@ status output_text(const struct output *o, const char *name, const char *text, s
 /* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
  * written in the order of their id. Single precision but for the reference positions. */
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
-/* The same, written by a thread of its own while the particles go on: they are copied before it returns; `scene_text`
- * must stay. One frame at a time: the next one, checkpoints and output_close wait for it. A fault is told by whichever
+/* The same, written by a thread of its own while the particles go on: what changes of them is copied before it returns;
+ * they and `scene_text` must stay until output_wait. One frame at a time: the next one, checkpoints and output_close wait for it. A fault is told by whichever
  * waits. */
 status output_frame_begin(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 /* Until no frame is on its way; OK without one. */

@@ -18,12 +18,14 @@ enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
 
 /* ---- the table of fields --------------------------------------------------------------------------- */
 
-/* One dataset with a row per particle. `fill` writes the row of particle i; `columns` 0 stands for dim. */
+/* One dataset with a row per particle. `fill` writes the row of particle i; `columns` 0 stands for dim; `fixed`: it never
+ * changes in a run. */
 struct frame_field {
     const char *path;
     enum hdf_type type;
     int columns;
     void (*fill)(const struct particles *p, int64_t i, void *row);
+    bool fixed;
 };
 
 static void fill_point(const struct particles *p, int64_t i, void *row)
@@ -69,17 +71,17 @@ static void fill_plastic_strain(const struct particles *p, int64_t i, void *row)
 #define POINT_DATA "/VTKHDF/PointData/"
 enum { FIELD_POINTS };                   /* where in the table the positions stand */
 static const struct frame_field frame_fields[] = {
-    {"/VTKHDF/Points", HDF_F32, 3, fill_point},
-    {POINT_DATA "displacement", HDF_F32, 3, fill_displacement},
-    {POINT_DATA "velocity", HDF_F32, 3, fill_velocity},
-    {POINT_DATA "stress", HDF_F32, 6, fill_stress},
-    {POINT_DATA "damage", HDF_F32, 1, fill_damage},
-    {POINT_DATA "plastic_strain", HDF_F32, 1, fill_plastic_strain},
-    {POINT_DATA "kind", HDF_U8, 1, fill_kind},
-    {POINT_DATA "material", HDF_U8, 1, fill_material},
-    {POINT_DATA "body", HDF_U8, 1, fill_body},
-    {POINT_DATA "id", HDF_I32, 1, fill_id},
-    {"/Cleave/reference", HDF_F64, 0, fill_reference},
+    {"/VTKHDF/Points", HDF_F32, 3, fill_point, false},
+    {POINT_DATA "displacement", HDF_F32, 3, fill_displacement, false},
+    {POINT_DATA "velocity", HDF_F32, 3, fill_velocity, false},
+    {POINT_DATA "stress", HDF_F32, 6, fill_stress, false},
+    {POINT_DATA "damage", HDF_F32, 1, fill_damage, false},
+    {POINT_DATA "plastic_strain", HDF_F32, 1, fill_plastic_strain, false},
+    {POINT_DATA "kind", HDF_U8, 1, fill_kind, false},
+    {POINT_DATA "material", HDF_U8, 1, fill_material, true},
+    {POINT_DATA "body", HDF_U8, 1, fill_body, true},
+    {POINT_DATA "id", HDF_I32, 1, fill_id, true},
+    {"/Cleave/reference", HDF_F64, 0, fill_reference, true},
 };
 
 /* Plastic strain is there only if a material yields. */
@@ -90,30 +92,17 @@ static bool field_exists(const struct frame_field *field, bool yielding)
 
 /* ---- one frame ------------------------------------------------------------------------------------- */
 
-/* Indices of the body in the order of their ids, which are unique but may have gaps. Free with memory_free. */
-static int32_t *order_by_id(const struct particles *p)
-{
-    int64_t room = 0, k = 0;
-    for (int64_t i = 0; i < p->n; i++) room = p->id[i] >= room ? (int64_t)p->id[i] + 1 : room;
-    int32_t *order = NEW("output.order", room, int32_t);
-    for (int64_t i = 0; i < p->n; i++) order[p->id[i]] = (int32_t)i + 1;
-    for (int64_t id = 0; id < room; id++)
-        if (order[id]) order[k++] = order[id] - 1;
-    assert(k == p->n);
-    return order;
-}
-
-/* Everything a frame says, copied from the particles: they go on while it is written. */
+/* What a frame says and particles will not say much longer, copied; the rest is read while they go on. */
 struct frame_job {
     struct path path;
+    const struct particles *p;           /* borrowed: what never changes of them */
     int64_t n, step;
     int dim;
     real t;
     bool compress, yielding, broken;
     const char *scene_text;              /* borrowed */
-    char *field[COUNT_OF(frame_fields)];
-    int64_t *number;                     /* [n + 1] 0, 1, 2 ... */
-    uint8_t *type;                       /* [n] of the cells     */
+    char *copied;                        /* all of field, particle by particle in their own order */
+    char *field[COUNT_OF(frame_fields)]; /* NULL: fixed, or not in this frame */
     char *index[2];                      /* texts of the two indices that count this frame too */
     size_t index_length[2];
     pthread_t thread;
@@ -122,52 +111,83 @@ struct frame_job {
     char message[512];
 };
 
-static void copy_field(struct frame_job *job, int k, const struct particles *p, const int32_t *order)
+static size_t field_row(const struct frame_field *field, int dim)
 {
-    const struct frame_field *field = &frame_fields[k];
-    const size_t row = hdf_size(field->type) * (size_t)(field->columns ? field->columns : p->dim);
-    char *data = job->field[k] = NEW("output.field", p->n * (int64_t)row, char);
-#pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) field->fill(p, order[i], data + (size_t)i * row);
+    return hdf_size(field->type) * (size_t)(field->columns ? field->columns : dim);
 }
 
 static struct frame_job *job_make(const struct output *o, const struct particles *p, real t, int64_t step,
                                   const char *scene_text)
 {
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
-    job->n = p->n, job->step = step, job->dim = p->dim, job->t = t;
+    size_t offset[COUNT_OF(frame_fields)], length = 0;
+    job->p = p, job->n = p->n, job->step = step, job->dim = p->dim, job->t = t;
     job->compress = o->compress, job->yielding = p->plastic_strain != NULL, job->scene_text = scene_text;
-    int32_t *order = order_by_id(p);
-    for (int k = 0; k < (int)COUNT_OF(frame_fields); k++)
-        if (field_exists(&frame_fields[k], job->yielding)) copy_field(job, k, p, order);
-    memory_free(order);
-    job->number = NEW("output.cells", p->n + 1, int64_t);
-    job->type = NEW("output.types", p->n, uint8_t);
+    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
+        offset[k] = length;
+        if (field_exists(&frame_fields[k], job->yielding) && !frame_fields[k].fixed)
+            length += (size_t)p->n * field_row(&frame_fields[k], p->dim);
+    }
+    job->copied = NEW("output.frame", (int64_t)length, char);
+    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
+        const struct frame_field *field = &frame_fields[k];
+        if (field->fixed || !field_exists(field, job->yielding)) continue;
+        char *data = job->field[k] = job->copied + offset[k];
+        const size_t row = field_row(field, p->dim);
 #pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k <= p->n; k++) job->number[k] = k;
-    if (p->n > 0) memset(job->type, VTK_VERTEX, (size_t)p->n);
+        for (int64_t i = 0; i < p->n; i++) field->fill(p, i, data + (size_t)i * row);
+    }
     return job;
 }
 
 static void job_free(struct frame_job *job)
 {
-    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) memory_free(job->field[k]);
-    memory_free(job->number);
-    memory_free(job->type);
+    memory_free(job->copied);
     for (int k = 0; k < 2; k++) free(job->index[k]);
     memory_free(job);
 }
 
-/* One vertex cell per particle: the k-th cell is point k and starts at k. */
-static void write_cells(struct hdf *f, const struct frame_job *job)
+/* ---- written by a thread of its own: no teams, so no arrays of memory_new --------------------------- */
+
+/* Indices of the body in the order of their ids, which are unique but may have gaps. NULL: no memory. Free with free. */
+static int32_t *order_by_id(const struct particles *p)
 {
-    const int64_t n = job->n;
+    int64_t room = 0, k = 0;
+    for (int64_t i = 0; i < p->n; i++) room = p->id[i] >= room ? (int64_t)p->id[i] + 1 : room;
+    int32_t *order = calloc((size_t)room + 1, sizeof *order);
+    if (!order) return NULL;
+    for (int64_t i = 0; i < p->n; i++) order[p->id[i]] = (int32_t)i + 1;
+    for (int64_t id = 0; id < room; id++)
+        if (order[id]) order[k++] = order[id] - 1;
+    assert(k == p->n);
+    return order;
+}
+
+enum { ROW_MOST = 24 };                  /* bytes of a field's row: six singles or three doubles */
+
+static void write_field(struct hdf *f, const struct frame_job *job, size_t k, const int32_t *order, char *room)
+{
+    const struct frame_field *field = &frame_fields[k];
+    const size_t row = field_row(field, job->dim);
+    assert(row <= ROW_MOST);
+    for (int64_t i = 0; i < job->n; i++)
+        if (field->fixed) field->fill(job->p, order[i], room + (size_t)i * row);
+        else memcpy(room + (size_t)i * row, job->field[k] + (size_t)order[i] * row, row);
+    hdf_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
+}
+
+/* One vertex cell per particle: the k-th cell is point k and starts at k. */
+static void write_cells(struct hdf *f, int64_t n, char *room)
+{
+    int64_t *number = (int64_t *)room;
+    for (int64_t k = 0; k <= n; k++) number[k] = k;
     hdf_rows(f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, 1, &n);
     hdf_rows(f, "/VTKHDF/NumberOfCells", HDF_I64, 1, 1, &n);
     hdf_rows(f, "/VTKHDF/NumberOfConnectivityIds", HDF_I64, 1, 1, &n);
-    hdf_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, job->number);
-    hdf_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, job->number);
-    hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, job->type);
+    hdf_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, number);
+    hdf_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, number);
+    memset(room, VTK_VERTEX, (size_t)n);
+    hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
 }
 
 static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char *scene_text)
@@ -190,13 +210,18 @@ static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
+    int32_t *order = order_by_id(job->p);
+    char *room = malloc((size_t)(job->n + 1) * ROW_MOST);
+    if (!order || !room) {
+        free(order), free(room);
+        return file_fault(job->path.text, ENOMEM);
+    }
     hdf_create(&f, path_aside(job->path.text).text, job->compress);
     write_marks(&f, job->dim, job->t, job->step, job->scene_text);
-    write_cells(&f, job);
+    write_cells(&f, job->n, room);
     for (size_t k = 0; k < COUNT_OF(frame_fields); k++)
-        if (job->field[k])
-            hdf_rows(&f, frame_fields[k].path, frame_fields[k].type, job->n,
-                     frame_fields[k].columns ? frame_fields[k].columns : job->dim, job->field[k]);
+        if (field_exists(&frame_fields[k], job->yielding)) write_field(&f, job, k, order, room);
+    free(order), free(room);
     if (!f.failed) hdf_close(&f);
     if (f.failed) {
         job->broken = true;
@@ -247,7 +272,7 @@ static void xdmf_attribute(FILE *out, const char *frame, const struct frame_fiel
 static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, bool yielding)
 {
     /* Named, because the XDMF3 reader makes no cells from a count alone. */
-    static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL};
+    static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL, false};
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
     fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
             (long long)n);
