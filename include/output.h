@@ -23,6 +23,8 @@ struct output {
     int columns;
     bool broken;                         /* HDF5 failed to write: it must not be called again         */
     struct frame_job *writing;           /* a frame on its way to the disk; NULL: none                */
+    char *frame_copy;                    /* what it copies; kept for the next one, whose pages are then there */
+    int64_t frame_copy_bytes;
 };
 
 /* Once per process, before any other HDF5 call: no exit handler, no error stack on the terminal; SIGXFSZ and

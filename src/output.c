@@ -143,6 +143,7 @@ void output_close(struct output *o)
     if (o->history) fclose(o->history);
     memory_free(o->folder);
     memory_free(o->frame_time);
+    memory_free(o->frame_copy);
     *o = (struct output){0};
 }
 

@@ -101,8 +101,7 @@ struct frame_job {
     real t;
     bool compress, yielding, broken;
     const char *scene_text;              /* borrowed */
-    char *copied;                        /* all of field, particle by particle in their own order */
-    char *field[COUNT_OF(frame_fields)]; /* NULL: fixed, or not in this frame */
+    char *field[COUNT_OF(frame_fields)]; /* in frame_copy, in the particles' own order; NULL: fixed, or not in this frame */
     char *index[2];                      /* texts of the two indices that count this frame too */
     size_t index_length[2];
     pthread_t thread;
@@ -116,7 +115,7 @@ static size_t field_row(const struct frame_field *field, int dim)
     return hdf_size(field->type) * (size_t)(field->columns ? field->columns : dim);
 }
 
-static struct frame_job *job_make(const struct output *o, const struct particles *p, real t, int64_t step,
+static struct frame_job *job_make(struct output *o, const struct particles *p, real t, int64_t step,
                                   const char *scene_text)
 {
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
@@ -128,11 +127,15 @@ static struct frame_job *job_make(const struct output *o, const struct particles
         if (field_exists(&frame_fields[k], job->yielding) && !frame_fields[k].fixed)
             length += (size_t)p->n * field_row(&frame_fields[k], p->dim);
     }
-    job->copied = NEW("output.frame", (int64_t)length, char);
+    if (o->frame_copy_bytes < (int64_t)length) {
+        memory_free(o->frame_copy);
+        o->frame_copy = NEW("output.frame", (int64_t)length, char);
+        o->frame_copy_bytes = (int64_t)length;
+    }
     for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
         const struct frame_field *field = &frame_fields[k];
         if (field->fixed || !field_exists(field, job->yielding)) continue;
-        char *data = job->field[k] = job->copied + offset[k];
+        char *data = job->field[k] = o->frame_copy + offset[k];
         const size_t row = field_row(field, p->dim);
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) field->fill(p, i, data + (size_t)i * row);
@@ -142,7 +145,6 @@ static struct frame_job *job_make(const struct output *o, const struct particles
 
 static void job_free(struct frame_job *job)
 {
-    memory_free(job->copied);
     for (int k = 0; k < 2; k++) free(job->index[k]);
     memory_free(job);
 }
