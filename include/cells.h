@@ -31,6 +31,8 @@ int cells_near(const struct cells *c, const struct particles *p, const real *X, 
  * order and a block by one thread: the same bits on any number of threads. Blocks are counted from the grid's absolute
  * node 0, so that growing the grid keeps them. */
 enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
+/* Entries of the order may be read this far beyond its end: what they hold stands first in line to be fetched. */
+enum { ORDER_AHEAD = 64 };
 
 static inline int64_t block_edge(int d) { return d == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 

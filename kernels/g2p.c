@@ -6,6 +6,7 @@
  * Every point is written by one thread. */
 #include "kernels.h"
 #include "plastic.h"
+#include "scatter.h"
 #include "shape.h"
 #include "stress.h"
 #include "variants.h"
@@ -79,11 +80,18 @@ static ALWAYS_INLINE void point_gather(const cell_rows moving, const cell_rows s
                 across[d][e] += stencil_slope(s, k1, k2, e, dim, shape) * straining[d][k];
         }
     }
+    row_of_nodes term[DIM_MAX * (1 + DIM_MAX)] = {{0}};      /* gradients first: four in 2D */
     for (int d = 0; d < dim; d++) {
-        velocity[d] = row_sum(s->N * moves[d]);
-        for (int e = 0; e < dim; e++)
-            L[d * dim + e] = row_sum(e < along ? s->D[e] * strains[d] : s->N * across[d][e]);
+        for (int e = 0; e < dim; e++) term[d * dim + e] = e < along ? s->D[e] * strains[d] : s->N * across[d][e];
+        term[dim * dim + d] = s->N * moves[d];
     }
+    real sum[DIM_MAX * (1 + DIM_MAX)];
+    for (int k = 0; k < dim * (1 + dim); k += ROW) {
+        const row_of_nodes four = row_sums(term[k], term[k + 1], term[k + 2], term[k + 3]);
+        for (int m = 0; m < ROW; m++) sum[k + m] = four[m];
+    }
+    for (int k = 0; k < dim * dim; k++) L[k] = sum[k];
+    for (int d = 0; d < dim; d++) velocity[d] = sum[dim * dim + d];
 }
 
 static ALWAYS_INLINE bool g2p_particle(const cell_rows moving, const cell_rows straining, const struct grid *g,
@@ -106,6 +114,15 @@ static ALWAYS_INLINE bool g2p_particle(const cell_rows moving, const cell_rows s
     return moved;
 }
 
+static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
+{
+    int64_t i;
+    if (!fetch_now(list, k, &i)) return;
+    fetch(p->volume + i);
+    for (int d = 0; d < dim; d++) fetch(p->x[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
+}
+
 /* Returns how many points left the cell. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       const int32_t *list, int n, const int dim, const enum shape shape,
@@ -122,7 +139,10 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
             straining[d][k] = transfer == TRANSFER_APIC ? moving[d][k] : nodes_load(g, g->momentum[d] + I, dim, shape);
         }
     }
-    for (int k = 0; k < n; k++) moved += g2p_particle(moving, straining, g, &c, p, t, list[k], dim, shape, transfer);
+    for (int k = 0; k < n; k++) {
+        g2p_fetch(p, list, k, dim);
+        moved += g2p_particle(moving, straining, g, &c, p, t, list[k], dim, shape, transfer);
+    }
     return moved;
 }
 

@@ -88,6 +88,17 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     if (__builtin_expect(t->partial && t->partial->skew, 0)) p2g_skew(sum, p, t, &s, i, dim, shape);
 }
 
+static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *list, int k, const int dim,
+                                    const enum transfer transfer)
+{
+    int64_t i;
+    if (!fetch_now(list, k, &i)) return;
+    fetch(p->mass + i), fetch(p->volume + i);
+    for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i), fetch(p->f[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
+    for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) fetch(p->gradient[c] + i);
+}
+
 static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles *p, const struct transfer_data *t,
                                    const int32_t *list, int n, const int dim, const enum shape shape,
                                    const enum transfer transfer)
@@ -96,7 +107,10 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     cell_sums sum;
     FOR_ROWS(dim, shape)
         for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_of(0);
-    for (int k = 0; k < n; k++) p2g_particle(sum, g, &c, p, t, list[k], dim, shape, transfer);
+    for (int k = 0; k < n; k++) {
+        p2g_fetch(p, list, k, dim, transfer);
+        p2g_particle(sum, g, &c, p, t, list[k], dim, shape, transfer);
+    }
     FOR_ROWS(dim, shape) {
         const int64_t I = cell_row(&c, g, k1, k2, dim);
         const int k = PATCH(dim, shape);

@@ -30,6 +30,14 @@ static ALWAYS_INLINE void remap_particle(cell_rows change, cell_rows sum, const 
     }
 }
 
+static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
+{
+    int64_t i;
+    if (!fetch_now(list, k, &i)) return;
+    fetch(p->mass + i);
+    for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i);
+}
+
 static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                      const int32_t *list, int n, const int dim, const enum shape shape)
 {
@@ -40,7 +48,10 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
             change[d][PATCH(dim, shape)] = nodes_load(g, g->force[d] + cell_row(&c, g, k1, k2, dim), dim, shape);
             sum[d][PATCH(dim, shape)] = row_of(0);
         }
-    for (int k = 0; k < n; k++) remap_particle(change, sum, g, &c, p, t, list[k], dim, shape);
+    for (int k = 0; k < n; k++) {
+        remap_fetch(p, list, k, dim);
+        remap_particle(change, sum, g, &c, p, t, list[k], dim, shape);
+    }
     FOR_ROWS(dim, shape)
         for (int d = 0; d < dim; d++)
             nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);

@@ -4,6 +4,16 @@
 
 #include "kernels.h"
 
+/* Is this the time to fetch what stands in the memory lines of the point AHEAD places further on? The cells of a row read two
+ * (in 3D four) lines of many arrays side by side, more than the processor foresees by itself. Once a line. */
+static ALWAYS_INLINE bool fetch_now(const int32_t *list, int k, int64_t *i)
+{
+    *i = list[k + ORDER_AHEAD];
+    return *i % LANES == 0;
+}
+
+static ALWAYS_INLINE void fetch(const real *at) { __builtin_prefetch(at, 0, 3); }
+
 /* The body of an instance of dimension D: CALL, an expression in `nodes`, `points`, `list` and `n`, for the n listed points
  * of every cell of ORDER; blocks of a colour by the team, colour after colour. The parallel region stands in the instance,
  * where the literals of CALL are known; `nodes` and `points` are copies nobody else writes, so that what they hold stays in

@@ -18,9 +18,9 @@
 enum { ROW = 4 };
 typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
 typedef real row_anywhere __attribute__((vector_size(ROW * sizeof(real)), aligned(sizeof(real)), may_alias));
+typedef int64_t row_mask __attribute__((vector_size(ROW * sizeof(int64_t))));
 typedef real pair_of_nodes __attribute__((vector_size(2 * sizeof(real))));
 typedef real pair_anywhere __attribute__((vector_size(2 * sizeof(real)), aligned(sizeof(real)), may_alias));
-typedef int64_t row_mask __attribute__((vector_size(ROW * sizeof(int64_t))));
 
 static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
 static ALWAYS_INLINE real row_sum(row_of_nodes a) { return (a[0] + a[2]) + (a[1] + a[3]); }
@@ -33,6 +33,25 @@ static ALWAYS_INLINE row_of_nodes row_max(row_of_nodes a, row_of_nodes b)
     const row_mask more = a > b;
     return (row_of_nodes)((more & (row_mask)a) | (~more & (row_mask)b));
 #endif
+}
+
+static ALWAYS_INLINE row_of_nodes row_min(row_of_nodes a, row_of_nodes b)
+{
+#ifdef __AVX__
+    return (row_of_nodes)_mm256_min_pd((__m256d)a, (__m256d)b);
+#else
+    const row_mask less = a < b;
+    return (row_of_nodes)((less & (row_mask)a) | (~less & (row_mask)b));
+#endif
+}
+
+/* The four sums of four rows. */
+static ALWAYS_INLINE row_of_nodes row_sums(row_of_nodes a, row_of_nodes b, row_of_nodes c, row_of_nodes d)
+{
+    const row_mask even = {0, 4, 2, 6}, odd = {1, 5, 3, 7}, low = {0, 1, 4, 5}, high = {2, 3, 6, 7};
+    const row_of_nodes ab = __builtin_shuffle(a, b, even) + __builtin_shuffle(a, b, odd);
+    const row_of_nodes cd = __builtin_shuffle(c, d, even) + __builtin_shuffle(c, d, odd);
+    return __builtin_shuffle(ab, cd, low) + __builtin_shuffle(ab, cd, high);
 }
 
 static ALWAYS_INLINE row_of_nodes row_size(row_of_nodes a)
@@ -63,7 +82,7 @@ static ALWAYS_INLINE void shape_linear(real t, row_of_nodes *N, row_of_nodes *dN
 /* Integral of the hat function from -1 to s, less a half, and the hat at s; s is taken between -1 and 1. */
 static ALWAYS_INLINE row_of_nodes hat_integral(row_of_nodes s, row_of_nodes *hat)
 {
-    s = -row_max(-row_max(s, row_of(-1)), row_of(-1));
+    s = row_min(row_max(s, row_of(-1)), row_of(1));
     const row_of_nodes size = row_size(s);
     *hat = 1 - size;
     return s * (1 - 0.5 * size);
@@ -76,8 +95,8 @@ static ALWAYS_INLINE row_of_nodes hat_integral(row_of_nodes s, row_of_nodes *hat
 static ALWAYS_INLINE void shape_gimp(real t, real l, real inverse_width, row_of_nodes *N, row_of_nodes *dN)
 {
     row_of_nodes left, right;
-    const row_of_nodes s = row_distance(t), below = hat_integral(s - l, &left);
-    *N = (hat_integral(s + l, &right) - below) * inverse_width;
+    const row_of_nodes below = hat_integral(t - ((row_of_nodes){-1, 0, 1, 2} + l), &left);
+    *N = (hat_integral(t - ((row_of_nodes){-1, 0, 1, 2} - l), &right) - below) * inverse_width;
     *dN = (right - left) * inverse_width;
 }
 

@@ -164,7 +164,7 @@ static void order_room(struct transfer_order *o, int64_t n, int64_t blocks)
         memory_free(o->particle);
         memory_free(o->block_start);
         memory_free(o->block_cell);
-        o->particle = NEW("transfer.particle", n, int32_t);
+        o->particle = NEW("transfer.particle", n + ORDER_AHEAD, int32_t);
         o->block_start = NEW("transfer.block_start", blocks + 1, int32_t);
         o->block_cell = NEW("transfer.block_cell", blocks + 1, int32_t);
         o->blocks_room = (int)blocks + 1;
