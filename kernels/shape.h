@@ -79,13 +79,12 @@ static ALWAYS_INLINE void shape_linear(real t, row_of_nodes *N, row_of_nodes *dN
     *dN = (row_of_nodes){0, -1, 1, 0};
 }
 
-/* Integral of the hat function from -1 to s, less a half, and the hat at s; s is taken between -1 and 1. */
-static ALWAYS_INLINE row_of_nodes hat_integral(row_of_nodes s, row_of_nodes *hat)
+/* Integral of the hat function 1 - |s| from -1 to s, less a half, and |s|; s is taken between -1 and 1. */
+static ALWAYS_INLINE row_of_nodes hat_integral(row_of_nodes s, row_of_nodes *size)
 {
     s = row_min(row_max(s, row_of(-1)), row_of(1));
-    const row_of_nodes size = row_size(s);
-    *hat = 1 - size;
-    return s * (1 - 0.5 * size);
+    *size = row_size(s);
+    return s * (1 - 0.5 * *size);
 }
 
 /* Mean of the hat functions over the particle's width 2l <= 2. GIMP keeps 2l <= 1 and has three nodes. A stretched particle
@@ -97,7 +96,7 @@ static ALWAYS_INLINE void shape_gimp(real t, real l, real inverse_width, row_of_
     row_of_nodes left, right;
     const row_of_nodes below = hat_integral(t - ((row_of_nodes){-1, 0, 1, 2} + l), &left);
     *N = (hat_integral(t - ((row_of_nodes){-1, 0, 1, 2} - l), &right) - below) * inverse_width;
-    *dN = (right - left) * inverse_width;
+    *dN = (left - right) * inverse_width;
 }
 
 /* B-splines as sums of truncated powers, a = |s|: N = ((3/2 - a)_+^2 - 3 (1/2 - a)_+^2)/2. */
