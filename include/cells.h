@@ -30,14 +30,23 @@ int cells_most(const struct cells *c, real radius);
 
 /* ---- the order of transfers ------------------------------------------------------------------------ */
 
-/* Grid cells are grouped in blocks of BLOCK_EDGE^dim; a block has one of 2^dim colours, and blocks of one colour
- * share no node for any shape function here (support reaches one cell below and two above), so each may be
- * scattered by its own thread. Colours are taken in order and a block by one thread: the same bits on any
- * number of threads. Blocks are counted from the grid's absolute node 0, so that growing the grid keeps them. */
-enum { BLOCK_EDGE = 4, COLOURS_MAX = 8 };
+/* Grid cells are grouped in blocks, BLOCK_LENGTH cells long in x, along which particles lie in memory, and BLOCK_EDGE wide
+ * in the other directions; a block has one of 2^dim colours, and blocks of one colour share no node for any shape function
+ * here (support reaches one cell below and two above), so each may be scattered by its own thread. Colours are taken in
+ * order and a block by one thread: the same bits on any number of threads. Blocks are counted from the grid's absolute
+ * node 0, so that growing the grid keeps them. */
+enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
+/* Entries of the order may be read this far beyond its end: what they hold stands first in line to be fetched. */
+enum { ORDER_AHEAD = 64 };
 
-/* Block of node or cell k in one direction. */
-static inline int64_t block_of(int64_t k) { return k >= 0 ? k / BLOCK_EDGE : -((-k + BLOCK_EDGE - 1) / BLOCK_EDGE); }
+static inline int64_t block_edge(int d) { return d == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
+
+/* Block of cell k in direction d. */
+static inline int64_t block_of(int64_t k, int d)
+{
+    const int64_t edge = block_edge(d);
+    return k >= 0 ? k / edge : -((-k + edge - 1) / edge);
+}
 
 struct transfer_order {
     int64_t n;                           /* particles on the grid                                    */
@@ -45,6 +54,9 @@ struct transfer_order {
     int blocks_of[COLOURS_MAX + 1];      /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1     */
     int blocks, blocks_room;
     int32_t *block_start;                /* particles of block b: block_start[b] .. block_start[b+1]-1 */
+    int32_t cells, cells_room;           /* that hold particles                                      */
+    int32_t *cell_start;                 /* particles of cell c: cell_start[c] .. cell_start[c+1]-1  */
+    int32_t *block_cell;                 /* cells of block b: block_cell[b] .. block_cell[b+1]-1     */
 };
 
 struct grid;

@@ -41,7 +41,7 @@ struct wall {
     real reaction;                       /* impulse of this step, without that of the prescribed change [N s] */
 };
 
-/* Sets the box to cover positions from..to with a margin of three cells, rounded outwards to whole blocks;
+/* Sets the box to cover positions from..to with a margin of three cells, rounded outwards to whole steps;
  * grows and never shrinks. Returns true if the box changed (all nodal values are then zero). Fails if it would
  * need more than `most` nodes. */
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
@@ -65,5 +65,8 @@ static inline real grid_position(const struct grid *g, int d, int64_t k)
 {
     return g->anchor[d] + g->h * (real)(g->first[d] + k);
 }
+
+/* Where x is in direction d, in node distances from the anchor; its floor is the cell. All who ask round alike. */
+static inline real grid_place(const struct grid *g, int d, real x) { return (x - g->anchor[d]) * (1 / g->h); }
 
 #endif

@@ -6,6 +6,7 @@
  * Every point is written by one thread. */
 #include "kernels.h"
 #include "plastic.h"
+#include "scatter.h"
 #include "shape.h"
 #include "stress.h"
 #include "variants.h"
@@ -43,49 +44,105 @@ static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic 
     if (!(stress_principal(stress, dim) > m->trigger)) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
-/* Returns whether the point entered another cell. */
-static ALWAYS_INLINE bool point_move(const struct grid *g, struct particles *p, int64_t i, const real *step,
-                                     const int dim)
+/* Returns whether the point left its cell. */
+static ALWAYS_INLINE bool point_move(const struct grid *g, const struct cell *c, struct particles *p, int64_t i,
+                                     const real *step, const int dim)
 {
     bool moved = false;
     for (int d = 0; d < dim; d++) {
-        const int64_t before = floor_to_int((p->x[d][i] - g->anchor[d]) / g->h);
         p->x[d][i] += step[d];
-        moved |= before != floor_to_int((p->x[d][i] - g->anchor[d]) / g->h);
+        const real place = grid_place(g, d, p->x[d][i]);
+        moved |= !(place >= c->place[d] && place < c->place[d] + 1);
     }
     return moved;
 }
 
-static ALWAYS_INLINE bool g2p_particle(const struct grid *g, struct particles *p, const struct transfer_data *t,
+/* By rows of a cell's nodes: the velocity, and the one that strains. */
+typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
+
+/* Velocity and its gradient at a point. Rows are added up first: all share the weights along them. */
+static ALWAYS_INLINE void point_gather(const cell_rows moving, const cell_rows straining, const struct stencil *s,
+                                       real *velocity, real *L, const int dim, const enum shape shape)
+{
+    const int along = ROW_DIMS(dim, shape);
+    row_of_nodes moves[DIM_MAX], strains[DIM_MAX], across[DIM_MAX][DIM_MAX];
+    for (int d = 0; d < dim; d++) {
+        moves[d] = strains[d] = row_of(0);
+        for (int e = along; e < dim; e++) across[d][e] = row_of(0);
+    }
+    FOR_TOUCHED(s, dim, shape) {
+        const real weight = stencil_row(s, k1, k2, dim, shape);
+        const int k = PATCH(dim, shape);
+        for (int d = 0; d < dim; d++) {
+            moves[d] += weight * moving[d][k];
+            strains[d] += weight * straining[d][k];
+            for (int e = along; e < dim; e++)
+                across[d][e] += stencil_slope(s, k1, k2, e, dim, shape) * straining[d][k];
+        }
+    }
+    row_of_nodes term[DIM_MAX * (1 + DIM_MAX)] = {{0}};      /* gradients first: four in 2D */
+    for (int d = 0; d < dim; d++) {
+        for (int e = 0; e < dim; e++) term[d * dim + e] = e < along ? s->D[e] * strains[d] : s->N * across[d][e];
+        term[dim * dim + d] = s->N * moves[d];
+    }
+    real sum[DIM_MAX * (1 + DIM_MAX)];
+    for (int k = 0; k < dim * (1 + dim); k += ROW) {
+        const row_of_nodes four = row_sums(term[k], term[k + 1], term[k + 2], term[k + 3]);
+        for (int m = 0; m < ROW; m++) sum[k + m] = four[m];
+    }
+    for (int k = 0; k < dim * dim; k++) L[k] = sum[k];
+    for (int d = 0; d < dim; d++) velocity[d] = sum[dim * dim + d];
+}
+
+static ALWAYS_INLINE bool g2p_particle(const cell_rows moving, const cell_rows straining, const struct grid *g,
+                                       const struct cell *c, struct particles *p, const struct transfer_data *t,
                                        int64_t i, const int dim, const enum shape shape, const enum transfer transfer)
 {
     struct stencil s;
-    stencil_make(&s, g, p, i, t->half_width, dim, shape);
-    row_of_nodes velocities[DIM_MAX] = {{0}}, gradients[DIM_MAX * DIM_MAX] = {{0}};
-    FOR_ROWS(dim, shape) {
-        const int64_t I = stencil_row(&s, g, k1, k2, dim);
-        const row_of_nodes N = stencil_weight(&s, k1, k2, dim);
-        row_of_nodes grad[DIM_MAX];
-        stencil_gradient(&s, k1, k2, grad, dim);
-        for (int d = 0; d < dim; d++) {
-            const row_of_nodes moving = row_load(g->velocity[d] + I);
-            const row_of_nodes straining = transfer == TRANSFER_APIC ? moving : row_load(g->momentum[d] + I);
-            velocities[d] += N * moving;
-            for (int e = 0; e < dim; e++) gradients[d * dim + e] += straining * grad[e];
-        }
-    }
     real velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
-    for (int d = 0; d < dim; d++) velocity[d] = row_sum(velocities[d]);
-    for (int c = 0; c < dim * dim; c++) L[c] = row_sum(gradients[c]);
+    stencil_make(&s, g, c, p, i, t->half_width, dim, shape);
+    point_gather(moving, straining, &s, velocity, L, dim, shape);
     if (transfer == TRANSFER_APIC) {
         for (int d = 0; d < dim; d++) p->v[d][i] = velocity[d];
-        for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = L[c];
+        for (int k = 0; k < dim * dim; k++) p->gradient[k][i] = L[k];
     }
     if (!t->bare) point_strain(p, t, i, L, dim, shape);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
-    const bool moved = point_move(g, p, i, velocity, dim);
+    const bool moved = point_move(g, c, p, i, velocity, dim);
     const struct elastic *m = &t->elastic[p->material[i]];
     if (__builtin_expect(m->yield > 0, 0)) point_yield(p, m, i, dim);
+    return moved;
+}
+
+static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
+{
+    int64_t i;
+    if (!fetch_now(list, k, &i)) return;
+    fetch(p->volume + i);
+    for (int d = 0; d < dim; d++) fetch(p->x[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
+}
+
+/* Returns how many points left the cell. */
+static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
+                                      const int32_t *list, int n, const int dim, const enum shape shape,
+                                      const enum transfer transfer)
+{
+    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    cell_rows moving, straining;
+    int64_t moved = 0;
+    FOR_ROWS(dim, shape) {
+        const int64_t I = cell_row(&c, g, k1, k2, dim);
+        const int k = PATCH(dim, shape);
+        for (int d = 0; d < dim; d++) {
+            moving[d][k] = nodes_load(g, g->velocity[d] + I, dim, shape);
+            straining[d][k] = transfer == TRANSFER_APIC ? moving[d][k] : nodes_load(g, g->momentum[d] + I, dim, shape);
+        }
+    }
+    for (int k = 0; k < n; k++) {
+        g2p_fetch(p, list, k, dim);
+        moved += g2p_particle(moving, straining, g, &c, p, t, list[k], dim, shape, transfer);
+    }
     return moved;
 }
 
@@ -96,12 +153,13 @@ static ALWAYS_INLINE bool g2p_particle(const struct grid *g, struct particles *p
         int64_t moved = 0;                                                                                          \
         _Pragma("omp parallel reduction(+ : moved)")                                                                \
         {                                                                                                           \
-            struct grid nodes = *g;            /* as in p2g.c */                                                    \
+            struct grid nodes = *g;            /* as in scatter.h */                                                \
             struct particles points = *p;                                                                           \
             struct transfer_data data = *t;                                                                         \
             _Pragma("omp for schedule(static)")                                                                     \
-            for (int64_t k = 0; k < o->n; k++)                                                                      \
-                moved += g2p_particle(&nodes, &points, &data, o->particle[k], D, SHAPE_##S, TRANSFER_##T);          \
+            for (int32_t k = 0; k < o->cells; k++)                                                                  \
+                moved += g2p_cell(&nodes, &points, &data, o->particle + o->cell_start[k],                           \
+                                  o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T);             \
         }                                                                                                           \
         return moved;                                                                                               \
     }

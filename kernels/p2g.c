@@ -13,79 +13,120 @@
 #include "stress.h"
 #include "variants.h"
 
-/* sigma . grad, component d. */
-static ALWAYS_INLINE row_of_nodes stress_force(const real *s, const row_of_nodes *grad, int d, const int dim)
+/* Sums over the points of a cell, by rows of its nodes: mass, momentum, force. */
+typedef row_of_nodes cell_sums[1 + 2 * DIM_MAX][ROWS_MAX];
+
+/* Place of sigma_ab in a symmetric tensor. */
+static ALWAYS_INLINE int symmetric_place(int a, int b, const int dim)
 {
-    if (dim == 1) return s[0] * grad[0];
-    if (dim == 2) return d == 0 ? s[0] * grad[0] + s[2] * grad[1] : s[2] * grad[0] + s[1] * grad[1];
-    if (d == 0) return s[0] * grad[0] + s[3] * grad[1] + s[5] * grad[2];
-    if (d == 1) return s[3] * grad[0] + s[1] * grad[1] + s[4] * grad[2];
-    return s[5] * grad[0] + s[4] * grad[1] + s[2] * grad[2];
+    return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
 /* Force of the skew part of the stress given: f_a = -V sum_b skew_ab grad_b. Few points have one (partial_stress.c). */
-static ALWAYS_INLINE void p2g_skew(struct grid *g, const struct particles *p, const struct transfer_data *t,
+static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, const struct transfer_data *t,
                                    const struct stencil *s, int64_t i, const int dim, const enum shape shape)
 {
     static const int first[DIM_MAX] = {0, 1, 2}, second[DIM_MAX] = {1, 2, 0};
     real skew[DIM_MAX];
     if (dim == 1 || t->bare || !stress_given_skew(p, t->partial, i, skew, dim)) return;
-    FOR_ROWS(dim, shape) {
-        const int64_t I = stencil_row(s, g, k1, k2, dim);
+    FOR_TOUCHED(s, dim, shape) {
         row_of_nodes grad[DIM_MAX];
-        stencil_gradient(s, k1, k2, grad, dim);
+        for (int e = 0; e < dim; e++)
+            grad[e] = e < ROW_DIMS(dim, shape) ? s->D[e] * stencil_row(s, k1, k2, dim, shape)
+                                               : s->N * stencil_slope(s, k1, k2, e, dim, shape);
         for (int c = 0; c < dim * (dim - 1) / 2; c++) {
             const real force = skew[c] * p->volume[i];
-            row_add(g->force[first[c]] + I, -force * grad[second[c]]);
-            row_add(g->force[second[c]] + I, force * grad[first[c]]);
+            sum[1 + dim + first[c]][PATCH(dim, shape)] -= force * grad[second[c]];
+            sum[1 + dim + second[c]][PATCH(dim, shape)] += force * grad[first[c]];
         }
     }
 }
 
-static ALWAYS_INLINE void p2g_particle(struct grid *g, const struct particles *p, const struct transfer_data *t,
-                                       int64_t i, const int dim, const enum shape shape, const enum transfer transfer)
+/* Adds what one point gives. Factors that all rows share are taken out: of the directions along a row. */
+static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct cell *c, const struct particles *p,
+                                       const struct transfer_data *t, int64_t i, const int dim, const enum shape shape,
+                                       const enum transfer transfer)
 {
+    const int along = ROW_DIMS(dim, shape);
     struct stencil s;
-    stencil_make(&s, g, p, i, t->half_width, dim, shape);
-    real stress[SYM_MAX], momentum[DIM_MAX], force[DIM_MAX], gradient[DIM_MAX * DIM_MAX];
+    stencil_make(&s, g, c, p, i, t->half_width, dim, shape);
+    real stress[SYM_MAX];
     if (t->bare) memset(stress, 0, sizeof stress);
     else stress_given(p, t->partial, i, stress, dim);
-    const real mass = p->mass[i], volume = p->volume[i];
-    const row_of_nodes along = (row_of_nodes){0, 1, 2, 3} * g->h;      /* distance from the lowest node */
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] *= volume;
+    const real m = p->mass[i], volume = p->volume[i];
+    for (int k = 0; k < dim * (dim + 1) / 2; k++) stress[k] *= volume;
+    const row_of_nodes mass = m * s.N;
+    row_of_nodes momentum[DIM_MAX], force[DIM_MAX], sheared[DIM_MAX][DIM_MAX], pull[SYM_MAX];
+    for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = stress[k] * s.N;
     for (int d = 0; d < dim; d++) {
-        momentum[d] = mass * p->v[d][i];
-        force[d] = p->f[d][i];
+        row_of_nodes speed = row_of(p->v[d][i]);
         if (transfer == TRANSFER_APIC)
             for (int e = 0; e < dim; e++) {
-                gradient[d * dim + e] = mass * p->gradient[d * dim + e][i];
-                momentum[d] -= gradient[d * dim + e] * s.r[e];
+                const real slope = p->gradient[d * dim + e][i];
+                if (e < along) speed += slope * stencil_along(&s, g->h, e, dim, shape);
+                else sheared[d][e] = slope * mass;
             }
+        momentum[d] = mass * speed;
+        force[d] = p->f[d][i] * s.N;
+        for (int e = 0; e < along; e++) force[d] -= stress[symmetric_place(d, e, dim)] * s.D[e];
     }
-    FOR_ROWS(dim, shape) {
-        const int64_t I = stencil_row(&s, g, k1, k2, dim);
-        const row_of_nodes N = stencil_weight(&s, k1, k2, dim);
-        row_of_nodes grad[DIM_MAX];
-        stencil_gradient(&s, k1, k2, grad, dim);
-        row_add(g->mass + I, mass * N);
+    FOR_TOUCHED(&s, dim, shape) {
+        const real weight = stencil_row(&s, k1, k2, dim, shape);
+        const int k = PATCH(dim, shape);
+        sum[0][k] += mass * weight;
         for (int d = 0; d < dim; d++) {
-            row_of_nodes carried = momentum[d] + (row_of_nodes){0};
-            if (transfer == TRANSFER_APIC) {
-                carried += gradient[d * dim] * along;
-                if (dim > 1) carried += gradient[d * dim + 1] * (g->h * k1);
-                if (dim > 2) carried += gradient[d * dim + 2] * (g->h * k2);
+            row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
+            for (int e = along; e < dim; e++) {
+                if (transfer == TRANSFER_APIC)
+                    carried += sheared[d][e] * stencil_across(&s, g->h, e, e == 1 ? k1 : k2, dim, shape);
+                pushed -= pull[symmetric_place(d, e, dim)] * stencil_slope(&s, k1, k2, e, dim, shape);
             }
-            row_add(g->momentum[d] + I, carried * N);
-            row_add(g->force[d] + I, force[d] * N - stress_force(stress, grad, d, dim));
+            sum[1 + d][k] += carried * weight;
+            sum[1 + dim + d][k] = pushed;
         }
     }
-    if (t->partial && t->partial->skew) p2g_skew(g, p, t, &s, i, dim, shape);
+    if (__builtin_expect(t->partial && t->partial->skew, 0)) p2g_skew(sum, p, t, &s, i, dim, shape);
+}
+
+static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *list, int k, const int dim,
+                                    const enum transfer transfer)
+{
+    int64_t i;
+    if (!fetch_now(list, k, &i)) return;
+    fetch(p->mass + i), fetch(p->volume + i);
+    for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i), fetch(p->f[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
+    for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) fetch(p->gradient[c] + i);
+}
+
+static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles *p, const struct transfer_data *t,
+                                   const int32_t *list, int n, const int dim, const enum shape shape,
+                                   const enum transfer transfer)
+{
+    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    cell_sums sum;
+    FOR_ROWS(dim, shape)
+        for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_of(0);
+    for (int k = 0; k < n; k++) {
+        p2g_fetch(p, list, k, dim, transfer);
+        p2g_particle(sum, g, &c, p, t, list[k], dim, shape, transfer);
+    }
+    FOR_ROWS(dim, shape) {
+        const int64_t I = cell_row(&c, g, k1, k2, dim);
+        const int k = PATCH(dim, shape);
+        nodes_add(g, g->mass + I, sum[0][k], dim, shape);
+        for (int d = 0; d < dim; d++) {
+            nodes_add(g, g->momentum[d] + I, sum[1 + d][k], dim, shape);
+            nodes_add(g, g->force[d] + I, sum[1 + dim + d][k], dim, shape);
+        }
+    }
 }
 
 #define INSTANCE(D, S, T)                                                                                           \
     static void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)      \
     {                                                                                                               \
-        SCATTER(D, t->order, g, p, p2g_particle(&nodes, &points, t, i, D, SHAPE_##S, TRANSFER_##T));                \
+        const struct transfer_data data = *t;                                                                       \
+        SCATTER(D, t->order, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T));          \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 SHAPE_VARIANTS(BOTH)
@@ -99,9 +140,11 @@ p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIE
 static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct particles *p, real half_width, int64_t i,
                                           real value, real *field, const int dim, const enum shape shape)
 {
+    const struct cell c = cell_make(g, p, i, dim, shape);
     struct stencil s;
-    stencil_make(&s, g, p, i, half_width, dim, shape);
-    FOR_ROWS(dim, shape) row_add(field + stencil_row(&s, g, k1, k2, dim), value * stencil_weight(&s, k1, k2, dim));
+    stencil_make(&s, g, &c, p, i, half_width, dim, shape);
+    FOR_TOUCHED(&s, dim, shape)
+        nodes_add(g, field + cell_row(&c, g, k1, k2, dim), value * stencil_row(&s, k1, k2, dim, shape) * s.N, dim, shape);
 }
 
 #define SPREAD(D, S)                                                                                            \

@@ -1,8 +1,9 @@
-/* floor 2: shape functions of the background grid in one dimension; two and three dimensions are products.
+/* floor 2: shape functions of the background grid, and the nodes of a cell.
  *
- * Position r is counted in node distances h, l is the half width of the particle over h. A shape returns its lowest node
- * and the weights N and slopes dN/dr of shape_nodes() nodes from there. All are partitions of unity and reproduce
- * linear fields. Linear and GIMP: Bardenhagen & Kober 2004, Zeng et al. 2021, eq. 9. */
+ * A place t is counted from the lower node of the point's cell in node distances h, l is the half width of the particle
+ * over h. A shape gives the weights N and the slopes dN/dt of four nodes in a row, from the one below the cell: wide enough
+ * for every shape, and the same four for all points of a cell. Two and three dimensions are products. All shapes are
+ * partitions of unity and reproduce linear fields. Linear and GIMP: Bardenhagen & Kober 2004, Zeng et al. 2021, eq. 9. */
 #ifndef CLEAVE_SHAPE_H
 #define CLEAVE_SHAPE_H
 
@@ -10,12 +11,159 @@
 
 #include "kernels.h"
 
-enum { SHAPE_NODES_MAX = 4 };
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
 
-static ALWAYS_INLINE int shape_nodes(const enum shape shape)
+enum { ROW = 4 };
+typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
+typedef real row_anywhere __attribute__((vector_size(ROW * sizeof(real)), aligned(sizeof(real)), may_alias));
+typedef int64_t row_mask __attribute__((vector_size(ROW * sizeof(int64_t))));
+typedef real pair_of_nodes __attribute__((vector_size(2 * sizeof(real))));
+typedef real pair_anywhere __attribute__((vector_size(2 * sizeof(real)), aligned(sizeof(real)), may_alias));
+
+static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
+static ALWAYS_INLINE real row_sum(row_of_nodes a) { return (a[0] + a[2]) + (a[1] + a[3]); }
+
+static ALWAYS_INLINE row_of_nodes row_max(row_of_nodes a, row_of_nodes b)
 {
-    return shape == SHAPE_LINEAR ? 2 : shape == SHAPE_CUBIC || shape == SHAPE_CPGIMP ? 4 : 3;
+#ifdef __AVX__
+    return (row_of_nodes)_mm256_max_pd((__m256d)a, (__m256d)b);
+#else
+    const row_mask more = a > b;
+    return (row_of_nodes)((more & (row_mask)a) | (~more & (row_mask)b));
+#endif
 }
+
+static ALWAYS_INLINE row_of_nodes row_min(row_of_nodes a, row_of_nodes b)
+{
+#ifdef __AVX__
+    return (row_of_nodes)_mm256_min_pd((__m256d)a, (__m256d)b);
+#else
+    const row_mask less = a < b;
+    return (row_of_nodes)((less & (row_mask)a) | (~less & (row_mask)b));
+#endif
+}
+
+/* The four sums of four rows. */
+static ALWAYS_INLINE row_of_nodes row_sums(row_of_nodes a, row_of_nodes b, row_of_nodes c, row_of_nodes d)
+{
+    const row_mask even = {0, 4, 2, 6}, odd = {1, 5, 3, 7}, low = {0, 1, 4, 5}, high = {2, 3, 6, 7};
+    const row_of_nodes ab = __builtin_shuffle(a, b, even) + __builtin_shuffle(a, b, odd);
+    const row_of_nodes cd = __builtin_shuffle(c, d, even) + __builtin_shuffle(c, d, odd);
+    return __builtin_shuffle(ab, cd, low) + __builtin_shuffle(ab, cd, high);
+}
+
+static ALWAYS_INLINE row_of_nodes row_size(row_of_nodes a)
+{
+    const row_mask digits = (row_mask){0} + INT64_MAX;
+    return (row_of_nodes)((row_mask)a & digits);
+}
+
+/* `to` with the sign of `from`, which it has not itself. */
+static ALWAYS_INLINE row_of_nodes row_signed(row_of_nodes to, row_of_nodes from)
+{
+    const row_mask sign = (row_mask){0} + INT64_MIN;
+    return (row_of_nodes)((row_mask)to | ((row_mask)from & sign));
+}
+
+/* ---- one direction ---------------------------------------------------------------------------------- */
+
+/* Distances from the nodes of the row. */
+static ALWAYS_INLINE row_of_nodes row_distance(real t) { return t - (row_of_nodes){-1, 0, 1, 2}; }
+
+/* Hat function: N = 1 - |s|. */
+static ALWAYS_INLINE void shape_linear(real t, row_of_nodes *N, row_of_nodes *dN)
+{
+    *N = (row_of_nodes){0, 1, 0, 0} + t * (row_of_nodes){0, -1, 1, 0};
+    *dN = (row_of_nodes){0, -1, 1, 0};
+}
+
+/* Integral of the hat function 1 - |s| from -1 to s, less a half, and |s|; s is taken between -1 and 1. */
+static ALWAYS_INLINE row_of_nodes hat_integral(row_of_nodes s, row_of_nodes *size)
+{
+    s = row_min(row_max(s, row_of(-1)), row_of(1));
+    *size = row_size(s);
+    return s * (1 - 0.5 * *size);
+}
+
+/* Mean of the hat functions over the particle's width 2l <= 2. GIMP keeps 2l <= 1 and has three nodes. A stretched particle
+ * (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous particles then share out
+ * every hat without gap or overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen & Kober
+ * 2004). */
+static ALWAYS_INLINE void shape_gimp(real t, real l, real inverse_width, row_of_nodes *N, row_of_nodes *dN)
+{
+    row_of_nodes left, right;
+    const row_of_nodes below = hat_integral(t - ((row_of_nodes){-1, 0, 1, 2} + l), &left);
+    *N = (hat_integral(t - ((row_of_nodes){-1, 0, 1, 2} - l), &right) - below) * inverse_width;
+    *dN = (left - right) * inverse_width;
+}
+
+/* B-splines as sums of truncated powers, a = |s|: N = ((3/2 - a)_+^2 - 3 (1/2 - a)_+^2)/2. */
+static ALWAYS_INLINE void shape_quadratic(real t, row_of_nodes *N, row_of_nodes *dN)
+{
+    const row_of_nodes s = row_distance(t), size = row_size(s);
+    const row_of_nodes far = row_max(1.5 - size, row_of(0)), near = row_max(0.5 - size, row_of(0));
+    *N = 0.5 * far * far - 1.5 * near * near;
+    *dN = row_signed(row_of(1), s) * (3 * near - far);
+}
+
+/* N = ((2 - a)_+^3 - 4 (1 - a)_+^3)/6. */
+static ALWAYS_INLINE void shape_cubic(real t, row_of_nodes *N, row_of_nodes *dN)
+{
+    const row_of_nodes s = row_distance(t), size = row_size(s);
+    const row_of_nodes far = row_max(2 - size, row_of(0)), near = row_max(1 - size, row_of(0));
+    const row_of_nodes far2 = far * far, near2 = near * near;
+    *N = (far2 * far - 4 * near2 * near) * (1.0 / 6);
+    *dN = row_signed(row_of(1), s) * (2 * near2 - 0.5 * far2);
+}
+
+static ALWAYS_INLINE void shape_row(const enum shape shape, real t, real l, real inverse_width, row_of_nodes *N,
+                                    row_of_nodes *dN)
+{
+    switch (shape) {
+    case SHAPE_LINEAR: shape_linear(t, N, dN); return;
+    case SHAPE_QUADRATIC: shape_quadratic(t, N, dN); return;
+    case SHAPE_CUBIC: shape_cubic(t, N, dN); return;
+    default: shape_gimp(t, l, inverse_width, N, dN);
+    }
+}
+
+/* ---- the nodes of a cell ----------------------------------------------------------------------------
+ *
+ * The points of a cell share a patch of nodes: rows of four along x, and one row beside the other in the directions across.
+ * Linear shapes in two and three dimensions, which reach only the corners, take the four corners of a face z = const as
+ * one row instead, so that no place of a vector is idle. */
+
+enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
+
+#define IS_FACE(dim, shape) ((shape) == SHAPE_LINEAR && (dim) > 1)
+/* Directions that lie in a row; the others are across it. */
+#define ROW_DIMS(dim, shape) (IS_FACE(dim, shape) ? 2 : 1)
+/* Rows of the patch along y and z. */
+#define ROWS_Y(dim, shape) ((dim) > 1 && !IS_FACE(dim, shape) ? ACROSS : 1)
+#define ROWS_Z(dim, shape) ((dim) > 2 ? IS_FACE(dim, shape) ? 2 : ACROSS : 1)
+#define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
+
+/* A point of a shape with three nodes skips the rest in 3D; in 2D a weight of zero costs less than finding its rows. */
+#define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
+
+/* Loops over the rows k1, k2 of a patch, and over those of one point. */
+#define FOR_ROWS(dim, shape)                                      \
+    for (int k2 = 0; k2 < ROWS_Z(dim, shape); k2++)               \
+        for (int k1 = 0; k1 < ROWS_Y(dim, shape); k1++)
+#define FOR_TOUCHED(s, dim, shape)                                                                                   \
+    for (int k2 = SKIPS(dim, shape) ? (s)->low[2] : 0, end2 = SKIPS(dim, shape) ? k2 + 3 : ROWS_Z(dim, shape);       \
+         k2 < end2; k2++)                                                                                            \
+        for (int k1 = SKIPS(dim, shape) ? (s)->low[1] : 0, end1 = SKIPS(dim, shape) ? k1 + 3 : ROWS_Y(dim, shape);   \
+             k1 < end1; k1++)
+/* Place of a row in the arrays of a patch. */
+#define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
+
+struct cell {
+    int64_t node;                        /* index of the patch's lowest node                            */
+    real place[DIM_MAX];                 /* of its lower corner, in node distances from the anchor      */
+};
 
 /* Floor without the library call that a negative argument would need. */
 static ALWAYS_INLINE int64_t floor_to_int(real r)
@@ -24,172 +172,128 @@ static ALWAYS_INLINE int64_t floor_to_int(real r)
     return k - (r < (real)k);
 }
 
-/* Hat function: N = 1 - |r|. */
-static ALWAYS_INLINE int64_t shape_linear(real r, real *N, real *dN)
+/* The cell of point i. */
+static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct particles *p, int64_t i, const int dim,
+                                           const enum shape shape)
 {
-    int64_t base = floor_to_int(r);
-    real t = r - (real)base;
-    N[0] = 1 - t, N[1] = t;
-    dN[0] = -1, dN[1] = 1;
-    return base;
-}
-
-/* Mean of the hat functions over the particle's width 2l <= 1. The width covers `a` of its first cell and `b` of the
- * next; the mean over each piece is that of a straight line. */
-static ALWAYS_INLINE int64_t shape_gimp(real r, real l, real *N, real *dN)
-{
-    int64_t base = floor_to_int(r - l);
-    real u = r - l - (real)base, width = 2 * l, inverse = 1 / width;
-    real a = width < 1 - u ? width : 1 - u, b = width - a;
-    N[0] = a * inverse * (1 - u - 0.5 * a);
-    N[2] = 0.5 * b * b * inverse;
-    N[1] = 1 - N[0] - N[2];
-    dN[0] = -a * inverse;
-    dN[2] = b * inverse;
-    dN[1] = -(dN[0] + dN[2]);
-    return base;
-}
-
-/* Integral of the hat function from -1 to s, and the hat at s; s is taken between -1 and 1. */
-static ALWAYS_INLINE real hat_integral(real s, real *hat)
-{
-    s = s < -1 ? -1 : s > 1 ? 1 : s;
-    const real size = fabs(s);
-    *hat = 1 - size;
-    return 0.5 + s * (1 - 0.5 * size);
-}
-
-/* Mean of the hat functions over a width 2l <= 2: a stretched particle reaches into the cells beside its own, whose nodes
- * are the four of its row. Contiguous particles then share out every hat without gap or overlap, and a uniform stress
- * leaves no residual (contiguous particles: Bardenhagen & Kober 2004). */
-static ALWAYS_INLINE int64_t shape_cpgimp(real r, real l, real *N, real *dN)
-{
-    const int64_t cell = floor_to_int(r);
-    const real t = r - (real)cell, inverse = 0.5 / l;
-    for (int k = 0; k < 4; k++) {
-        real left, right;
-        const real node = (real)(k - 1), below = hat_integral(t - l - node, &left);
-        N[k] = (hat_integral(t + l - node, &right) - below) * inverse;
-        dN[k] = (right - left) * inverse;
+    struct cell c = {0};
+    for (int d = 0; d < dim; d++) {
+        const int64_t k = floor_to_int(grid_place(g, d, p->x[d][i]));
+        c.place[d] = (real)k;
+        c.node += (k - (IS_FACE(dim, shape) ? 0 : 1) - g->first[d]) * g->stride[d];
     }
-    return cell - 1;
+    return c;
 }
 
-/* N = 3/4 - t^2 and (3/2 - |t|)^2/2. */
-static ALWAYS_INLINE int64_t shape_quadratic(real r, real *N, real *dN)
+/* First node of a row. */
+static ALWAYS_INLINE int64_t cell_row(const struct cell *c, const struct grid *g, int k1, int k2, const int dim)
 {
-    int64_t base = floor_to_int(r - 0.5);
-    real t = r - (real)(base + 1);
-    N[0] = 0.5 * (0.5 - t) * (0.5 - t), N[1] = 0.75 - t * t, N[2] = 0.5 * (0.5 + t) * (0.5 + t);
-    dN[0] = t - 0.5, dN[1] = -2 * t, dN[2] = t + 0.5;
-    return base;
+    return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
-/* N = 2/3 - t^2 + |t|^3/2 and (2 - |t|)^3/6. */
-static ALWAYS_INLINE int64_t shape_cubic(real r, real *N, real *dN)
+static ALWAYS_INLINE row_of_nodes nodes_load(const struct grid *g, const real *from, const int dim, const enum shape shape)
 {
-    int64_t cell = floor_to_int(r);
-    real t = r - (real)cell, s = 1 - t;
-    N[0] = s * s * s / 6, N[1] = 2.0 / 3 - t * t + 0.5 * t * t * t;
-    N[2] = 2.0 / 3 - s * s + 0.5 * s * s * s, N[3] = t * t * t / 6;
-    dN[0] = -0.5 * s * s, dN[1] = -2 * t + 1.5 * t * t;
-    dN[2] = 2 * s - 1.5 * s * s, dN[3] = 0.5 * t * t;
-    return cell - 1;
+    if (!IS_FACE(dim, shape)) return (row_of_nodes) * (const row_anywhere *)from;
+    const pair_of_nodes a = (pair_of_nodes) * (const pair_anywhere *)from,
+                        b = (pair_of_nodes) * (const pair_anywhere *)(from + g->stride[1]);
+    return (row_of_nodes){a[0], a[1], b[0], b[1]};
 }
 
-static ALWAYS_INLINE int64_t shape_1d(const enum shape shape, real r, real l, real *N, real *dN)
+static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes a, const int dim, const enum shape shape)
 {
-    switch (shape) {
-    case SHAPE_LINEAR: return shape_linear(r, N, dN);
-    case SHAPE_GIMP: return shape_gimp(r, l, N, dN);
-    case SHAPE_CPGIMP: return shape_cpgimp(r, l, N, dN);
-    case SHAPE_QUADRATIC: return shape_quadratic(r, N, dN);
-    default: return shape_cubic(r, N, dN);
+    if (IS_FACE(dim, shape)) {
+        *(pair_anywhere *)to += (pair_of_nodes){a[0], a[1]};
+        *(pair_anywhere *)(to + g->stride[1]) += (pair_of_nodes){a[2], a[3]};
+    } else {
+        *(row_anywhere *)to += a;
     }
 }
 
-/* ---- the nodes of one particle ---------------------------------------------------------------------- */
+/* ---- the weights of one point ----------------------------------------------------------------------- */
 
-/* Four nodes in a row along x, from the node below the particle's cell: wide enough for every shape, and the same four
- * for all particles of a cell, so that a row just written is read again whole. */
-enum { ROW = 4 };
-typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
-typedef real row_anywhere __attribute__((vector_size(ROW * sizeof(real)), aligned(sizeof(real)), may_alias));
-
-static ALWAYS_INLINE row_of_nodes row_load(const real *from) { return (row_of_nodes) * (const row_anywhere *)from; }
-static ALWAYS_INLINE void row_add(real *to, row_of_nodes a) { *(row_anywhere *)to = row_load(to) + a; }
-static ALWAYS_INLINE real row_sum(row_of_nodes a) { return (a[0] + a[1]) + (a[2] + a[3]); }
-
-/* Weights of one particle: a row along x, and the rows of its box in the other directions. */
 struct stencil {
-    int64_t node;                                        /* index of the lowest node            */
-    row_of_nodes N0, dN0;                                /* weights [1] and slopes [1/m] along x */
-    real N[DIM_MAX][SHAPE_NODES_MAX];                    /* weights per direction y, z      [1] */
-    real dN[DIM_MAX][SHAPE_NODES_MAX];                   /* slopes per direction y, z     [1/m] */
-    real r[DIM_MAX];                                     /* distance to the lowest node     [m] */
+    row_of_nodes N, D[2];                /* weights [1] of a row, slopes in the directions along it [1/m] */
+    real A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS]; /* weights [1] and slopes [1/m] of rows, by the direction across */
+    real t[DIM_MAX];                     /* place in the cell                                         [1] */
+    int low[DIM_MAX];                    /* first row that a point of three nodes touches                 */
 };
 
 /* Largest half width over h of cpGIMP: four nodes reach no further. A particle stretched beyond it keeps it, and numerical
  * fracture starts: at a stretch of 4 with two particles per cell. */
 #define HALF_WIDTH_MOST 1
 
-/* Weights from `base` as a row from the node below the cell. */
-static ALWAYS_INLINE row_of_nodes row_shifted(const enum shape shape, const real *N, bool from_cell)
+/* Corners of a face: products of two hats. */
+static ALWAYS_INLINE void stencil_face(struct stencil *s, real inverse, const int dim)
 {
-    if (shape == SHAPE_LINEAR) return (row_of_nodes){0, N[0], N[1], 0};
-    if (shape_nodes(shape) == ROW) return (row_of_nodes){N[0], N[1], N[2], N[3]};
-    return from_cell ? (row_of_nodes){0, N[0], N[1], N[2]} : (row_of_nodes){N[0], N[1], N[2], 0};
+    const row_of_nodes right = {-1, 1, -1, 1}, up = {-1, -1, 1, 1};
+    const row_of_nodes X = (row_of_nodes){1, 0, 1, 0} + s->t[0] * right, Y = (row_of_nodes){1, 1, 0, 0} + s->t[1] * up;
+    s->N = X * Y;
+    s->D[0] = Y * (right * inverse);
+    s->D[1] = X * (up * inverse);
+    if (dim < 3) return;
+    s->A[2][0] = 1 - s->t[2], s->A[2][1] = s->t[2];
+    s->B[2][0] = -inverse, s->B[2][1] = inverse;
 }
 
-static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, const struct particles *p, int64_t i,
-                                       real half_width, const int dim, const enum shape shape)
+static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, const struct cell *c,
+                                       const struct particles *p, int64_t i, real half_width, const int dim,
+                                       const enum shape shape)
 {
-    const real inverse = 1 / g->h;
-    s->node = 0;
+    const real inverse = 1 / g->h, l0 = half_width * inverse, inverse_width0 = 0.5 / l0;
+    for (int d = 0; d < dim; d++) s->t[d] = grid_place(g, d, p->x[d][i]) - c->place[d];
+    if (IS_FACE(dim, shape)) {
+        stencil_face(s, inverse, dim);
+        return;
+    }
     for (int d = 0; d < dim; d++) {
-        real r = (p->x[d][i] - g->anchor[d]) * inverse, l = half_width * inverse;
+        row_of_nodes N, dN;
+        real l = l0, inverse_width = inverse_width0;
         if (shape == SHAPE_CPGIMP) {
             l *= p->stretch[d][i];
             if (l > HALF_WIDTH_MOST) l = HALF_WIDTH_MOST;
+            inverse_width = 0.5 / l;
         }
-        int64_t base = shape_1d(shape, r, l, s->N[d], s->dN[d]);
-        for (int k = 0; k < shape_nodes(shape); k++) s->dN[d][k] *= inverse;
+        shape_row(shape, s->t[d], l, inverse_width, &N, &dN);
+        dN *= inverse;
         if (d == 0) {
-            const int64_t cell = floor_to_int(r);
-            s->N0 = row_shifted(shape, s->N[0], base == cell);
-            s->dN0 = row_shifted(shape, s->dN[0], base == cell);
-            base = cell - 1;
+            s->N = N, s->D[0] = dN;
+            continue;
         }
-        s->r[d] = (r - (real)base) * g->h;
-        s->node += (base - g->first[d]) * g->stride[d];
+        for (int k = 0; k < ACROSS; k++) s->A[d][k] = N[k], s->B[d][k] = dN[k];
+        if (SKIPS(dim, shape)) s->low[d] = s->t[d] >= (shape == SHAPE_GIMP ? l : 0.5);
     }
 }
 
-/* Loops over the rows of a stencil by their places k1 k2; unused directions fold away. */
-#define FOR_ROWS(dim, shape)                                                        \
-    for (int k2 = 0; k2 < ((dim) > 2 ? shape_nodes(shape) : 1); k2++)               \
-        for (int k1 = 0; k1 < ((dim) > 1 ? shape_nodes(shape) : 1); k1++)
-
-/* First node of a row. */
-static ALWAYS_INLINE int64_t stencil_row(const struct stencil *s, const struct grid *g, int k1, int k2, const int dim)
+/* Weight of a row, and its slope in the direction d across it [1/m]. */
+static ALWAYS_INLINE real stencil_row(const struct stencil *s, int k1, int k2, const int dim, const enum shape shape)
 {
-    return s->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
+    real weight = 1;
+    if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1];
+    if (dim > 2) weight *= s->A[2][k2];
+    return weight;
 }
 
-static ALWAYS_INLINE row_of_nodes stencil_weight(const struct stencil *s, int k1, int k2, const int dim)
+static ALWAYS_INLINE real stencil_slope(const struct stencil *s, int k1, int k2, int d, const int dim,
+                                        const enum shape shape)
 {
-    real across = 1;
-    if (dim > 1) across *= s->N[1][k1];
-    if (dim > 2) across *= s->N[2][k2];
-    return s->N0 * across;
+    real slope = 1;
+    if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1] : s->A[1][k1];
+    if (dim > 2) slope *= d == 2 ? s->B[2][k2] : s->A[2][k2];
+    return slope;
 }
 
-static ALWAYS_INLINE void stencil_gradient(const struct stencil *s, int k1, int k2, row_of_nodes *grad, const int dim)
+/* From the point to the nodes of a row in the direction d along it, and to those of row k across it [m]. */
+static ALWAYS_INLINE row_of_nodes stencil_along(const struct stencil *s, real h, int d, const int dim,
+                                                const enum shape shape)
 {
-    const real N1 = dim > 1 ? s->N[1][k1] : 1, N2 = dim > 2 ? s->N[2][k2] : 1;
-    grad[0] = s->dN0 * (N1 * N2);
-    if (dim > 1) grad[1] = s->N0 * (s->dN[1][k1] * N2);
-    if (dim > 2) grad[2] = s->N0 * (N1 * s->dN[2][k2]);
+    if (!IS_FACE(dim, shape)) return -row_distance(s->t[0]) * h;
+    return ((d == 0 ? (row_of_nodes){0, 1, 0, 1} : (row_of_nodes){0, 0, 1, 1}) - s->t[d]) * h;
+}
+
+static ALWAYS_INLINE real stencil_across(const struct stencil *s, real h, int d, int k, const int dim,
+                                         const enum shape shape)
+{
+    return (k - (IS_FACE(dim, shape) ? 0 : 1) - s->t[d]) * h;
 }
 
 #endif

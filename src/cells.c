@@ -174,9 +174,9 @@ static struct block_shape block_shape_of(const struct grid *g)
 {
     struct block_shape s = {.cells_in_block = 1, .n = 1};
     for (int d = 0; d < g->dim; d++) {
-        s.first[d] = block_of(g->first[d]);
-        s.blocks[d] = block_of(g->first[d] + g->count[d] - 1) - s.first[d] + 1;
-        s.cells_in_block *= BLOCK_EDGE;
+        s.first[d] = block_of(g->first[d], d);
+        s.blocks[d] = block_of(g->first[d] + g->count[d] - 1, d) - s.first[d] + 1;
+        s.cells_in_block *= block_edge(d);
         s.n *= s.blocks[d];
     }
     return s;
@@ -188,10 +188,10 @@ static int64_t block_key(const struct block_shape *s, const struct grid *g, cons
 {
     int64_t block = 0, cell = 0;
     for (int d = g->dim - 1; d >= 0; d--) {
-        int64_t k = (int64_t)floor((p->x[d][i] - g->anchor[d]) / g->h);
-        int64_t b = block_of(k);
+        int64_t k = (int64_t)floor(grid_place(g, d, p->x[d][i]));
+        int64_t b = block_of(k, d);
         block = block * s->blocks[d] + (b - s->first[d]);
-        cell = cell * BLOCK_EDGE + (k - b * BLOCK_EDGE);
+        cell = cell * block_edge(d) + (k - b * block_edge(d));
     }
     *inside = cell;
     return block;
@@ -212,23 +212,56 @@ static void order_room(struct transfer_order *o, int64_t n, int64_t blocks)
     if (o->blocks_room < blocks + 1 || o->n != n) {
         memory_free(o->particle);
         memory_free(o->block_start);
-        o->particle = NEW("transfer.particle", n, int32_t);
+        memory_free(o->block_cell);
+        o->particle = NEW("transfer.particle", n + ORDER_AHEAD, int32_t);
         o->block_start = NEW("transfer.block_start", blocks + 1, int32_t);
+        o->block_cell = NEW("transfer.block_cell", blocks + 1, int32_t);
         o->blocks_room = (int)blocks + 1;
     }
     o->n = n;
 }
 
-/* By cell inside the block; equal cells keep their order. */
-static void sort_in_block(int32_t *particle, uint8_t *inside, int32_t n)
+enum { CELLS_IN_BLOCK_MOST = BLOCK_LENGTH * BLOCK_EDGE * BLOCK_EDGE };
+
+/* Counting sort of the n particles of a block by their cell; equal cells keep their order. Returns how many cells hold
+ * any. */
+static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int32_t *particle_to, uint16_t *inside_to,
+                             int64_t cells_in_block)
 {
-    for (int32_t k = 1; k < n; k++) {
-        int32_t i = particle[k];
-        uint8_t c = inside[k];
-        int32_t m = k;
-        for (; m > 0 && inside[m - 1] > c; m--) particle[m] = particle[m - 1], inside[m] = inside[m - 1];
-        particle[m] = i, inside[m] = c;
+    int32_t at[CELLS_IN_BLOCK_MOST], cells = 0, next = 0;
+    if (n == 0) return 0;
+    memset(at, 0, (size_t)cells_in_block * sizeof *at);
+    for (int32_t k = 0; k < n; k++) at[inside[k]]++;
+    for (int64_t c = 0; c < cells_in_block; c++) {
+        const int32_t count = at[c];
+        at[c] = next;
+        next += count, cells += count > 0;
     }
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t to = at[inside[k]]++;
+        particle_to[to] = particle[k], inside_to[to] = inside[k];
+    }
+    return cells;
+}
+
+/* Where cells begin; block_cell[b+1] comes as the number of cells of block b. */
+static void find_cells(struct transfer_order *o, const uint16_t *inside)
+{
+    o->block_cell[0] = 0;
+    for (int b = 0; b < o->blocks; b++) o->block_cell[b + 1] += o->block_cell[b];
+    o->cells = o->block_cell[o->blocks];
+    if (o->cells_room < o->cells + 1) {
+        memory_free(o->cell_start);
+        o->cells_room = o->cells + o->cells / 8 + 1;
+        o->cell_start = NEW("transfer.cell_start", o->cells_room, int32_t);
+    }
+#pragma omp parallel for schedule(static)
+    for (int b = 0; b < o->blocks; b++) {
+        int32_t cell = o->block_cell[b];
+        for (int32_t k = o->block_start[b]; k < o->block_start[b + 1]; k++)
+            if (k == o->block_start[b] || inside[k] != inside[k - 1]) o->cell_start[cell++] = k;
+    }
+    o->cell_start[o->cells] = (int32_t)o->n;
 }
 
 /* Counting sort by block (blocks numbered colour by colour), then by cell inside each block. */
@@ -240,8 +273,8 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
 
     /* rank of a block: its place in the list of all blocks, colour by colour */
     int32_t *rank = NEW("transfer.rank", s.n, int32_t);
-    int32_t *key = NEW("transfer.key", n, int32_t);
-    uint8_t *inside = NEW("transfer.inside", n, uint8_t), *sorted = NEW("transfer.sorted", n, uint8_t);
+    int32_t *key = NEW("transfer.key", n, int32_t), *bucket = NEW("transfer.bucket", n, int32_t);
+    uint16_t *inside = NEW("transfer.inside", n, uint16_t), *sorted = NEW("transfer.sorted", n, uint16_t);
     int32_t next = 0;
     for (int c = 0; c < 1 << g->dim; c++) {
         o->blocks_of[c] = next;
@@ -256,7 +289,7 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
     for (int64_t k = 0; k < n; k++) {
         int64_t cell;
         key[k] = rank[block_key(&s, g, p, list[k], &cell)];
-        inside[k] = (uint8_t)cell;
+        inside[k] = (uint16_t)cell;
     }
     for (int64_t k = 0; k < n; k++) o->block_start[key[k] + 1]++;
     for (int64_t b = 0; b < s.n; b++) o->block_start[b + 1] += o->block_start[b];
@@ -264,13 +297,17 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
     memcpy(fill, o->block_start, (size_t)s.n * sizeof *fill);
     for (int64_t k = 0; k < n; k++) {
         int32_t at = fill[key[k]]++;
-        o->particle[at] = list[k];
+        bucket[at] = list[k];
         sorted[at] = inside[k];
     }
 #pragma omp parallel for schedule(dynamic, 16)
-    for (int64_t b = 0; b < s.n; b++)
-        sort_in_block(o->particle + o->block_start[b], sorted + o->block_start[b],
-                      o->block_start[b + 1] - o->block_start[b]);
+    for (int64_t b = 0; b < s.n; b++) {
+        const int32_t from = o->block_start[b];
+        o->block_cell[b + 1] = sort_in_block(bucket + from, sorted + from, o->block_start[b + 1] - from,
+                                             o->particle + from, inside + from, s.cells_in_block);
+    }
+    find_cells(o, inside);
+    memory_free(bucket);
     memory_free(rank);
     memory_free(key);
     memory_free(inside);
@@ -281,5 +318,7 @@ void transfer_order_free(struct transfer_order *o)
 {
     memory_free(o->particle);
     memory_free(o->block_start);
+    memory_free(o->block_cell);
+    memory_free(o->cell_start);
     memset(o, 0, sizeof *o);
 }

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "cells.h"
 #include "memory.h"
 
 /* Nodes beyond the outermost point: reach of the widest shape and one cell of motion. */
@@ -35,8 +34,9 @@ static void grid_arrays_make(struct grid *g)
     }
 }
 
-/* First node of the block that holds node k. */
-static int64_t block_floor(int64_t k) { return block_of(k) * BLOCK_EDGE; }
+/* Boxes grow by steps of this many nodes. */
+enum { BOX_STEP = 4 };
+static int64_t box_floor(int64_t k) { return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP; }
 
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
 {
@@ -44,8 +44,8 @@ status grid_cover(struct grid *g, const real *from, const real *to, int64_t most
     real nodes = 1;
     *changed = g->n == 0;
     for (int d = 0; d < g->dim; d++) {
-        first[d] = block_floor((int64_t)floor((from[d] - g->anchor[d]) / g->h) - MARGIN);
-        end[d] = block_floor((int64_t)floor((to[d] - g->anchor[d]) / g->h) + MARGIN + BLOCK_EDGE);
+        first[d] = box_floor((int64_t)floor((from[d] - g->anchor[d]) / g->h) - MARGIN);
+        end[d] = box_floor((int64_t)floor((to[d] - g->anchor[d]) / g->h) + MARGIN + BOX_STEP);
         if (g->n > 0 && first[d] >= g->first[d]) first[d] = g->first[d]; else *changed = true;
         if (g->n > 0 && end[d] <= g->first[d] + g->count[d]) end[d] = g->first[d] + g->count[d]; else *changed = true;
         nodes *= (real)(end[d] - first[d]);

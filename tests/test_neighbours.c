@@ -348,6 +348,29 @@ static void check_colour(const struct transfer_order *o, const struct particles 
     memory_free(owner);
 }
 
+/* Cells of blocks follow each other; the points of one stand in the same cell, ascending, and no two hold the same. */
+static void check_cells(const struct transfer_order *o, const struct particles *p, const struct grid *g)
+{
+    uint8_t *seen = NEW("test.cells", g->n, uint8_t);
+    assert_int_equal(o->block_cell[0], 0);
+    assert_int_equal(o->block_cell[o->blocks], o->cells);
+    for (int b = 0; b < o->blocks; b++) assert_int_equal(o->cell_start[o->block_cell[b]], o->block_start[b]);
+    assert_int_equal(o->cell_start[o->cells], o->n);
+    for (int32_t c = 0; c < o->cells; c++) {
+        int64_t place = -1;
+        assert_true(o->cell_start[c] < o->cell_start[c + 1]);
+        for (int32_t k = o->cell_start[c]; k < o->cell_start[c + 1]; k++) {
+            int64_t at = 0;
+            for (int d = 0; d < g->dim; d++)
+                at += ((int64_t)floor((p->x[d][o->particle[k]] - g->anchor[d]) / g->h) - g->first[d]) * g->stride[d];
+            assert_true(k == o->cell_start[c] || (at == place && o->particle[k] > o->particle[k - 1]));
+            place = at;
+        }
+        assert_int_equal(seen[place]++, 0);
+    }
+    memory_free(seen);
+}
+
 static void test_transfer_order(void **state)
 {
     (void)state;
@@ -360,6 +383,7 @@ static void test_transfer_order(void **state)
         assert_int_equal(o.n, c.p.n_of[KIND_MPM]);
         assert_int_equal(o.block_start[0], 0);
         assert_int_equal(o.block_start[o.blocks], o.n);
+        check_cells(&o, &c.p, &g);
         uint8_t *seen = NEW("test.seen", c.p.n, uint8_t);
         for (int64_t k = 0; k < o.n; k++) {
             assert_int_equal(c.p.kind[o.particle[k]], KIND_MPM);
@@ -388,7 +412,7 @@ static void test_transfer_order_growth(void **state)
         transfer_order_sort(&small, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         real from[DIM_MAX], to[DIM_MAX], before = grid_position(&g, 0, -g.first[0]);
         for (int d = 0; d < dim; d++)
-            from[d] = -23 * g.h, to[d] = 33 * g.h; /* by one block: parity must not follow the box */
+            from[d] = -(19 + block_edge(d)) * g.h, to[d] = 33 * g.h; /* by one block: parity must not follow the box */
         assert_int_equal(grid_cover(&g, from, to, 1000000, &changed), OK);
         assert_true(changed && grid_position(&g, 0, -g.first[0]) == before);
         transfer_order_sort(&large, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);

@@ -22,10 +22,12 @@
  * completeness: sum N = 1, sum N x_I = x, sum dN = 0, sum dN x_I = 1. */
 static void check_shape(enum shape shape, real r, real l)
 {
-    real N[SHAPE_NODES_MAX], dN[SHAPE_NODES_MAX], sum[4] = {0};
-    int64_t base = shape_1d(shape, r, l, N, dN);
-    for (int64_t node = base - 3; node < base + SHAPE_NODES_MAX + 3; node++) {
-        bool inside = node >= base && node < base + shape_nodes(shape);
+    row_of_nodes N, dN;
+    real sum[4] = {0};
+    const int64_t cell = floor_to_int(r), base = cell - 1;
+    shape_row(shape, r - (real)cell, l, 0.5 / l, &N, &dN);
+    for (int64_t node = base - 3; node < base + ROW + 3; node++) {
+        bool inside = node >= base && node < base + ROW;
         struct reference_shape s = reference_shape(shape, r - (real)node, 1, l);
         /* round-off of (r +- l), up to ten, in an integral over 2 l >= 0.02 */
         assert_true(fabs(s.value - (inside ? N[node - base] : 0)) <= 1e-13);
