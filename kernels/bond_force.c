@@ -15,13 +15,6 @@
 
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
 
-/* f = new share + f (1 - share) */
-static ALWAYS_INLINE void rows_store(real *f, const int32_t *row, int rows, bool aligned, lanes value, real share)
-{
-    if (aligned && share == 1) lanes_store(f + row[0], value);
-    else for (int l = 0; l < rows; l++) f[row[l]] = share * value[l] + (share == 1 ? 0 : (1 - share) * f[row[l]]);
-}
-
 /* A group while its slots are visited. */
 struct bond_sums { lanes x0, x1, x2, f0, f1, f2, trigger, passed; };
 

@@ -53,4 +53,11 @@ static ALWAYS_INLINE lanes slot_largest(const struct bonds *b, int64_t slot, con
     return kind ? lanes_max_kept(b->common[slot].intact, a, other) : lanes_max(a, other);
 }
 
+/* Rows of a group: f = new share + f (1 - share) */
+static ALWAYS_INLINE void rows_store(real *f, const int32_t *row, int rows, bool aligned, lanes value, real share)
+{
+    if (aligned && share == 1) lanes_store(f + row[0], value);
+    else for (int l = 0; l < rows; l++) f[row[l]] = share * value[l] + (share == 1 ? 0 : (1 - share) * f[row[l]]);
+}
+
 #endif
