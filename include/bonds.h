@@ -98,22 +98,28 @@ struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bonds know nothing but themselves             */
     bool local;                          /* Q of what a family still has, not of a full one                   */
     real *weighted;                      /* [groups 8] Q                                               [m^2] */
+    uint8_t *past;                       /* [groups] the last sweep saw a bond that may have passed its limit  */
     real *pressure, *spring;             /* [n_all] P and g                                          [N/m^2], [N/m] */
     real *turn[DIM_MAX * DIM_MAX];       /* [n_all] g R, row major; only models with rotations         [N/m] */
     struct state_image *image;           /* [n_all - n]                                                       */
 };
 
-/* Lengths of a lattice: spacing sqrt(k); its inverse. */
+/* Lengths of a lattice: spacing sqrt(k). */
 enum { BOND_LATTICE = 256 };
-struct bond_length { real length, inverse; };          /* [m], [1/m] */
+struct bond_length { real inverse, length, square; };  /* [1/m], [m], [m^2] */
 
-/* What the eight bonds of a slot have in common; a copy of what w, inverse_length and first say, made by bonds_share. */
+/* What the eight bonds of a slot have in common; a copy of what first, w and inverse_length say, made by bonds_share: all
+ * that the hot loops read of a slot on a lattice, four bytes a bond. */
 struct bond_slot {
+    int16_t excess[LANES];               /* |inverse_length| over the lattice's, in units of the last place: positions
+                                            are rounded; the sum is exact                                 */
+    int32_t first;                       /* as below                                                      */
     float w;                             /* of its intact bonds, where they are alike [1]                 */
     uint8_t intact;                      /* bit l: the bond of lane l is intact                           */
     uint8_t lattice;                     /* k: consecutive neighbours, lengths those of lattice[k] up to the
                                             round-off of positions; 0: not so                             */
     uint8_t alike;                       /* so, and the intact bonds weigh the same                       */
+    uint8_t unused[5];                   /* two of them in a cache line                                   */
 };
 
 struct bonds {
@@ -132,8 +138,6 @@ struct bonds {
                                             stiffness; 0: broken, cut or padding                [1]       */
     struct bond_slot *common;            /* [slots]                                                       */
     struct bond_length *lattice;         /* [BOND_LATTICE]                                                */
-    int16_t *excess;                     /* [slots 8] |inverse_length| over the lattice's, in units of the last place:
-                                            the sum is exact                                              */
     real *plastic_stretch, *plastic_path;   /* [slots 8] s_p and alpha of a bond; NULL where none yields   [1]  */
     int32_t *pair;                       /* [slots 8] entry of `yield`; NULL where none yields               */
     struct bond_yield yield;

@@ -21,29 +21,28 @@ static ALWAYS_INLINE void slot_ask(const struct bonds *b, int64_t slot, const en
 {
     const int64_t q = (slot + SLOTS_AHEAD) * LANES;
     __builtin_prefetch(b->common + slot + SLOTS_AHEAD);
-    __builtin_prefetch(b->first + slot + SLOTS_AHEAD);
-    if (kind == SLOT_FREE) __builtin_prefetch(b->inverse_length + q);
-    else __builtin_prefetch(b->excess + q);
+    if (kind == SLOT_FREE) __builtin_prefetch(b->inverse_length + q), __builtin_prefetch(b->nbr + q);
     if (kind != SLOT_ALIKE) __builtin_prefetch(b->w + q);
 }
 
 /* Of the neighbours. */
 static ALWAYS_INLINE lanes slot_at(const struct bonds *b, int64_t slot, const enum slot_kind kind, const real *from)
 {
-    return kind ? lanes_load(from + b->first[slot]) : lanes_at(from, b->first[slot], b->nbr + slot * LANES);
+    const int32_t first = b->common[slot].first;
+    return kind ? lanes_load(from + first) : lanes_at(from, first, b->nbr + slot * LANES);
 }
 
 /* 1/|X_j - X_i| [1/m]; of broken bonds maybe the negative of it. */
 static ALWAYS_INLINE lanes slot_inverse_length(const struct bonds *b, int64_t slot, const enum slot_kind kind)
 {
-    return kind ? lanes_excess(b->lattice[b->common[slot].lattice].inverse, b->excess + slot * LANES)
-                : lanes_load(b->inverse_length + slot * LANES);
+    const struct bond_slot *c = &b->common[slot];
+    return kind ? lanes_excess(b->lattice[c->lattice].inverse, c->excess) : lanes_load(b->inverse_length + slot * LANES);
 }
 
 static ALWAYS_INLINE lanes slot_weight(const struct bonds *b, int64_t slot, const enum slot_kind kind)
 {
     const struct bond_slot *c = &b->common[slot];
-    return kind == SLOT_ALIKE ? lanes_keep(c->intact, lanes_of(c->w)) : lanes_load_float(b->w + slot * LANES);
+    return kind == SLOT_ALIKE ? lanes_of_float(c->intact, c->w) : lanes_load_float(b->w + slot * LANES);
 }
 
 /* a, or of intact bonds what is larger. Where lengths are read as stored those of broken ones are negative and tell by

@@ -79,6 +79,16 @@ static ALWAYS_INLINE lanes lanes_keep(uint8_t bits, lanes a)
 #endif
 }
 
+/* A float where the lane has a bit, else 0. */
+static ALWAYS_INLINE lanes lanes_of_float(uint8_t bits, float a)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_maskz_cvtps_pd(bits, _mm256_set1_ps(a));
+#else
+    return lanes_keep(bits, lanes_of(a));
+#endif
+}
+
 /* The larger where the lane has a bit, else a. */
 static ALWAYS_INLINE lanes lanes_max_kept(uint8_t bits, lanes a, lanes b)
 {
@@ -122,6 +132,19 @@ static ALWAYS_INLINE lanes lanes_inverse_root(lanes a)
 #else
     lanes y;
     for (int l = 0; l < LANES; l++) y[l] = 1 / sqrt(a[l]);
+    return y;
+#endif
+}
+
+/* sqrt(a), in the same way. */
+static ALWAYS_INLINE lanes lanes_root(lanes a)
+{
+#ifdef __AVX512F__
+    const lanes y = (lanes)_mm512_rsqrt14_pd((__m512d)a), root = a * y, c = 1.0 - root * y;
+    return root + (root * c) * (0.5 + c * (0.375 + c * 0.3125));
+#else
+    lanes y;
+    for (int l = 0; l < LANES; l++) y[l] = sqrt(a[l]);
     return y;
 #endif
 }

@@ -20,7 +20,7 @@ static ALWAYS_INLINE void turn_store(struct bonds *b, int32_t i, const real *M, 
 }
 
 /* Sums over the families of a group. */
-struct family_sums { lanes extension, moment[DIM_MAX * DIM_MAX]; };
+struct family_sums { lanes extension, stretch, moment[DIM_MAX * DIM_MAX]; };   /* stretch: the largest [1] */
 
 /* Adds a slot: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
 static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
@@ -30,8 +30,9 @@ static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct bonds 
     struct state_bond s;
     slot_ask(b, slot, kind);
     state_bond_make(&s, b, p, slot, kind, x, X, dim, model);
-    const lanes w = slot_weight(b, slot, kind), r = state_length(b, slot, kind, s.inverse_length, w);
-    sum->extension += w * (r * r) * (s.distance2 * s.inverse * s.inverse_length - 1.0);
+    const lanes w = slot_weight(b, slot, kind), stretch = lanes_root(s.distance2) * s.inverse_length - 1.0;
+    sum->extension += state_weight(b, slot, kind, w, s.inverse_length, true) * stretch;
+    sum->stretch = slot_largest(b, slot, kind, sum->stretch, stretch);
     if (!state_turns(model)) return;
     for (int c = 0; c < dim; c++) {
         const lanes weighted = w * s.xi[c];
@@ -85,7 +86,7 @@ static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p
     const int32_t own = b->aligned[g] ? row[0] : -1;
     lanes x[DIM_MAX], X[DIM_MAX];
     struct family_sums sum;
-    sum.extension = lanes_of(0);
+    sum.extension = lanes_of(0), sum.stretch = lanes_of(-1);
     for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_of(0);
     for (int d = 0; d < dim; d++) {
         x[d] = lanes_at(p->x[d], own, row);
@@ -94,6 +95,7 @@ static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p
 #define VISIT(SLOT, KIND) know_slot(&sum, b, p, SLOT, KIND, x, X, dim, model)
     FOR_SLOTS(b, g, slot, VISIT);
 #undef VISIT
+    b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
     know_store(b, p, g, &sum, dim, model);
 }
 
@@ -136,7 +138,7 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 /* ---- second sweep: forces -------------------------------------------------------------------------------- */
 
 /* A group while its slots are visited. */
-struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], turn[DIM_MAX * DIM_MAX], pressure, spring, trigger, passed; };
+struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], turn[DIM_MAX * DIM_MAX], pressure, spring; };
 
 /* Adds the forces of a slot, with e/|Y| = r (1/r - 1/|Y|) and, in the plane, g R = (a, -b; b, a). */
 static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
@@ -146,17 +148,16 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds 
     struct state_bond s;
     slot_ask(b, slot, kind);
     state_bond_make(&s, b, p, slot, kind, sum->x, sum->X, dim, model);
-    const lanes w = slot_weight(b, slot, kind), r = state_length(b, slot, kind, s.inverse_length, w);
-    const lanes change = s.inverse_length - s.inverse;
+    const lanes inverse = lanes_inverse_root(s.distance2), change = s.inverse_length - inverse;
+    const lanes w = slot_weight(b, slot, kind), wr = state_weight(b, slot, kind, w, s.inverse_length, false);
     const lanes pressure = sum->pressure + slot_at(b, slot, kind, t->pressure);
     const lanes spring = sum->spring + slot_at(b, slot, kind, t->spring);
-    sum->passed = slot_largest(b, slot, kind, sum->passed, change - sum->trigger * s.inverse);
     if (!state_turns(model)) {
-        const lanes along = w * r * (pressure * s.inverse + spring * change);
+        const lanes along = wr * (pressure * inverse + spring * change);
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
         return;
     }
-    const lanes along = r * pressure * s.inverse + spring;
+    const lanes along = wr * pressure * inverse + w * spring;
     lanes turned[DIM_MAX];
     if (dim == 2) {
         const lanes a = sum->turn[0] + slot_at(b, slot, kind, t->turn[0]), c = sum->turn[2] + slot_at(b, slot, kind, t->turn[2]);
@@ -168,11 +169,11 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds 
             for (int c = 0; c < dim; c++)
                 turned[d] += (sum->turn[d * dim + c] + slot_at(b, slot, kind, t->turn[d * dim + c])) * s.xi[c];
         }
-    for (int d = 0; d < dim; d++) sum->f[d] += w * (along * s.y[d] - turned[d]);
+    for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d] - w * turned[d];
 }
 
-/* Force of one group, mixed into what f holds by `share`; returns whether a bond may have passed its limit. */
-static ALWAYS_INLINE bool force_group(const struct bonds *b, struct particles *p, int64_t g, const real share,
+/* Force of one group, mixed into what f holds by `share`. */
+static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p, int64_t g, const real share,
                                       const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -181,7 +182,6 @@ static ALWAYS_INLINE bool force_group(const struct bonds *b, struct particles *p
     const struct state *t = &b->state;
     struct state_sums sum;
     sum.pressure = lanes_at(t->pressure, own, row), sum.spring = lanes_at(t->spring, own, row);
-    sum.trigger = lanes_load(b->trigger + g * LANES), sum.passed = lanes_of(-1);
     for (int d = 0; d < dim; d++) {
         sum.x[d] = lanes_at(p->x[d], own, row), sum.f[d] = lanes_of(0);
         if (state_turns(model)) sum.X[d] = lanes_at(p->X[d], own, row);
@@ -191,7 +191,6 @@ static ALWAYS_INLINE bool force_group(const struct bonds *b, struct particles *p
     FOR_SLOTS(b, g, slot, VISIT);
 #undef VISIT
     for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d], share);
-    return lanes_any(sum.passed > 0.0);
 }
 
 #define INSTANCE(D, M)                                                                                       \
@@ -210,7 +209,8 @@ static ALWAYS_INLINE bool force_group(const struct bonds *b, struct particles *p
         state_know_##D##d_##M(b, p);                                                                         \
         _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                                   \
         for (int64_t g = 0; g < b->groups; g++) {                                                            \
-            if (!force_group(b, p, g, 1, D, PD_##M)) continue;                                               \
+            force_group(b, p, g, 1, D, PD_##M);                                                              \
+            if (!b->state.past[g]) continue;                                                                 \
             int64_t here = bond_break_group(b, p, limit, g);                                                 \
             if (here > 0) force_group(b, p, g, 0.5, D, PD_##M);                                              \
             broken += here;                                                                                  \

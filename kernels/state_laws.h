@@ -27,7 +27,7 @@
 /* The bonds of a slot, as both sweeps see them. */
 struct state_bond {
     lanes y[DIM_MAX], xi[DIM_MAX];       /* now and before [m]; xi only where rotations matter */
-    lanes distance2, inverse;            /* |Y|^2 [m^2], 1/|Y| [1/m] */
+    lanes distance2;                     /* |Y|^2 [m^2] */
     lanes inverse_length;                /* 1/|xi|; of broken bonds maybe the negative [1/m] */
 };
 
@@ -43,17 +43,17 @@ static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct bon
         s->distance2 += s->y[d] * s->y[d];
         if (state_turns(model)) s->xi[d] = slot_at(b, slot, kind, p->X[d]) - X[d];
     }
-    s->inverse = lanes_inverse_root(s->distance2);
     s->inverse_length = slot_inverse_length(b, slot, kind);
 }
 
-/* |xi| as a factor, of intact bonds [m]: of a lattice without the round-off of positions, which no difference magnifies. */
-static ALWAYS_INLINE lanes state_length(const struct bonds *b, int64_t slot, const enum slot_kind kind, lanes inverse_length,
-                                        lanes w)
+/* w |xi| or w |xi|^2: factors, of a lattice without the round-off of positions, which no difference magnifies [m], [m^2]. */
+static ALWAYS_INLINE lanes state_weight(const struct bonds *b, int64_t slot, const enum slot_kind kind, lanes w,
+                                        lanes inverse_length, const bool square)
 {
-    if (kind) return lanes_of(b->lattice[b->common[slot].lattice].length);
+    const struct bond_length *known = &b->lattice[b->common[slot].lattice];
+    if (kind) return w * (square ? known->square : known->length);
     const lanes r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);
-    return lanes_choose(w > 0.0, r, lanes_of(0));
+    return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));
 }
 
 /* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side

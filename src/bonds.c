@@ -266,7 +266,6 @@ void bonds_free(struct bonds *b)
     memory_free(b->w);
     memory_free(b->common);
     memory_free(b->lattice);
-    memory_free(b->excess);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
     memory_free(b->pair);

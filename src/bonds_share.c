@@ -16,9 +16,8 @@ static int64_t bits_of(real a)
 void bonds_share_make(struct bonds *b, real spacing)
 {
     b->lattice = NEW("bonds.lattice", BOND_LATTICE, struct bond_length);
-    for (int k = 1; k < BOND_LATTICE; k++) b->lattice[k] = (struct bond_length){spacing * sqrt(k), 1 / (spacing * sqrt(k))};
+    for (int k = 1; k < BOND_LATTICE; k++) b->lattice[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
     b->common = NEW("bonds.common", b->slots, struct bond_slot);
-    b->excess = NEW("bonds.excess", b->slots * LANES, int16_t);
 }
 
 /* Which of the lattice's lengths the bonds of a slot have, up to the round-off of positions that `excess` takes; 0: none. */
@@ -32,7 +31,7 @@ static int lattice_of(struct bonds *b, int64_t slot)
         if (lattice == 0 && squares < BOND_LATTICE - 0.5) lattice = (int)(squares + 0.5);
         const int64_t excess = lattice ? bits_of(fabs(inverse[l])) - bits_of(b->lattice[lattice].inverse) : INT64_MAX;
         if (excess < INT16_MIN || excess > INT16_MAX) return 0;
-        b->excess[slot * LANES + l] = (int16_t)excess;
+        b->common[slot].excess[l] = (int16_t)excess;
     }
     return lattice;
 }
@@ -41,7 +40,8 @@ void bonds_share(struct bonds *b, int64_t slot)
 {
     const float *w = b->w + slot * LANES;
     struct bond_slot *c = &b->common[slot];
-    *c = (struct bond_slot){.lattice = b->first[slot] >= 0 ? (uint8_t)lattice_of(b, slot) : 0};
+    *c = (struct bond_slot){.first = b->first[slot]};
+    if (c->first >= 0) c->lattice = (uint8_t)lattice_of(b, slot);
     c->alike = c->lattice != 0;
     for (int l = 0; l < LANES; l++) {
         if (w[l] == 0) continue;
