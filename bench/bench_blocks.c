@@ -32,7 +32,7 @@ static void block_parts(FILE *to, const struct bench_block *b, double edge)
 }
 
 /* Edge of the block in particles. */
-static int64_t block_edge(const struct bench_block *b, double particles)
+static int64_t edge_of_block(const struct bench_block *b, double particles)
 {
     const int64_t n = (int64_t)round(pow(particles, 1.0 / b->dim));
     return n > 12 ? n : 12;
@@ -41,7 +41,7 @@ static int64_t block_edge(const struct bench_block *b, double particles)
 /* Every particle moves, or what rests might be left out; none gets far: a metre a second at the farthest corner. */
 static void block_text(FILE *to, const struct bench_block *b, double particles, int64_t steps, int frames)
 {
-    const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)block_edge(b, particles), rate = 1 / edge;
+    const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)edge_of_block(b, particles), rate = 1 / edge;
     fprintf(to, "name: block\nspace: %s\n%s", b->dim == 2 ? "plane stress" : "solid", b->dim == 2 ? "thickness: 1 mm\n" : "");
     fprintf(to, "method: %s\nduration: %.9g\ntime: {step: %.9g}\n", b->method, (double)steps * step, step);
     fprintf(to, "material: {young: 72e9, density: 2440, critical_stretch: 0.1}\nparticles: {spacing: %.9g}\n", spacing);

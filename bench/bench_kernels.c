@@ -221,6 +221,18 @@ static void time_all(struct bench *b, int repetitions)
 
 /* ---- bytes --------------------------------------------------------------------------------------------- */
 
+/* Bytes of a slot as the force kernels read it (bond_slot.h), in the mean. */
+static double slot_bytes(const struct bonds *b)
+{
+    double sum = 0;
+    for (int64_t slot = 0; slot < b->slots; slot++) {
+        const struct bond_slot *c = &b->common[slot];
+        sum += sizeof *c + (c->alike ? 0 : LANES * sizeof *b->w);
+        if (!c->lattice) sum += LANES * (sizeof *b->inverse_length + (c->first < 0 ? sizeof *b->nbr : 0));
+    }
+    return sum / (double)b->slots;
+}
+
 /* Bytes that a kernel must move a particle, counted from the arrays it reads and writes once; nodes shared among the
  * points of their cell. */
 static double job_bytes(const struct job *j, const struct ground *g)
@@ -230,8 +242,10 @@ static double job_bytes(const struct job *j, const struct ground *g)
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
     const double node = r * (double)e->grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
     /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
-    const double stored = 12.5 * (j->model >= PD_OSPD ? 2 : 1) + (j->model == PD_BOND_PLASTIC ? 36 : 0);
-    const double bond = stored * LANES * (double)pd->bonds.slots / (double)pd->part.n,
+    const double slots = (double)pd->bonds.slots / (double)pd->part.n;
+    const double stored = j->kind == BOND_FORCE ? slot_bytes(&pd->bonds) : 12.5 * LANES;
+    const double bond = slots * (stored * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +
+                                 (j->model == PD_BOND_PLASTIC ? 36 * LANES : 0)),
                  apic = j->transfer == TRANSFER_APIC;
     switch (j->kind) {
     case BOND_FORCE:

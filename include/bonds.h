@@ -10,7 +10,8 @@
  *
  * Rows shorter than their group are padded with w = 0. Where the rows of a group see neighbours at the same
  * index distances (a lattice), a slot holds one distance, its eight neighbours are consecutive in memory
- * from `first` on, and one load replaces the gather; the hot loop then does not even read nbr. */
+ * from `first` on, and one load replaces the gather; the hot loop then does not even read nbr. Where the bonds of such a
+ * slot also weigh the same, the loop reads what they have in common and two bytes a bond instead of twelve. */
 #ifndef CLEAVE_BONDS_H
 #define CLEAVE_BONDS_H
 
@@ -97,9 +98,28 @@ struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bonds know nothing but themselves             */
     bool local;                          /* Q of what a family still has, not of a full one                   */
     real *weighted;                      /* [groups 8] Q                                               [m^2] */
+    uint8_t *past;                       /* [groups] the last sweep saw a bond that may have passed its limit  */
     real *pressure, *spring;             /* [n_all] P and g                                          [N/m^2], [N/m] */
     real *turn[DIM_MAX * DIM_MAX];       /* [n_all] g R, row major; only models with rotations         [N/m] */
     struct state_image *image;           /* [n_all - n]                                                       */
+};
+
+/* Lengths of a lattice: spacing sqrt(k). */
+enum { BOND_LATTICE = 256 };
+struct bond_length { real inverse, length, square; };  /* [1/m], [m], [m^2] */
+
+/* What the eight bonds of a slot have in common; a copy of what first, w and inverse_length say, made by bonds_share: all
+ * that the hot loops read of a slot on a lattice, four bytes a bond. */
+struct bond_slot {
+    int16_t excess[LANES];               /* |inverse_length| over the lattice's, in units of the last place: positions
+                                            are rounded; the sum is exact                                 */
+    int32_t first;                       /* as below                                                      */
+    float w;                             /* of its intact bonds, where they are alike [1]                 */
+    uint8_t intact;                      /* bit l: the bond of lane l is intact                           */
+    uint8_t lattice;                     /* k: consecutive neighbours, lengths those of lattice[k] up to the
+                                            round-off of positions; 0: not so                             */
+    uint8_t alike;                       /* so, and the intact bonds weigh the same                       */
+    uint8_t unused[5];                   /* two of them in a cache line                                   */
 };
 
 struct bonds {
@@ -116,6 +136,8 @@ struct bonds {
                                             -1 and never looks like breaking; 0: padding        [1/m]     */
     float *w;                            /* [slots 8] symmetric weight: beta x surface x V_i V_j c_ij over
                                             stiffness; 0: broken, cut or padding                [1]       */
+    struct bond_slot *common;            /* [slots]                                                       */
+    struct bond_length *lattice;         /* [BOND_LATTICE]                                                */
     real *plastic_stretch, *plastic_path;   /* [slots 8] s_p and alpha of a bond; NULL where none yields   [1]  */
     int32_t *pair;                       /* [slots 8] entry of `yield`; NULL where none yields               */
     struct bond_yield yield;
@@ -172,6 +194,10 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
  * peridynamic particles. */
 void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s);
 void bonds_free(struct bonds *b);
+/* What the bonds of a slot have in common, for their weights and lengths of now. Whoever changes w or the sign of
+ * inverse_length outside the kernels calls it; the same numbers give the same bits whether shared or not. */
+void bonds_share(struct bonds *b, int64_t slot);
+void bonds_share_all(struct bonds *b);
 
 /* Critical time step of the peridynamic side [s]: 2 / omega_max with the block-Gershgorin bound over
  * all particles of the body as if all were peridynamic. */

@@ -37,6 +37,7 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 {
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
+    bonds_share(b, q / LANES);
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
     set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_CUT : FLAG_CUT | FLAG_CRACKED);
@@ -65,6 +66,7 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, flo
     if (w > 0) b->w[q] = w;
     else if (b->inverse_length[q] > 0) bond_end(b, p, row, q, i, j);
     else b->w[q] = 0;
+    bonds_share(b, q / LANES);
     row_changed(b, row);
     b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row) : half_energy(b, q, stretch)));
 }

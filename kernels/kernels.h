@@ -55,8 +55,8 @@ struct transfer_data {
 /* Force of all intact bonds on every row's particle (overwrites f there), then breaks what is stretched beyond its limit.
  * A bond acts with half its force in the step in which it breaks: a leap-frog kick stands half before and half after that
  * instant, so the energy of breaking is second order in the time step (all or nothing of it is first order). Sets
- * FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves 12.5 bytes
- * per bond from memory on a lattice (inverse_length 8, w 4, first 1/2), 16.5 elsewhere (nbr 4); positions come from
+ * FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves 4 bytes
+ * per bond from memory on a lattice, 8 where weights differ, 16 or 20 elsewhere (bond_slot.h); positions come from
  * cache. Returns the directed bonds broken. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit);
 

@@ -1,9 +1,11 @@
 /* floor 2: forces of state-based peridynamics: a sweep over the rows for what particles know of their families, one over
  * their bonds for the forces (state_laws.h). Owner computes in both; the same bits on any number of threads. */
 #include <math.h>
+#include <string.h>
 
 #include "kernels.h"
 #include "polar.h"
+#include "polar_lanes.h"
 #include "state_laws.h"
 #include "variants.h"
 
@@ -17,37 +19,84 @@ static ALWAYS_INLINE void turn_store(struct bonds *b, int32_t i, const real *M, 
     for (int c = 0; c < dim * dim; c++) b->state.turn[c][i] = g * R[c];
 }
 
+/* Sums over the families of a group. */
+struct family_sums { lanes extension, stretch, moment[DIM_MAX * DIM_MAX]; };   /* stretch: the largest [1] */
+
+/* Adds a slot: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
+static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
+                                    const enum slot_kind kind, const lanes *x, const lanes *X, const int dim,
+                                    const enum pd_model model)
+{
+    struct state_bond s;
+    slot_ask(b, slot, kind);
+    state_bond_make(&s, b, p, slot, kind, x, X, dim, model);
+    const lanes w = slot_weight(b, slot, kind), stretch = lanes_root(s.distance2) * s.inverse_length - 1.0;
+    sum->extension += state_weight(b, slot, kind, w, s.inverse_length, true) * stretch;
+    sum->stretch = slot_largest(b, slot, kind, sum->stretch, stretch);
+    if (!state_turns(model)) return;
+    for (int c = 0; c < dim; c++) {
+        const lanes weighted = w * s.xi[c];
+        for (int d = 0; d < dim; d++) sum->moment[d * dim + c] += weighted * s.y[d];
+    }
+}
+
+/* Are eight bytes alike? */
+static ALWAYS_INLINE bool eight_alike(const uint8_t *from)
+{
+    uint64_t bytes;
+    memcpy(&bytes, from, sizeof bytes);
+    return bytes == from[0] * UINT64_C(0x0101010101010101);
+}
+
+/* What a group's sums tell its peridynamic particles. */
+static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p, int64_t g, const struct family_sums *sum,
+                                     const int dim, const enum pd_model model)
+{
+    const int32_t *row = b->particle + g * LANES;
+    const int32_t own = b->aligned[g] ? row[0] : -1;
+    const bool whole = own >= 0 && p->kind[own] == KIND_PD && eight_alike(p->kind + own);
+    const bool alike = own >= 0 && eight_alike(p->material + own);
+    const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
+    lanes A = lanes_of(m->A), B = lanes_of(m->B), R[DIM_MAX * DIM_MAX];
+    for (int l = 0; l < LANES && !alike; l++) m = &b->state.modulus[p->material[row[l]]], A[l] = m->A, B[l] = m->B;
+    const lanes Q = lanes_load(b->state.weighted + g * LANES), zero = lanes_of(0);
+    const lanes inverse = lanes_choose(Q > 0.0, 1.0 / Q, zero), share = lanes_at(p->volume0, own, row) * inverse;
+    const lanes pressure = A * sum->extension * inverse * share, spring = B * share;
+    if (state_turns(model)) polar_rotation_lanes(sum->moment, R, dim);
+    if (whole) {
+        lanes_store(b->state.pressure + own, pressure);
+        lanes_store(b->state.spring + own, spring);
+        for (int c = 0; state_turns(model) && c < dim * dim; c++) lanes_store(b->state.turn[c] + own, spring * R[c]);
+        return;
+    }
+    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
+        const int32_t i = row[l];
+        if (p->kind[i] != KIND_PD) continue;
+        b->state.pressure[i] = pressure[l];
+        b->state.spring[i] = spring[l];
+        for (int c = 0; state_turns(model) && c < dim * dim; c++) b->state.turn[c][i] = spring[l] * R[c][l];
+    }
+}
+
 /* Rows of peridynamic particles of one group. */
 static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                       const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    lanes x[DIM_MAX], X[DIM_MAX], sum = lanes_of(0), moment[DIM_MAX * DIM_MAX];
+    lanes x[DIM_MAX], X[DIM_MAX];
+    struct family_sums sum;
+    sum.extension = lanes_of(0), sum.stretch = lanes_of(-1);
+    for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_of(0);
     for (int d = 0; d < dim; d++) {
         x[d] = lanes_at(p->x[d], own, row);
-        X[d] = state_turns(model) ? lanes_at(p->X[d], own, row) : x[d];
+        if (state_turns(model)) X[d] = lanes_at(p->X[d], own, row);
     }
-    for (int c = 0; c < dim * dim; c++) moment[c] = lanes_of(0);
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
-        struct state_bond s;
-        state_bond_make(&s, b, p, slot, x, X, dim, model);
-        sum += s.w * s.r * s.e;
-        if (state_turns(model))
-            for (int c = 0; c < dim * dim; c++) moment[c] += s.w * s.y[c / dim] * s.xi[c % dim];
-    }
-    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
-        const int32_t i = row[l];
-        if (p->kind[i] != KIND_PD) continue;
-        const struct state_modulus *m = &b->state.modulus[p->material[i]];
-        const real Q = b->state.weighted[g * LANES + l], share = Q > 0 ? p->volume0[i] / Q : 0;
-        b->state.pressure[i] = Q > 0 ? m->A * sum[l] / Q * share : 0;
-        b->state.spring[i] = m->B * share;
-        if (!state_turns(model)) continue;
-        real M[DIM_MAX * DIM_MAX];
-        for (int c = 0; c < dim * dim; c++) M[c] = moment[c][l];
-        turn_store(b, i, M, m->B * share, dim);
-    }
+#define VISIT(SLOT, KIND) know_slot(&sum, b, p, SLOT, KIND, x, X, dim, model)
+    FOR_SLOTS(b, g, slot, VISIT);
+#undef VISIT
+    b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
+    know_store(b, p, g, &sum, dim, model);
 }
 
 /* A material point has the mean strain that its stress tells, and the mean rotation of the particles it is bonded to. */
@@ -88,42 +137,60 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 
 /* ---- second sweep: forces -------------------------------------------------------------------------------- */
 
-/* Force of one group, mixed into what f holds by `share`; returns whether a bond may have passed its limit. */
-static ALWAYS_INLINE bool force_group(const struct bonds *b, struct particles *p, int64_t g, const real share,
+/* A group while its slots are visited. */
+struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], turn[DIM_MAX * DIM_MAX], pressure, spring; };
+
+/* Adds the forces of a slot, with e/|Y| = r (1/r - 1/|Y|) and, in the plane, g R = (a, -b; b, a). */
+static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
+                                     const enum slot_kind kind, const int dim, const enum pd_model model)
+{
+    const struct state *t = &b->state;
+    struct state_bond s;
+    slot_ask(b, slot, kind);
+    state_bond_make(&s, b, p, slot, kind, sum->x, sum->X, dim, model);
+    const lanes inverse = lanes_inverse_root(s.distance2), change = s.inverse_length - inverse;
+    const lanes w = slot_weight(b, slot, kind), wr = state_weight(b, slot, kind, w, s.inverse_length, false);
+    const lanes pressure = sum->pressure + slot_at(b, slot, kind, t->pressure);
+    const lanes spring = sum->spring + slot_at(b, slot, kind, t->spring);
+    if (!state_turns(model)) {
+        const lanes along = wr * (pressure * inverse + spring * change);
+        for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
+        return;
+    }
+    const lanes along = wr * pressure * inverse + w * spring;
+    lanes turned[DIM_MAX];
+    if (dim == 2) {
+        const lanes a = sum->turn[0] + slot_at(b, slot, kind, t->turn[0]), c = sum->turn[2] + slot_at(b, slot, kind, t->turn[2]);
+        turned[0] = a * s.xi[0] - c * s.xi[1];
+        turned[1] = c * s.xi[0] + a * s.xi[1];
+    } else
+        for (int d = 0; d < dim; d++) {
+            turned[d] = lanes_of(0);
+            for (int c = 0; c < dim; c++)
+                turned[d] += (sum->turn[d * dim + c] + slot_at(b, slot, kind, t->turn[d * dim + c])) * s.xi[c];
+        }
+    for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d] - w * turned[d];
+}
+
+/* Force of one group, mixed into what f holds by `share`. */
+static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p, int64_t g, const real share,
                                       const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
+    const int rows = b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
     const struct state *t = &b->state;
-    lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], turn[DIM_MAX * DIM_MAX], largest = lanes_of(-1);
-    const lanes pressure = lanes_at(t->pressure, own, row), spring = lanes_at(t->spring, own, row);
+    struct state_sums sum;
+    sum.pressure = lanes_at(t->pressure, own, row), sum.spring = lanes_at(t->spring, own, row);
     for (int d = 0; d < dim; d++) {
-        x[d] = lanes_at(p->x[d], own, row), f[d] = lanes_of(0);
-        X[d] = state_turns(model) ? lanes_at(p->X[d], own, row) : x[d];
+        sum.x[d] = lanes_at(p->x[d], own, row), sum.f[d] = lanes_of(0);
+        if (state_turns(model)) sum.X[d] = lanes_at(p->X[d], own, row);
     }
-    for (int c = 0; state_turns(model) && c < dim * dim; c++) turn[c] = lanes_at(t->turn[c], own, row);
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
-        const int32_t *nbr = b->nbr + slot * LANES, first = b->first[slot];
-        struct state_bond s;
-        state_bond_make(&s, b, p, slot, x, X, dim, model);
-        largest = lanes_max(largest, s.stretch);
-        lanes along = s.r * (pressure + lanes_at(t->pressure, first, nbr));
-        const lanes both = spring + lanes_at(t->spring, first, nbr);
-        if (!state_turns(model)) along += s.e * both;
-        along *= s.w * s.inverse;
-        for (int d = 0; d < dim; d++) f[d] += along * s.y[d];
-        if (!state_turns(model)) continue;
-        for (int d = 0; d < dim; d++) {
-            lanes effective = both * s.y[d];
-            for (int c = 0; c < dim; c++)
-                effective -= (turn[d * dim + c] + lanes_at(t->turn[d * dim + c], first, nbr)) * s.xi[c];
-            f[d] += s.w * effective;
-        }
-    }
-    for (int d = 0; d < dim; d++)
-        for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
-            p->f[d][row[l]] = share == 1 ? f[d][l] : share * f[d][l] + (1 - share) * p->f[d][row[l]];
-    return lanes_any(largest > lanes_load(b->trigger + g * LANES));
+    for (int c = 0; state_turns(model) && c < dim * dim; c++) sum.turn[c] = lanes_at(t->turn[c], own, row);
+#define VISIT(SLOT, KIND) force_slot(&sum, b, p, SLOT, KIND, dim, model)
+    FOR_SLOTS(b, g, slot, VISIT);
+#undef VISIT
+    for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d], share);
 }
 
 #define INSTANCE(D, M)                                                                                       \
@@ -142,7 +209,8 @@ static ALWAYS_INLINE bool force_group(const struct bonds *b, struct particles *p
         state_know_##D##d_##M(b, p);                                                                         \
         _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                                   \
         for (int64_t g = 0; g < b->groups; g++) {                                                            \
-            if (!force_group(b, p, g, 1, D, PD_##M)) continue;                                               \
+            force_group(b, p, g, 1, D, PD_##M);                                                              \
+            if (!b->state.past[g]) continue;                                                                 \
             int64_t here = bond_break_group(b, p, limit, g);                                                 \
             if (here > 0) force_group(b, p, g, 0.5, D, PD_##M);                                              \
             broken += here;                                                                                  \

@@ -18,6 +18,7 @@
 
 #include <math.h>
 
+#include "bond_slot.h"
 #include "kernels.h"
 #include "lanes.h"
 
@@ -26,31 +27,33 @@
 /* The bonds of a slot, as both sweeps see them. */
 struct state_bond {
     lanes y[DIM_MAX], xi[DIM_MAX];       /* now and before [m]; xi only where rotations matter */
-    lanes r, e, w, inverse;              /* length before, extension [m], weight [1], 1/|Y| [1/m] */
-    lanes stretch;
+    lanes distance2;                     /* |Y|^2 [m^2] */
+    lanes inverse_length;                /* 1/|xi|; of broken bonds maybe the negative [1/m] */
 };
 
 static ALWAYS_INLINE bool state_turns(const enum pd_model model) { return model == PD_MOSPD; }
 
 static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct bonds *b, const struct particles *p,
-                                          int64_t slot, const lanes *x, const lanes *X, const int dim,
-                                          const enum pd_model model)
+                                          int64_t slot, const enum slot_kind kind, const lanes *x, const lanes *X,
+                                          const int dim, const enum pd_model model)
 {
-    const int64_t q = slot * LANES;
-    const int32_t first = b->first[slot];
-    lanes distance2 = lanes_of(STATE_TINY);
+    s->distance2 = lanes_of(STATE_TINY);
     for (int d = 0; d < dim; d++) {
-        s->y[d] = lanes_at(p->x[d], first, b->nbr + q) - x[d];
-        distance2 += s->y[d] * s->y[d];
-        if (state_turns(model)) s->xi[d] = lanes_at(p->X[d], first, b->nbr + q) - X[d];
+        s->y[d] = slot_at(b, slot, kind, p->x[d]) - x[d];
+        s->distance2 += s->y[d] * s->y[d];
+        if (state_turns(model)) s->xi[d] = slot_at(b, slot, kind, p->X[d]) - X[d];
     }
-    const lanes inverse_length = lanes_load(b->inverse_length + q);
-    s->w = lanes_load_float(b->w + q);
-    s->r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);     /* |.|: broken bonds store a negative */
-    s->inverse = lanes_inverse_root(distance2);
-    s->stretch = distance2 * s->inverse * inverse_length - 1.0;
-    s->e = lanes_choose(s->w > 0.0, s->stretch * s->r, lanes_of(0));
-    s->r = lanes_choose(s->w > 0.0, s->r, lanes_of(0));
+    s->inverse_length = slot_inverse_length(b, slot, kind);
+}
+
+/* w |xi| or w |xi|^2: factors, of a lattice without the round-off of positions, which no difference magnifies [m], [m^2]. */
+static ALWAYS_INLINE lanes state_weight(const struct bonds *b, int64_t slot, const enum slot_kind kind, lanes w,
+                                        lanes inverse_length, const bool square)
+{
+    const struct bond_length *known = &b->lattice[b->common[slot].lattice];
+    if (kind) return w * (square ? known->square : known->length);
+    const lanes r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);
+    return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));
 }
 
 /* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side

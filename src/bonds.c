@@ -128,6 +128,7 @@ static void group_fill(struct bonds *b, struct group_room *room, int64_t g, int 
         bool consecutive = true;
         for (int l = 1; l < LANES; l++) consecutive = consecutive && b->nbr[q + l] == b->nbr[q] + l;
         b->first[b->slot[g] + k] = consecutive ? b->nbr[q] : -1;
+        bonds_share(b, b->slot[g] + k);
     }
 }
 
@@ -252,6 +253,7 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     b->nbr = NEW("bonds.nbr", b->slots * LANES, int32_t);
     b->inverse_length = NEW("bonds.inverse_length", b->slots * LANES, real);
     b->w = NEW("bonds.w", b->slots * LANES, float);
+    bonds_share_make(b, s->family.spacing);
     if (s->yield.stretch) {
         b->yield = s->yield;
         b->plastic_stretch = NEW("bonds.plastic_stretch", b->slots * LANES, real);
@@ -288,6 +290,8 @@ void bonds_free(struct bonds *b)
     memory_free(b->nbr);
     memory_free(b->inverse_length);
     memory_free(b->w);
+    memory_free(b->common);
+    memory_free(b->lattice);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
     memory_free(b->pair);
@@ -392,6 +396,7 @@ status bonds_archive(struct bonds *b, struct particles *p, struct archive *a)
     TRY(a->exchange(a, "bonds/w", b->w, (size_t)b->slots * LANES * sizeof *b->w));
     for (int64_t q = 0; q < b->slots * LANES; q++)
         if (b->w[q] == 0) b->inverse_length[q] = -fabs(b->inverse_length[q]);
+    bonds_share_all(b);
     if (b->plastic_stretch) {
         size_t stored = (size_t)b->slots * LANES * sizeof(real);
         TRY(a->exchange(a, "bonds/plastic_stretch", b->plastic_stretch, stored));

@@ -29,6 +29,9 @@ int family_search(const struct bond_source *s, const struct particles *p, int32_
 void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
               const struct pair_table *pairs, int32_t i, int room, bool weigh, bool fresh);
 
+/* Room for what slots have in common; bonds_share fills it. */
+void bonds_share_make(struct bonds *b, real spacing);
+
 /* What state-based models keep; after the rows and their `whole` (bonds_state.c). */
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
 void state_free(struct bonds *b);

@@ -33,6 +33,7 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
     b->state.modulus = s->modulus;
     b->state.local = s->local;
     b->state.weighted = NEW("state.weighted", b->groups * LANES, real);
+    b->state.past = NEW("state.past", b->groups, uint8_t);
     b->state.pressure = NEW("state.pressure", room, real);
     b->state.spring = NEW("state.spring", room, real);
     for (int c = 0; s->turns && c < p->dim * p->dim; c++) b->state.turn[c] = NEW("state.turn", room, real);
@@ -45,6 +46,7 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
 void state_free(struct bonds *b)
 {
     memory_free(b->state.weighted);
+    memory_free(b->state.past);
     memory_free(b->state.pressure);
     memory_free(b->state.spring);
     for (int c = 0; c < DIM_MAX * DIM_MAX; c++) memory_free(b->state.turn[c]);

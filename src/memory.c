@@ -11,8 +11,8 @@
 #endif
 
 /* A cache line and the widest vector [byte]; the pieces in which pages are touched; a page, a large one, and the arrays that
- * lie on such: no more than an eighth of them is lost. */
-enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 16 << 20 };
+ * lie on such. */
+enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 4 << 20 };
 
 #ifdef __GLIBC__
 /* From this size on an array has pages of its own, given back when it is freed: pages used before would lie where

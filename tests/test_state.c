@@ -208,6 +208,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             const real *X = b->c.p.X[0], *Y = b->c.p.X[1], line = 4.5 * CLOUD_SPACING;
             if (b->c.bonds.w[q] == 0 || (X[i] < line) == (X[j] < line) || Y[i] + Y[j] > 8 * CLOUD_SPACING) continue;
             b->c.bonds.w[q] = 0, b->c.bonds.inverse_length[q] *= -1;
+            bonds_share(&b->c.bonds, q / LANES);
         }
     state_weigh(&b->c.bonds, &b->c.p, &b->c.source.family);
     uint64_t seed = 17;

@@ -1,0 +1,58 @@
+/* floor 1: what the eight bonds of a slot have in common, so that the hot loops need not read it eight times. */
+#include <math.h>
+#include <string.h>
+
+#include "bonds_parts.h"
+#include "memory.h"
+
+/* Numbers of one sign are ordered as their bits are: neighbours differ by 1. */
+static int64_t bits_of(real a)
+{
+    int64_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    return bits;
+}
+
+void bonds_share_make(struct bonds *b, real spacing)
+{
+    b->lattice = NEW("bonds.lattice", BOND_LATTICE, struct bond_length);
+    for (int k = 1; k < BOND_LATTICE; k++) b->lattice[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
+    b->common = NEW("bonds.common", b->slots, struct bond_slot);
+}
+
+/* Which of the lattice's lengths the bonds of a slot have, up to the round-off of positions that `excess` takes; 0: none. */
+static int lattice_of(struct bonds *b, int64_t slot)
+{
+    const real *inverse = b->inverse_length + slot * LANES;
+    int lattice = 0;
+    for (int l = 0; l < LANES; l++) {
+        if (inverse[l] == 0) continue;
+        const real squares = square(b->lattice[1].inverse / inverse[l]);
+        if (lattice == 0 && squares < BOND_LATTICE - 0.5) lattice = (int)(squares + 0.5);
+        const int64_t excess = lattice ? bits_of(fabs(inverse[l])) - bits_of(b->lattice[lattice].inverse) : INT64_MAX;
+        if (excess < INT16_MIN || excess > INT16_MAX) return 0;
+        b->common[slot].excess[l] = (int16_t)excess;
+    }
+    return lattice;
+}
+
+void bonds_share(struct bonds *b, int64_t slot)
+{
+    const float *w = b->w + slot * LANES;
+    struct bond_slot *c = &b->common[slot];
+    *c = (struct bond_slot){.first = b->first[slot]};
+    if (c->first >= 0) c->lattice = (uint8_t)lattice_of(b, slot);
+    c->alike = c->lattice != 0;
+    for (int l = 0; l < LANES; l++) {
+        if (w[l] == 0) continue;
+        if (c->intact != 0 && w[l] != c->w) c->alike = 0;
+        c->w = w[l];
+        c->intact |= (uint8_t)(1 << l);
+    }
+}
+
+void bonds_share_all(struct bonds *b)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t slot = 0; slot < b->slots; slot++) bonds_share(b, slot);
+}
