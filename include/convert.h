@@ -22,6 +22,9 @@ struct conversion_rule {
     real stress;                         /* sigma_max [Pa]; NAN: E s_c                                */
     real alpha;                          /* share of it that triggers                                 */
     bool block;                          /* the triggered particle takes its horizon neighbours along */
+    bool back;                           /* particles return to material points (return.h)            */
+    real dwell;                          /* after a stress that was low for so long [horizon/c]       */
+    real calm;                           /* low: share of the stress that converts                    */
 };
 
 /* Has anything asked for conversion in this step? */
@@ -33,6 +36,9 @@ struct conversion {
     real first_place[DIM_MAX];           /* reference position of the first triggered particle [m]    */
     int64_t start, converted, events;    /* peridynamic particles at t = 0; converted since; passes   */
     int64_t peak_bonds;                  /* directed bonds stored, most at any time                   */
+    int64_t peak;                        /* peridynamic particles, most at any time                   */
+    int64_t returned, returns;           /* particles that became material points again; passes       */
+    real return_energy;                  /* all energy less that before, of these passes [J]          */
 };
 
 /* Who must bring particles up to date whose motion is kept elsewhere (mesh.h), before bonds are made between them. */

@@ -159,7 +159,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     }
 }
 
-/* A row that held its whole family before is the same row now. */
+/* A row that held its whole family before is the same row now, if its particle is still peridynamic. */
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
     int64_t group = old_row / LANES;
@@ -182,7 +182,7 @@ void row_make(struct row *row, const struct bonds *old, const struct bond_source
               const struct pair_table *pairs, int32_t i, int room, bool weigh)
 {
     int64_t before = old ? old->row_of[i] : -1;
-    if (before >= 0 && old->whole[before]) {
+    if (before >= 0 && old->whole[before] && p->kind[i] == KIND_PD) {
         row_copy(row, old, before);
         return;
     }
