@@ -21,9 +21,9 @@ struct return_rule {
  * So what stays is made of whole families, as conversion makes them, and what returns is no thinner. */
 int64_t return_choose(const struct return_rule *rule, struct particles *p, const struct bonds *b, real t, int32_t **list);
 
-/* The listed particles become material points: stress from the bond virial, volume from det F of the family, velocity
- * gradient 0; places and velocities stay. Stress of a family that a surface cuts short is that of a full one under the
- * same strain, so that it does not depend on who is missing. Rows of bonds are made anew, and partial stresses (NULL:
+/* The listed particles become material points: stress from the bonds that cross their cells (state-based models:
+ * the virial of the family), volume from det F of the family, velocity gradient 0; places and velocities stay. Where a surface
+ * leaves bonds out, stress is that of full families under the same strain. Rows of bonds are made anew, and partial stresses (NULL:
  * none) round them. */
 void return_points(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
                    struct partial_stress *partial, const int32_t *list, int64_t n);

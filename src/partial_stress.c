@@ -12,11 +12,11 @@
 
 #include "convert.h"
 #include "memory.h"
+#include "partial_parts.h"
 
 /* ---- geometry ---------------------------------------------------------------------------------------- */
 
-/* Share of the segment a-b inside the cube of half edge `half` round X. */
-static real segment_share(const real *a, const real *b, const real *X, real half, int dim)
+real segment_share(const real *a, const real *b, const real *X, real half, int dim)
 {
     real in = 0, out = 1;
     for (int d = 0; d < dim; d++) {
@@ -32,10 +32,7 @@ static real segment_share(const real *a, const real *b, const real *X, real half
     return out > in ? out - in : 0;
 }
 
-/* Position of the mirror chain's image of a point: X'_d = sign_d X_d + offset_d. */
-struct reflection { real sign[DIM_MAX], offset[DIM_MAX]; int64_t root; };
-
-static struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
+struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     struct reflection r = {.sign = {1, 1, 1}, .root = i};
     while (r.root >= p->n) {                     /* X of this image = reflection of X of its source along one axis */
@@ -139,13 +136,12 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     }
 }
 
-static real half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
+real half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
 {
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* Particles that may end a bond through the cell of point i: writes at most `room`, returns how many there are. */
-static int ends_near(const struct particles *p, const struct bond_source *s, int64_t i, int32_t *found, int room)
+int ends_near(const struct particles *p, const struct bond_source *s, int64_t i, int32_t *found, int room)
 {
     real X[DIM_MAX];
     particle_place(p, i, X);

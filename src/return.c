@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "memory.h"
+#include "partial_parts.h"
 #include "stress.h"
 
 #define CUT_HORIZONS 2                   /* how far from a cut bond particles stay peridynamic */
@@ -148,8 +149,6 @@ int64_t return_choose(const struct return_rule *rule, struct particles *p, const
 
 /* ---- what they know then ----------------------------------------------------------------------------- */
 
-enum { UNKNOWNS_MAX = SYM_MAX };
-
 /* Solves A x = b for n unknowns and `columns` right sides in place of b (row major, `columns` to a row), by elimination
  * with pivots. False if A is singular: a family without enough directions. */
 static bool solve(real *A, real *b, int n, int columns)
@@ -174,15 +173,14 @@ static bool solve(real *A, real *b, int n, int columns)
     return true;
 }
 
-/* Sums over the intact bonds of a row: K = sum w xi xi, G = sum w xi y (transposed: K F^T = G), and T = (1/2V) sum k r e e e e, what
- * the family's virial answers to a strain (components as in base.h; shear strains count twice). */
-static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G, real *T)
+/* Sums over the intact bonds of a row, for F of its family: K = sum w e e, G = sum w e y/r, K F^T = G. */
+static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
-    const int dim = p->dim, n = symmetric_count(dim);
+    const int dim = p->dim;
     for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        real e[DIM_MAX], y[DIM_MAX], pair[SYM_MAX];
+        real e[DIM_MAX], y[DIM_MAX];
         if (b->w[q] == 0) continue;
         for (int d = 0; d < dim; d++) {
             e[d] = (p->X[d][b->nbr[q]] - p->X[d][i]) * b->inverse_length[q];
@@ -190,15 +188,63 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
         }
         for (int a = 0; a < dim; a++)
             for (int c = 0; c < dim; c++) K[a * dim + c] += b->w[q] * e[a] * e[c], G[a * dim + c] += b->w[q] * e[a] * y[c];
-        for (int s = 0; s < n; s++) {
-            int a, c;
-            symmetric_axes(dim, s, &a, &c);
-            pair[s] = e[a] * e[c];
-        }
-        const real stiff = b->stiffness * b->w[q] / b->inverse_length[q] / (2 * p->volume0[i]);
-        for (int s = 0; s < n; s++)
-            for (int t = 0; t < n; t++) T[s * n + t] += stiff * pair[s] * pair[t] * (t < dim ? 1 : 2);
     }
+}
+
+/* What bonds that cross the cell of a particle carry there, and what that answers to a uniform strain. */
+struct crossing { real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half; };
+
+/* Adds half of bond q (its other end adds the other half), from particle or image j on. */
+static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p, const struct reflection *r,
+                         int64_t j, int64_t q)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real from[DIM_MAX], end[DIM_MAX], y[DIM_MAX], e[DIM_MAX], length2 = 0;
+    for (int d = 0; d < dim; d++) from[d] = p->X[d][j], end[d] = r->sign[d] * p->X[d][b->nbr[q]] + r->offset[d];
+    const real share = 0.5 * segment_share(from, end, to->X, to->half, dim);
+    if (share == 0) return;
+    for (int d = 0; d < dim; d++) {
+        e[d] = (end[d] - from[d]) * b->inverse_length[q];
+        y[d] = r->sign[d] * p->x[d][b->nbr[q]] + r->offset[d] - p->x[d][j];
+        length2 += square(y[d]);
+    }
+    const real stiff = share * b->stiffness * b->w[q];
+    const real force = stiff * (sqrt(length2) * b->inverse_length[q] - 1) / sqrt(length2);
+    for (int s = 0; s < n; s++) {
+        int a, c;
+        symmetric_axes(dim, s, &a, &c);
+        to->stress[s] += force * y[a] * y[c];
+        for (int t = 0; t < n; t++) {
+            int k, l;
+            symmetric_axes(dim, t, &k, &l);
+            to->T[s * n + t] += stiff / b->inverse_length[q] * e[a] * e[c] * e[k] * e[l] * (t < dim ? 1 : 2);
+        }
+    }
+}
+
+/* sigma = (1/V) sum l F (x) y and T = (1/V) sum k r l e e e e over all bonds that cross the cell of particle i, l the share of the
+ * reference segment inside it (as in partial_stress.c): what flows through it. The virial of its own family is the same
+ * under uniform strain, but smears a wave twice as far. */
+static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b, const struct bond_source *source,
+                        int64_t i, struct search *s)
+{
+    int n;
+    *to = (struct crossing){.half = half_edge(p, source, i)};
+    particle_place(p, i, to->X);
+    while ((n = ends_near(p, source, i, s->found, s->room)) > s->room) {
+        s->found = memory_resize("return.found", s->found, s->room, 2 * n, sizeof *s->found);
+        s->room = 2 * n;
+    }
+    for (int k = 0; k < n; k++) {
+        const int64_t j = s->found[k];
+        const struct reflection r = reflection_of(source, p, j);
+        const int64_t row = b->row_of[r.root];
+        if (row < 0 || p->body[j] != p->body[i]) continue;
+        for (int64_t q = b->slot[row / LANES]; q < b->slot[row / LANES + 1]; q++)
+            if (b->w[q * LANES + row % LANES] != 0) crossing_add(to, b, p, &r, j, q * LANES + row % LANES);
+    }
+    for (int c = 0; c < SYM_MAX; c++) to->stress[c] /= p->volume0[i];
+    for (int c = 0; c < SYM_MAX * SYM_MAX; c++) to->T[c] /= p->volume0[i];
 }
 
 static real determinant(const real *F, int dim)
@@ -208,7 +254,7 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* The virial of a full family under the strain that this one's virial shows. */
+/* The stress of full families under the strain that these bonds show. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_count(dim);
@@ -220,16 +266,28 @@ static void complete(const struct bond_source *source, const struct particles *p
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
 
-static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i)
+/* State-based models have no force of a bond alone: the virial of the family serves. */
+static void stress_of(real *stress, const struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
+                      struct search *s)
+{
+    struct crossing c;
+    for (int k = 0; k < symmetric_count(p->dim); k++) stress[k] = p->stress[k][i];
+    if (source->modulus) return;
+    crossing_of(&c, p, b, source, i, s);
+    complete(source, p, i, c.T, c.stress);
+    memcpy(stress, c.stress, sizeof c.stress);
+}
+
+static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
+                              struct search *s)
 {
     const int dim = p->dim, n = symmetric_count(dim);
-    real K[DIM_MAX * DIM_MAX] = {0}, G[DIM_MAX * DIM_MAX] = {0}, T[SYM_MAX * SYM_MAX] = {0}, stress[SYM_MAX], J = 1;
-    family_moments(b, p, b->row_of[i], K, G, T);
+    real K[DIM_MAX * DIM_MAX] = {0}, G[DIM_MAX * DIM_MAX] = {0}, stress[SYM_MAX], J = 1;
+    family_moments(b, p, b->row_of[i], K, G);
     const bool known = solve(K, G, dim, dim);
     if (known) J = determinant(G, dim);
-    for (int s = 0; s < n; s++) stress[s] = p->stress[s][i];
-    if (!source->modulus) complete(source, p, i, T, stress);
-    for (int s = 0; s < n; s++) p->stress[s][i] = stress[s] / J;
+    stress_of(stress, p, b, source, i, s);
+    for (int c = 0; c < n; c++) p->stress[c][i] = stress[c] / J;
     p->volume[i] = p->volume0[i] * J;
     for (int c = 0; c < dim * dim && p->gradient[c]; c++) p->gradient[c][i] = 0;
     for (int d = 0; d < dim && p->stretch[d]; d++) p->stretch[d][i] = known ? G[d * dim + d] : 1;
@@ -252,8 +310,14 @@ static void rebuild(struct particles *p, struct bonds *b, const struct bond_sour
 void return_points(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
                    struct partial_stress *partial, const int32_t *list, int64_t n)
 {
-#pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < n; k++) point_from_family(p, b, source, list[k]);
+#pragma omp parallel
+    {
+        struct search s = {.p = p, .source = source};
+        search_begin(&s);
+#pragma omp for schedule(dynamic, 8)
+        for (int64_t k = 0; k < n; k++) point_from_family(p, b, source, list[k], &s);
+        memory_free(s.found);
+    }
     for (int64_t k = 0; k < n; k++) {
         p->kind[list[k]] = KIND_MPM;
         p->quiet[list[k]] = INFINITY;
