@@ -1,6 +1,6 @@
 /* floor 5: `cleave bench efficiency`: full peridynamics against the adaptive run, same spacing, same time step, beside
  * Table 1 of Zeng et al. 2022, of bonds: t_r = 1 - t_adaptive / t_PD; and of state-based models, whose bonds cost more.
- * Both methods take turns; medians of the loop's time. */
+ * Levers are what an adaptive run may save by. All ways take turns; medians of the loop's time. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,8 +38,13 @@ static const struct scene_case cases[] = {
     {KALTHOFF, "ospd", NO_PAPER},    {KALTHOFF, "mospd", NO_PAPER},
     {KALTHOFF_3D, "ospd", NO_PAPER}, {KALTHOFF_3D, "mospd", NO_PAPER},
 };
-enum { CASES = COUNT_OF(cases), REPETITIONS = 3, SAMPLES = 100, WAYS = 2 };
-static const char *const way_name[WAYS] = {"pd", "adaptive"};
+
+/* Full peridynamics first, then adaptive runs by what they may save with. */
+struct way {
+    const char *method, *levers, *frame;
+};
+static const struct way ways[] = {{"pd", "-", "current"}, {"adaptive", "none", "current"}, {"adaptive", "frame", "reference"}};
+enum { CASES = COUNT_OF(cases), REPETITIONS = 3, SAMPLES = 100, WAYS = COUNT_OF(ways), SHOWN = 2 /* whose shares are drawn */ };
 
 /* One run of one method. Figures of the fracture are the same in every repetition. */
 struct run {
@@ -55,8 +60,9 @@ struct result {
     int64_t particles, steps;
     double dt;
     struct run run[WAYS];
-    double t[WAYS], t_r, tip_distance, angle_difference, start_difference; /* [s] [s] [1] [m] [degree] [s] */
-    double angle[WAYS];                                                    /* of the longest crack [degree] */
+    double t[WAYS], t_r[WAYS];                                                    /* [s] [1] */
+    double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS];    /* [m] [degree] [s] */
+    double angle[WAYS];                                                           /* of the longest crack [degree] */
 };
 
 struct efficiency {
@@ -71,9 +77,11 @@ static bool of_bonds(const struct result *x) { return strcmp(x->scene->model, "b
 static status make(struct engine *e, struct scene *s, const struct result *x, int way)
 {
     char step[32];
-    struct scene_override override[5] = {
-        {"method", way_name[way]}, {"output.samples", "1"}, {"model", x->scene->model}};
-    int n = 3;
+    struct scene_override override[6] = {{"method", ways[way].method},
+                                         {"output.samples", "1"},
+                                         {"model", x->scene->model},
+                                         {"mpm.frame", ways[way].frame}};
+    int n = 4;
     snprintf(step, sizeof step, "%.17g", x->dt);
     if (!of_bonds(x)) override[n++] = (struct scene_override){"pd.surface", "none"};
     if (x->dt > 0) override[n++] = (struct scene_override){"time.step", step};
@@ -168,19 +176,19 @@ static const struct tip *partner(const struct run *other, const struct tip *tip)
     return best;
 }
 
-/* The longest crack of full peridynamics and its partner of the adaptive run. */
-static void compare_tips(struct result *x, int dim)
+/* The longest crack of full peridynamics and its partner of an adaptive run. */
+static void compare_tips(struct result *x, int way, int dim)
 {
-    const struct run *pd = &x->run[0], *adaptive = &x->run[1];
-    x->tip_distance = x->angle_difference = x->angle[0] = x->angle[1] = NAN;
-    x->start_difference = adaptive->start - pd->start;
+    const struct run *pd = &x->run[0], *adaptive = &x->run[way];
+    x->tip_distance[way] = x->angle_difference[way] = x->angle[0] = x->angle[way] = NAN;
+    x->start_difference[way] = adaptive->start - pd->start;
     if (pd->longest < 0) return;
     const struct tip *a = &pd->tip[pd->longest], *b = partner(adaptive, a);
     x->angle[0] = tip_angle(a, dim);
     if (!b) return;
-    x->angle[1] = tip_angle(b, dim);
-    x->tip_distance = distance(a->place, b->place);
-    x->angle_difference = fabs(x->angle[0] - x->angle[1]);
+    x->angle[way] = tip_angle(b, dim);
+    x->tip_distance[way] = distance(a->place, b->place);
+    x->angle_difference[way] = fabs(x->angle[0] - x->angle[way]);
 }
 
 static status scene_measure(struct result *x, int repetitions)
@@ -193,8 +201,10 @@ static status scene_measure(struct result *x, int repetitions)
     for (int r = 0; r < repetitions; r++)
         for (int k = 0; k < WAYS; k++) TRY(run_once(x, (r + k) % WAYS, r)); /* none is always first */
     for (int way = 0; way < WAYS; way++) x->t[way] = median(x->run[way].seconds, repetitions);
-    x->t_r = 1 - x->t[1] / x->t[0];
-    compare_tips(x, dim);
+    for (int way = 1; way < WAYS; way++) {
+        x->t_r[way] = 1 - x->t[way] / x->t[0];
+        compare_tips(x, way, dim);
+    }
     return OK;
 }
 
@@ -204,18 +214,19 @@ static void print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
-    printf("  %-20s %-6s %9s %6s %10s %10s %7s %7s %8s %15s %17s %14s\n", "", "model", "particles", "steps", "t_PD [s]",
-           "t_ad [s]", "t_r", "paper", "tips", "angles", "starts", "PD share");
+    printf("  %-20s %-6s %-6s %9s %6s %10s %10s %7s %7s %8s %15s %17s %14s\n", "", "model", "levers", "particles", "steps",
+           "t_PD [s]", "t_ad [s]", "t_r", "paper", "tips", "angles", "starts", "PD share");
 }
 
-static void print_result(const struct result *x)
+static void print_way(const struct result *x, int way)
 {
     char paper[16] = "-";
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
-    printf("  %-20s %-6s %9lld %6lld %10.4f %10.4f %7.3f %7s %5.2f mm", x->scene->name, x->scene->model,
-           (long long)x->particles, (long long)x->steps, x->t[0], x->t[1], x->t_r, paper, 1e3 * x->tip_distance);
-    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[1], 1e6 * x->run[0].start,
-           1e6 * x->run[1].start, 100 * x->run[1].share[0], 100 * x->run[1].share[SAMPLES]);
+    printf("  %-20s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %7s %5.2f mm", x->scene->name, x->scene->model,
+           ways[way].levers, (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way], paper,
+           1e3 * x->tip_distance[way]);
+    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[way], 1e6 * x->run[0].start,
+           1e6 * x->run[way].start, 100 * x->run[way].share[0], 100 * x->run[way].share[SAMPLES]);
     fflush(stdout);
 }
 
@@ -235,34 +246,41 @@ static void print_marks(const struct efficiency *all)
         for (int m = 0; m < all->result[k].scene->marks; m++) {
             const struct mark *a = &all->result[k].scene->mark[m];
             printf("    %-20s at %4.0f us  %5.2f %%   paper %4.1f %%\n", all->result[k].scene->name, 1e6 * a->time,
-                   100 * share_at(&all->result[k].run[1], a->time), 100 * a->share);
+                   100 * share_at(&all->result[k].run[SHOWN], a->time), 100 * a->share);
         }
     printf("  t_r below 0: the adaptive run took longer than full peridynamics\n");
+}
+
+/* Rows of one adaptive run in the tables of figures, shares and runs. */
+static void add_way(struct bench_table *table, const struct result *x, int way)
+{
+    const double main[] = {x->t[way],           x->t[0], x->t_r[way], x->tip_distance[way], x->angle_difference[way],
+                           x->start_difference[way]};
+    const double run[] = {(double)x->particles, (double)x->steps,  x->dt,       x->scene->paper_t_r,
+                          x->run[0].start,      x->run[way].start, x->angle[0], x->angle[way]};
+    bench_text(&table[0], x->scene->name), bench_text(&table[0], x->scene->model);
+    for (size_t c = 0; c < COUNT_OF(main); c++) bench_number(&table[0], main[c]);
+    bench_text(&table[0], ways[way].levers);
+    bench_text(&table[2], x->scene->name), bench_text(&table[2], x->scene->model), bench_text(&table[2], ways[way].levers);
+    for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[2], run[c]);
+    for (int k = 0; k <= SAMPLES; k++) {
+        bench_text(&table[1], x->scene->name), bench_text(&table[1], x->scene->model);
+        bench_text(&table[1], ways[way].levers);
+        bench_number(&table[1], x->run[way].time[k]), bench_number(&table[1], x->run[way].share[k]);
+    }
 }
 
 static status write_tables(const struct efficiency *all)
 {
     struct bench_table table[3];
     bench_table_make(&table[0], "",
-                     "scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference");
-    bench_table_make(&table[1], "share", "scene,model,time,pd_share");
+                     "scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference,levers");
+    bench_table_make(&table[1], "share", "scene,model,levers,time,pd_share");
     bench_table_make(&table[2], "runs",
-                     "scene,model,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,"
+                     "scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,"
                      "angle_adaptive_deg");
-    for (int k = 0; k < all->n; k++) {
-        const struct result *x = &all->result[k];
-        const double main[] = {x->t[1], x->t[0], x->t_r, x->tip_distance, x->angle_difference, x->start_difference};
-        const double run[] = {(double)x->particles, (double)x->steps, x->dt, x->scene->paper_t_r,
-                              x->run[0].start,      x->run[1].start,   x->angle[0], x->angle[1]};
-        bench_text(&table[0], x->scene->name), bench_text(&table[0], x->scene->model);
-        for (size_t c = 0; c < COUNT_OF(main); c++) bench_number(&table[0], main[c]);
-        bench_text(&table[2], x->scene->name), bench_text(&table[2], x->scene->model);
-        for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[2], run[c]);
-        for (int s = 0; s <= SAMPLES; s++) {
-            bench_text(&table[1], x->scene->name), bench_text(&table[1], x->scene->model);
-            bench_number(&table[1], x->run[1].time[s]), bench_number(&table[1], x->run[1].share[s]);
-        }
-    }
+    for (int k = 0; k < all->n; k++)
+        for (int way = 1; way < WAYS; way++) add_way(table, &all->result[k], way);
     status s = bench_write("efficiency", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s;
@@ -270,34 +288,38 @@ static status write_tables(const struct efficiency *all)
 
 /* ---- picture ------------------------------------------------------------------------------------------------- */
 
+/* Bars as wide as a shelf: losses far below -1 would hide the rest. */
+#define T_R_LEAST -1.0
+
 static void draw_bars(FILE *to, const struct efficiency *all)
 {
-    bool below = false; /* a loss: its figure stands under the bar */
-    for (int k = 0; k < all->n; k++) below |= all->result[k].t_r < 0;
     fputs("$bars << EOD\n", to);
     for (int k = 0; k < all->n; k++) {
         const struct result *x = &all->result[k];
-        fprintf(to, "\"%s\\n%s\" %.6g ", x->scene->name, x->scene->model, x->t_r);
-        if (isfinite(x->scene->paper_t_r))
-            fprintf(to, "%.6g\n", x->scene->paper_t_r);
-        else
-            fputs("NaN\n", to);
+        fprintf(to, "\"%s\\n%s\"", x->scene->name, x->scene->model);
+        for (int way = 1; way < WAYS; way++) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
+        if (isfinite(x->scene->paper_t_r)) fprintf(to, " %.6g\n", x->scene->paper_t_r);
+        else fputs(" NaN\n", to);
     }
     fprintf(to,
             "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.58\nset tmargin at "
             "screen 0.93\n"
-            "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step'\n"
-            "set style data histograms\nset style histogram clustered gap 1.5\nset style fill solid 0.85\nset boxwidth "
+            "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step (bars end at "
+            "-1)'\n"
+            "set style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\nset boxwidth "
             "0.9\n"
             "set xtics scale 0 font ',8'\n"
-            "set ylabel 't_r'\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at screen 0.97,0.525 "
+            "set ylabel 't_r'\nset yrange [-1.25:1]\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at screen 0.97,0.525 "
             "right center horizontal maxrows 1\n"
-            "set offsets 0, 0, graph 0.12, graph 0.12\n"
-            "plot $bars using 2:xtic(1) lc rgb '%s' title 'here', '' using 3 lc rgb '%s' title 'Zeng et al. 2022, "
-            "table 1', "
-            "'' using ($0-0.14):2:(sprintf('%%.2f', $2)) with labels offset 0, %s notitle, "
-            "'' using ($0+0.14):3:(sprintf('%%.2f', $3)) with labels offset 0, 0.7 notitle\n",
-            curve_colour[0], curve_colour[4], below ? "-0.8" : "0.7");
+            "plot ");
+    for (int way = 1; way < WAYS; way++)
+        fprintf(to,
+                "$bars using %d%s lc rgb '%s' title '%s frame', '' using ($0%+.2f):%d:(sprintf('%%.2f', $%d)) with labels "
+                "font ',7' offset 0, 0.6 notitle, ",
+                2 * way, way == 1 ? ":xtic(1)" : "", curve_colour[way == 1 ? 2 : 0], ways[way].frame,
+                ((double)way - 0.5 * WAYS) / WAYS, 2 * way, 2 * way + 1);
+    fprintf(to, "'' using %d lc rgb '%s' title 'Zeng et al. 2022, table 1'\n", 2 * WAYS, curve_colour[4]);
+    fputs("set yrange [*:*]\n", to);
 }
 
 /* Bonds come first, and the paper has only those: one picture of shares for each of their scenes. */
@@ -314,7 +336,7 @@ static void draw_share(FILE *to, const struct efficiency *all, int panel)
     const double width = 0.88 / panels(all), left = 0.09 + panel * width;
     const int marks = x->scene->marks;
     fprintf(to, "$share%d << EOD\n", panel);
-    for (int k = 0; k <= SAMPLES; k++) fprintf(to, "%.6g %.6g\n", 1e6 * x->run[1].time[k], 100 * x->run[1].share[k]);
+    for (int k = 0; k <= SAMPLES; k++) fprintf(to, "%.6g %.6g\n", 1e6 * x->run[SHOWN].time[k], 100 * x->run[SHOWN].share[k]);
     fprintf(to, "EOD\n$mark%d << EOD\n", panel);
     for (int k = 0; k < marks; k++)
         fprintf(to, "%.6g %.6g\n", 1e6 * x->scene->mark[k].time, 100 * x->scene->mark[k].share);
@@ -352,7 +374,7 @@ static status measure_all(struct efficiency *all, bool quick)
         struct result *x = &all->result[all->n];
         x->scene = &cases[k];
         TRY(scene_measure(x, repetitions));
-        print_result(x);
+        for (int way = 1; way < WAYS; way++) print_way(x, way);
         all->n++;
     }
     if (all->n == 0)

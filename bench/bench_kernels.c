@@ -21,12 +21,16 @@ enum job_kind {
     GRID_CLEAR,
     GRID_MOVE,
     GRID_REMAPPED,
+    MESH_CLEAR,
+    MESH_FORCE,
+    MESH_MOVE,
     JOB_KINDS
 };
 
 static const char *const job_name[JOB_KINDS] = {"bond_force", "bond_energy", "bond_stress",  "pd_move",
                                                 "p2g",        "remap",       "g2p",          "spread",
-                                                "grid_clear", "grid_move",   "grid_remapped"};
+                                                "grid_clear", "grid_move",   "grid_remapped",
+                                                "mesh_clear", "mesh_force",  "mesh_move"};
 
 /* One instance to be timed. */
 struct job {
@@ -35,6 +39,7 @@ struct job {
     enum pd_model model;
     enum shape shape;
     enum transfer transfer;
+    bool finite;         /* strain of a mesh                         */
     const char *variant;
     double seconds;      /* of the fastest call                     */
     double bytes, limit; /* moved a particle; least time it would take a particle [s] */
@@ -45,7 +50,8 @@ struct job {
         {BOND_STRESS, D, .model = PD_##M, .variant = #M},
 #define DIM_JOBS(D)                                                                                                    \
     {PD_MOVE, D, .variant = "-"}, {GRID_CLEAR, D, .variant = "-"}, {GRID_MOVE, D, .variant = "-"},                     \
-        {GRID_REMAPPED, D, .variant = "-"},
+        {GRID_REMAPPED, D, .variant = "-"}, {MESH_CLEAR, D, .variant = "-"}, {MESH_MOVE, D, .variant = "-"},               \
+        {MESH_FORCE, D, .variant = "SMALL"}, {MESH_FORCE, D, .variant = "FINITE", .finite = true},
 #define SHAPE_JOBS(D, S)                                                                                               \
     {REMAP, D, .shape = SHAPE_##S, .variant = #S " FLIP"}, {SPREAD, D, .shape = SHAPE_##S, .variant = #S},
 #define TRANSFER_JOB(D, S, T)                                                                                          \
@@ -59,8 +65,8 @@ enum { JOBS = COUNT_OF(all_jobs) };
 
 /* What is timed on: for each dimension a peridynamic body, and one of material points. */
 struct ground {
-    struct scene scene[3];
-    struct engine engine[3]; /* [0] bonds, [1] points, [2] bonds of state-based particles (not in 1D) */
+    struct scene scene[4];
+    struct engine engine[4]; /* [0] bonds, [1] points, [2] bonds of state-based particles (not in 1D), [3] a mesh */
     int32_t *list;
     real *value, *field; /* of spread */
 };
@@ -79,7 +85,7 @@ struct bench {
 /* ---- ground -------------------------------------------------------------------------------------------- */
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
-static status body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model)
+static status body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model, const char *mpm)
 {
     static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
                                                    "solid"};
@@ -91,9 +97,9 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
         text, sizeof text,
         "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmodel: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800%s}\n"
         "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
-        "mpm: {shape: cpgimp, transfer: apic}\noutput: {samples: 1, frames: 0}\n",
+        "mpm: {%s}\noutput: {samples: 1, frames: 0}\n",
         space[dim], method, model, poisson[dim],
-        strcmp(method, "pd") || strcmp(model, "bond") ? "" : ", yield_stress: 1 GPa", corner[dim], size[dim]);
+        strcmp(method, "pd") || strcmp(model, "bond") ? "" : ", yield_stress: 1 GPa", corner[dim], size[dim], mpm);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < e->part.n; i++) {
@@ -105,9 +111,11 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
 
 static status ground_make(struct ground *g, int dim)
 {
-    TRY(body_make(&g->engine[0], &g->scene[0], dim, "pd", "bond"));
-    TRY(body_make(&g->engine[1], &g->scene[1], dim, "mpm", "bond"));
-    if (dim > 1) TRY(body_make(&g->engine[2], &g->scene[2], dim, "pd", "mospd"));
+    static const char points_of[] = "shape: cpgimp, transfer: apic", mesh[] = "frame: reference";
+    TRY(body_make(&g->engine[0], &g->scene[0], dim, "pd", "bond", points_of));
+    TRY(body_make(&g->engine[1], &g->scene[1], dim, "mpm", "bond", points_of));
+    if (dim > 1) TRY(body_make(&g->engine[2], &g->scene[2], dim, "pd", "mospd", points_of));
+    TRY(body_make(&g->engine[3], &g->scene[3], dim, "mpm", "bond", mesh));
     struct engine *points = &g->engine[1];
     points->transfer.dt = points->transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
     g->list = NEW("bench.list", points->part.n, int32_t);
@@ -119,7 +127,7 @@ static status ground_make(struct ground *g, int dim)
 
 static void ground_free(struct ground *g)
 {
-    for (int k = 0; k < 3; k++) bench_engine_free(&g->engine[k], &g->scene[k]);
+    for (int k = 0; k < 4; k++) bench_engine_free(&g->engine[k], &g->scene[k]);
     memory_free(g->list);
     memory_free(g->value);
     memory_free(g->field);
@@ -129,7 +137,7 @@ static void ground_free(struct ground *g)
 
 static void job_call(const struct job *j, struct ground *g)
 {
-    struct engine *pd = &g->engine[j->model >= PD_OSPD ? 2 : 0], *e = &g->engine[1];
+    struct engine *pd = &g->engine[j->model >= PD_OSPD ? 2 : 0], *e = &g->engine[1], *m = &g->engine[3];
     struct kernels k;
     kernels_choose(&k, j->dim, j->model, j->shape, j->transfer);
     real impulse[DIM_MAX] = {0}, work = 0;
@@ -164,6 +172,15 @@ static void job_call(const struct job *j, struct ground *g)
         break;
     case GRID_MOVE:
         grid_move(&e->grid, TRANSFER_FLIP, 1e-12, e->smallest_mass, impulse, &work);
+        break;
+    case MESH_CLEAR:
+        mesh_clear(&m->mesh);
+        break;
+    case MESH_FORCE:
+        mesh_force(&m->mesh, m->cell_elastic, j->finite);
+        break;
+    case MESH_MOVE:
+        mesh_move(&m->mesh, 1e-12, 1e-12, impulse, &work);
         break;
     default:
         grid_remapped(&e->grid, e->smallest_mass);
@@ -208,6 +225,7 @@ static void time_all(struct bench *b, int repetitions)
  * points of their cell. */
 static double job_bytes(const struct job *j, const struct ground *g)
 {
+    const double mesh_node = sizeof(real) / (double)(1 << j->dim);
     const struct engine *e = &g->engine[1], *pd = &g->engine[j->model >= PD_OSPD ? 2 : 0];
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
     const double node = r * (double)e->grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
@@ -237,6 +255,12 @@ static double job_bytes(const struct job *j, const struct ground *g)
         return node * (1 + 2 * dim);
     case GRID_MOVE:
         return node * (1 + 5 * dim);
+    case MESH_CLEAR:
+        return mesh_node * dim;
+    case MESH_FORCE:
+        return mesh_node * 3 * dim; /* u; f read and written */
+    case MESH_MOVE:
+        return mesh_node * (1 + 5 * dim);
     default:
         return node * (1 + 2 * dim);
     }
@@ -245,7 +269,7 @@ static double job_bytes(const struct job *j, const struct ground *g)
 static bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
 static int64_t job_particles(const struct job *j, const struct ground *g)
 {
-    return g->engine[j->kind > PD_MOVE].part.n;
+    return g->engine[j->kind >= MESH_CLEAR ? 3 : j->kind > PD_MOVE].part.n;
 }
 
 /* Bonds of a particle; NAN where a kernel visits none. */

@@ -55,8 +55,8 @@ real watch_plastic(const struct particles *p, const struct material *m, const st
  * energy that the scheme conserves: 1/4 sum m (dt f/m)^2 of peridynamic particles, f as it was [J]. */
 real watch_kick(const struct particles *p, real dt);
 
-/* Momentum of p beside the impulse [N s] of loads and supports up to the same velocities. */
-void watch_momentum(struct watch *w, const struct particles *p, const real *impulse);
+/* Momentum of p, and of the nodes of a mesh for its points (NULL: none), beside the impulse [N s] of loads and supports up to the same velocities. */
+void watch_momentum(struct watch *w, const struct particles *p, const struct grid *mesh, const real *impulse);
 
 /* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After watch_momentum. */
 void watch_ledger(struct watch *w, real t, const struct energy *energy, real work);

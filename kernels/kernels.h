@@ -172,6 +172,6 @@ void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct
 real mesh_kinetic(const struct mesh *mesh);
 real mesh_kick(const struct mesh *mesh, real dt);
 /* Elastic energy of the cells [J]. */
-real mesh_strain(const struct mesh *mesh, bool finite);
+real mesh_strain(const struct mesh *mesh, const struct elastic *m, bool finite);
 
 #endif

@@ -16,11 +16,6 @@ static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
     return __builtin_shuffle(before, now, (lanes_mask){7, 8, 9, 10, 11, 12, 13, 14});
 }
 
-static ALWAYS_INLINE lanes first_lanes(int64_t n)
-{
-    return (lanes)((lanes_of((real)n) > (lanes){0, 1, 2, 3, 4, 5, 6, 7}) & (lanes_mask)lanes_of(1));
-}
-
 /* Cells side by side share nodes: what a vector of cells gives to its upper corners along x joins what the next lower
  * corners get, one lane further, so that every node of the row is added to once. */
 static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *run, const struct elastic *m, const int dim,
@@ -32,15 +27,10 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) carry[c][i] = lanes_of(0);
     for (int64_t k = 0; k < run->cells; k += LANES) {
-        const int64_t I = run->cell + k, left = run->cells - k;
+        const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
-        const lanes inside = first_lanes(left);
-        for (int c = 0; c < 1 << dim; c++)
-            for (int i = 0; i < dim; i++) u[c][i] = lanes_load(mesh->displacement[i] + I + mesh->corner[c]);
-        if (left < LANES)                        /* whatever lies behind the run */
-            for (int c = 0; c < 1 << dim; c++)
-                for (int i = 0; i < dim; i++) u[c][i] *= inside;
-        mesh_cell_force(m, g->h, volume, u, f, &tension, dim, finite);
+        mesh_run_load(mesh, run, k, u, dim);
+        mesh_cell_force(m, g->h, volume, u, f, &tension, NULL, dim, finite);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];

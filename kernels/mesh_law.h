@@ -151,10 +151,24 @@ static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX]
     return (mode[M][i] * (m->c11 + m->shear) + mode[7 & ~(1 << i)][k] * m->c12) * (1.0 / 16);
 }
 
+/* Displacements of the corners of eight cells of a run from its k-th on; 0 behind its end, whatever lies there. */
+static ALWAYS_INLINE void mesh_run_load(const struct mesh *mesh, const struct mesh_run *run, int64_t k,
+                                        lanes u[CORNERS_MAX][3], const int dim)
+{
+    const int64_t I = run->cell + k, left = run->cells - k;
+    for (int c = 0; c < 1 << dim; c++)
+        for (int i = 0; i < dim; i++) u[c][i] = lanes_load(mesh->displacement[i] + I + mesh->corner[c]);
+    if (left >= LANES) return;
+    const lanes inside = (lanes)((lanes_of((real)left) > (lanes){0, 1, 2, 3, 4, 5, 6, 7}) & (lanes_mask)lanes_of(1));
+    for (int c = 0; c < 1 << dim; c++)
+        for (int i = 0; i < dim; i++) u[c][i] *= inside;
+}
+
 /* Forces f [N] on the corners of eight cells with displacements u [m]; both corner by corner. `tension` grows to a bound of
- * the largest principal stress at their points [Pa]. */
+ * the largest principal stress at their points [Pa]; `energy`, unless NULL, is what they store [J]. */
 static ALWAYS_INLINE void mesh_cell_force(const struct elastic *m, real h, real volume, lanes u[CORNERS_MAX][3],
-                                          lanes f[CORNERS_MAX][3], lanes *tension, const int dim, const bool finite)
+                                          lanes f[CORNERS_MAX][3], lanes *tension, lanes *energy, const int dim,
+                                          const bool finite)
 {
     const int corners = 1 << dim;
     lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3], g[3][3], R[3][3], e[3][3], P[3][3], moment[3];
@@ -190,6 +204,15 @@ static ALWAYS_INLINE void mesh_cell_force(const struct elastic *m, real h, real 
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
     *tension = lanes_max(*tension, bound + largest * ((m->c11 + m->shear) * 0.25));
 
+    if (energy) {
+        *energy = lanes_of(0);
+        for (int i = 0; i < dim; i++) {
+            for (int b = 0; b < dim; b++) *energy += P[i][b] * e[i][b];
+            for (int M = 1; M < corners; M++)
+                if (M & (M - 1)) *energy += force[M][i] * mode[M][i];
+        }
+        *energy *= 0.5 * volume;
+    }
     if (turns) {                                 /* axial parts of sum P U^T over all modes */
         for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
             const int i = (k + 1) % 3, j = (k + 2) % 3;

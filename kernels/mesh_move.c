@@ -1,8 +1,7 @@
-/* floor 2: nodes of the mesh move, and their energies. */
+/* floor 2: nodes of the mesh move. */
 #include <math.h>
 
-#include "mesh_cut.h"
-#include "team.h"
+#include "kernels.h"
 
 /* What a held component does to its node: the force becomes what the prescribed motion needs. */
 static void wall_force(struct mesh *mesh, struct wall *w, real dt_velocity, real impulse[DIM_MAX], real *work)
@@ -58,69 +57,4 @@ real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MA
         g->velocity[d][g->wall[k].node] = g->wall[k].velocity;
     }
     return sqrt(most);
-}
-
-/* ---- energies --------------------------------------------------------------------------------------------- */
-
-static real kinetic_term(const void *context, int64_t I)
-{
-    const struct grid *g = context;
-    real speed2 = 0;
-    for (int d = 0; d < g->dim; d++) speed2 += square(g->velocity[d][I]);
-    return 0.5 * g->mass[I] * speed2;
-}
-
-real mesh_kinetic(const struct mesh *mesh)
-{
-    return mesh->points > 0 ? team_sum(mesh->grid.n, kinetic_term, &mesh->grid) : 0;
-}
-
-static real kick_term(const void *context, int64_t I)
-{
-    const struct mesh *mesh = context;
-    real force2 = 0;
-    for (int d = 0; d < mesh->grid.dim; d++) force2 += square(mesh->grid.force[d][I]);
-    return 0.25 * force2 * mesh->inverse_mass[I];
-}
-
-real mesh_kick(const struct mesh *mesh, real dt)
-{
-    return mesh->points > 0 ? dt * dt * team_sum(mesh->grid.n, kick_term, mesh) : 0;
-}
-
-/* 1/2 u K u of a cell, u in axes that turn with it. */
-static real cell_energy(const struct mesh *mesh, int64_t I, const real *K, bool finite)
-{
-    const int dim = mesh->grid.dim, n = (1 << dim) * dim;
-    real u[CELL_UNKNOWNS_MAX], energy = 0;
-    mesh_cell_local(mesh, I, u, NULL, NULL, dim, finite && dim > 1);
-    for (int b = 0; b < n; b++)
-        for (int a = 0; a < n; a++) energy += 0.5 * u[a] * K[b * n + a] * u[b];
-    return energy;
-}
-
-struct strain_sum { const struct mesh *mesh; bool finite; };
-
-static real cut_term(const void *context, int64_t k)
-{
-    const struct strain_sum *s = context;
-    const int n = (1 << s->mesh->grid.dim) * s->mesh->grid.dim;
-    return cell_energy(s->mesh, s->mesh->cut[k], s->mesh->stiffness + k * n * n, s->finite);
-}
-
-static real run_term(const void *context, int64_t r)
-{
-    const struct strain_sum *s = context;
-    const struct mesh_run *run = &s->mesh->run[r];
-    const int n = (1 << s->mesh->grid.dim) * s->mesh->grid.dim;
-    real sum = 0;
-    for (int64_t k = 0; k < run->cells; k++)
-        sum += cell_energy(s->mesh, run->cell + k, s->mesh->whole + (int64_t)run->material * n * n, s->finite);
-    return sum;
-}
-
-real mesh_strain(const struct mesh *mesh, bool finite)
-{
-    struct strain_sum s = {mesh, finite};
-    return mesh->points > 0 ? team_sum(mesh->cuts, cut_term, &s) + team_sum(mesh->runs, run_term, &s) : 0;
 }

@@ -14,20 +14,40 @@ struct group_room {
     int32_t *offset;                     /* [LANES room] distinct index distances */
 };
 
-/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`. */
-static void mark_rows(const struct bond_source *s, const struct particles *p, int room, uint8_t *wanted)
+static bool was_whole(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
-    if (p->n_of[KIND_PD] == p->n) {
+    while (i >= p->n) i = s->image[i - p->n].source;
+    return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
+}
+
+/* Rows made before can be taken over if nobody who held a whole one has turned back into a material point. */
+static bool rows_last(const struct bonds *old, const struct particles *p)
+{
+    if (!old) return false;
+    for (int64_t r = 0; r < old->rows; r++)
+        if (old->whole[r] && p->kind[old->particle[r]] != KIND_PD) return false;
+    return true;
+}
+
+/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` those that have to be
+ * searched anew: of who has become peridynamic and whoever is within its reach. */
+static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old, int room,
+                      uint8_t *wanted, uint8_t *fresh)
+{
+    const bool last = rows_last(old, p);
+    if (!last) memset(fresh, 1, (size_t)p->n);
+    if (p->n_of[KIND_PD] == p->n && !last) {
         memset(wanted, 1, (size_t)p->n);
         return;
     }
+    for (int64_t r = 0; last && r < old->rows; r++) wanted[old->particle[r]] = 1;
     int32_t *found = NEW("bonds.found", room, int32_t);
     for (int64_t i = 0; i < p->n_all; i++) {
-        if (p->kind[i] != KIND_PD) continue;
-        if (i < p->n) wanted[i] = 1;
+        if (p->kind[i] != KIND_PD || (last && was_whole(old, s, p, i))) continue;
+        if (i < p->n) wanted[i] = fresh[i] = 1;
         int n = family_search(s, p, (int32_t)i, found, room);
         for (int k = 0; k < n; k++)
-            if (found[k] < p->n) wanted[found[k]] = 1;
+            if (found[k] < p->n) wanted[found[k]] = fresh[found[k]] = 1;
     }
     memory_free(found);
 }
@@ -180,7 +200,7 @@ static void rows_arrays(struct bonds *b)
 
 /* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice. */
 static void rows_pass(struct bonds *b, const struct bonds *old, const struct particles *p, const struct bond_source *s,
-                      const struct pair_table *pairs, int most, bool count)
+                      const struct pair_table *pairs, const uint8_t *fresh, int most, bool count)
 {
 #pragma omp parallel
     {
@@ -191,7 +211,7 @@ static void rows_pass(struct bonds *b, const struct bonds *old, const struct par
             int rows = group_rows(b, g);
             for (int l = 0; l < rows; l++) {
                 int32_t i = b->particle[g * LANES + l];
-                row_make(&room.row[l], old, s, p, pairs, i, most, !count);
+                row_make(&room.row[l], old, s, p, pairs, i, most, !count, fresh[i]);
             }
             bool by_offset;
             int slots = group_slots(&room, b->particle + g * LANES, rows, &by_offset);
@@ -218,13 +238,14 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     memset(b, 0, sizeof *b);
     int most = bonds_room(p, s);
     uint8_t *wanted = NEW("bonds.wanted", p->n, uint8_t);
-    mark_rows(s, p, most, wanted);
+    uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
+    mark_rows(s, p, old, most, wanted, fresh);
     rows_list(b, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
 
     struct pair_table pairs = pairs_make(s);
-    rows_pass(b, old, p, s, &pairs, most, true);
+    rows_pass(b, old, p, s, &pairs, fresh, most, true);
     for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
     b->slots = b->slot[b->groups];
     b->first = NEW("bonds.first", b->slots, int32_t);
@@ -237,7 +258,8 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
         b->plastic_path = NEW("bonds.plastic_path", b->slots * LANES, real);
         b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
     }
-    rows_pass(b, old, p, s, &pairs, most, false);
+    rows_pass(b, old, p, s, &pairs, fresh, most, false);
+    memory_free(fresh);
     memory_free(pairs.ratio);
     for (int64_t q = 0; q < b->slots * LANES; q++) b->n += b->inverse_length[q] != 0;
     if (old) rows_carry(b, old);
@@ -329,7 +351,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
         rooms_make(&room, most);
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
-            row_make(&room.row[0], NULL, s, &all, &pairs, (int32_t)i, most, true);
+            row_make(&room.row[0], NULL, s, &all, &pairs, (int32_t)i, most, true, true);
             largest = real_max(largest, row_stiffness(&room.row[0], &all, (int32_t)i, stiffness) / p->mass[i]);
         }
         rooms_free(&room);

@@ -24,10 +24,10 @@ void row_room_free(struct row *row);
  * `room` are not written. */
 int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room);
 
-/* Row of particle i: what it was in `old` if it held the whole family there, else made anew with what load has done to the
+/* Row of particle i: what it was in `old` if it held the whole family there or is not `fresh`, else made anew with what load has done to the
  * bonds that it held. `weigh` false: only who the neighbours are, to count them. */
 void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
-              const struct pair_table *pairs, int32_t i, int room, bool weigh);
+              const struct pair_table *pairs, int32_t i, int room, bool weigh, bool fresh);
 
 /* What state-based models keep; after the rows and their `whole` (bonds_state.c). */
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);

@@ -159,7 +159,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     }
 }
 
-/* A row that held its whole family before is the same row now, if its particle is still peridynamic. */
+/* A row that held its whole family before is the same row now; so is one whose neighbours are what they were. */
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
     int64_t group = old_row / LANES;
@@ -179,10 +179,10 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 }
 
 void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
-              const struct pair_table *pairs, int32_t i, int room, bool weigh)
+              const struct pair_table *pairs, int32_t i, int room, bool weigh, bool fresh)
 {
     int64_t before = old ? old->row_of[i] : -1;
-    if (before >= 0 && old->whole[before] && p->kind[i] == KIND_PD) {
+    if (before >= 0 && ((old->whole[before] && p->kind[i] == KIND_PD) || !fresh)) {
         row_copy(row, old, before);
         return;
     }

@@ -108,13 +108,24 @@ void engine_stress(struct engine *e)
     e->kernels.bond_stress(&e->bonds, &e->part);
 }
 
+/* Points of a mesh are brought up to date for probes that look at particles; damage and bonds always are. */
+static void show_probes(struct engine *e)
+{
+    bool motion = false;
+    for (int k = 0; k < e->scene->probes; k++) {
+        const enum probe_kind kind = e->scene->probe[k].kind;
+        motion |= kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION && kind != PROBE_GROWTH;
+    }
+    if (motion) engine_mesh_show(e);
+}
+
 static real kinetic_now(const struct engine *e) { return watch_kinetic(&e->part) + mesh_kinetic(&e->mesh); }
 
 /* What stands still while the energies of a sample are gathered. */
 static void sample_state(struct engine *e)
 {
     if (wants_stress(e)) engine_stress(e);
-    watch_momentum(&e->watch, &e->part, e->loads.impulse);
+    watch_momentum(&e->watch, &e->part, &e->mesh.grid, e->loads.impulse);
     tips_sample(&e->tips, &e->part, &e->cells, e->t);
     struct observed o = engine_observed(e);
     probes_sample(&e->probes, &o);
@@ -125,7 +136,7 @@ static void sample_energy(struct engine *e)
     const struct material *m = e->scene->material;
     e->sampling.energy = (struct energy){
         .strain = e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, m, &e->partial) +
-                  mesh_strain(&e->mesh, !e->scene->small_strain),
+                  mesh_strain(&e->mesh, e->cell_elastic, !e->scene->small_strain),
         .plastic = bond_plastic_work(&e->bonds) + watch_plastic(&e->part, m, &e->partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .damped = e->damped,
@@ -135,6 +146,7 @@ static void sample_energy(struct engine *e)
 /* t_velocity: when the velocities of now are known [s]. */
 static void sample_write(struct engine *e, real t_velocity, real kinetic, real work)
 {
+    show_probes(e);
     struct observed o = engine_observed(e);
     probes_sample_end(&e->probes, &o, t_velocity);
     e->sampling.energy.kinetic = kinetic;
@@ -149,11 +161,11 @@ void engine_sample_begin(struct engine *e)
     e->sampling.work = e->loads.work;
     e->sampling.held_work = e->loads.held_work;
     if (e->sampling.due) {
-        engine_mesh_show(e);
+        show_probes(e);
         sample_state(e);
     }
     if (!e->sampling.due && e->step < e->steps - 1) return;
-    if (!e->sampling.due) engine_mesh_show(e);
+    if (!e->sampling.due) show_probes(e);
     if (!e->sampling.due && wants_stress(e)) engine_stress(e);
     struct observed o = engine_observed(e);
     probes_keep(&e->probes, &o);
@@ -188,7 +200,7 @@ void engine_sample_rest(struct engine *e)
 static void sample_last(struct engine *e)
 {
     refresh_states(e);
-    engine_mesh_show(e);
+    engine_mesh_show(e);                         /* whoever holds the engine may look at it now */
     sample_state(e);
     sample_energy(e);
     real kinetic = kinetic_now(e);

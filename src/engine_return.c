@@ -37,7 +37,7 @@ static real energy_now(struct engine *e)
 {
     if (e->source.modulus) engine_stress(e);
     return e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, e->scene->material, &e->partial) +
-           mesh_strain(&e->mesh, !e->scene->small_strain) + watch_kinetic(&e->part) + mesh_kinetic(&e->mesh);
+           mesh_strain(&e->mesh, e->cell_elastic, !e->scene->small_strain) + watch_kinetic(&e->part) + mesh_kinetic(&e->mesh);
 }
 
 static void give_back(struct engine *e, const int32_t *list, int64_t n)

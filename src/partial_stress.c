@@ -131,7 +131,12 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
         int64_t q = bond_index(b, row / LANES, k, row % LANES);
         if (b->w[q] == 0) continue;
-        for (int d = 0; d < p->dim; d++) xm[d] = r.sign[d] * p->X[d][b->nbr[q]] + r.offset[d];
+        bool apart = false;                      /* most bonds of a row pass by: seen without a division */
+        for (int d = 0; d < p->dim; d++) {
+            xm[d] = r.sign[d] * p->X[d][b->nbr[q]] + r.offset[d];
+            apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
+        }
+        if (apart) continue;
         tensor_add(T, xp, xm, X, half, response_of(p, b, s, row, q), p->dim);
     }
 }

@@ -246,10 +246,25 @@ static real height(const struct crack *c, const struct crack_plane *plane, const
     return sum;
 }
 
+/* Do the boxes round the crack and round a bond stay apart, by far more than what counts as touching? */
+static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
+{
+    real low[DIM_MAX], high[DIM_MAX], size = 0;
+    for (int d = 0; d < dim; d++) {
+        low[d] = high[d] = c->corner[0][d];
+        for (int k = 1; k < c->n; k++) low[d] = real_min(low[d], c->corner[k][d]), high[d] = real_max(high[d], c->corner[k][d]);
+        size += fabs(a[d] - b[d]) + high[d] - low[d];
+    }
+    for (int d = 0; d < dim && dim > 1; d++)
+        if (real_max(a[d], b[d]) < low[d] - 1e-3 * size || real_min(a[d], b[d]) > high[d] + 1e-3 * size) return true;
+    return false;
+}
+
 bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
 {
     struct crack_plane plane;
     int d = 0;
+    if (far_apart(c, a, b, dim)) return false;
     while (d < dim && a[d] == b[d]) d++;
     if (d == dim) return false;
     if (a[d] > b[d]) {                   /* one order of the ends, so both directions give the same bits */

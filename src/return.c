@@ -200,7 +200,10 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
 {
     const int dim = p->dim, n = symmetric_count(dim);
     real from[DIM_MAX], end[DIM_MAX], y[DIM_MAX], e[DIM_MAX], length2 = 0;
-    for (int d = 0; d < dim; d++) from[d] = p->X[d][j], end[d] = r->sign[d] * p->X[d][b->nbr[q]] + r->offset[d];
+    for (int d = 0; d < dim; d++) {
+        from[d] = p->X[d][j], end[d] = r->sign[d] * p->X[d][b->nbr[q]] + r->offset[d];
+        if (real_max(from[d], end[d]) <= to->X[d] - to->half || real_min(from[d], end[d]) >= to->X[d] + to->half) return;
+    }
     const real share = 0.5 * segment_share(from, end, to->X, to->half, dim);
     if (share == 0) return;
     for (int d = 0; d < dim; d++) {

@@ -56,11 +56,26 @@ static void momentum_block(const void *context, int64_t first, int64_t end, real
     const struct particles *p = context;
     for (int64_t i = first; i < end; i++) {
         real speed2 = 0;
+        if (p->flag[i] & FLAG_MESHED) continue;
         for (int d = 0; d < p->dim; d++) {
             sum[d] += p->mass[i] * p->v[d][i];
             speed2 += square(p->v[d][i]);
         }
         sum[p->dim] += p->mass[i] * sqrt(speed2);
+    }
+}
+
+/* The same of nodes. */
+static void nodes_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct grid *g = context;
+    for (int64_t I = first; I < end; I++) {
+        real speed2 = 0;
+        for (int d = 0; d < g->dim; d++) {
+            sum[d] += g->mass[I] * g->velocity[d][I];
+            speed2 += square(g->velocity[d][I]);
+        }
+        sum[g->dim] += g->mass[I] * sqrt(speed2);
     }
 }
 
@@ -153,10 +168,14 @@ real watch_plastic(const struct particles *p, const struct material *m, const st
 /* ---- the ledger -------------------------------------------------------------------------------------- */
 
 /* Momentum that neither was there at the start nor was given since, over all that moves. */
-void watch_momentum(struct watch *w, const struct particles *p, const real *impulse)
+void watch_momentum(struct watch *w, const struct particles *p, const struct grid *mesh, const real *impulse)
 {
-    real sum[DIM_MAX + 1], missing2 = 0;
+    real sum[DIM_MAX + 1], nodes[DIM_MAX + 1], missing2 = 0;
     team_sums(p->n, p->dim + 1, momentum_block, p, sum);
+    if (mesh && mesh->n > 0) {
+        team_sums(mesh->n, p->dim + 1, nodes_block, mesh, nodes);
+        for (int k = 0; k <= p->dim; k++) sum[k] += nodes[k];
+    }
     for (int d = 0; d < p->dim; d++) {
         w->now.momentum[d] = sum[d];
         if (!w->started) w->momentum_start[d] = w->now.momentum[d] - impulse[d];

@@ -28,17 +28,19 @@ mkdir inputs
 sed 's/spacing: 0.5 mm/spacing: 1 mm/' "$inputs/plate_crack.yaml" >inputs/plate_crack.yaml
 OMP_NUM_THREADS=1 "$cleave" bench efficiency --quick >out || fail "efficiency failed"
 cd results/bench
-[ "$(head -1 efficiency.csv)" = scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference ] ||
+[ "$(head -1 efficiency.csv)" = \
+    scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference,levers ] ||
     fail "columns of efficiency.csv"
-[ "$(wc -l <efficiency.csv)" -eq 2 ] || fail "one scene gives one line, of bonds where time is short"
-awk -F, 'NR == 2 { exit $2 != "bond" }' efficiency.csv || fail "the model"
+[ "$(wc -l <efficiency.csv)" -eq 3 ] || fail "one scene gives a line for each lever, of bonds where time is short"
+awk -F, 'NR > 1 { exit $2 != "bond" }' efficiency.csv || fail "the model"
+[ "$(awk -F, 'NR > 1 { printf "%s ", $9 }' efficiency.csv)" = "none frame " ] || fail "the levers"
 [ "$(head -1 efficiency_runs.csv)" = \
-    scene,model,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg ] ||
+    scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg ] ||
     fail "columns of efficiency_runs.csv"
 # t_r is what the two times before it say, to the nine digits written
-awk -F, 'NR == 2 { d = $5 - (1 - $3 / $4); exit !($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6) }' efficiency.csv || fail "t_r"
+awk -F, 'NR > 1 { d = $5 - (1 - $3 / $4); if (!($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6)) bad = 1 } END { exit bad }' efficiency.csv || fail "t_r"
 for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; do [ -s $file ] || fail "$file is missing"; done
-[ "$(wc -l <efficiency_share.csv)" -eq 102 ] || fail "the share is noted at 100 samples and at the start"
+[ "$(wc -l <efficiency_share.csv)" -eq 203 ] || fail "the share is noted at 100 samples and at the start"
 cd ../..
 
 # Couplings: the columns, and figures known from the literature's couplings and from an independent prototype.
