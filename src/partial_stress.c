@@ -220,6 +220,28 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     if (skew) memcpy(partial->skew + (int64_t)partial->index[i] * skew, M + size, (size_t)skew * sizeof *M);
 }
 
+/* Entries that nobody has any more are squeezed out once they are the most: points that return come and go. */
+static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int skew)
+{
+    int64_t live = 0;
+    for (int64_t i = 0; i < p->n; i++) live += partial->index[i] >= 0;
+    if (partial->entries <= 2 * live + 256) return;
+    struct partial_stress old = *partial;
+    partial->matrix = NULL, partial->skew = NULL;
+    partial->entries = partial->room = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const int64_t at = partial->index[i];
+        real M[(SYM_MAX + DIM_MAX) * SYM_MAX];
+        if (at < 0) continue;
+        memcpy(M, old.matrix + at * size, (size_t)size * sizeof *M);
+        if (skew) memcpy(M + size, old.skew + at * skew, (size_t)skew * sizeof *M);
+        partial->index[i] = -1;
+        entry_put(partial, i, M, size, skew);
+    }
+    memory_free(old.matrix);
+    memory_free(old.skew);
+}
+
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n)
 {
@@ -257,6 +279,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         if (dirty[list[k]] == 2) entry_put(partial, list[k], M + k * whole, size, whole - size);
         else partial->index[list[k]] = -1;
     }
+    entries_squeeze(partial, p, size, whole - size);
     if (partial->touches + dirties > partial->touched_room) {
         const int64_t more = 2 * (partial->touches + dirties);
         partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *list);
