@@ -55,6 +55,7 @@ struct engine {
     struct solver solver;
     real *pair_never;                    /* [materials^2] infinite, for the solvers                   */
     struct conversion conversion;
+    struct region start_region;          /* peridynamic from the start; no solid: none                */
     struct watch watch;
     struct tips tips;
     struct growth *growth;               /* [scene->growths] cracks that grow as they are told        */

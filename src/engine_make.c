@@ -117,7 +117,11 @@ static void make_bonds(struct engine *e)
         bonds_neighbour_volume(e->neighbour_volume, &e->part, &e->source);
         e->source.neighbour_volume = e->neighbour_volume;
     }
-    if (s->method == METHOD_ADAPTIVE) convert_start(&e->part, &e->source, s->has_pd_region ? &s->pd_region : NULL);
+    if (s->method == METHOD_ADAPTIVE) {
+        convert_region(&e->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
+                       s->conversion.tips * e->source.family.horizon);
+        convert_start(&e->part, &e->source, e->start_region.n > 0 ? &e->start_region : NULL);
+    }
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     e->conversion.first_time = NAN;
     e->conversion.start = e->conversion.peak = e->part.n_of[KIND_PD];
@@ -386,6 +390,7 @@ void engine_free(struct engine *e)
     cells_free(&e->cells);
     loads_free(&e->loads);
     particles_free(&e->part);
+    memory_free(e->start_region.solid);
     solver_free(&e->solver);
     memory_free(e->boundary);
     memory_free(e->pair_never);

@@ -57,7 +57,7 @@ void engine_return(struct engine *e)
     if (!e->part.quiet || e->step == 0 || e->step % period(e) != 0 || e->part.n_of[KIND_PD] == 0) return;
     engine_stress(e);
     const int64_t n = return_choose(
-        &(struct return_rule){.source = &e->source, .elastic = e->elastic, .kept = s->has_pd_region ? &s->pd_region : NULL,
+        &(struct return_rule){.source = &e->source, .elastic = e->elastic, .kept = e->start_region.n > 0 ? &e->start_region : NULL,
                               .calm = s->conversion.calm,
                               .dwell = s->conversion.dwell * e->source.family.horizon / e->wave_speed},
         &e->part, &e->bonds, e->t, &list);

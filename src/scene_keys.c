@@ -179,6 +179,8 @@ const struct key keys[] = {
         "a particle takes its horizon neighbours along"),
     KEY("conversion.criteria", KEY_SET, UNIT_NONE, AT(scene, conversion.criteria), ANY, "([bond, stress])",
         "what converts: a cut bond, the stress; a list, or none", .words = "bond|stress"),
+    KEY("conversion.tips", KEY_REAL, UNIT_NONE, AT(scene, conversion.tips), BETWEEN(0, 1000), "0",
+        "peridynamic from the start this many horizons round the ends of pre-cracks; 2 starts cracks when peridynamics does"),
     KEY("conversion.return", KEY_FLAG, UNIT_NONE, AT(scene, conversion.back), ANY, "false",
         "peridynamic particles become material points again where no bond within two horizons was ever cut and the stress "
         "stays low (coupling partial stress or handshake, elastic materials)"),
