@@ -33,8 +33,10 @@ static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
 static void points_enter(struct mesh *mesh, struct particles *p, const struct nodes *t, const int32_t *list, int64_t n)
 {
     const int dim = p->dim;
-    for (int64_t k = 0; k < t->n; k++)
-        for (int d = 0; d < dim; d++) mesh->grid.momentum[d][t->at[k]] = mesh->grid.mass[t->at[k]] * mesh->grid.velocity[d][t->at[k]];
+    for (int64_t k = 0; k < t->n; k++) {
+        const int32_t I = t->at[k];
+        for (int d = 0; d < dim; d++) mesh->grid.momentum[d][I] = mesh->grid.mass[I] * mesh->grid.velocity[d][I];
+    }
     for (int64_t k = 0; k < n; k++) {
         const int32_t i = list[k];
         const int64_t place = mesh_place_of(mesh, p, i);

@@ -63,7 +63,7 @@ static bool calm(const struct return_rule *rule, const struct particles *p, cons
     if (rule->source->modulus || !(share < 1)) share = 1;
     for (int s = 0; s < symmetric_count(p->dim); s++) stress[s] = p->stress[s][i] / share;
     const real limit = rule->calm * rule->elastic[p->material[i]].trigger;
-    return p->dim == 1 ? stress[0] < limit : p->dim == 2 ? stress_principal(stress, 2) < limit : stress_principal(stress, 3) < limit;
+    return stress_principal(stress, p->dim) < limit;
 }
 
 /* `held`: peridynamic and not quiet for long; `cut`: has lost a bond. Returns how many are peridynamic and not held. */
@@ -149,6 +149,14 @@ int64_t return_choose(const struct return_rule *rule, struct particles *p, const
 
 /* ---- what they know then ----------------------------------------------------------------------------- */
 
+static void rows_swap(real *a, real *b, int n)
+{
+    for (int c = 0; c < n; c++) {
+        const real kept = a[c];
+        a[c] = b[c], b[c] = kept;
+    }
+}
+
 /* Solves A x = b for n unknowns and `columns` right sides in place of b (row major, `columns` to a row), by elimination
  * with pivots. False if A is singular: a family without enough directions. */
 static bool solve(real *A, real *b, int n, int columns)
@@ -160,8 +168,8 @@ static bool solve(real *A, real *b, int n, int columns)
         for (int r = k + 1; r < n; r++)
             if (fabs(A[r * n + k]) > fabs(A[pivot * n + k])) pivot = r;
         if (!(fabs(A[pivot * n + k]) > 1e-9 * largest)) return false;
-        for (int c = 0; c < n; c++) { real a = A[k * n + c]; A[k * n + c] = A[pivot * n + c], A[pivot * n + c] = a; }
-        for (int c = 0; c < columns; c++) { real a = b[k * columns + c]; b[k * columns + c] = b[pivot * columns + c], b[pivot * columns + c] = a; }
+        rows_swap(A + k * n, A + pivot * n, n);
+        rows_swap(b + k * columns, b + pivot * columns, columns);
         for (int r = 0; r < n; r++) {
             const real f = r == k ? 0 : A[r * n + k] / A[k * n + k];
             for (int c = k; c < n && r != k; c++) A[r * n + c] -= f * A[k * n + c];
