@@ -317,7 +317,7 @@ static void draw_bars(FILE *to, const struct efficiency *all)
                 "$bars using %d%s lc rgb '%s' title '%s frame', '' using ($0%+.2f):%d:(sprintf('%%.2f', $%d)) with labels "
                 "font ',7' offset 0, 0.6 notitle, ",
                 2 * way, way == 1 ? ":xtic(1)" : "", curve_colour[way == 1 ? 2 : 0], ways[way].frame,
-                ((double)way - 0.5 * WAYS) / WAYS, 2 * way, 2 * way + 1);
+                ((double)way - 1 - 0.5 * (WAYS - 1)) / (WAYS + 1), 2 * way, 2 * way + 1);
     fprintf(to, "'' using %d lc rgb '%s' title 'Zeng et al. 2022, table 1'\n", 2 * WAYS, curve_colour[4]);
     fputs("set yrange [*:*]\n", to);
 }

@@ -61,7 +61,7 @@ struct load {
 struct held { int32_t node; uint8_t component, load; };
 
 struct held_set {
-    int64_t n, room;
+    int64_t n, room, lasting;            /* the first `lasting` do not hang on who has mass           */
     struct held *held;
     int64_t first[DIM_MAX], count[DIM_MAX];   /* of the box of nodes they were found in                */
 };

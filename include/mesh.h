@@ -34,6 +34,7 @@ struct mesh {
     real *displacement[DIM_MAX];         /* of the nodes                                    [m]       */
     real *inverse_mass;                  /* of the nodes; 0 where there is no mass          [1/kg]    */
     int32_t *point;                      /* [grid.n << dim] particle of a place of a cell, -1 without */
+    uint8_t *kind;                       /* [grid.n] of cells: empty, whole or cut                    */
     int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh        */
     real volume;                         /* of a point in the reference frame               [m^3]     */
 

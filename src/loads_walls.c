@@ -190,7 +190,11 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
 void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p)
 {
     if (mesh->points == 0) return;
-    held_find(l, &l->held_mesh, &mesh->grid);
+    if (!held_is_current(&l->held_mesh, &mesh->grid)) {      /* regions and mirrors stay; what is driven hangs on mass */
+        held_find(l, &l->held_mesh, &mesh->grid);
+        l->held_mesh.lasting = l->held_mesh.n;
+    }
+    l->held_mesh.n = l->held_mesh.lasting;
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY) mesh_driven(l, b, mesh, p);
 }

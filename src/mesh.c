@@ -244,13 +244,12 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
     int32_t *old = NEW("mesh.old", mesh->cuts, int32_t);
     const int64_t olds = mesh->cuts;
     if (olds > 0) memcpy(old, mesh->cut, sizeof *old * (size_t)olds);
-    uint8_t *kind = NEW("mesh.kind", mesh->grid.n, uint8_t);
 #pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < mesh->grid.n; I++) kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        if (!dirty || dirty[I]) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     rows_span(mesh);
-    cells_list(mesh, kind, p);
+    cells_list(mesh, mesh->kind, p);
     cuts_make(mesh, p, s, dirty, old, olds);
-    memory_free(kind);
     memory_free(old);
 }
 
@@ -278,6 +277,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
         for (int d = 0; d < p->dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
     mesh->point = NEW("mesh.point", g->n << p->dim, int32_t);
     for (int64_t k = 0; k < g->n << p->dim; k++) mesh->point[k] = -1;
+    mesh->kind = NEW("mesh.kind", g->n, uint8_t);
     mesh->place = NEW("mesh.place", p->n, int32_t);
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
@@ -334,6 +334,7 @@ void mesh_free(struct mesh *mesh)
     for (int d = 0; d < DIM_MAX; d++) memory_free(mesh->displacement[d]);
     memory_free(mesh->inverse_mass);
     memory_free(mesh->point);
+    memory_free(mesh->kind);
     memory_free(mesh->place);
     memory_free(mesh->band);
     memory_free(mesh->run);
@@ -399,7 +400,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
     for (int64_t row = 0; row < b->rows; row++) seen[b->particle[row]] = 1;
     for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
         for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
-    for (int64_t k = 0; k < b->slots * LANES; k++) {      /* images that bonds look at move as their sources */
+    for (int64_t k = 0; k < b->slots * LANES && p->n_all > p->n; k++) {      /* images that bonds look at move as their sources */
         int64_t i = b->nbr[k];
         while (i >= p->n) i = l->image[i - p->n].source;
         if (b->nbr[k] >= p->n) seen[i] = 1;

@@ -14,7 +14,4 @@ struct reflection reflection_of(const struct bond_source *s, const struct partic
 /* Half the edge of a particle's cell [m]. */
 real half_edge(const struct particles *p, const struct bond_source *s, int64_t i);
 
-/* Particles that may end a bond through the cell of point i: writes at most `room`, returns how many there are. */
-int ends_near(const struct particles *p, const struct bond_source *s, int64_t i, int32_t *found, int room);
-
 #endif

@@ -119,10 +119,37 @@ static struct response response_of(const struct particles *p, const struct bonds
                              .central = s->turns ? 0 : spring, .vector = s->turns ? spring : 0};
 }
 
+/* What all bonds of a row lie in; rows are far longer than the few cells that one of them crosses. */
+struct box { real low[DIM_MAX], high[DIM_MAX]; };
+
+static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
+{
+    struct box box;
+    for (int d = 0; d < p->dim; d++) {
+        const real *X = p->X[d];
+        box.low[d] = box.high[d] = X[b->particle[row]];
+        for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+            const int64_t q = bond_index(b, row / LANES, k, row % LANES);
+            if (b->w[q] == 0) continue;
+            box.low[d] = real_min(box.low[d], X[b->nbr[q]]);
+            box.high[d] = real_max(box.high[d], X[b->nbr[q]]);
+        }
+    }
+    return box;
+}
+
+static bool box_passes(const struct box *box, const real *X, real half, int dim)
+{
+    for (int d = 0; d < dim; d++)
+        if (box->high[d] <= X[d] - half || box->low[d] >= X[d] + half) return true;
+    return false;
+}
+
 /* All crossing bonds that end at material point (or image) j. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                           int64_t j, const real *X, real half)
+                           const struct box *box, int64_t j, const real *X, real half)
 {
+    if (j < p->n && (b->row_of[j] < 0 || box_passes(&box[b->row_of[j]], X, half, p->dim))) return;
     struct reflection r = reflection_of(s, p, j);
     int32_t row = b->row_of[r.root];
     if (row < 0 || p->kind[r.root] != KIND_MPM) return;
@@ -146,25 +173,31 @@ real half_edge(const struct particles *p, const struct bond_source *s, int64_t i
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-int ends_near(const struct particles *p, const struct bond_source *s, int64_t i, int32_t *found, int room)
+/* Particles and images within a radius, in a list that grows with what was asked of it. */
+struct near { int32_t *at; int n, room; };
+
+static void near_find(struct near *near, const struct particles *p, const struct bond_source *s, int64_t i, real radius)
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
-    return cells_near(s->cells, p, X, s->family.cutoff + half_edge(p, s, i) * sqrt(p->dim), -1, found, room);
+    near->n = cells_near(s->cells, p, X, radius, -1, near->at, near->room);
+    if (near->n <= near->room) return;
+    near->at = memory_resize("partial.near", near->at, near->room, 2 * near->n, sizeof *near->at);
+    near->room = 2 * near->n;
+    near->n = cells_near(s->cells, p, X, radius, -1, near->at, near->room);
 }
 
 /* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). False if no bond crosses. */
 static bool partial_matrix(real *M, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                           int64_t i, int32_t *found, int room)
+                           const struct box *box, int64_t i, struct near *near)
 {
     const int dim = p->dim, n = symmetric_count(dim), rows = rows_of(s, dim);
     real X[DIM_MAX], T[ROWS_MAX * SYM_MAX] = {0}, compliance[SYM_MAX * SYM_MAX], half = half_edge(p, s, i);
     for (int d = 0; d < dim; d++) X[d] = p->X[d][i];
-    int near = ends_near(p, s, i, found, room);
-    assert(near <= room);
-    for (int k = 0; k < near; k++)
-        if (p->kind[found[k]] == KIND_MPM && p->body[found[k]] == p->body[i])
-            tensor_add_row(T, p, b, s, found[k], X, half);
+    near_find(near, p, s, i, s->family.cutoff + half * sqrt(dim));
+    for (int k = 0; k < near->n; k++)
+        if (p->kind[near->at[k]] == KIND_MPM && p->body[near->at[k]] == p->body[i])
+            tensor_add_row(T, p, b, s, box, near->at[k], X, half);
     material_compliance(&s->material[p->material[i]], dim, compliance);
     real largest = 0;
     for (int a = 0; a < rows; a++)
@@ -179,29 +212,21 @@ static bool partial_matrix(real *M, const struct particles *p, const struct bond
 
 /* ---- who needs one ----------------------------------------------------------------------------------- */
 
-static int mark_near(const struct particles *p, const struct bond_source *s, int64_t i, real radius, int32_t *found,
-                     int room, uint8_t *dirty)
+/* Points within the radius of what has changed, ascending; NULL: of all peridynamic particles. */
+static int64_t list_dirty(const struct particles *p, const struct bond_source *s, real radius, const int32_t *changed,
+                          int64_t n, int32_t *list)
 {
-    real X[DIM_MAX];
-    particle_place(p, i, X);
-    int n = cells_near(s->cells, p, X, radius, -1, found, room);
-    for (int k = 0; k < n && k < room; k++) {
-        int64_t j = reflection_of(s, p, found[k]).root;
-        dirty[j] = 1;
+    uint8_t *dirty = NEW("partial.dirty", p->n, uint8_t);
+    struct near near = {0};
+    int64_t dirties = 0;
+    for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
+        near_find(&near, p, s, changed ? changed[k] : p->list[KIND_PD][k], radius);
+        for (int m = 0; m < near.n; m++) dirty[reflection_of(s, p, near.at[m]).root] = 1;
     }
-    return n;
-}
-
-static int64_t mark_dirty(const struct particles *p, const struct bond_source *s, real radius, const int32_t *changed,
-                          int64_t n, int room, uint8_t *dirty, int32_t *list)
-{
-    int32_t *found = NEW("partial.found", room, int32_t);
-    int64_t count = changed ? n : p->n_of[KIND_PD], dirties = 0;
-    for (int64_t k = 0; k < count; k++)
-        mark_near(p, s, changed ? changed[k] : p->list[KIND_PD][k], radius, found, room, dirty);
     for (int64_t i = 0; i < p->n; i++)
         if (dirty[i]) list[dirties++] = (int32_t)i;
-    memory_free(found);
+    memory_free(near.at);
+    memory_free(dirty);
     return dirties;
 }
 
@@ -253,30 +278,24 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     }
     /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses */
     const real radius = source->family.cutoff + source->family.spacing * sqrt(p->dim);
-    int room = 0;
-    for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
-        int near = mark_near(p, source, changed ? changed[k] : p->list[KIND_PD][k], radius, NULL, 0, NULL);
-        if (near > room) room = near;
-    }
-    uint8_t *dirty = NEW("partial.dirty", p->n, uint8_t);
     int32_t *list = NEW("partial.list", p->n, int32_t);
-    int64_t dirties = mark_dirty(p, source, radius, changed, n, room, dirty, list);
-    for (int64_t k = 0; k < dirties; k++) {      /* a particle in a corner sees an eighth of what points near it see */
-        int near = ends_near(p, source, list[k], NULL, 0);
-        if (near > room) room = near;
-    }
+    const int64_t dirties = list_dirty(p, source, radius, changed, n, list);
     real *M = NEW("partial.new", dirties * whole, real);
+    bool *crossed = NEW("partial.crossed", dirties, bool);
+    struct box *box = NEW("partial.box", b->rows, struct box);
 #pragma omp parallel
     {
-        int32_t *found = NEW("partial.found", room, int32_t);
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t r = 0; r < b->rows; r++)
+            if (!b->whole[r]) box[r] = box_of(p, b, r);
 #pragma omp for schedule(dynamic, 16)
-        for (int64_t k = 0; k < dirties; k++)    /* dirty becomes: 2 if a bond crosses the cell */
-            if (p->kind[list[k]] == KIND_MPM && partial_matrix(M + k * whole, p, b, source, list[k], found, room))
-                dirty[list[k]] = 2;
-        memory_free(found);
+        for (int64_t k = 0; k < dirties; k++)
+            crossed[k] = p->kind[list[k]] == KIND_MPM && partial_matrix(M + k * whole, p, b, source, box, list[k], &near);
+        memory_free(near.at);
     }
     for (int64_t k = 0; k < dirties; k++) {
-        if (dirty[list[k]] == 2) entry_put(partial, list[k], M + k * whole, size, whole - size);
+        if (crossed[k]) entry_put(partial, list[k], M + k * whole, size, whole - size);
         else partial->index[list[k]] = -1;
     }
     entries_squeeze(partial, p, size, whole - size);
@@ -286,9 +305,10 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         partial->touched_room = more;
     }
     for (int64_t k = 0; k < dirties; k++) partial->touched[partial->touches++] = list[k];
+    memory_free(box);
+    memory_free(crossed);
     memory_free(M);
     memory_free(list);
-    memory_free(dirty);
 }
 
 void partial_stress_free(struct partial_stress *partial)

@@ -242,7 +242,8 @@ static void crossing_of(struct crossing *to, const struct particles *p, const st
     int n;
     *to = (struct crossing){.half = half_edge(p, source, i)};
     particle_place(p, i, to->X);
-    while ((n = ends_near(p, source, i, s->found, s->room)) > s->room) {
+    const real reach = source->family.cutoff + to->half * sqrt(p->dim);
+    while ((n = cells_near(source->cells, p, to->X, reach, -1, s->found, s->room)) > s->room) {
         s->found = memory_resize("return.found", s->found, s->room, 2 * n, sizeof *s->found);
         s->room = 2 * n;
     }
