@@ -174,6 +174,9 @@ struct bond_source {
 void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
 /* c of a material in this family [N/m^6]. */
 real family_micro_modulus(const struct family *f, const struct material *m);
+/* Elastic constants of a full family on the lattice under uniform strain [Pa]: C_abcd = 1/(2V) sum c V V w r e_a e_b e_c e_d,
+ * cubic, with the shear modulus equal to C12; shell weights and partial volumes as they are. */
+void family_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 /* Work that separates a lattice of the model with rotations normal to a plane, over the square of the stretch at which its
  * bonds break [N/m] (separation.c). */
 real family_separation(const struct family *f, const struct state_modulus *m, bool local);

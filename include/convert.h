@@ -22,6 +22,10 @@ struct conversion_rule {
     real stress;                         /* sigma_max [Pa]; NAN: E s_c                                */
     real alpha;                          /* share of it that triggers                                 */
     bool block;                          /* the triggered particle takes its horizon neighbours along */
+    real tips;                           /* peridynamic from the start round ends of pre-cracks [horizons] */
+    bool back;                           /* particles return to material points (return.h)            */
+    real dwell;                          /* after a stress that was low for so long [horizon/c]       */
+    real calm;                           /* low: share of the stress that converts                    */
 };
 
 /* Has anything asked for conversion in this step? */
@@ -33,6 +37,9 @@ struct conversion {
     real first_place[DIM_MAX];           /* reference position of the first triggered particle [m]    */
     int64_t start, converted, events;    /* peridynamic particles at t = 0; converted since; passes   */
     int64_t peak_bonds;                  /* directed bonds stored, most at any time                   */
+    int64_t peak;                        /* peridynamic particles, most at any time                   */
+    int64_t returned, returns;           /* particles that became material points again; passes       */
+    real return_energy;                  /* all energy less that before, of these passes [J]          */
 };
 
 /* Who must bring particles up to date whose motion is kept elsewhere (mesh.h), before bonds are made between them. */
@@ -53,6 +60,11 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
 /* Marks as peridynamic, before step 0, every particle one of whose bonds a pre-crack cuts (Zeng et al. 2022,
  * eq. 28), and those in `region` (NULL: none). */
 void convert_start(struct particles *p, const struct bond_source *source, const struct region *region);
+
+/* What is peridynamic before step 0 and stays so: the region that the scene gives (NULL: none), and `radius` [m] round the ends of
+ * pre-cracks that lie in the body (in space: their edges). The caller frees `to`; one without solids is none. */
+void convert_region(struct region *to, const struct region *given, const struct particles *p, const struct bond_source *source,
+                    real radius);
 
 /* Partial stress (partial_stress.c) of every material point whose cell a bond between a peridynamic particle and a
  * material point crosses: T = (1/V) sum K xi^2 l e e e e, l the share of the bond's reference segment inside the cell.

@@ -55,6 +55,7 @@ struct engine {
     struct solver solver;
     real *pair_never;                    /* [materials^2] infinite, for the solvers                   */
     struct conversion conversion;
+    struct region start_region;          /* peridynamic from the start; no solid: none                */
     struct watch watch;
     struct tips tips;
     struct growth *growth;               /* [scene->growths] cracks that grow as they are told        */
@@ -116,7 +117,13 @@ void engine_mesh_move(struct engine *e, real middle, real dt_velocity);
 void engine_mesh_show(struct engine *e);
 void engine_mesh_look(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
+void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n);
 status engine_mesh_alarm(struct engine *e);
+/* Return to material points (engine_return.c): whether the scene allows it; before a step, what is due; the rim of the
+ * material points anew. */
+status engine_return_check(const struct engine *e);
+void engine_return(struct engine *e);
+void engine_rim_make(struct engine *e);
 /* After the run: the same scene on material points alone, if a pulse probe wants to be compared with it. */
 status engine_baseline(struct engine *e);
 /* Saves or restores the state between two steps. */

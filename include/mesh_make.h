@@ -28,6 +28,12 @@ void mesh_free(struct mesh *mesh);
  * momentum along. Returns the energy of motion inside cells that ends with that [J]. */
 real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n);
 
+/* The listed particles, material points again, become points of the mesh. Their momentum joins that of the nodes round
+ * them, whose velocity becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N); displacements of these nodes are fitted anew, by least
+ * squares over all points that they move. Returns the kinetic energy that ends with that [J]. mesh_follow, with those
+ * points among the changed, makes their cells; until then the mesh must not be moved. */
+real mesh_adopt(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+
 /* Points that something outside the mesh pulls at or looks at in every step: beside bonds, loaded, or with an image. */
 void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);
 

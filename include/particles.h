@@ -41,8 +41,10 @@ struct particles {
     real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP              [1]          */
     real *plastic_strain;                /* accumulated, equivalent; only where a material yields [1] */
     real *out_of_plane;                  /* sigma_zz - nu (sigma_xx + sigma_yy), only plane strain with it [Pa] */
+    real *quiet;                         /* peridynamic: since when its stress is low, infinite: it is not; only with return [s] */
     real *damage;                        /* share of broken bonds, 0..1             [1]          */
     uint8_t *kind, *material, *body, *flag;  /* enum kind; indices; enum particle_flag           */
+    uint8_t *returns;                    /* how often it became a material point again; only with return [1] */
     int32_t *id;                         /* order in which the scene made them                   */
 };
 
@@ -51,7 +53,7 @@ struct particles {
 struct image { int32_t source; uint8_t load; };
 
 /* Which optional arrays exist. */
-enum { WITH_GRADIENT = 1, WITH_STRETCH = 2, WITH_PLASTIC = 4, WITH_OUT_OF_PLANE = 8, WITH_EVERYTHING = 15 };
+enum { WITH_GRADIENT = 1, WITH_STRETCH = 2, WITH_PLASTIC = 4, WITH_OUT_OF_PLANE = 8, WITH_RETURN = 16, WITH_EVERYTHING = 31 };
 
 /* One line per array: name, unit, what it is, where it lives. `size` is the bytes of one entry; `count` the
  * number of component arrays for a dimension. The table makes, frees, sorts, checkpoints and restores. */

@@ -102,6 +102,7 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
 {
     if (p->kind[i] != KIND_MPM) return;
     p->kind[i] = KIND_PD;
+    if (p->quiet) p->quiet[i] = INFINITY;
     list_add(changed, i);
 }
 
@@ -179,6 +180,7 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
         c->converted += changed.n;
         c->events++;
         if (b->n > c->peak_bonds) c->peak_bonds = b->n;
+        if (p->n_of[KIND_PD] > c->peak) c->peak = p->n_of[KIND_PD];
     }
     int64_t converted = changed.n;
     memory_free(changed.at);

@@ -121,6 +121,8 @@ status engine_step(struct engine *e)
     const real dt_velocity = e->step == 0 ? 0.5 * e->dt : e->dt;           /* velocities stand half a step behind */
     e->transfer.dt_velocity = dt_velocity;
 
+    engine_return(e);                                                       /* peridynamic -> material point */
+    lap(&e->laps, LAP_CONVERT);
     engine_sample_begin(e);
     lap(&e->laps, LAP_WATCH);
     TRY(grid_sort(e));
@@ -146,7 +148,7 @@ status engine_step(struct engine *e)
                                       e->uses_partial ? &e->partial : NULL,
                                       &(struct conversion_look){engine_mesh_look, e}, e->t);   /* 8: material point -> peridynamic */
     if (converted > 0) {
-        if (e->uses_partial && s->transfer == TRANSFER_FLIP && p->n_free > 0) rim_make(&e->rim, p, &e->source);
+        engine_rim_make(e);
         e->sort_needed = true;
     }
     renew_partial(e, broken > 0 || converted > 0);

@@ -117,10 +117,14 @@ static void make_bonds(struct engine *e)
         bonds_neighbour_volume(e->neighbour_volume, &e->part, &e->source);
         e->source.neighbour_volume = e->neighbour_volume;
     }
-    if (s->method == METHOD_ADAPTIVE) convert_start(&e->part, &e->source, s->has_pd_region ? &s->pd_region : NULL);
+    if (s->method == METHOD_ADAPTIVE) {
+        convert_region(&e->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
+                       s->conversion.tips * e->source.family.horizon);
+        convert_start(&e->part, &e->source, e->start_region.n > 0 ? &e->start_region : NULL);
+    }
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     e->conversion.first_time = NAN;
-    e->conversion.start = e->part.n_of[KIND_PD];
+    e->conversion.start = e->conversion.peak = e->part.n_of[KIND_PD];
     e->conversion.peak_bonds = e->bonds.n;
 }
 
@@ -129,7 +133,7 @@ static void make_partial(struct engine *e)
     e->coupling = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
     e->uses_partial = e->coupling == COUPLING_PARTIAL_STRESS;
     if (e->uses_partial) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    if (e->uses_partial && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0) rim_make(&e->rim, &e->part, &e->source);
+    engine_rim_make(e);
 }
 
 #define RIM_SHARE_MOST (1.0 / 16)        /* rim.h */
@@ -320,6 +324,7 @@ static int optional_arrays(const struct scene *s)
     for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
         if (material_yields(&s->material[m]))
             optional |= WITH_PLASTIC | (s->space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0);
+    if (s->method == METHOD_ADAPTIVE && s->conversion.back) optional |= WITH_RETURN;
     return optional;
 }
 
@@ -341,6 +346,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     kernels_choose(&e->kernels, s->dim, law_of(e), s->shape, s->transfer);
     TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
+    TRY(named(s, engine_return_check(e)));
     TRY(named(s, engine_frames(e)));
     if (s->solver != SOLVER_EXPLICIT) {
         e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
@@ -386,6 +392,7 @@ void engine_free(struct engine *e)
     cells_free(&e->cells);
     loads_free(&e->loads);
     particles_free(&e->part);
+    memory_free(e->start_region.solid);
     solver_free(&e->solver);
     memory_free(e->boundary);
     memory_free(e->pair_never);

@@ -59,23 +59,11 @@ bool engine_has_mesh(const struct engine *e)
 
 /* ---- the mesh ------------------------------------------------------------------------------------------------ */
 
-/* Constants of a lattice of bonds under uniform strain: C_abcd = 1/(2V) sum c V V w r e_a e_b e_c e_d, cubic. */
 static void lattice_constants(const struct engine *e, const struct material *m, struct elastic *to)
 {
-    const struct family *f = &e->source.family;
-    const int reach = (int)ceil(f->cutoff / f->spacing), dim = e->part.dim;
-    const real scale = 0.5 * family_micro_modulus(f, m) * f->cell_volume;
-    real c11 = 0, c12 = 0;
-    for (int z = dim > 2 ? -reach : 0; z <= (dim > 2 ? reach : 0); z++)
-        for (int y = dim > 1 ? -reach : 0; y <= (dim > 1 ? reach : 0); y++)
-            for (int x = -reach; x <= reach; x++) {
-                const real xi[DIM_MAX] = {x * f->spacing, y * f->spacing, z * f->spacing}, r = sqrt(dot(xi, xi, dim));
-                if (r == 0 || r > f->cutoff) continue;
-                const real k = scale * family_weight(f, xi, r) / (r * r * r);
-                c11 += k * square(square(xi[0])), c12 += k * square(xi[0] * xi[1]);
-            }
-    to->c11 = c11;
-    if (dim > 1) to->c12 = to->shear = c12;
+    real c12;
+    family_constants(&e->source.family, m, &to->c11, &c12);
+    if (e->part.dim > 1) to->c12 = to->shear = c12;
 }
 
 static void make_constants(struct engine *e)
@@ -155,6 +143,18 @@ void engine_mesh_follow(struct engine *e, int64_t converted)
         follow(e);
     }
     e->partial.touches = 0;
+}
+
+void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n)
+{
+    int32_t *own = NEW("engine.own", n, int32_t);
+    int64_t m = 0;
+    for (int64_t k = 0; k < n; k++)
+        if (e->mesh.place && e->frame[e->part.body[list[k]]].reference) own[m++] = list[k];
+    if (m > 0) e->damped += mesh_adopt(&e->mesh, &e->part, own, m);
+    memory_free(own);
+    engine_mesh_follow(e, n);
+    engine_mesh_look(e, NULL, e->part.n);
 }
 
 status engine_mesh_alarm(struct engine *e)

@@ -102,7 +102,7 @@ static void refresh_states(struct engine *e)
     memory_free(never);
 }
 
-static void make_stress(struct engine *e)
+void engine_stress(struct engine *e)
 {
     refresh_states(e);
     e->kernels.bond_stress(&e->bonds, &e->part);
@@ -124,7 +124,7 @@ static real kinetic_now(const struct engine *e) { return watch_kinetic(&e->part)
 /* What stands still while the energies of a sample are gathered. */
 static void sample_state(struct engine *e)
 {
-    if (wants_stress(e)) make_stress(e);
+    if (wants_stress(e)) engine_stress(e);
     watch_momentum(&e->watch, &e->part, &e->mesh.grid, e->loads.impulse);
     tips_sample(&e->tips, &e->part, &e->cells, e->t);
     struct observed o = engine_observed(e);
@@ -166,7 +166,7 @@ void engine_sample_begin(struct engine *e)
     }
     if (!e->sampling.due && e->step < e->steps - 1) return;
     if (!e->sampling.due) show_probes(e);
-    if (!e->sampling.due && wants_stress(e)) make_stress(e);
+    if (!e->sampling.due && wants_stress(e)) engine_stress(e);
     struct observed o = engine_observed(e);
     probes_keep(&e->probes, &o);
     e->sampling.kinetic = kinetic_now(e);
@@ -261,7 +261,7 @@ void engine_residual(struct engine *e)
 static status write_frame(struct engine *e)
 {
     engine_mesh_show(e);
-    make_stress(e);
+    engine_stress(e);
     TRY(output_frame_begin(e->out, &e->part, e->t, e->step, e->scene->text));
     struct observed o = engine_observed(e);
     return probes_profiles(&e->probes, &o, e->out->folder, e->out->frames - 1);

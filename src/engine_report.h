@@ -14,6 +14,9 @@ void engine_sample_begin(struct engine *e);
 void engine_sample_energy(struct engine *e);
 void engine_sample_end(struct engine *e);
 
+/* Stress of peridynamic particles, which is made only where somebody looks. */
+void engine_stress(struct engine *e);
+
 /* A sample of a body at rest on which nothing has done work. */
 void engine_sample_rest(struct engine *e);
 

@@ -115,3 +115,18 @@ real family_micro_modulus(const struct family *f, const struct material *m)
     if (f->calibration == CALIBRATION_LATTICE) return material_micro_modulus(m, f->space, lattice_sums(f).sigma);
     return material_micro_modulus_continuum(m, f->space, f->horizon, f->section);
 }
+
+void family_constants(const struct family *f, const struct material *m, real *c11, real *c12)
+{
+    const int reach = (int)ceil(f->cutoff / f->spacing), dim = space_dim(f->space);
+    const real scale = 0.5 * family_micro_modulus(f, m) * f->cell_volume;
+    *c11 = *c12 = 0;
+    for (int z = dim > 2 ? -reach : 0; z <= (dim > 2 ? reach : 0); z++)
+        for (int y = dim > 1 ? -reach : 0; y <= (dim > 1 ? reach : 0); y++)
+            for (int x = -reach; x <= reach; x++) {
+                const real xi[DIM_MAX] = {x * f->spacing, y * f->spacing, z * f->spacing}, r = sqrt(dot(xi, xi, dim));
+                if (r == 0 || r > f->cutoff) continue;
+                const real k = scale * family_weight(f, xi, r) / (r * r * r);
+                *c11 += k * square(square(xi[0])), *c12 += k * square(xi[0] * xi[1]);
+            }
+}

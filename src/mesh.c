@@ -20,8 +20,7 @@ static status meshed_body(const struct particles *p, int64_t i, const char *what
                       p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
-/* Cell and place of particle i, or -1 where it is not at a quarter or three quarters of each edge. */
-static int64_t place_of(const struct mesh *mesh, const struct particles *p, int64_t i)
+int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     const struct grid *g = &mesh->grid;
     int64_t cell = 0;
@@ -42,7 +41,7 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     for (int64_t i = 0; i < p->n; i++) {
         mesh->place[i] = -1;
         if (!(p->flag[i] & FLAG_MESHED)) continue;
-        const int64_t place = place_of(mesh, p, i);
+        const int64_t place = mesh_place_of(mesh, p, i);
         if (place < 0) return meshed_body(p, i, "is not one of two a cell and direction (a lattice, mpm.cell 2, "
                                                 "mpm.origin between particles)");
         if (mesh->point[place] >= 0) return meshed_body(p, i, "shares its place with another");
@@ -71,7 +70,7 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
     return mass;
 }
 
-static void node_weigh(struct mesh *mesh, const struct particles *p, int64_t I)
+void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I)
 {
     mesh->grid.mass[I] = node_mass(mesh, p, I);
     mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
@@ -322,7 +321,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
     TRY(points_place(mesh, p));
     TRY(bodies_apart(mesh, p));
 #pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < mesh->grid.n; I++) node_weigh(mesh, p, I);
+    for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_weigh(mesh, p, I);
     wholes_make(mesh, source);
     cells_sort_out(mesh, p, source, NULL);
     nodes_start(mesh, p);
@@ -370,7 +369,7 @@ static real release(struct mesh *mesh, struct particles *p, int64_t i)
     p->flag[i] &= (uint8_t)~FLAG_MESHED;
     for (int c = 0; c < 1 << p->dim; c++) {
         const int64_t I = (place >> p->dim) + mesh->corner[c];
-        node_weigh(mesh, p, I);
+        mesh_node_weigh(mesh, p, I);
         for (int d = 0; d < p->dim && mesh->grid.mass[I] == 0; d++) mesh->grid.velocity[d][I] = mesh->displacement[d][I] = 0;
     }
     return energy;

@@ -13,4 +13,13 @@ void mesh_stiffness(real *K, real *skew, const struct elastic *m, const struct e
 /* Nodal values of a field that the points sample: least squares by mass, from the lumped projection. */
 void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);
 
+/* The same for some nodes only, from what they have; all others stay. */
+void mesh_project_near(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
+                       const int32_t *list, int64_t n);
+
+/* Cell and place of particle i, (cell << dim) + place, or -1 where it is not at a quarter or three quarters of each edge. */
+int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_t i);
+/* Mass of a node anew from the points round it. */
+void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I);
+
 #endif

@@ -12,11 +12,11 @@
 
 #include "convert.h"
 #include "memory.h"
+#include "partial_parts.h"
 
 /* ---- geometry ---------------------------------------------------------------------------------------- */
 
-/* Share of the segment a-b inside the cube of half edge `half` round X. */
-static real segment_share(const real *a, const real *b, const real *X, real half, int dim)
+real segment_share(const real *a, const real *b, const real *X, real half, int dim)
 {
     real in = 0, out = 1;
     for (int d = 0; d < dim; d++) {
@@ -32,10 +32,7 @@ static real segment_share(const real *a, const real *b, const real *X, real half
     return out > in ? out - in : 0;
 }
 
-/* Position of the mirror chain's image of a point: X'_d = sign_d X_d + offset_d. */
-struct reflection { real sign[DIM_MAX], offset[DIM_MAX]; int64_t root; };
-
-static struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
+struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     struct reflection r = {.sign = {1, 1, 1}, .root = i};
     while (r.root >= p->n) {                     /* X of this image = reflection of X of its source along one axis */
@@ -171,7 +168,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     }
 }
 
-static real half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
+real half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
 {
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
@@ -248,6 +245,28 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     if (skew) memcpy(partial->skew + (int64_t)partial->index[i] * skew, M + size, (size_t)skew * sizeof *M);
 }
 
+/* Entries that nobody has any more are squeezed out once they are the most: points that return come and go. */
+static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int skew)
+{
+    int64_t live = 0;
+    for (int64_t i = 0; i < p->n; i++) live += partial->index[i] >= 0;
+    if (partial->entries <= 2 * live + 256) return;
+    struct partial_stress old = *partial;
+    partial->matrix = NULL, partial->skew = NULL;
+    partial->entries = partial->room = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const int64_t at = partial->index[i];
+        real M[(SYM_MAX + DIM_MAX) * SYM_MAX];
+        if (at < 0) continue;
+        memcpy(M, old.matrix + at * size, (size_t)size * sizeof *M);
+        if (skew) memcpy(M + size, old.skew + at * skew, (size_t)skew * sizeof *M);
+        partial->index[i] = -1;
+        entry_put(partial, i, M, size, skew);
+    }
+    memory_free(old.matrix);
+    memory_free(old.skew);
+}
+
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n)
 {
@@ -279,6 +298,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         if (crossed[k]) entry_put(partial, list[k], M + k * whole, size, whole - size);
         else partial->index[list[k]] = -1;
     }
+    entries_squeeze(partial, p, size, whole - size);
     if (partial->touches + dirties > partial->touched_room) {
         const int64_t more = 2 * (partial->touches + dirties);
         partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *list);

@@ -15,6 +15,8 @@ static int if_stretch(int dim, int optional) { return optional & WITH_STRETCH ? 
 static int if_plastic(int dim, int optional) { return (void)dim, optional & WITH_PLASTIC ? 1 : 0; }
 static int if_out_of_plane(int dim, int optional) { return (void)dim, optional & WITH_OUT_OF_PLANE ? 1 : 0; }
 
+static int if_return(int dim, int optional) { return (void)dim, optional & WITH_RETURN ? 1 : 0; }
+
 #define FIELD(member, type, count, unit, meaning) \
     {#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count}
 
@@ -31,17 +33,19 @@ const struct particle_field particle_fields[] = {
     FIELD(stretch, real, if_stretch, "1", "axial stretch"),
     FIELD(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
     FIELD(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
+    FIELD(quiet, real, if_return, "s", "since when the stress of a peridynamic particle is low"),
     FIELD(damage, real, one, "1", "share of broken bonds"),
     FIELD(kind, uint8_t, one, "1", "0 material point, 1 peridynamic"),
     FIELD(material, uint8_t, one, "1", "index of the material"),
     FIELD(body, uint8_t, one, "1", "index of the body"),
     FIELD(flag, uint8_t, one, "1", "sum of flags"),
+    FIELD(returns, uint8_t, if_return, "1", "how often it became a material point again"),
     FIELD(id, int32_t, one, "1", "order in which the scene made them"),
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, damage, 4 indices, id. */
-_Static_assert(sizeof(struct particles) == offsetof(struct particles, X) + (4 * DIM_MAX + 29) * sizeof(void *),
+/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, damage, 4 indices, id. */
+_Static_assert(sizeof(struct particles) == offsetof(struct particles, X) + (4 * DIM_MAX + 31) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
 /* Through bytes: a `real *` must not be read as a `void *`. */

@@ -179,6 +179,15 @@ const struct key keys[] = {
         "a particle takes its horizon neighbours along"),
     KEY("conversion.criteria", KEY_SET, UNIT_NONE, AT(scene, conversion.criteria), ANY, "([bond, stress])",
         "what converts: a cut bond, the stress; a list, or none", .words = "bond|stress"),
+    KEY("conversion.tips", KEY_REAL, UNIT_NONE, AT(scene, conversion.tips), BETWEEN(0, 1000), "0",
+        "peridynamic from the start this many horizons round the ends of pre-cracks; 2 starts cracks when peridynamics does"),
+    KEY("conversion.return", KEY_FLAG, UNIT_NONE, AT(scene, conversion.back), ANY, "false",
+        "peridynamic particles become material points again where no bond within two horizons was ever cut and the stress "
+        "stays low (coupling partial stress or handshake, elastic materials)"),
+    KEY("conversion.dwell", KEY_REAL, UNIT_NONE, AT(scene, conversion.dwell), BETWEEN(1, 1e6), "5",
+        "return: how long the stress must have been low, in horizon over wave speed"),
+    KEY("conversion.return_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.calm), INSIDE(0, 0.9), "0.5",
+        "return: what low stress is, as a share of the one that converts"),
 
     KEY("cracks", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "cracks there at the start"),
     KEY("cracks.from", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "one end of a segment (plane)"),

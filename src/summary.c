@@ -164,6 +164,14 @@ static void put_crack(struct json *j, const struct engine *e)
     json_close(j, '}');
 }
 
+/* Of one particle. */
+static int returns_most(const struct particles *p)
+{
+    int most = 0;
+    for (int64_t i = 0; i < p->n; i++) most = p->returns[i] > most ? p->returns[i] : most;
+    return most;
+}
+
 static void put_conversion(struct json *j, const struct engine *e)
 {
     const struct conversion *c = &e->conversion;
@@ -175,7 +183,13 @@ static void put_conversion(struct json *j, const struct engine *e)
     }
     json_real(j, "pd_share_start", start);
     json_real(j, "pd_share_end", end);
-    json_real(j, "pd_share_max", real_max(start, end));   /* nothing is ever converted back */
+    json_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
+    if (e->part.quiet) {
+        json_count(j, "converted", c->converted);
+        json_count(j, "returned", c->returned);
+        json_count(j, "returns_most", returns_most(&e->part));
+        json_real(j, "return_energy", c->return_energy);
+    }
     json_close(j, '}');
 }
 
