@@ -79,28 +79,22 @@ static ALWAYS_INLINE void shape_linear(real t, row_of_nodes *N, row_of_nodes *dN
     *dN = (row_of_nodes){0, -1, 1, 0};
 }
 
-/* |s| up to 1, and what the hat function 1 - |s| has beyond s: (1 - |s|)^2/2, exact where little is left. */
-static ALWAYS_INLINE row_of_nodes hat_beyond(row_of_nodes s, row_of_nodes *size)
-{
-    *size = row_min(row_size(s), row_of(1));
-    return 0.5 * (1 - *size) * (1 - *size);
-}
-
-/* Mean of the hat functions over the particle's width 2l <= 2: what the hat has beyond its two ends, one taken from the other,
- * or both from 1 where the node lies between them. A node that the particle just touches so gets a weight of the size that it
- * should, never below 0: it may have no other, and what a node without mass is given is lost. GIMP keeps 2l <= 1 and has three
- * nodes. A stretched particle (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous
- * particles then share out every hat without gap or overlap, and a uniform stress leaves no residual (contiguous particles:
- * Bardenhagen & Kober 2004). */
+/* Mean of the hat functions over the particle's width 2l <= 2, by what a hat has beyond the particle's ends, at a - l and
+ * a + l for a node at the distance a: (1 - |s|)^2/2 beyond s, one end's less the other's, or less what is missing at both where
+ * the node lies between them. So a node that the particle just touches gets a weight of the size that it should, never below
+ * 0: it may have no other, and what a node without mass is given is lost. GIMP keeps 2l <= 1 and has three nodes. A stretched
+ * particle (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous particles then
+ * share out every hat without gap or overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen &
+ * Kober 2004). */
 static ALWAYS_INLINE void shape_gimp(real t, real l, real inverse_width, row_of_nodes *N, row_of_nodes *dN)
 {
-    const row_of_nodes s = row_distance(t), first = s - l, last = s + l;
-    row_of_nodes left, right;
-    const row_of_nodes below = hat_beyond(first, &left), above = hat_beyond(last, &right);
-    const row_mask between = (first < 0) & (last > 0);
-    const row_of_nodes apart = row_size(below - above), across = 1 - (below + above);
-    *N = (row_of_nodes)((between & (row_mask)across) | (~between & (row_mask)apart)) * inverse_width;
-    *dN = (left - right) * inverse_width;
+    const row_of_nodes s = row_distance(t), a = row_size(s);
+    const row_of_nodes near = row_min(row_size(a - l), row_of(1)), far = row_min(a + l, row_of(1));
+    const row_of_nodes twice_near = (1 - near) * (1 - near), twice_far = (1 - far) * (1 - far), rest = 2 - twice_near;
+    const row_mask between = a < l;
+    const row_of_nodes from = (row_of_nodes)((between & (row_mask)rest) | (~between & (row_mask)twice_near));
+    *N = (from - twice_far) * (0.5 * inverse_width);
+    *dN = row_signed((far - near) * inverse_width, -s);
 }
 
 /* B-splines as sums of truncated powers, a = |s|: N = ((3/2 - a)_+^2 - 3 (1/2 - a)_+^2)/2. */
@@ -122,13 +116,13 @@ static ALWAYS_INLINE void shape_cubic(real t, row_of_nodes *N, row_of_nodes *dN)
     *dN = row_signed(row_of(1), s) * (2 * near2 - 0.5 * far2);
 }
 
-/* Weights must add up to 1 and slopes to 0 to the last bit: every map gives momentum (sum N) times what it takes, and on a
- * lattice all points have the same round-off, which grows with the steps. The nearer node of the cell, never a light one, takes
- * what is missing. */
-static ALWAYS_INLINE row_of_nodes whole(row_of_nodes N, real all, real t)
+/* Weights must add up to 1 to the last bit: every map gives momentum (sum N) times what it takes, and on a lattice all points
+ * have the same round-off, which grows with the steps. The nearer node of the cell, never a light one, takes what is
+ * missing. */
+static ALWAYS_INLINE row_of_nodes whole(row_of_nodes N, real t)
 {
     const row_of_nodes nearer = t < 0.5 ? (row_of_nodes){0, 1, 0, 0} : (row_of_nodes){0, 0, 1, 0};
-    return N + (all - row_sum(N)) * nearer;
+    return N + (1 - row_sum(N)) * nearer;
 }
 
 static ALWAYS_INLINE void shape_row(const enum shape shape, real t, real l, real inverse_width, row_of_nodes *N,
@@ -140,7 +134,7 @@ static ALWAYS_INLINE void shape_row(const enum shape shape, real t, real l, real
     case SHAPE_CUBIC: shape_cubic(t, N, dN); break;
     default: shape_gimp(t, l, inverse_width, N, dN);
     }
-    *N = whole(*N, 1, t), *dN = whole(*dN, 0, t);
+    *N = whole(*N, t);
 }
 
 /* ---- the nodes of a cell ----------------------------------------------------------------------------
