@@ -8,6 +8,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#ifdef __SSE__
+#include <immintrin.h>
+#endif
+
 #include "memory.h"
 
 /* ---- the machine ----------------------------------------------------------------------------------- */
@@ -111,17 +115,39 @@ static void bind_helpers(const struct place *place, int threads)
 
 static bool user_binds(void) { return getenv("OMP_PROC_BIND") != NULL || getenv("OMP_PLACES") != NULL; }
 
+/* As many as the user's places hold, no more than OpenMP would take. */
+static int bound_threads(void)
+{
+    int held = 0, most = omp_get_max_threads();
+    for (int k = 0; k < omp_get_num_places(); k++) held += omp_get_place_num_procs(k);
+    return held > 0 && held < most ? held : most;
+}
+
+/* Numbers too small to be normal count as 0, in every thread alike: ahead of a wave what is mapped from node to node falls
+ * below 1e-308 within some steps, and such numbers would cost a hundred times an ordinary one. */
+static void flush_tiny_numbers(int threads)
+{
+#ifdef __SSE__
+#pragma omp parallel num_threads(threads)
+    _mm_setcsr(_mm_getcsr() | 0x8040);   /* results, and operands */
+#else
+    (void)threads;
+#endif
+}
+
 int team_make(int threads)
 {
     struct place place;
     bool known = place_make(&place);
     if (threads <= 0) {
         /* a user who binds has left this thread one place of many: the mask does not tell how many threads are wanted */
-        if (getenv("OMP_NUM_THREADS") != NULL || user_binds()) threads = omp_get_max_threads();
+        if (getenv("OMP_NUM_THREADS") != NULL) threads = omp_get_max_threads();
+        else if (user_binds()) threads = bound_threads();
         else threads = known ? core_count(&place) : omp_get_num_procs();
     }
     omp_set_dynamic(0);                  /* always this many: partitions must not change between loops */
     omp_set_num_threads(threads);
+    flush_tiny_numbers(threads);
     if (known) {
         if (!user_binds()) bind_helpers(&place, threads);
         place_free(&place);
