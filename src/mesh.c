@@ -224,7 +224,7 @@ static void cuts_make(struct mesh *mesh, const struct particles *p, const struct
             continue;
         }
         memcpy(K + k * size, mesh->stiffness + from[k] * size, sizeof *K * (size_t)size);
-        if (skew) memcpy(skew + k * size, mesh->skew + from[k] * size, sizeof *K * (size_t)size);
+        if (skew && mesh->skew) memcpy(skew + k * size, mesh->skew + from[k] * size, sizeof *K * (size_t)size);   /* none before: 0 */
     }
     memory_free(from);
     memory_free(mesh->stiffness);
