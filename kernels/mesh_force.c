@@ -104,15 +104,22 @@ static ALWAYS_INLINE void cut_balance(real h, const real *u, const real *U, real
 /* May a point of the cell be past the trigger? The bound of whole cells (mesh_law.h), of the corners' displacements. */
 static ALWAYS_INLINE bool cut_tension(const struct elastic *m, real h, const real *u, const int dim)
 {
+    static const real scale[DIM_MAX + 1] = {0, 0.25, 0.5, 1};    /* 2^-(3 - |M|) */
+    const real inverse = (1 << (DIM_MAX - dim)) / h;
     real e[DIM_MAX * DIM_MAX], s[SYM_MAX], bent = 0;
-    for (int a = 0; a < dim; a++)
-        for (int M = 1; M < 1 << dim; M++) {
-            real mode = 0;
-            for (int c = 0; c < 1 << dim; c++) mode += (__builtin_popcount(M & ~c) & 1 ? -1 : 1) * u[c * dim + a];
-            mode /= h * (1 << (dim - __builtin_popcount(M)));
-            if (M & (M - 1)) bent += fabs(mode);
-            else e[a * dim + (M == 1 ? 0 : M == 2 ? 1 : 2)] = mode;
-        }
+    for (int a = 0; a < dim; a++) {
+        real v[CORNERS_MAX];
+        for (int c = 0; c < 1 << dim; c++) v[c] = u[c * dim + a];
+        for (int d = 0; d < dim; d++)
+            for (int c = 0; c < 1 << dim; c++)
+                if (!(c >> d & 1)) {
+                    const real low = v[c], high = v[c | 1 << d];
+                    v[c] = low + high, v[c | 1 << d] = high - low;
+                }
+        for (int d = 0; d < dim; d++) e[a * dim + d] = v[1 << d] * scale[1] * inverse;
+        for (int M = 3; M < 1 << dim; M++)
+            if (M != 4) bent += fabs(v[M]) * scale[M == 7 ? 3 : 2] * inverse;
+    }
     mesh_point_stress(m, e, s, dim);
     return stress_bound(s, dim) + bent * (m->c11 + m->shear) * 0.25 > m->trigger;
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "kernels.h"
+#include "lanes.h"
 
 /* What a held component does to its node: the force becomes what the prescribed motion needs. */
 static void wall_force(struct mesh *mesh, struct wall *w, real dt_velocity, real impulse[DIM_MAX], real *work)
@@ -25,22 +26,25 @@ void mesh_clear(struct mesh *mesh)
             for (int32_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I++) mesh->grid.force[d][I] = 0;
 }
 
-/* Nodes of a row move; returns the largest component of a velocity, squared. Maxima drop what is no number: a sum keeps it. */
+/* Nodes of a row move, in whole vectors: what lies behind them has neither force nor mass and stays at rest. Returns the
+ * largest component of a velocity, squared. Maxima drop what is no number: a sum keeps it. */
 static real row_move(struct mesh *mesh, int64_t first, int64_t end, real dt, real dt_velocity)
 {
-    real most = 0, sum = 0;
+    lanes most = lanes_of(0), sum = lanes_of(0);
     for (int d = 0; d < mesh->grid.dim; d++) {
-        real *v = mesh->grid.velocity[d], *u = mesh->displacement[d];
-        const real *f = mesh->grid.force[d], *inverse = mesh->inverse_mass;
-#pragma omp simd reduction(max : most) reduction(+ : sum)
-        for (int64_t I = first; I < end; I++) {
-            v[I] += dt_velocity * inverse[I] * f[I];
-            u[I] += dt * v[I];
-            most = real_max(most, v[I] * v[I]);
-            sum += v[I];
+        real *velocity = mesh->grid.velocity[d], *displacement = mesh->displacement[d];
+        const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
+        for (int64_t I = first; I < end; I += LANES) {
+            const lanes v = lanes_load(velocity + I) + dt_velocity * lanes_load(inverse + I) * lanes_load(force + I);
+            lanes_store(velocity + I, v);
+            lanes_store(displacement + I, lanes_load(displacement + I) + dt * v);
+            most = lanes_max(most, v * v);
+            sum += v;
         }
     }
-    return isfinite(sum) ? most : INFINITY;
+    real largest = 0, all = 0;
+    for (int l = 0; l < LANES; l++) largest = real_max(largest, most[l]), all += sum[l];
+    return isfinite(all) ? largest : INFINITY;
 }
 
 real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work)
