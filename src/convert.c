@@ -100,12 +100,23 @@ bool convert_due(const struct particles *p)
     return any != 0;
 }
 
-/* Particles whose other bonds grow stiffer as theirs break (normalisation local): partial stress is to follow. */
-static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p)
+/* Does a bond of particle i, intact or not, end at a material point? */
+static bool meets_points(const struct bonds *b, const struct particles *p, int64_t i)
+{
+    const int64_t row = b->row_of[i], group = row / LANES;
+    for (int64_t k = 0; row >= 0 && k < b->slot[group + 1] - b->slot[group]; k++) {
+        const int64_t q = bond_index(b, group, k, row % LANES);
+        if (b->inverse_length[q] != 0 && p->kind[b->nbr[q]] == KIND_MPM) return true;
+    }
+    return false;
+}
+
+/* Particles whose bonds to material points grow stiffer as others break (normalisation local): partial stress is to follow. */
+static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p, const struct bonds *b)
 {
     if (!s->modulus || !s->local) return;
     for (int64_t i = 0; i < p->n; i++)
-        if (p->kind[i] == KIND_PD && p->flag[i] & FLAG_CUT) list_add(l, i);
+        if (p->kind[i] == KIND_PD && p->flag[i] & FLAG_CUT && meets_points(b, p, i)) list_add(l, i);
 }
 
 static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)
@@ -183,7 +194,7 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
     int64_t had;
     do {                                 /* a bond that breaks when made takes its other end along, in the same step */
         had = changed.n;
-        list_stiffened(&touched, source, p);
+        list_stiffened(&touched, source, p, b);
         convert_marked(c, rule, p, source, &changed, t);
         look_at(look, p, source, &changed, had);
     } while (changed.n > had && rebuild(p, b, source) > 0);
