@@ -33,27 +33,48 @@ static void given(const struct elastic *m, const struct elastic *isotropic, cons
     }
 }
 
+/* Adds the part of the point at place q. What it gives hangs on its strain alone: found once for each component, a shear by its
+ * angle, and put together for every corner. */
+static void point_stiffness(real *K, real *skew, const struct elastic *m, const struct elastic *isotropic, int dim, real h,
+                            real V, int q, const struct partial_stress *partial, int32_t entry)
+{
+    const int corners = 1 << dim, n = corners * dim, components = symmetric_count(dim), squares = dim * dim;
+    real P[SYM_MAX][DIM_MAX * DIM_MAX], S[SYM_MAX][DIM_MAX * DIM_MAX], slope[CORNERS_MAX][DIM_MAX];
+    for (int t = 0; t < components; t++) {
+        real g[DIM_MAX * DIM_MAX] = {0};
+        int a, b;
+        symmetric_axes(dim, t, &a, &b);
+        g[a * dim + b] += 0.5, g[b * dim + a] += 0.5;
+        given(m, isotropic, partial, entry, g, P[t], S[t], dim);
+    }
+    for (int c = 0; c < corners; c++)
+        for (int d = 0; d < dim; d++) slope[c][d] = mesh_slope(dim, c, q, d) / h;
+    for (int column = 0; column < n; column++) {
+        real pull[DIM_MAX * DIM_MAX] = {0}, turned[DIM_MAX * DIM_MAX] = {0};
+        for (int t = 0; t < components; t++) {
+            int a, b;
+            symmetric_axes(dim, t, &a, &b);
+            if (column % dim != a && column % dim != b) continue;
+            const real strain = slope[column / dim][column % dim == a ? b : a];
+            for (int k = 0; k < squares; k++) pull[k] += strain * P[t][k], turned[k] += strain * S[t][k];
+        }
+        for (int c = 0; c < corners; c++)
+            for (int a = 0; a < dim; a++)
+                for (int b = 0; b < dim; b++) {
+                    K[column * n + c * dim + a] += V * slope[c][b] * pull[a * dim + b];
+                    if (skew) skew[column * n + c * dim + a] += V * slope[c][b] * turned[a * dim + b];
+                }
+    }
+}
+
 void mesh_stiffness(real *K, real *skew, const struct elastic *m, const struct elastic *isotropic, int dim, real h, real V, unsigned places,
                     const struct partial_stress *partial, const int32_t *entry)
 {
     const int corners = 1 << dim, n = corners * dim;
     memset(K, 0, sizeof *K * (size_t)(n * n));
     if (skew) memset(skew, 0, sizeof *skew * (size_t)(n * n));
-    for (int q = 0; q < corners; q++) {
-        if (!(places >> q & 1)) continue;
-        for (int column = 0; column < n; column++) {
-            real g[DIM_MAX * DIM_MAX] = {0}, P[DIM_MAX * DIM_MAX], S[DIM_MAX * DIM_MAX];
-            for (int b = 0; b < dim; b++) g[column % dim * dim + b] = mesh_slope(dim, column / dim, q, b) / h;
-            given(m, isotropic, partial, entry ? entry[q] : -1, g, P, S, dim);
-            for (int c = 0; c < corners; c++)
-                for (int a = 0; a < dim; a++)
-                    for (int b = 0; b < dim; b++) {
-                        const real slope = V * mesh_slope(dim, c, q, b) / h;
-                        K[column * n + c * dim + a] += slope * P[a * dim + b];
-                        if (skew) skew[column * n + c * dim + a] += slope * S[a * dim + b];
-                    }
-        }
-    }
+    for (int q = 0; q < corners; q++)
+        if (places >> q & 1) point_stiffness(K, skew, m, isotropic, dim, h, V, q, partial, entry ? entry[q] : -1);
 }
 
 /* ---- time step -------------------------------------------------------------------------------------------- */
