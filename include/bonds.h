@@ -196,6 +196,12 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
  * broken, and counts are carried over. Bonds cut by a crack have w = 0 and count as damage. Sets damage of all rows'
  * peridynamic particles. */
 void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s);
+/* Images become what they are images of. */
+void bonds_images_follow(struct particles *p, const struct bond_source *s);
+/* Lists of particles and rows for a new who-is-what. What has no row any more has no force of bonds. */
+void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source *s);
+/* What the springs of a row hold together with [N/m]: a bound of the largest eigenvalue of its stiffness (springs.h). */
+real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row);
 void bonds_free(struct bonds *b);
 /* What the bonds of a slot have in common, for their weights and lengths of now. Whoever changes w or the sign of
  * inverse_length outside the kernels calls it; the same numbers give the same bits whether shared or not. */

@@ -28,6 +28,11 @@ int cells_near(const struct cells *c, const struct particles *p, const real *X, 
  * holds the circle. Cheap: it counts cells. */
 int cells_most(const struct cells *c, real radius);
 
+/* The same round particle i, itself included if wanted, into a list that grows as needed; at NULL to begin with, whoever holds
+ * it frees it. */
+struct near { int32_t *at; int n, room; };
+void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself);
+
 /* ---- the order of transfers ------------------------------------------------------------------------ */
 
 /* Grid cells are grouped in blocks, BLOCK_LENGTH cells long in x, along which particles lie in memory, and BLOCK_EDGE wide

@@ -52,6 +52,13 @@ struct particles {
  * mirror of load `load`. */
 struct image { int32_t source; uint8_t load; };
 
+/* The particle of the body that an image, or an image of an image, comes from. */
+static inline int64_t image_root(const struct particles *p, const struct image *image, int64_t i)
+{
+    while (i >= p->n) i = image[i - p->n].source;
+    return i;
+}
+
 /* Which optional arrays exist. */
 enum { WITH_GRADIENT = 1, WITH_STRETCH = 2, WITH_PLASTIC = 4, WITH_OUT_OF_PLANE = 8, WITH_RETURN = 16, WITH_EVERYTHING = 31 };
 

@@ -16,7 +16,7 @@ struct group_room {
 
 static bool was_whole(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
-    while (i >= p->n) i = s->image[i - p->n].source;
+    i = image_root(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
@@ -279,6 +279,24 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     state_make(b, p, s);
 }
 
+void bonds_images_follow(struct particles *p, const struct bond_source *s)
+{
+    for (int64_t k = p->n; k < p->n_all; k++) p->kind[k] = p->kind[s->image[k - p->n].source];
+}
+
+void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source *s)
+{
+    struct bonds old = *b;
+    bonds_images_follow(p, s);
+    particles_list(p);
+    bonds_make(b, &old, p, s);
+    for (int64_t row = 0; row < old.rows; row++) {
+        const int32_t i = old.particle[row];
+        for (int d = 0; d < p->dim && b->row_of[i] < 0; d++) p->f[d][i] = 0;
+    }
+    bonds_free(&old);
+}
+
 void bonds_free(struct bonds *b)
 {
     memory_free(b->particle);
@@ -344,22 +362,25 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
     return spring_bound_of(&bound, p->dim);
 }
 
+real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row)
+{
+    const int64_t g = row / LANES, i = b->particle[row];
+    struct spring_bound bound = {{{0}}, 0};
+    for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
+        const int64_t q = bond_index(b, g, k, (int)(row % LANES));
+        real n[DIM_MAX] = {0};
+        if (b->w[q] == 0) continue;
+        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][b->nbr[q]] - p->X[d][i]) * b->inverse_length[q];
+        spring_bound_add(&bound, b->stiffness * b->w[q] * b->inverse_length[q], n, p->dim);
+    }
+    return spring_bound_of(&bound, p->dim);
+}
+
 real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
 {
     real largest = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest)
-    for (int64_t r = 0; r < b->rows; r++) {
-        const int32_t i = b->particle[r];
-        struct spring_bound bound = {{{0}}, 0};
-        for (int64_t k = 0; k < b->slot[r / LANES + 1] - b->slot[r / LANES]; k++) {
-            const int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES));
-            real n[DIM_MAX] = {0};
-            if (b->w[q] == 0) continue;
-            for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][b->nbr[q]] - p->X[d][i]) * b->inverse_length[q];
-            spring_bound_add(&bound, b->stiffness * b->w[q] * b->inverse_length[q], n, p->dim);
-        }
-        largest = real_max(largest, spring_bound_of(&bound, p->dim) / p->mass[i]);
-    }
+    for (int64_t r = 0; r < b->rows; r++) largest = real_max(largest, bonds_row_bound(b, p, r) / p->mass[b->particle[r]]);
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 

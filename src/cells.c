@@ -162,6 +162,18 @@ int cells_most(const struct cells *c, real radius)
     return (int)most;
 }
 
+void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+{
+    const int32_t skip = itself ? -1 : (int32_t)i;
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    near->n = cells_near(c, p, X, radius, skip, near->at, near->room);
+    if (near->n <= near->room) return;
+    near->at = memory_resize("cells.near", near->at, near->room, 2 * near->n, sizeof *near->at);
+    near->room = 2 * near->n;
+    near->n = cells_near(c, p, X, radius, skip, near->at, near->room);
+}
+
 /* ---- transfer order --------------------------------------------------------------------------------- */
 
 /* The blocks that a grid's box touches. */

@@ -19,37 +19,18 @@ static void list_add(struct index_list *l, int64_t i)
     l->at[l->n++] = (int32_t)i;
 }
 
-/* Particles and images within the cutoff of particle i; grows the list as needed. */
-static int near_particle(const struct bond_source *s, const struct particles *p, int64_t i, struct index_list *found)
+/* Particles and images within the cutoff of particle i. */
+static void family_find(struct near *near, const struct bond_source *s, const struct particles *p, int64_t i)
 {
-    real X[DIM_MAX];
-    particle_place(p, i, X);
-    for (;;) {
-        int n = cells_near(s->cells, p, X, s->family.cutoff, (int32_t)i, found->at, (int)found->room);
-        if (n <= found->room) return n;
-        found->n = found->room;
-        list_add(found, 0);
-    }
-}
-
-/* The particle that an image is the image of. */
-static int64_t root_of(const struct bond_source *s, const struct particles *p, int64_t i)
-{
-    while (i >= p->n) i = s->image[i - p->n].source;
-    return i;
-}
-
-static void images_follow(const struct bond_source *s, struct particles *p)
-{
-    for (int64_t k = p->n; k < p->n_all; k++) p->kind[k] = p->kind[s->image[k - p->n].source];
+    near_find(near, s->cells, p, i, s->family.cutoff, false);
 }
 
 /* ---- before the first step ---------------------------------------------------------------------------- */
 
-static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const int32_t *found, int n)
+static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const struct near *near)
 {
-    for (int k = 0; k < n; k++)
-        if (p->body[found[k]] == p->body[i] && cracks_part(s->crack, s->cracks, p, i, found[k])) return true;
+    for (int k = 0; k < near->n; k++)
+        if (p->body[near->at[k]] == p->body[i] && cracks_part(s->crack, s->cracks, p, i, near->at[k])) return true;
     return false;
 }
 
@@ -57,19 +38,19 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
 {
 #pragma omp parallel
     {
-        struct index_list found = {0};
+        struct near near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
             real X[DIM_MAX];
             particle_place(p, i, X);
             if (region && region_contains(region, X, p->dim, 1e-9 * source->family.spacing)) p->kind[i] = KIND_PD;
             if (source->cracks == 0) continue;
-            int n = near_particle(source, p, i, &found);
-            if (loses_bond(source, p, i, found.at, n)) p->kind[i] = KIND_PD;
+            family_find(&near, source, p, i);
+            if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;
         }
-        memory_free(found.at);
+        memory_free(near.at);
     }
-    images_follow(source, p);
+    bonds_images_follow(p, source);
     particles_list(p);
 }
 
@@ -131,7 +112,8 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, struct index_list *changed, real t)
 {
-    struct index_list triggered = {0}, found = {0};
+    struct index_list triggered = {0};
+    struct near near = {0};
     for (int64_t first = 0; first < p->n; first += LANES) {
         if (!(flags_at(p, first) & EIGHT_TIMES(FLAG_CUT | FLAG_CRACKED | FLAG_STRESSED))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) {
@@ -147,40 +129,37 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
         }
         become_peridynamic(p, changed, i);
         if (!rule->block) continue;
-        int n = near_particle(source, p, i, &found);
-        for (int m = 0; m < n; m++) {
-            int64_t j = root_of(source, p, found.at[m]);
+        family_find(&near, source, p, i);
+        for (int m = 0; m < near.n; m++) {
+            const int64_t j = image_root(p, source->image, near.at[m]);
             if (p->body[j] == p->body[i]) become_peridynamic(p, changed, j);
         }
     }
     memory_free(triggered.at);
-    memory_free(found.at);
+    memory_free(near.at);
 }
 
 /* Everybody within the horizon of those just converted, changed[had] and on: bonds are about to see them. */
 static void look_at(const struct conversion_look *look, const struct particles *p, const struct bond_source *source,
                     const struct index_list *changed, int64_t had)
 {
-    struct index_list found = {0}, near = {0};
+    struct index_list seen = {0};
+    struct near near = {0};
     if (!look) return;
     for (int64_t k = had; k < changed->n; k++) {
-        const int n = near_particle(source, p, changed->at[k], &found);
-        list_add(&near, changed->at[k]);
-        for (int m = 0; m < n; m++) list_add(&near, root_of(source, p, found.at[m]));
+        family_find(&near, source, p, changed->at[k]);
+        list_add(&seen, changed->at[k]);
+        for (int m = 0; m < near.n; m++) list_add(&seen, image_root(p, source->image, near.at[m]));
     }
-    if (near.n > 0) look->look(look->context, near.at, near.n);
-    memory_free(found.at);
+    if (seen.n > 0) look->look(look->context, seen.at, seen.n);
     memory_free(near.at);
+    memory_free(seen.at);
 }
 
-/* Rows for the new who-is-what; bonds made past their limit break at once. */
+/* Bonds made past their limit break at once. */
 static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
 {
-    struct bonds old = *b;
-    images_follow(source, p);
-    particles_list(p);
-    bonds_make(b, &old, p, source);
-    bonds_free(&old);
+    bonds_renew(b, p, source);
     if (source->modulus) state_know_table[p->dim][source->turns ? PD_MOSPD : PD_OSPD](b, p);
     return bond_break_all(b, p, &source->limit);
 }

@@ -401,9 +401,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
     for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
         for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
     for (int64_t k = 0; k < b->slots * LANES && p->n_all > p->n; k++) {      /* images that bonds look at move as their sources */
-        int64_t i = b->nbr[k];
-        while (i >= p->n) i = l->image[i - p->n].source;
-        if (b->nbr[k] >= p->n) seen[i] = 1;
+        if (b->nbr[k] >= p->n) seen[image_root(p, l->image, b->nbr[k])] = 1;
     }
     mesh->seen = 0;
     for (int64_t i = 0; i < p->n; i++)

@@ -173,20 +173,6 @@ real half_edge(const struct particles *p, const struct bond_source *s, int64_t i
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* Particles and images within a radius, in a list that grows with what was asked of it. */
-struct near { int32_t *at; int n, room; };
-
-static void near_find(struct near *near, const struct particles *p, const struct bond_source *s, int64_t i, real radius)
-{
-    real X[DIM_MAX];
-    particle_place(p, i, X);
-    near->n = cells_near(s->cells, p, X, radius, -1, near->at, near->room);
-    if (near->n <= near->room) return;
-    near->at = memory_resize("partial.near", near->at, near->room, 2 * near->n, sizeof *near->at);
-    near->room = 2 * near->n;
-    near->n = cells_near(s->cells, p, X, radius, -1, near->at, near->room);
-}
-
 /* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). False if no bond crosses. */
 static bool partial_matrix(real *M, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t i, struct near *near)
@@ -194,7 +180,7 @@ static bool partial_matrix(real *M, const struct particles *p, const struct bond
     const int dim = p->dim, n = symmetric_count(dim), rows = rows_of(s, dim);
     real X[DIM_MAX], T[ROWS_MAX * SYM_MAX] = {0}, compliance[SYM_MAX * SYM_MAX], half = half_edge(p, s, i);
     for (int d = 0; d < dim; d++) X[d] = p->X[d][i];
-    near_find(near, p, s, i, s->family.cutoff + half * sqrt(dim));
+    near_find(near, s->cells, p, i, s->family.cutoff + half * sqrt(dim), true);
     for (int k = 0; k < near->n; k++)
         if (p->kind[near->at[k]] == KIND_MPM && p->body[near->at[k]] == p->body[i])
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
@@ -220,8 +206,8 @@ static int64_t list_dirty(const struct particles *p, const struct bond_source *s
     struct near near = {0};
     int64_t dirties = 0;
     for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
-        near_find(&near, p, s, changed ? changed[k] : p->list[KIND_PD][k], radius);
-        for (int m = 0; m < near.n; m++) dirty[reflection_of(s, p, near.at[m]).root] = 1;
+        near_find(&near, s->cells, p, changed ? changed[k] : p->list[KIND_PD][k], radius, true);
+        for (int m = 0; m < near.n; m++) dirty[image_root(p, s->image, near.at[m])] = 1;
     }
     for (int64_t i = 0; i < p->n; i++)
         if (dirty[i]) list[dirties++] = (int32_t)i;

@@ -17,41 +17,28 @@
 struct search {
     const struct particles *p;
     const struct bond_source *source;
-    int32_t *found;
-    int room;
+    struct near near;
 };
 
-/* Particles of the body of particle i within `radius`, it first, images by what they are images of; into s->found. */
-static int search_near(struct search *s, int64_t i, real radius)
+/* Particles of the body of particle i within `radius`, it among them, images by what they are images of; into s->near. */
+static void search_near(struct search *s, int64_t i, real radius)
 {
-    real X[DIM_MAX];
-    int n, kept = 1;
-    particle_place(s->p, i, X);
-    while ((n = cells_near(s->source->cells, s->p, X, radius, (int32_t)i, s->found + 1, s->room - 1)) >= s->room) {
-        s->found = memory_resize("return.found", s->found, s->room, 2 * n, sizeof *s->found);
-        s->room = 2 * n;
+    int kept = 0;
+    near_find(&s->near, s->source->cells, s->p, i, radius, true);
+    for (int k = 0; k < s->near.n; k++) {
+        const int64_t j = image_root(s->p, s->source->image, s->near.at[k]);
+        if (s->p->body[j] == s->p->body[i]) s->near.at[kept++] = (int32_t)j;
     }
-    s->found[0] = (int32_t)i;
-    for (int k = 1; k <= n; k++) {
-        int64_t j = s->found[k];
-        while (j >= s->p->n) j = s->source->image[j - s->p->n].source;
-        if (s->p->body[j] == s->p->body[i]) s->found[kept++] = (int32_t)j;
-    }
-    return kept;
-}
-
-static void search_begin(struct search *s)
-{
-    s->room = 64;
-    s->found = NEW("return.found", s->room, int32_t);
+    s->near.n = kept;
 }
 
 /* Is one of those within `radius` marked, itself included? */
 static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 {
-    const int n = search_near(s, i, radius);
-    for (int k = 0; k < n; k++)
-        if (mark[s->found[k]]) return true;
+    if (mark[i]) return true;
+    search_near(s, i, radius);
+    for (int k = 0; k < s->near.n; k++)
+        if (mark[s->near.at[k]]) return true;
     return false;
 }
 
@@ -94,22 +81,21 @@ static void mark_bound(const struct return_rule *rule, const struct particles *p
 #pragma omp parallel
     {
         struct search s = {.p = p, .source = rule->source};
-        search_begin(&s);
 #pragma omp for schedule(dynamic, 64)
         for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
             const int32_t i = p->list[KIND_PD][k];
             bound[i] = held[i] || meets(&s, i, f->cutoff, held) || meets(&s, i, CUT_HORIZONS * f->horizon, cut);
         }
-        memory_free(s.found);
+        memory_free(s.near.at);
     }
     struct search s = {.p = p, .source = rule->source};
-    search_begin(&s);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
-        const int n = bound[i] ? 0 : search_near(&s, i, f->cutoff);
-        for (int q = 0; q < n; q++) near[s.found[q]] = 1;
+        if (bound[i]) continue;
+        search_near(&s, i, f->cutoff);
+        for (int q = 0; q < s.near.n; q++) near[s.near.at[q]] = 1;
     }
-    memory_free(s.found);
+    memory_free(s.near.at);
 }
 
 /* mark[i] = does `i` of those wanted meet (or not meet) the other mark within a horizon? */
@@ -119,11 +105,10 @@ static void mark_meeting(const struct return_rule *rule, const struct particles 
 #pragma omp parallel
     {
         struct search s = {.p = p, .source = rule->source};
-        search_begin(&s);
 #pragma omp for schedule(dynamic, 64)
         for (int64_t i = 0; i < p->n; i++)
             mark[i] = wanted[i] && meets(&s, i, rule->source->family.cutoff, other) == meeting;
-        memory_free(s.found);
+        memory_free(s.near.at);
     }
 }
 
@@ -237,18 +222,13 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
  * reference segment inside it (as in partial_stress.c): what flows through it. The virial of its own family is the same
  * under uniform strain, but smears a wave twice as far. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b, const struct bond_source *source,
-                        int64_t i, struct search *s)
+                        int64_t i, struct near *near)
 {
-    int n;
     *to = (struct crossing){.half = half_edge(p, source, i)};
     particle_place(p, i, to->X);
-    const real reach = source->family.cutoff + to->half * sqrt(p->dim);
-    while ((n = cells_near(source->cells, p, to->X, reach, -1, s->found, s->room)) > s->room) {
-        s->found = memory_resize("return.found", s->found, s->room, 2 * n, sizeof *s->found);
-        s->room = 2 * n;
-    }
-    for (int k = 0; k < n; k++) {
-        const int64_t j = s->found[k];
+    near_find(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim), true);
+    for (int k = 0; k < near->n; k++) {
+        const int64_t j = near->at[k];
         const struct reflection r = reflection_of(source, p, j);
         const int64_t row = b->row_of[r.root];
         if (row < 0 || p->body[j] != p->body[i]) continue;
@@ -280,43 +260,29 @@ static void complete(const struct bond_source *source, const struct particles *p
 
 /* State-based models have no force of a bond alone: the virial of the family serves. */
 static void stress_of(real *stress, const struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
-                      struct search *s)
+                      struct near *near)
 {
     struct crossing c;
     for (int k = 0; k < symmetric_count(p->dim); k++) stress[k] = p->stress[k][i];
     if (source->modulus) return;
-    crossing_of(&c, p, b, source, i, s);
+    crossing_of(&c, p, b, source, i, near);
     complete(source, p, i, c.T, c.stress);
     memcpy(stress, c.stress, sizeof c.stress);
 }
 
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
-                              struct search *s)
+                              struct near *near)
 {
     const int dim = p->dim, n = symmetric_count(dim);
     real K[DIM_MAX * DIM_MAX] = {0}, G[DIM_MAX * DIM_MAX] = {0}, stress[SYM_MAX], J = 1;
     family_moments(b, p, b->row_of[i], K, G);
     const bool known = solve(K, G, dim, dim);
     if (known) J = determinant(G, dim);
-    stress_of(stress, p, b, source, i, s);
+    stress_of(stress, p, b, source, i, near);
     for (int c = 0; c < n; c++) p->stress[c][i] = stress[c] / J;
     p->volume[i] = p->volume0[i] * J;
     for (int c = 0; c < dim * dim && p->gradient[c]; c++) p->gradient[c][i] = 0;
     for (int d = 0; d < dim && p->stretch[d]; d++) p->stretch[d][i] = known ? G[d * dim + d] : 1;
-}
-
-/* Rows for the new who-is-what. What has no row any more has no force of bonds. */
-static void rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
-{
-    struct bonds old = *b;
-    for (int64_t k = p->n; k < p->n_all; k++) p->kind[k] = p->kind[source->image[k - p->n].source];
-    particles_list(p);
-    bonds_make(b, &old, p, source);
-    for (int64_t row = 0; row < old.rows; row++) {
-        const int32_t i = old.particle[row];
-        for (int d = 0; d < p->dim && b->row_of[i] < 0; d++) p->f[d][i] = 0;
-    }
-    bonds_free(&old);
 }
 
 void return_points(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
@@ -324,18 +290,17 @@ void return_points(struct conversion *c, struct particles *p, struct bonds *b, c
 {
 #pragma omp parallel
     {
-        struct search s = {.p = p, .source = source};
-        search_begin(&s);
+        struct near near = {0};
 #pragma omp for schedule(dynamic, 8)
-        for (int64_t k = 0; k < n; k++) point_from_family(p, b, source, list[k], &s);
-        memory_free(s.found);
+        for (int64_t k = 0; k < n; k++) point_from_family(p, b, source, list[k], &near);
+        memory_free(near.at);
     }
     for (int64_t k = 0; k < n; k++) {
         p->kind[list[k]] = KIND_MPM;
         p->quiet[list[k]] = INFINITY;
         p->returns[list[k]] += p->returns[list[k]] < UINT8_MAX;
     }
-    rebuild(p, b, source);
+    bonds_renew(b, p, source);
     if (partial) partial_stress_make(partial, p, b, source, list, n);
     c->returned += n;
     c->returns++;

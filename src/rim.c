@@ -15,28 +15,20 @@ enum { OUTSIDE = -1 };
 struct search {
     const struct particles *p;
     const struct bond_source *source;
-    int32_t *found;
-    int room;
+    struct near near;
 };
 
-/* Free particles of the body of particle i within `radius` of it, ascending, images left out; into s->found. */
-static int search_near(struct search *s, int32_t i, real radius)
+/* Free particles of the body of particle i within `radius` of it, ascending, images left out; into s->near. */
+static void search_near(struct search *s, int32_t i, real radius)
 {
     const struct particles *p = s->p;
-    real X[DIM_MAX];
     int kept = 0;
-    particle_place(p, i, X);
-    int n = cells_near(s->source->cells, p, X, radius, i, s->found, s->room);
-    if (n > s->room) {
-        s->found = memory_resize("rim.found", s->found, s->room, 2 * n, sizeof *s->found);
-        s->room = 2 * n;
-        n = cells_near(s->source->cells, p, X, radius, i, s->found, s->room);
+    near_find(&s->near, s->source->cells, p, i, radius, false);
+    for (int k = 0; k < s->near.n; k++) {
+        const int32_t j = s->near.at[k];
+        if (j < p->n && p->body[j] == p->body[i] && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED))) s->near.at[kept++] = j;
     }
-    for (int k = 0; k < n; k++) {
-        int32_t j = s->found[k];
-        if (j < p->n && p->body[j] == p->body[i] && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED))) s->found[kept++] = j;
-    }
-    return kept;
+    s->near.n = kept;
 }
 
 /* ---- making ------------------------------------------------------------------------------------------- */
@@ -54,14 +46,14 @@ static void members_make(struct rim *r, struct search *s, int32_t *place)
     const struct particles *p = s->p;
     const struct family *f = &s->source->family;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
-        int n = search_near(s, p->list[KIND_PD][k], f->cutoff + f->spacing * (1 + 1e-9));
-        for (int q = 0; q < n; q++)
-            if (p->kind[s->found[q]] == KIND_MPM) member_add(r, place, s->found[q]);
+        search_near(s, p->list[KIND_PD][k], f->cutoff + f->spacing * (1 + 1e-9));
+        for (int q = 0; q < s->near.n; q++)
+            if (p->kind[s->near.at[q]] == KIND_MPM) member_add(r, place, s->near.at[q]);
     }
     r->points = r->n;
     for (int64_t k = 0; k < r->points; k++) {
-        int n = search_near(s, r->particle[k], NEIGHBOUR_SPACINGS * f->spacing);
-        for (int q = 0; q < n; q++) member_add(r, place, s->found[q]);
+        search_near(s, r->particle[k], NEIGHBOUR_SPACINGS * f->spacing);
+        for (int q = 0; q < s->near.n; q++) member_add(r, place, s->near.at[q]);
     }
 }
 
@@ -71,16 +63,18 @@ static void pairs_make(struct rim *r, struct search *s, const int32_t *place)
     int64_t pairs = 0, room = 0;
     int most = 1;
     for (int64_t k = 0; k < r->n; k++) {
-        int n = search_near(s, r->particle[k], NEIGHBOUR_SPACINGS * s->source->family.spacing);
-        if (pairs + n > room) {
-            int64_t larger = 2 * (pairs + n);
+        const struct near *near = &s->near;
+        search_near(s, r->particle[k], NEIGHBOUR_SPACINGS * s->source->family.spacing);
+        if (pairs + near->n > room) {
+            int64_t larger = 2 * (pairs + near->n);
             r->neighbour = memory_resize("rim.neighbour", r->neighbour, room, larger, sizeof *r->neighbour);
             room = larger;
         }
         r->start[k] = pairs;
-        for (int q = 0; q < n; q++) {
-            int32_t m = place[s->found[q]];
-            if (m == OUTSIDE || (k >= r->points && m >= r->points) || cracks_part(s->source->crack, s->source->cracks, s->p, r->particle[k], s->found[q])) continue;
+        for (int q = 0; q < near->n; q++) {
+            const int32_t m = place[near->at[q]];
+            if (m == OUTSIDE || (k >= r->points && m >= r->points)) continue;
+            if (cracks_part(s->source->crack, s->source->cracks, s->p, r->particle[k], near->at[q])) continue;
             r->neighbour[pairs++] = m;
         }
         if (pairs - r->start[k] > most) most = (int)(pairs - r->start[k]);
@@ -102,7 +96,7 @@ void rim_make(struct rim *r, const struct particles *p, const struct bond_source
     pairs_make(r, &s, place);
     r->difference = NEW("rim.difference", r->n * p->dim, real);
     r->change = NEW("rim.change", r->n * p->dim, real);
-    memory_free(s.found);
+    memory_free(s.near.at);
     memory_free(place);
 }
 

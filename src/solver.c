@@ -87,23 +87,6 @@ static void field_free(struct field *v)
     for (int d = 0; d < DIM_MAX; d++) memory_free(v->of[d]);
 }
 
-/* Bound of the bonds of a row [N/m]. */
-static real row_bound(const struct engine *e, int64_t row)
-{
-    const struct bonds *b = &e->bonds;
-    const struct particles *p = &e->part;
-    const int64_t g = row / LANES, i = b->particle[row];
-    struct spring_bound bound = {{{0}}, 0};
-    for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
-        const int64_t q = bond_index(b, g, k, (int)(row % LANES));
-        real n[DIM_MAX] = {0};
-        if (b->w[q] == 0) continue;
-        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][b->nbr[q]] - p->X[d][i]) * b->inverse_length[q];
-        spring_bound_add(&bound, b->stiffness * b->w[q] * b->inverse_length[q], n, p->dim);
-    }
-    return spring_bound_of(&bound, p->dim);
-}
-
 static void vector_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct engine *e = context;
@@ -147,7 +130,7 @@ static void make_diagonal(struct engine *e)
     real most = 0;
     struct field kept = {{0}};
     for (int64_t r = 0; r < e->bonds.rows; r++) {
-        s->diagonal[e->bonds.particle[r]] = 0.25 * row_bound(e, r);
+        s->diagonal[e->bonds.particle[r]] = 0.25 * bonds_row_bound(&e->bonds, p, r);
         most = real_max(most, s->diagonal[e->bonds.particle[r]]);
     }
     for (int64_t i = 0; i < p->n; i++)
