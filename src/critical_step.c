@@ -47,7 +47,8 @@ static real largest_of(const struct vectors *v)
     return most;
 }
 
-/* One iteration; returns the Rayleigh quotient omega^2 of d, and leaves M^-1 K d in its place. */
+/* One iteration; returns the Rayleigh quotient omega^2 of d, and leaves M^-1 K d/omega^2 in its place: without the division
+ * it would grow beyond all numbers in a dozen iterations. */
 static real iterate(struct vectors *v, struct bonds *b, struct particles *p, bond_force_fn *force,
                     const struct bond_limit *limit, real spacing)
 {
@@ -57,9 +58,10 @@ static real iterate(struct vectors *v, struct bonds *b, struct particles *p, bon
         for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * v->d[a][i];
     force(b, p, limit);
     team_sums(p->n, 2, rayleigh_block, v, sum);
-    for (int a = 0; a < p->dim; a++)
-        for (int64_t i = 0; i < p->n; i++) v->d[a][i] = -p->f[a][i] / (p->mass[i] * scale);
-    return sum[1] / (sum[0] * scale);
+    const real omega2 = sum[1] / (sum[0] * scale);
+    for (int a = 0; a < p->dim && omega2 > 0; a++)
+        for (int64_t i = 0; i < p->n; i++) v->d[a][i] = -p->f[a][i] / (p->mass[i] * scale * omega2);
+    return omega2;
 }
 
 real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, real spacing)
