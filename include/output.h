@@ -25,6 +25,7 @@ struct output {
     struct frame_job *writing;           /* a frame on its way to the disk; NULL: none                */
     char *frame_copy;                    /* what it copies; kept for the next one, whose pages are then there */
     int64_t frame_copy_bytes;
+    struct { int32_t *order; char *room; int64_t n; } frame_kept;    /* by id; of a field: the writer's, kept likewise */
 };
 
 /* Once per process, before any other HDF5 call: no exit handler, no error stack on the terminal; SIGXFSZ and

@@ -6,18 +6,6 @@
 #include "team.h"
 #include "variants.h"
 
-/* Stretch and relative position of stored bond q of particle i. */
-static ALWAYS_INLINE real bond_geometry(const struct bonds *b, const struct particles *p, int64_t q, int32_t i,
-                                        real *relative, const int dim)
-{
-    real distance2 = 0;
-    for (int d = 0; d < dim; d++) {
-        relative[d] = p->x[d][b->nbr[q]] - p->x[d][i];
-        distance2 += relative[d] * relative[d];
-    }
-    return sqrt(distance2) * b->inverse_length[q] - 1;
-}
-
 /* Energy over half the stiffness (each bond has two rows) of the eight rows of a group. */
 static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                             const enum pd_model model)
@@ -43,25 +31,32 @@ static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct 
     return total;
 }
 
-/* sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F the force on i. */
-static ALWAYS_INLINE void bond_stress_row(const struct bonds *b, struct particles *p, int64_t row, const int dim,
-                                          const enum pd_model model)
+/* sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F the force on i, of the peridynamic particles among the eight rows of a
+ * group. */
+static ALWAYS_INLINE void bond_stress_group(const struct bonds *b, struct particles *p, int64_t g, const int dim,
+                                            const enum pd_model model)
 {
-    int32_t i = b->particle[row];
-    real stress[SYM_MAX] = {0}, y[DIM_MAX];
-    const int symmetric = dim * (dim + 1) / 2;
-    if (p->kind[i] != KIND_PD) return;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        if (b->w[q] == 0) continue;
-        real stretch = bond_geometry(b, p, q, i, y, dim);
-        real elastic = model == PD_BOND_PLASTIC ? bond_elastic_one(b, q, stretch) : stretch;
-        real share = b->stiffness * b->w[q] * elastic * b->inverse_length[q] / (1 + stretch) / (2 * p->volume0[i]);
-        for (int d = 0; d < dim; d++) stress[d] += share * y[d] * y[d];
-        if (dim > 1) stress[dim] += share * y[0] * y[1];
-        if (dim > 2) stress[4] += share * y[1] * y[2], stress[5] += share * y[2] * y[0];
+    const int32_t *row = b->particle + g * LANES;
+    lanes sum[SYM_MAX], x[DIM_MAX], y[DIM_MAX];
+    for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_of(0);
+    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
+    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
+        const int64_t q = slot * LANES;
+        lanes distance2 = lanes_of(1e-300);
+        for (int d = 0; d < dim; d++) {
+            y[d] = lanes_at(p->x[d], b->first[slot], b->nbr + q) - x[d];
+            distance2 += y[d] * y[d];
+        }
+        const lanes inverse = lanes_inverse_root(distance2);
+        const lanes stretch = distance2 * inverse * lanes_load(b->inverse_length + q) - 1.0;
+        const lanes share = lanes_load_float(b->w + q) * bond_elastic(model, b, q, stretch) * inverse;
+        for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
+        if (dim > 1) sum[dim] += share * y[0] * y[1];
+        if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
     }
-    for (int s = 0; s < symmetric; s++) p->stress[s][i] = stress[s];
+    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
+        for (int s = 0; s < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; s++)
+            p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
 static real plastic_term(const void *context, int64_t row)
@@ -100,7 +95,7 @@ enum { GROUPS_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
     static void bond_stress_##D##d_##M(const struct bonds *b, struct particles *p)                              \
     {                                                                                                           \
         _Pragma("omp parallel for schedule(static)")                                                            \
-        for (int64_t row = 0; row < b->rows; row++) bond_stress_row(b, p, row, D, PD_##M);                      \
+        for (int64_t g = 0; g < b->groups; g++) bond_stress_group(b, p, g, D, PD_##M);                                                \
     }
 PD_VARIANTS(INSTANCE)
 

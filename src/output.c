@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <hdf5.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -144,6 +145,8 @@ void output_close(struct output *o)
     memory_free(o->folder);
     memory_free(o->frame_time);
     memory_free(o->frame_copy);
+    free(o->frame_kept.order);
+    free(o->frame_kept.room);
     *o = (struct output){0};
 }
 

@@ -96,6 +96,7 @@ static bool field_exists(const struct frame_field *field, bool yielding)
 struct frame_job {
     struct path path;
     const struct particles *p;           /* borrowed: what never changes of them */
+    struct output *o;                    /* borrowed: what it keeps for the writer */
     int64_t n, step;
     int dim;
     real t;
@@ -120,7 +121,7 @@ static struct frame_job *job_make(struct output *o, const struct particles *p, r
 {
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
     size_t offset[COUNT_OF(frame_fields)], length = 0;
-    job->p = p, job->n = p->n, job->step = step, job->dim = p->dim, job->t = t;
+    job->p = p, job->o = o, job->n = p->n, job->step = step, job->dim = p->dim, job->t = t;
     job->compress = o->compress, job->yielding = p->plastic_strain != NULL, job->scene_text = scene_text;
     for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
         offset[k] = length;
@@ -208,22 +209,30 @@ static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char
     hdf_text(f, "/Cleave/scene", scene_text);
 }
 
+/* Order and room of all frames of a run, made by its first: neither who there is nor their ids change. */
+static bool kept_make(struct output *o, const struct particles *p)
+{
+    if (o->frame_kept.n == p->n) return true;
+    free(o->frame_kept.order), free(o->frame_kept.room);
+    o->frame_kept.order = order_by_id(p);
+    o->frame_kept.room = malloc((size_t)(p->n + 1) * ROW_MOST);
+    const bool made = o->frame_kept.order && o->frame_kept.room;
+    o->frame_kept.n = made ? p->n : 0;
+    return made;
+}
+
 /* Writes PATH.tmp and publishes it. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
-    int32_t *order = order_by_id(job->p);
-    char *room = malloc((size_t)(job->n + 1) * ROW_MOST);
-    if (!order || !room) {
-        free(order), free(room);
-        return file_fault(job->path.text, ENOMEM);
-    }
+    if (!kept_make(job->o, job->p)) return file_fault(job->path.text, ENOMEM);
+    const int32_t *order = job->o->frame_kept.order;
+    char *room = job->o->frame_kept.room;
     hdf_create(&f, path_aside(job->path.text).text, job->compress);
     write_marks(&f, job->dim, job->t, job->step, job->scene_text);
     write_cells(&f, job->n, room);
     for (size_t k = 0; k < COUNT_OF(frame_fields); k++)
         if (field_exists(&frame_fields[k], job->yielding)) write_field(&f, job, k, order, room);
-    free(order), free(room);
     if (!f.failed) hdf_close(&f);
     if (f.failed) {
         job->broken = true;
