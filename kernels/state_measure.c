@@ -10,51 +10,94 @@
 #include "team.h"
 #include "variants.h"
 
-struct row_sum { const struct bonds *b; const struct particles *p; };
+/* What a group's own force states rest on. */
+struct own_state { lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, turn[DIM_MAX * DIM_MAX]; };
 
-static ALWAYS_INLINE real energy_row(const struct row_sum *s, int64_t row, const int dim, const enum pd_model model)
+static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
+                                                   const bool turns)
 {
-    const struct bonds *b = s->b;
-    real sum = 0, T[DIM_MAX], xi[DIM_MAX];
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        if (b->w[q] != 0) sum += state_own_force(b, s->p, q, b->particle[row], T, xi, dim, state_turns(model));
-    }
-    return sum;
+    const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
+    const struct state *t = &b->state;
+    struct own_state s;
+    s.pressure = lanes_at(t->pressure, own, row), s.spring = lanes_at(t->spring, own, row);
+    for (int d = 0; d < dim; d++) s.x[d] = lanes_at(p->x[d], own, row), s.X[d] = lanes_at(p->X[d], own, row);
+    for (int c = 0; turns && c < dim * dim; c++) s.turn[c] = lanes_at(t->turn[c], own, row);
+    return s;
 }
 
-static ALWAYS_INLINE void stress_row(const struct bonds *b, struct particles *p, int64_t row, const int dim,
-                                     const enum pd_model model)
+/* state_own_force of the eight bonds of a slot; broken ones have none. */
+static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struct bonds *b, const struct particles *p,
+                                          int64_t slot, lanes *T, lanes *xi, const int dim, const bool turns)
 {
-    const int32_t i = b->particle[row];
-    real stress[SYM_MAX] = {0}, T[DIM_MAX], xi[DIM_MAX];
-    if (p->kind[i] != KIND_PD) return;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        if (b->w[q] == 0) continue;
-        state_own_force(b, p, q, i, T, xi, dim, state_turns(model));
-        for (int s = 0; s < dim * (dim + 1) / 2; s++) {
-            int a, c;
-            symmetric_axes(dim, s, &a, &c);
-            stress[s] += 0.5 * (T[a] * xi[c] + T[c] * xi[a]) / p->volume0[i];
-        }
+    const int32_t *nbr = b->nbr + slot * LANES, first = b->first[slot];
+    const lanes w = lanes_load_float(b->w + slot * LANES), inverse_length = lanes_load(b->inverse_length + slot * LANES);
+    const lanes r = lanes_inverse_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_of(1)));
+    lanes y[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
+    for (int d = 0; d < dim; d++) {
+        y[d] = lanes_at(p->x[d], first, nbr) - s->x[d], xi[d] = lanes_at(p->X[d], first, nbr) - s->X[d];
+        distance2 += y[d] * y[d];
     }
-    for (int s = 0; s < dim * (dim + 1) / 2; s++) p->stress[s][i] = stress[s];
+    const lanes inverse = lanes_inverse_root(distance2), e = distance2 * inverse - r;
+    lanes along = r * s->pressure;
+    if (!turns) along += e * s->spring;
+    lanes energy = along * e;
+    for (int d = 0; d < dim; d++) T[d] = w * along * y[d] * inverse;
+    for (int d = 0; turns && d < dim; d++) {
+        lanes effective = s->spring * y[d];
+        for (int c = 0; c < dim; c++) effective -= s->turn[d * dim + c] * xi[c];
+        T[d] += w * effective;
+        effective2 += effective * effective;
+    }
+    if (turns) energy += effective2 / s->spring;
+    return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_of(0));
 }
+
+static ALWAYS_INLINE real energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
+                                       const enum pd_model model)
+{
+    const struct own_state s = own_state_of(b, p, g, dim, state_turns(model));
+    lanes sum = lanes_of(0), T[DIM_MAX], xi[DIM_MAX];
+    real total = 0;
+    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++)
+        sum += own_force_slot(&s, b, p, slot, T, xi, dim, state_turns(model));
+    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
+    return total;
+}
+
+static ALWAYS_INLINE void stress_group(const struct bonds *b, struct particles *p, int64_t g, const int dim,
+                                       const enum pd_model model)
+{
+    const struct own_state s = own_state_of(b, p, g, dim, state_turns(model));
+    const int32_t *row = b->particle + g * LANES;
+    lanes sum[SYM_MAX], T[DIM_MAX], xi[DIM_MAX];
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) sum[c] = lanes_of(0);
+    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
+        own_force_slot(&s, b, p, slot, T, xi, dim, state_turns(model));
+        for (int d = 0; d < dim; d++) sum[d] += T[d] * xi[d];
+        if (dim > 1) sum[dim] += 0.5 * (T[0] * xi[1] + T[1] * xi[0]);
+        if (dim > 2) sum[4] += 0.5 * (T[1] * xi[2] + T[2] * xi[1]), sum[5] += 0.5 * (T[2] * xi[0] + T[0] * xi[2]);
+    }
+    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
+        for (int c = 0; c < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; c++)
+            p->stress[c][row[l]] = sum[c][l] / p->volume0[row[l]];
+}
+
+struct group_sum { const struct bonds *b; const struct particles *p; };
 
 #define INSTANCE(D, M)                                                                                          \
-    static real energy_term_##D##d_##M(const void *context, int64_t row)                                        \
+    static real energy_term_##D##d_##M(const void *context, int64_t g)                                          \
     {                                                                                                           \
-        return energy_row(context, row, D, PD_##M);                                                             \
+        const struct group_sum *s = context;                                                                    \
+        return energy_group(s->b, s->p, g, D, PD_##M);                                                          \
     }                                                                                                           \
     static real state_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                       \
     {                                                                                                           \
-        return team_sum(b->rows, energy_term_##D##d_##M, &(struct row_sum){b, p});                              \
+        return team_sum(b->groups, energy_term_##D##d_##M, &(struct group_sum){b, p});                          \
     }                                                                                                           \
     static void state_stress_##D##d_##M(const struct bonds *b, struct particles *p)                             \
     {                                                                                                           \
         _Pragma("omp parallel for schedule(static)")                                                            \
-        for (int64_t row = 0; row < b->rows; row++) stress_row(b, p, row, D, PD_##M);                           \
+        for (int64_t g = 0; g < b->groups; g++) stress_group(b, p, g, D, PD_##M);                               \
     }
 STATE_VARIANTS(INSTANCE)
 

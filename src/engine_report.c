@@ -91,15 +91,10 @@ static bool wants_stress(const struct engine *e)
 }
 
 /* Families as they are now: a step moves particles after its forces, and a body that turns would show the stress of a
- * step's rotation. Nothing breaks; the forces are made anew by the next step. */
+ * step's rotation. */
 static void refresh_states(struct engine *e)
 {
-    if (!e->source.modulus) return;
-    const int pairs = e->source.limit.materials * e->source.limit.materials;
-    real *never = NEW("report.never", pairs, real);
-    for (int k = 0; k < pairs; k++) never[k] = INFINITY;
-    e->kernels.bond_force(&e->bonds, &e->part, &(struct bond_limit){never, e->source.limit.materials});
-    memory_free(never);
+    if (e->source.modulus) state_know_table[e->part.dim][e->source.turns ? PD_MOSPD : PD_OSPD](&e->bonds, &e->part);
 }
 
 void engine_stress(struct engine *e)
