@@ -84,6 +84,9 @@ apart()
     else fail "$1: ${2:-missing} and ${3:-missing} are more than $4 apart"; fi
 }
 
+# near WHAT VALUE WANTED SHARE: no farther from it than this share of it.
+near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
+
 # absent WHAT VALUE: the run has no such figure.
 absent() { if [ -z "$2" ]; then pass; else fail "$1: $2, where there should be none"; fi; }
 

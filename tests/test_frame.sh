@@ -6,7 +6,6 @@ test_name=test_frame
 . tests/trust.sh
 . tests/scenes.sh
 . tests/physics.sh
-near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
 seed=${SEED:-$(date +%s)}
 mesh="-s mpm.frame=reference"
 

@@ -5,9 +5,6 @@ test_name=test_physics
 . tests/scenes.sh
 . tests/physics.sh
 
-# near WHAT VALUE WANTED SHARE: a number within this share of the wanted one.
-near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
-
 # ---- a bar pulled at its end ---------------------------------------------------------------------------------------
 
 # d'Alembert: a step of traction F at x = L sends the stress F inwards at c = sqrt(E/rho) = 100 m/s, the end moves by

@@ -6,9 +6,6 @@ test_name=test_plastic
 . tests/physics.sh
 . tests/trust.sh
 
-# near WHAT VALUE WANTED SHARE: a number within this share of the wanted one.
-near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
-
 # ---- a bar struck beyond its yield stress --------------------------------------------------------------------------
 
 # A push of 1 Pa from t = 0: the elastic precursor carries sigma_y = 0.5 Pa at c = sqrt(E/rho) = 100 m/s, the rest comes
