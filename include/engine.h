@@ -111,6 +111,8 @@ void engine_free(struct engine *e);
  * of some; after conversion; the alarm. */
 status engine_frames(struct engine *e);
 bool engine_has_mesh(const struct engine *e);
+/* Would `auto` put this body into the reference frame? */
+bool engine_frame_allowed(const struct scene *s, int body);
 status engine_mesh_make(struct engine *e);
 real engine_mesh_critical_step(const struct engine *e);
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity);

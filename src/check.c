@@ -1,25 +1,11 @@
-/* floor 5: `cleave check`: what a scene would cost, and whether it is sound; runs no step. */
+/* floor 5: `cleave check`: what a scene would cost, and whether it is sound; nothing is written. */
 #include <math.h>
 #include <stdio.h>
 
 #include "arguments.h"
+#include "check_parts.h"
 #include "commands.h"
 #include "engine.h"
-
-/* Cost of one update on one core of a present-day processor, for an estimate within a factor of about two [s]. */
-#define SECONDS_PER_BOND 0.8e-9
-#define SECONDS_PER_POINT 80e-9
-#define SECONDS_PER_NODE 4e-9
-#define SECONDS_PER_MESHED 3e-9
-
-static double step_seconds(const struct engine *e)
-{
-    double points = (double)e->part.n_free, meshed = (double)e->mesh.points;
-    double nodes = points / pow(e->scene->cell, e->scene->dim) * SECONDS_PER_NODE;
-    double wide = pow(e->scene->shape == SHAPE_LINEAR ? 1 : e->scene->shape == SHAPE_CUBIC ? 2 : 1.4, e->scene->dim);
-    return (double)e->bonds.n * SECONDS_PER_BOND + points * SECONDS_PER_POINT * wide + nodes +
-           meshed * SECONDS_PER_MESHED;
-}
 
 static void say_particles(const struct engine *e)
 {
@@ -42,18 +28,27 @@ static void say_frames(const struct engine *e)
         printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n", (long long)e->mesh.points);
 }
 
-static void say_steps(const struct engine *e, int threads)
+static void say_time_step(const struct engine *e)
 {
     if (e->scene->solver != SOLVER_EXPLICIT)
-        printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n"
-               "run time       about %.2g s for 1000 steps on %d thread%s without output\n", e->scene->solver_tolerance,
-               (long long)e->steps, 1e3 * step_seconds(e) / threads, threads, threads > 1 ? "s" : "");
+        printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n", e->scene->solver_tolerance,
+               (long long)e->steps);
     else
-        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n"
-               "run time       about %.2g s on %d thread%s without output\n", e->dt, e->dt / e->dt_critical,
-               e->dt_critical, (long long)e->steps, e->scene->duration, (double)e->steps * step_seconds(e) / threads,
-               threads, threads > 1 ? "s" : "");
-    printf("memory         about %.0f MB\n", 16 + 1e-6 * (260.0 * (double)e->part.n + 18.0 * (double)e->bonds.n));
+        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->dt, e->dt / e->dt_critical,
+               e->dt_critical, (long long)e->steps, e->scene->duration);
+}
+
+static void say_cost(const struct engine *e, const struct cost *c, int threads, double steps)
+{
+    const char *many = threads > 1 ? "s" : "";
+    const double run = steps * c->step + e->scene->samples * c->sample;
+    if (e->scene->solver != SOLVER_EXPLICIT) printf("run time       about %.2g s for 1000 steps on %d thread%s\n", 1e3 * c->step, threads, many);
+    else {
+        printf("run time       about %.2g s on %d thread%s: %.3g ns a particle and step", run, threads, many, 1e9 * c->step / (double)e->part.n);
+        if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", steps * c->all_peridynamic);
+        printf("\n");
+    }
+    printf("memory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
 static void say_materials(const struct engine *e)
@@ -83,11 +78,16 @@ status command_check(int argc, char **argv)
         say_particles(&e);
         say_materials(&e);
         say_frames(&e);
-        say_steps(&e, threads);
+        say_time_step(&e);
         if (s.method != METHOD_PD && s.bodies > 1)
             printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
                    "cells opens\n");
         engine_warn(&e, stdout);
+        advise(&e, stdout);
+        const double steps = (double)e.steps;
+        struct cost cost;
+        result = cost_measure(&cost, &e, threads);
+        if (result == OK) say_cost(&e, &cost, threads, steps);
     }
     engine_free(&e);
     scene_free(&s);

@@ -32,6 +32,8 @@ static const char *reluctance(const struct scene *s, int body)
     return NULL;
 }
 
+bool engine_frame_allowed(const struct scene *s, int body) { return !reluctance(s, body); }
+
 status engine_frames(struct engine *e)
 {
     const struct scene *s = e->scene;

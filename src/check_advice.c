@@ -1,0 +1,215 @@
+/* floor 5: what a person who knows the methods would say about a scene before it runs. Limits and what they rest on:
+ *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are cut short
+ *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from an
+ *                interface, the group velocity of the shortest waves is off by a tenth
+ *   stress       sigma = rho c v in front of what moves with v; waves of both ends meet and reflect: four times that
+ * Nothing here is an error. */
+#include <math.h>
+#include <string.h>
+
+#include "check_parts.h"
+
+#define FEATURE 4                        /* horizons */
+#define WAVE 16                          /* spacings */
+#define REACHED 4                        /* rho c v  */
+
+static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; }
+
+/* ---- what is not resolved ----------------------------------------------------------------------------------------- */
+
+/* Smallest edge or diameter of a solid; INFINITY without. */
+static real solid_size(const struct solid *a, int dim)
+{
+    real least = INFINITY;
+    for (int d = 0; d < dim && a->kind == SOLID_BOX; d++) least = real_min(least, a->to[d] - a->from[d]);
+    return a->kind == SOLID_BALL || a->kind == SOLID_CYLINDER ? 2 * a->radius : least;
+}
+
+static void advise_features(const struct scene *s, FILE *out)
+{
+    for (int b = 0; b < s->bodies && s->dim > 1; b++)
+        for (int k = 0; k < s->body[b].shape.n; k++) {
+            const struct solid *a = &s->body[b].shape.solid[k];
+            const real size = solid_size(a, s->dim);
+            if (s->method == METHOD_MPM || (k > 0 && !a->subtract) || !(size < FEATURE * horizon_of(s))) continue;
+            fprintf(out, "unresolved: body %s: a %s of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
+                         "it feels cut-off families: spacing %.2g m would do\n", s->body[b].name, a->subtract ? "gap" : "part", size,
+                    size / horizon_of(s), size / s->spacing, FEATURE, size / (FEATURE * s->horizon));
+        }
+    for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
+        real length = 0;
+        for (int d = 0; d < s->dim; d++) length += square(s->crack[k].corner[1][d] - s->crack[k].corner[0][d]);
+        length = sqrt(length);
+        if (length < FEATURE * horizon_of(s))
+            fprintf(out, "unresolved: crack %d is %.4g m long, %.2g horizons: its two ends are not apart\n", k + 1, length,
+                    length / horizon_of(s));
+    }
+}
+
+/* How long a load takes to change [s]; INFINITY: it does not; 0: at once. */
+static real rise_time(const struct time_function *f)
+{
+    return f->kind == TIME_PULSE || f->kind == TIME_RAMP ? f->until - f->from : INFINITY;
+}
+
+static void advise_waves(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    for (int b = 0; b < s->boundaries && s->solver == SOLVER_EXPLICIT; b++) {
+        const real length = e->wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
+        if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
+            fprintf(out, "unresolved: boundary %s changes within %.3g spacings of wave: below %d waves disperse; spacing %.2g m "
+                         "or a slower load\n", s->boundary[b].name, length, WAVE, s->spacing * length / WAVE);
+    }
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_pulse && s->initial[k].pulse.width < WAVE * s->spacing)
+            fprintf(out, "unresolved: an initial pulse is %.3g spacings wide: below %d it disperses; spacing %.2g m\n",
+                    s->initial[k].pulse.width / s->spacing, WAVE, s->initial[k].pulse.width / WAVE);
+}
+
+/* Pairs within the horizon of a crack's end that it cuts when a hair longer and not when a hair shorter. */
+static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end, int32_t *found, int room)
+{
+    const struct particles *p = &e->part;
+    real corner[2][2][DIM_MAX], hair[DIM_MAX];
+    struct crack longer = {2, corner[0]}, shorter = {2, corner[1]};
+    memcpy(corner[0], c->corner, sizeof corner[0]);
+    memcpy(corner[1], c->corner, sizeof corner[1]);
+    for (int d = 0; d < p->dim; d++) hair[d] = 1e-7 * (c->corner[end][d] - c->corner[!end][d]);
+    for (int d = 0; d < p->dim; d++) corner[0][end][d] += hair[d], corner[1][end][d] -= hair[d];
+    int64_t tied = 0;
+    const int n = cells_near(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, room);
+    for (int k = 0; k < n; k++)
+        for (int m = 0; m < k; m++) {
+            real a[DIM_MAX], b[DIM_MAX], r2 = 0;
+            particle_place(p, found[k], a);
+            particle_place(p, found[m], b);
+            for (int d = 0; d < p->dim; d++) r2 += square(a[d] - b[d]);
+            if (r2 > square(e->source.family.cutoff)) continue;
+            tied += crack_cuts(&longer, a, b, p->dim) != crack_cuts(&shorter, a, b, p->dim);
+        }
+    return tied;
+}
+
+static void advise_ties(const struct engine *e, FILE *out)
+{
+    enum { ROOM = 1024 };
+    int32_t found[ROOM];
+    for (int k = 0; k < e->scene->cracks && e->part.dim == 2 && e->scene->method != METHOD_MPM; k++)
+        for (int end = 0; end < 2; end++) {
+            if (cells_most(&e->cells, e->source.family.cutoff) > ROOM) return;
+            const int64_t tied = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
+            if (tied > 0)
+                fprintf(out, "unresolved: an end of crack %d lies exactly on %lld bonds, which count as cut: a hair shorter it "
+                             "would leave them; moved by a tenth of a spacing it says what it means\n", k + 1, (long long)tied);
+        }
+}
+
+/* Points of the current frame lose each other where they are pulled more than a cell apart: a crack that no one asked for. */
+static void advise_separation(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    for (int d = 0; d < s->dim && s->method == METHOD_MPM && e->part.n_free > 0; d++) {
+        real low = INFINITY, high = -INFINITY, least = 0, most = 0;
+        for (int64_t i = 0; i < e->part.n; i++) low = real_min(low, e->part.X[d][i]), high = real_max(high, e->part.X[d][i]);
+        for (int b = 0; b < s->boundaries; b++) {
+            const struct boundary *a = &s->boundary[b];
+            if (a->kind != BOUNDARY_VELOCITY || !(a->components & 1 << d)) continue;
+            const real way = a->value[d] * time_function_integral(&a->time, s->duration);
+            least = real_min(least, way), most = real_max(most, way);
+        }
+        const real stretch = 1 + (most - least) / (high - low);
+        if (stretch > 0.9 * s->cell)
+            fprintf(out, "unresolved: the body is pulled to %.3g times its length: beyond a stretch of %.3g (cell over spacing) points "
+                         "no longer share nodes and part; mpm.cell %.2g, mpm.shape cpgimp, or method adaptive\n", stretch, s->cell,
+                    ceil(1.2 * stretch));
+    }
+}
+
+/* ---- what is not needed ------------------------------------------------------------------------------------------- */
+
+static void advise_model(const struct scene *s, FILE *out)
+{
+    const real wanted = material_bond_poisson(s->space);
+    if (s->model == MODEL_BOND || s->dim == 1) return;
+    for (int m = 0; m < s->materials; m++)
+        if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
+    fprintf(out, "unneeded: model %s: bonds alone have Poisson's ratio %.4g, and cost a third to a half\n",
+            s->model == MODEL_OSPD ? "ospd" : "mospd", wanted);
+}
+
+static void advise_frame(const struct engine *e, FILE *out)
+{
+    for (int b = 0; b < e->scene->bodies; b++)
+        if (!e->frame[b].reference && engine_frame_allowed(e->scene, b))
+            fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body; its material points cost a tenth to a "
+                         "thirtieth in frame auto\n", e->scene->body[b].name);
+}
+
+/* Largest relative speed that boundaries and initial states ask for, and largest stress; INFINITY where forces act on volumes. */
+static real stress_reached(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, speed2 = 0, density = 0, traction = 0;
+    for (int64_t i = 0; i < e->part.n; i++)
+        for (int d = 0; d < s->dim; d++)
+            low[d] = real_min(low[d], e->part.v[d][i]), high[d] = real_max(high[d], e->part.v[d][i]);
+    for (int b = 0; b < s->boundaries; b++) {
+        const struct boundary *a = &s->boundary[b];
+        if (a->kind == BOUNDARY_BODY_FORCE || a->time.kind == TIME_TABLE) return INFINITY;
+        for (int d = 0; d < s->dim && a->kind == BOUNDARY_VELOCITY; d++)
+            if (a->components & 1 << d) low[d] = real_min(low[d], a->value[d]), high[d] = real_max(high[d], a->value[d]);
+        for (int d = 0; d < s->dim && a->kind == BOUNDARY_TRACTION; d++) traction += fabs(a->value[d]);
+    }
+    for (int d = 0; d < s->dim; d++) speed2 += square(high[d] - low[d]);
+    for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
+    return REACHED * (density * e->wave_speed * sqrt(speed2) + traction) + e->strain_stress;
+}
+
+static bool has_notch(const struct scene *s)
+{
+    bool notch = s->cracks > 0;
+    for (int b = 0; b < s->bodies; b++)
+        for (int k = 0; k < s->body[b].shape.n; k++) notch |= s->body[b].shape.solid[k].subtract;
+    return notch;
+}
+
+/* Waves of long loads pile up; those of a run no longer than a few passages do not. */
+static void advise_method(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    real weakest = INFINITY, from[DIM_MAX], to[DIM_MAX], longest = 0;
+    if (s->method == METHOD_MPM || s->solver != SOLVER_EXPLICIT || has_notch(s) || s->bodies > 1) return;
+    if (!region_bounds(&s->body[0].shape, s->dim, from, to)) return;
+    for (int d = 0; d < s->dim; d++) longest = real_max(longest, to[d] - from[d]);
+    for (int m = 0; m < s->materials; m++)
+        weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);
+    const real reached = stress_reached(e);
+    if (isinf(weakest))
+        fprintf(out, "unneeded: method %s: nothing breaks here (neither energy_release_rate nor critical_stretch is given), and there "
+                     "is no crack: mpm would do\n", s->method == METHOD_PD ? "pd" : "adaptive");
+    else if (reached < weakest && e->wave_speed * s->duration < 4 * longest)
+        fprintf(out, "unneeded: method %s: waves here reach %.3g Pa at the most, bonds break at %.3g Pa: mpm would do\n",
+                s->method == METHOD_PD ? "pd" : "adaptive", reached, weakest);
+}
+
+static void advise_symmetry(const struct engine *e, FILE *out)
+{
+    real at;
+    for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++)
+        if (scene_is_mirrored(e, axis, &at))
+            fprintf(out, "unneeded: half of it: the scene is its own mirror image at %c = %.6g m: a boundary mirror there and "
+                         "half the body take half the time\n", 'x' + axis, at);
+}
+
+void advise(const struct engine *e, FILE *out)
+{
+    advise_features(e->scene, out);
+    advise_waves(e, out);
+    advise_ties(e, out);
+    advise_separation(e, out);
+    advise_model(e->scene, out);
+    advise_frame(e, out);
+    advise_method(e, out);
+    advise_symmetry(e, out);
+}

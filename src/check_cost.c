@@ -1,0 +1,85 @@
+/* floor 5: what a run costs, from steps that are thrown away: no table of figures knows the machine, its load and the scene as
+ * well as they do. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "check_parts.h"
+#include "engine_report.h"
+#include "memory.h"
+#include "solver_parts.h"
+
+enum { STEPS_MOST = 200 };
+#define SECONDS_ENOUGH 0.15
+#define FRAME_BYTES 72                   /* of a particle: copied for the writer, its room and its order */
+#define OUTPUT_BYTES 2.7e6               /* of the library that writes */
+#define SECONDS_PER_BOND 0.8e-9          /* peridynamic bond on one core, about */
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of a machine that does other things as well: the quarter that was disturbed least. */
+static double quick_quarter(double *spent, int n)
+{
+    qsort(spent, (size_t)n, sizeof *spent, by_size);
+    return n > 0 ? spent[n / 4] : NAN;
+}
+
+/* Of the steps after the first, which meets cold memory. */
+static status time_steps(struct engine *e, double *step)
+{
+    double spent[STEPS_MOST], all = 0;
+    int n = 0;
+    TRY(engine_step(e));
+    while (n < STEPS_MOST && (all < SECONDS_ENOUGH || n < 3) && e->step < e->steps - 1) {
+        const double start = team_clock();
+        TRY(engine_step(e));
+        all += spent[n++] = team_clock() - start;
+    }
+    *step = quick_quarter(spent, n);
+    return OK;
+}
+
+/* A static solver asks for the bonds' forces once in an iteration. */
+static double time_iteration(struct engine *e)
+{
+    double spent[STEPS_MOST], all = 0;
+    int n = 0;
+    while (n < STEPS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
+        const double start = team_clock();
+        solver_bond_force(e);
+        all += spent[n++] = team_clock() - start;
+    }
+    return quick_quarter(spent, n);
+}
+
+static double time_sample(struct engine *e)
+{
+    double least = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double start = team_clock();
+        engine_sample_rest(e);
+        least = fmin(least, team_clock() - start);
+    }
+    return least;
+}
+
+/* Neighbours of a particle inside the body, by the volume that they fill. */
+static double family_size(const struct family *f) { return f->full / f->cell_volume; }
+
+status cost_measure(struct cost *c, struct engine *e, int threads)
+{
+    const struct scene *s = e->scene;
+    const double n = (double)e->part.n;
+    const bool explicit = s->solver == SOLVER_EXPLICIT;
+    c->all_peridynamic = s->method == METHOD_ADAPTIVE ? n * family_size(&e->source.family) * SECONDS_PER_BOND / threads : NAN;
+    e->quiet = true;
+    TRY(engine_report_start(e));
+    if (explicit) TRY(time_steps(e, &c->step));
+    else c->step = time_iteration(e);
+    c->sample = explicit ? time_sample(e) : 0;
+    c->bytes = (double)memory_peak() + OUTPUT_BYTES + n * FRAME_BYTES;
+    return OK;
+}

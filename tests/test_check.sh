@@ -1,0 +1,103 @@
+#!/bin/sh
+# floor 5: what `cleave check` says of a scene: its memory, what it does not resolve, what it does not need; and that it holds its
+# tongue where there is nothing to say. Run times are not tested: they hang on the machine's load.
+test_name=test_check
+. tests/summary.sh
+. tests/scenes.sh
+
+# says WHAT PATTERN SCENE [ARGUMENT...], silent likewise: the pattern is in what check says of a scene, or is not.
+checked()
+{
+    scene=$1; shift
+    [ -f "$scene" ] || scene=inputs/$scene.yaml
+    "$cleave" check "$scene" "$@" >"$work/said" 2>"$work/err" || fail "check $scene $*: $(cat "$work/err")"
+}
+says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" grep -q "$pattern" "$work/said"; }
+silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" sh -c "! grep -q '$pattern' '$work/said'"; }
+
+# ---- what a run takes --------------------------------------------------------------------------------------------------
+
+# Within 10 % of the system's high-water mark. Nothing converts in the first microsecond.
+for setting in "method=pd" "method=mpm" "method=adaptive -s mpm.frame=reference" "method=pd -s model=mospd"; do
+    arguments="-s $setting -s particles.spacing=0.25mm -s time.step=0.02us -s duration=1us"
+    "$cleave" run inputs/plate_crack.yaml -q -o "$work/ran" $arguments >/dev/null 2>&1
+    checked plate_crack $arguments
+    took=$(awk '/^memory/ { print 1e6 * $3 }' "$work/said")
+    between "memory: $setting" "$took" "$(compute "0.9 * $(figure "$work/ran" memory_peak_bytes)")" \
+        "$(compute "1.1 * $(figure "$work/ran" memory_peak_bytes)")"
+    rm -rf "$work/ran"
+done
+says "all of it peridynamic" 'run time.* if all of it were peridynamic' plate_crack
+silent "it is" 'were peridynamic' plate_crack -s method=pd
+[ -e results/plate_crack/history.csv ] && before=$(ls -l results/plate_crack/history.csv) || before=
+checked plate_crack
+[ -e results/plate_crack/history.csv ] && after=$(ls -l results/plate_crack/history.csv) || after=
+is "check writes nothing" "$after" "$before"
+
+# ---- what is not resolved ----------------------------------------------------------------------------------------------
+
+says "thin plate" 'unresolved: body body: a part of 0.01 m is 1.7 horizons (5 spacings)' kalthoff_winkler_3d
+silent "thick plate" 'unresolved: body' kalthoff_winkler
+says "narrow hole" 'unresolved: body .*: a gap of .* horizons' plate_hole -s particles.spacing=2mm
+silent "wide hole" 'unresolved: body' plate_hole
+says "short crack" 'unresolved: crack 1 is 0.01 m long, 3.3 horizons' plate_crack -s particles.spacing=1mm
+silent "long crack" 'unresolved: crack' plate_crack
+says "narrow pulse" 'unresolved: an initial pulse is .* spacings wide' plate_pulse -s particles.spacing=4mm
+silent "wide pulse" 'initial pulse' plate_pulse
+
+# The ends of the plate's crack are between four particles, on their diagonals and longer bonds: six. A tenth of a spacing on
+# they are not.
+says "ends on bonds" 'an end of crack 1 lies exactly on 6 bonds' plate_crack
+sed 's/-5 mm, 0\], to: \[5 mm/-5.05 mm, 0], to: [5.05 mm/' inputs/plate_crack.yaml >"$work/apart.yaml"
+silent "ends between bonds" 'lies exactly on' "$work/apart.yaml"
+
+# pulled FILE RATE TIME: a plate pulled at its right end.
+pulled() { sed "s/RATE/$2/; s/TIME/$3/" "$work/plate.yaml" >"$work/$1.yaml"; }
+cat >"$work/plate.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 ms
+method: mpm
+material: {young: 1 MPa, poisson: 1/3, density: 1000}
+body: {box: {from: [0, 0], to: [20 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: left, fixed: all, region: {box: {from: [0, 0], to: [1 mm, 10 mm]}}}
+  - {name: right, velocity: [RATE, free], region: {box: {from: [19 mm, 0], to: [20 mm, 10 mm]}}, time: {ramp: {from: 0, until: TIME}}}
+output: {frames: 0, samples: 1}
+END
+# A ramp to 60 m/s in 1 ms: 30 mm on 19 mm between the outermost particles, a stretch of 2.58; the points are two to a cell.
+# Waves run at 33 m/s: 34 spacings while that load rises, 3.4 in a tenth of the time.
+pulled fast '60 m\/s' '1 ms'
+pulled slow '25 m\/s' '1 ms'
+pulled sudden '25 m\/s' '0.1 ms'
+says "pulled apart" 'pulled to 2.58 times' "$work/fast.yaml"
+silent "held together" 'no longer share nodes' "$work/slow.yaml"
+silent "in time" 'no longer share nodes' "$work/fast.yaml" -s mpm.cell=3
+says "sudden load" 'boundary right changes within 3.3. spacings' "$work/sudden.yaml"
+silent "slow load" 'changes within' "$work/slow.yaml"
+
+# ---- what is not needed ------------------------------------------------------------------------------------------------
+
+says "bonds would do" 'unneeded: model ospd' plate_crack -s model=ospd
+silent "bonds would not" 'unneeded: model' plate_crack -s model=ospd -s material.poisson=0.25
+says "reference frame would do" 'unneeded: body body in mpm.frame current' plate_crack
+silent "it does" 'mpm.frame current' plate_crack -s mpm.frame=auto
+silent "bodies meet" 'mpm.frame current' hopkinson_bar
+says "nothing breaks" 'unneeded: method pd: nothing breaks' bar_step
+says "too slow to break" 'unneeded: method adaptive: waves here reach' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=60
+silent "fast enough" 'unneeded: method' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=0.1
+
+says "halves" 'own mirror image at y = 0 m' kalthoff_winkler
+silent "no halves across the impact" 'own mirror image at x' kalthoff_winkler
+silent "a half is none" 'own mirror image' kalthoff_sif
+checked plate_crack
+is "quarters" "$(grep -c 'own mirror image' "$work/said")" 2
+silent "turned crack" 'own mirror image' inclined_crack
+sed 's/-18 m\/s/-17 m\/s/' inputs/plate_crack.yaml >"$work/uneven.yaml"
+silent "uneven loads" 'own mirror image at y' "$work/uneven.yaml"
+says "uneven loads, even sides" 'own mirror image at x' "$work/uneven.yaml"
+sed 's/to: \[5 mm, 0\]/to: [6 mm, 0]/' inputs/plate_crack.yaml >"$work/uneven.yaml"
+silent "crack to one side" 'own mirror image at x' "$work/uneven.yaml"
+
+finish
