@@ -62,6 +62,15 @@ static ALWAYS_INLINE lanes lanes_max(lanes a, lanes b)
 #endif
 }
 
+static ALWAYS_INLINE lanes lanes_min(lanes a, lanes b)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_min_pd((__m512d)a, (__m512d)b);
+#else
+    return lanes_choose(a < b, a, b);
+#endif
+}
+
 /* Lanes with a bit. */
 static ALWAYS_INLINE lanes_mask lanes_of_bits(uint8_t bits)
 {
