@@ -9,6 +9,7 @@
 
 /* A thread's room for the eight rows of a group. */
 struct group_room {
+    struct lattice_bonds regular;        /* without a search                   */
     int room;                            /* bonds a row may have */
     struct row row[LANES];
     int32_t *offset;                     /* [LANES room] distinct index distances */
@@ -82,7 +83,7 @@ static int group_slots(struct group_room *g, const int32_t *particle, int rows, 
     for (int l = 0; l < rows; l++)
         if (g->row[l].n > longest) longest = g->row[l].n;
     int offsets = group_offsets(g, particle, rows);
-    *by_offset = offsets <= longest + longest / 3;
+    *by_offset = slots_by_offset(offsets, longest);
     return *by_offset ? offsets : longest;
 }
 
@@ -132,6 +133,41 @@ static void group_fill(struct bonds *b, struct group_room *room, int64_t g, int 
     }
 }
 
+/* Can the map of sites tell the bonds of a group? Then `to` has them. */
+static bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
+                          struct lattice_bonds *to)
+{
+    if (!lattice_bonds(lattice, p, i, to)) return false;
+    for (int l = 0; l < LANES; l++)
+        if (p->kind[i + l] != KIND_PD || cracks_near(s, p, i + l)) return false;
+    return true;
+}
+
+/* group_fill and group_note of whole rows on a lattice. */
+static void group_fill_regular(struct bonds *b, const struct lattice_bonds *bonds, int64_t g, const struct bond_source *s,
+                               const struct particles *p, const struct pair_table *pairs)
+{
+    const int32_t i = b->particle[g * LANES];
+    real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
+    for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
+    for (int k = 0; k < bonds->n; k++) {
+        const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
+        const int64_t q = bond_index(b, g, k, 0);
+        lattice_weigh(s, p, pairs, i, j, b->inverse_length + q, b->w + q);
+        for (int l = 0; l < LANES; l++) b->nbr[q + l] = j + l;
+        for (int l = 0; l < LANES; l++)
+            if (l < from || l > to) slot_pad(b, q + l, j + l);
+        for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? p->volume0[j + l] : 0;
+        for (int l = from; l <= to; l++)
+            if (s->limit.materials > 1 || trigger[l] == INFINITY)
+                trigger[l] = real_min(trigger[l], row_trigger(s, p, i + l, j + l));
+        b->first[b->slot[g] + k] = j;
+        bonds_share(b, b->slot[g] + k);
+    }
+    for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
+    b->aligned[g] = true;
+}
+
 static void group_note(struct bonds *b, const struct group_room *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -148,17 +184,19 @@ static void group_note(struct bonds *b, const struct group_room *room, int64_t g
 
 /* ---- all rows -------------------------------------------------------------------------------------- */
 
-static void rooms_make(struct group_room *g, int room)
+static void rooms_make(struct group_room *g, int room, const struct lattice *lattice)
 {
     g->room = room;
     for (int l = 0; l < LANES; l++) row_room_make(&g->row[l], room);
     g->offset = NEW("bonds.offset", (int64_t)LANES * room + 1, int32_t);
+    lattice_bonds_make(&g->regular, lattice);
 }
 
 static void rooms_free(struct group_room *g)
 {
     for (int l = 0; l < LANES; l++) row_room_free(&g->row[l]);
     memory_free(g->offset);
+    lattice_bonds_free(&g->regular);
 }
 
 static struct pair_table pairs_make(const struct bond_source *s)
@@ -201,15 +239,22 @@ static void rows_arrays(struct bonds *b)
 
 /* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice. */
 static void rows_pass(struct bonds *b, const struct bonds *old, const struct particles *p, const struct bond_source *s,
-                      const struct pair_table *pairs, const uint8_t *fresh, int most, bool count)
+                      const struct pair_table *pairs, const struct lattice *lattice, const uint8_t *fresh, int most, bool count)
 {
 #pragma omp parallel
     {
         struct group_room room = {0};
-        rooms_make(&room, most);
+        rooms_make(&room, most, lattice);
 #pragma omp for schedule(static)
         for (int64_t g = 0; g < b->groups; g++) {
             int rows = group_rows(b, g);
+            const int32_t *particle = b->particle + g * LANES;
+            if (lattice->at && rows == LANES && particle[LANES - 1] - particle[0] == LANES - 1 &&
+                group_regular(lattice, s, p, particle[0], &room.regular)) {
+                if (count) b->slot[g + 1] = room.regular.n;
+                else group_fill_regular(b, &room.regular, g, s, p, pairs);
+                continue;
+            }
             for (int l = 0; l < rows; l++) {
                 int32_t i = b->particle[g * LANES + l];
                 row_make(&room.row[l], old, s, p, pairs, i, most, !count, fresh[i]);
@@ -246,7 +291,9 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     rows_arrays(b);
 
     struct pair_table pairs = pairs_make(s);
-    rows_pass(b, old, p, s, &pairs, fresh, most, true);
+    struct lattice lattice = {0};
+    if (!old) lattice_make(&lattice, s, p);      /* a map of all sites does not pay for a few rows */
+    rows_pass(b, old, p, s, &pairs, &lattice, fresh, most, true);
     for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
     b->slots = b->slot[b->groups];
     b->first = NEW("bonds.first", b->slots, int32_t);
@@ -260,7 +307,8 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
         b->plastic_path = NEW("bonds.plastic_path", b->slots * LANES, real);
         b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
     }
-    rows_pass(b, old, p, s, &pairs, fresh, most, false);
+    rows_pass(b, old, p, s, &pairs, &lattice, fresh, most, false);
+    lattice_free(&lattice);
     memory_free(fresh);
     memory_free(pairs.ratio);
     int64_t made = 0;
@@ -325,28 +373,55 @@ void bonds_free(struct bonds *b)
 
 /* ---- sums over all particles as if all were peridynamic -------------------------------------------- */
 
+/* Volume of the neighbours of particle i. */
+static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f, int64_t i, int32_t *found,
+                        int room)
+{
+    const int n = family_search(s, p, (int32_t)i, found, room);
+    real volume = 0;
+    for (int k = 0; k < n; k++) {
+        real xi[DIM_MAX];
+        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][found[k]] - p->X[d][i];
+        volume += p->volume0[found[k]] * family_weight(f, xi, sqrt(dot(xi, xi, p->dim)));
+    }
+    return volume;
+}
+
+/* Of particles i .. i + 7 whose bonds the map of sites knows, where all neighbours count as much. */
+static void volumes_near(real *volume, const struct particles *p, const struct lattice_bonds *bonds, real weight, int64_t i)
+{
+    real sum[LANES] = {0};
+    for (int k = 0; k < bonds->n; k++)
+        for (int l = 0; l < LANES; l++)
+            sum[l] += l >= bonds->from[k] && l <= bonds->to[k] ? p->volume0[i + bonds->offset[k] + l] * weight : 0;
+    for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
+}
+
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
 {
-    int most = bonds_room(s);
+    const int most = bonds_room(s);
     struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
+    struct lattice lattice = {0};
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
     plain.influence = INFLUENCE_ONE;
+    if (family_plain(&plain)) lattice_make(&lattice, s, p);
 #pragma omp parallel
     {
         int32_t *found = NEW("bonds.found", most, int32_t);
+        struct lattice_bonds bonds;
+        lattice_bonds_make(&bonds, &lattice);
 #pragma omp for schedule(static)
-        for (int64_t i = 0; i < p->n_all; i++) {
-            int n = family_search(s, p, (int32_t)i, found, most);
-            volume[i] = 0;
-            for (int k = 0; k < n; k++) {
-                real xi[DIM_MAX];
-                for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][found[k]] - p->X[d][i];
-                real r = sqrt(dot(xi, xi, p->dim));
-                volume[i] += p->volume0[found[k]] * family_weight(&plain, xi, r);
+        for (int64_t first = 0; first < p->n_all; first += LANES) {
+            if (lattice.at && first + LANES <= p->n && lattice_bonds(&lattice, p, first, &bonds)) {
+                volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
+                continue;
             }
+            for (int64_t i = first; i < first + LANES && i < p->n_all; i++) volume[i] = volume_near(p, s, &plain, i, found, most);
         }
+        lattice_bonds_free(&bonds);
         memory_free(found);
     }
+    lattice_free(&lattice);
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
@@ -376,11 +451,84 @@ real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t r
     return spring_bound_of(&bound, p->dim);
 }
 
+/* The same of eight consecutive particles side by side: springs to eight consecutive others, of those there are none where
+ * w = 0. Zeros added leave the bits alone. */
+struct eight_bounds { real block[DIM_MAX][DIM_MAX][LANES], total[LANES]; };
+
+static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
+                                     const real *inverse, const float *w, real stiffness, const int dim)
+{
+    real n[DIM_MAX][LANES], K[LANES];
+    for (int d = 0; d < dim; d++)
+        for (int l = 0; l < LANES; l++) n[d][l] = (p->X[d][j + l] - p->X[d][i + l]) * inverse[l];
+    for (int l = 0; l < LANES; l++) K[l] = stiffness * w[l] * inverse[l];
+    for (int a = 0; a < dim; a++)
+        for (int c = 0; c < dim; c++)
+            for (int l = 0; l < LANES; l++) bound->block[a][c][l] += K[l] * n[a][l] * n[c][l];
+    for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
+}
+
+static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j, const real *inverse,
+                           const float *w, real stiffness)
+{
+    switch (p->dim) {
+    case 1: bounds_add(bound, p, i, j, inverse, w, stiffness, 1); break;
+    case 2: bounds_add(bound, p, i, j, inverse, w, stiffness, 2); break;
+    default: bounds_add(bound, p, i, j, inverse, w, stiffness, 3); break;
+    }
+}
+
+/* Largest omega^2 of particles i .. i + 7. */
+static real bounds_frequency(const struct eight_bounds *bounds, const struct particles *p, int64_t i)
+{
+    real largest = 0;
+    for (int l = 0; l < LANES; l++) {
+        struct spring_bound one = {.total = bounds->total[l]};
+        for (int a = 0; a < p->dim; a++)
+            for (int c = 0; c < p->dim; c++) one.block[a][c] = bounds->block[a][c][l];
+        largest = real_max(largest, spring_bound_of(&one, p->dim) / p->mass[i + l]);
+    }
+    return largest;
+}
+
+/* Of a regular group whose rows are not made. */
+static real group_frequency(const struct lattice_bonds *bonds, const struct bond_source *s, const struct particles *p,
+                            const struct pair_table *pairs, int64_t i, real stiffness)
+{
+    struct eight_bounds bounds = {0};
+    for (int k = 0; k < bonds->n; k++) {
+        real inverse[LANES];
+        float w[LANES];
+        lattice_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
+        for (int l = 0; l < LANES; l++) w[l] = l >= bonds->from[k] && l <= bonds->to[k] ? w[l] : 0;
+        bounds_add_any(&bounds, p, i, i + bonds->offset[k], inverse, w, stiffness);
+    }
+    return bounds_frequency(&bounds, p, i);
+}
+
+/* Of group g, as it is made. */
+static real group_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
+{
+    bool regular = b->aligned[g];
+    real largest = 0;
+    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) regular = regular && b->first[slot] >= 0;
+    if (!regular) {
+        for (int64_t r = g * LANES; r < g * LANES + group_rows(b, g); r++)
+            largest = real_max(largest, bonds_row_bound(b, p, r) / p->mass[b->particle[r]]);
+        return largest;
+    }
+    struct eight_bounds bounds = {0};
+    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++)
+        bounds_add_any(&bounds, p, b->particle[g * LANES], b->first[slot], b->inverse_length + slot * LANES, b->w + slot * LANES,
+                       b->stiffness);
+    return bounds_frequency(&bounds, p, b->particle[g * LANES]);
+}
+
 real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
 {
     real largest = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest)
-    for (int64_t r = 0; r < b->rows; r++) largest = real_max(largest, bonds_row_bound(b, p, r) / p->mass[b->particle[r]]);
+    for (int64_t g = 0; g < b->groups; g++) largest = real_max(largest, group_frequency_made(b, p, g));
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
@@ -393,17 +541,26 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     struct particles all = *p;
     memset(kind, KIND_PD, (size_t)p->n_all);
     all.kind = kind;
+    struct lattice lattice;
+    lattice_make(&lattice, s, p);
 #pragma omp parallel reduction(max : largest)
     {
         struct group_room room = {0};
-        rooms_make(&room, most);
+        rooms_make(&room, most, &lattice);
 #pragma omp for schedule(static)
-        for (int64_t i = 0; i < p->n; i++) {
-            row_make(&room.row[0], NULL, s, &all, &pairs, (int32_t)i, most, true, true);
-            largest = real_max(largest, row_stiffness(&room.row[0], &all, (int32_t)i, stiffness) / p->mass[i]);
+        for (int64_t first = 0; first < p->n; first += LANES) {
+            if (lattice.at && first + LANES <= p->n && group_regular(&lattice, s, &all, first, &room.regular)) {
+                largest = real_max(largest, group_frequency(&room.regular, s, p, &pairs, first, stiffness));
+                continue;
+            }
+            for (int64_t i = first; i < first + LANES && i < p->n; i++) {
+                row_make(&room.row[0], NULL, s, &all, &pairs, (int32_t)i, most, true, true);
+                largest = real_max(largest, row_stiffness(&room.row[0], &all, (int32_t)i, stiffness) / p->mass[i]);
+            }
         }
         rooms_free(&room);
     }
+    lattice_free(&lattice);
     memory_free(kind);
     memory_free(pairs.ratio);
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;

@@ -53,8 +53,7 @@ bool cracks_part(const struct crack *crack, int cracks, const struct particles *
     return false;
 }
 
-/* May a crack cut any bond of particle i? */
-static bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i)
+bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
@@ -119,6 +118,12 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
     return (struct bond_plasticity){length / r - 1 - 0.5 * elastic, 0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
+/* Vectors look for bonds above this, a margin below their limit. */
+real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
+{
+    return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * (1 - TRIGGER_MARGIN);
+}
+
 /* Lengths, weights and what cracks cut, of the bonds that row_search has found. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
@@ -135,8 +140,7 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
         row->inverse_length[k] = (cut ? -1 : 1) / r;
         row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
         if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
-        real limit = s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]];
-        row->trigger = real_min(row->trigger, limit * (1 - TRIGGER_MARGIN));
+        row->trigger = real_min(row->trigger, row_trigger(s, p, i, j));
     }
 }
 
