@@ -6,20 +6,18 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 /* A cache line and the widest vector [byte]; the pieces in which pages are touched; a page, a large one, and the arrays that
  * lie on such. */
 enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 4 << 20 };
 
-#ifdef __GLIBC__
 /* From this size on an array has pages of its own, given back when it is freed: pages used before would lie where
- * somebody else's threads touched them first. */
+ * somebody else's threads touched them first; and new ones are zero, so that they need not be written twice. */
 enum { OWN_PAGES = 1 << 20 };
-__attribute__((constructor)) static void own_pages(void) { mallopt(M_MMAP_THRESHOLD, OWN_PAGES); }
-#endif
+
+/* Stands before the array. */
+struct block { void *whole; size_t mapped; };    /* what to free; its bytes if it has its own pages, else 0 */
+_Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 
 static _Noreturn void out_of_memory(const char *label, int64_t count, size_t size)
 {
@@ -29,18 +27,19 @@ static _Noreturn void out_of_memory(const char *label, int64_t count, size_t siz
 }
 
 /* Writes zeros piece by piece in the static partition of the loops that will use the array, so that a page
- * lies in the memory of the processor whose thread works on it. */
-static void zero(char *bytes, size_t length)
+ * lies in the memory of the processor whose thread works on it; of fresh pages only a byte each. */
+static void zero(char *bytes, size_t length, bool fresh)
 {
     int64_t pieces = (int64_t)((length + PIECE - 1) / PIECE);
     if (pieces < 2) {
-        memset(bytes, 0, length);
+        if (!fresh) memset(bytes, 0, length);
         return;
     }
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < pieces; k++) {
-        size_t first = (size_t)k * PIECE, rest = length - first;
-        memset(bytes + first, 0, rest < PIECE ? rest : PIECE);
+        size_t first = (size_t)k * PIECE, end = length - first < PIECE ? length : first + PIECE;
+        if (!fresh) memset(bytes + first, 0, end - first);
+        for (size_t at = first; fresh && at < end; at += PAGE) ((volatile char *)bytes)[at] = 0;
     }
 }
 
@@ -53,21 +52,39 @@ static size_t offset(size_t length)
     return __atomic_fetch_add(&arrays, 13, __ATOMIC_RELAXED) % (PAGE / ALIGNMENT) * ALIGNMENT;
 }
 
+/* `length` bytes from an alignment on, zero if they have pages of their own; `whole` NULL: there are none. */
+static char *block_make(struct block *block, size_t length, size_t alignment)
+{
+    *block = (struct block){NULL, 0};
+#ifdef MAP_ANONYMOUS
+    if (length >= OWN_PAGES) {
+        const size_t room = length + (alignment > PAGE ? alignment : 0);
+        void *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (pages == MAP_FAILED) return NULL;
+        *block = (struct block){pages, room};
+        return (char *)(((uintptr_t)pages + alignment - 1) / alignment * alignment);
+    }
+#endif
+    if (posix_memalign(&block->whole, alignment, length) != 0) block->whole = NULL;
+    return block->whole;
+}
+
 void *memory_new(const char *label, int64_t count, size_t size)
 {
     size_t length;
-    void *whole = NULL;
-    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * PAGE)
+    struct block block;
+    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
         out_of_memory(label, count, size);
     const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;   /* also for count 0 */
     const bool large = rounded >= LARGE_ARRAY;
-    if (posix_memalign(&whole, large ? LARGE_PAGE : ALIGNMENT, ahead + rounded) != 0) out_of_memory(label, count, size);
+    char *from = block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT);
+    if (!block.whole) out_of_memory(label, count, size);
 #ifdef MADV_HUGEPAGE
-    if (large) madvise(whole, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
+    if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
 #endif
-    char *pointer = (char *)whole + ahead;
-    ((void **)pointer)[-1] = whole;
-    zero(pointer, rounded);
+    char *pointer = from + ahead;
+    zero(pointer, rounded, block.mapped > 0);
+    memcpy(pointer - sizeof block, &block, sizeof block);
     return pointer;
 }
 
@@ -83,7 +100,11 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
 
 void memory_free(void *pointer)
 {
-    if (pointer) free(((void **)pointer)[-1]);
+    struct block block;
+    if (!pointer) return;
+    memcpy(&block, (char *)pointer - sizeof block, sizeof block);
+    if (block.mapped > 0) munmap(block.whole, block.mapped);
+    else free(block.whole);
 }
 
 /* VmHWM is of this program alone; ru_maxrss remembers the program that started it. */
