@@ -94,7 +94,7 @@ struct search {
     real radius;
     int32_t skip, *found;
     int room, n;
-    bool ascending;
+    bool ascending, any_order;
 };
 
 static inline void near_in_row(struct search *s, const struct particles *p, int64_t first, int64_t last, const int dim)
@@ -149,19 +149,24 @@ static inline int near(struct search *s, const struct particles *p, const int di
             if (from <= to) near_in_row(s, p, row + from, row + to, dim);
         }
     }
-    if (!s->ascending) sort_ascending(s->found, s->n < s->room ? s->n : s->room);
+    if (!s->ascending && !s->any_order) sort_ascending(s->found, s->n < s->room ? s->n : s->room);
     return s->n;
+}
+
+static int search(struct search *s, const struct particles *p)
+{
+    switch (s->c->dim) {
+    case 1: return near(s, p, 1);
+    case 2: return near(s, p, 2);
+    default: return near(s, p, 3);
+    }
 }
 
 int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
                int32_t *found, int room)
 {
-    struct search s = {c, X, radius, skip, found, room, 0, true};
-    switch (c->dim) {
-    case 1: return near(&s, p, 1);
-    case 2: return near(&s, p, 2);
-    default: return near(&s, p, 3);
-    }
+    struct search s = {.c = c, .X = X, .radius = radius, .skip = skip, .found = found, .room = room, .ascending = true};
+    return search(&s, p);
 }
 
 /* Particles in the cells round a cell, those at most `reach` cells away. */
@@ -196,16 +201,29 @@ int cells_most(const struct cells *c, real radius)
     return (int)most;
 }
 
-void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+static void find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself,
+                 bool any_order)
 {
-    const int32_t skip = itself ? -1 : (int32_t)i;
     real X[DIM_MAX];
     particle_place(p, i, X);
-    near->n = cells_near(c, p, X, radius, skip, near->at, near->room);
-    if (near->n <= near->room) return;
-    near->at = memory_resize("cells.near", near->at, near->room, 2 * near->n, sizeof *near->at);
-    near->room = 2 * near->n;
-    near->n = cells_near(c, p, X, radius, skip, near->at, near->room);
+    for (;;) {
+        struct search s = {.c = c, .X = X, .radius = radius, .skip = itself ? -1 : (int32_t)i, .found = near->at, .room = near->room,
+                           .ascending = true, .any_order = any_order};
+        near->n = search(&s, p);
+        if (near->n <= near->room) return;
+        near->at = memory_resize("cells.near", near->at, near->room, 2 * near->n, sizeof *near->at);
+        near->room = 2 * near->n;
+    }
+}
+
+void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+{
+    find(near, c, p, i, radius, itself, false);
+}
+
+void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+{
+    find(near, c, p, i, radius, itself, true);
 }
 
 /* ---- transfer order --------------------------------------------------------------------------------- */

@@ -217,7 +217,7 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     struct near near = {0};
     for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
         const int64_t i = changed ? changed[k] : p->list[KIND_PD][k];
-        near_find(&near, s->cells, p, i, radius + reach, true);
+        near_find_any(&near, s->cells, p, i, radius + reach, true);
         for (int m = 0; m < near.n; m++) {
             real r2 = 0;
             for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);

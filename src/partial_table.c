@@ -251,7 +251,7 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
     real X[DIM_MAX], sum[VECTORS_MOST];
     particle_place(p, i, X);
     memset(sum, 0, sizeof *sum * (size_t)(t->directions * t->parts));
-    near_find(near, s->cells, p, i, s->family.cutoff, true);     /* a bond starts within its length of any cell it crosses */
+    near_find_any(near, s->cells, p, i, s->family.cutoff, true);     /* a bond starts within its length of any cell it crosses */
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         real Y[DIM_MAX];
