@@ -60,12 +60,22 @@ static int group_rows(const struct bonds *b, int64_t g)
     return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
 }
 
+/* Are these the index distances of a row? */
+static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
+{
+    int32_t other = 0;
+    if (row->n != n) return false;
+    for (int k = 0; k < n; k++) other |= row->nbr[k] - particle - offset[k];
+    return other == 0;
+}
+
 /* Distinct index distances of the group's bonds, ascending. */
 static int group_offsets(struct group_room *g, const int32_t *particle, int rows)
 {
-    int n = 0;
-    for (int l = 0; l < rows; l++)
-        for (int k = 0, at = 0; k < g->row[l].n; k++) {
+    int n = g->row[0].n;
+    for (int k = 0; k < n; k++) g->offset[k] = g->row[0].nbr[k] - particle[0];
+    for (int l = 1; l < rows; l++)
+        for (int k = 0, at = 0; k < g->row[l].n && (k > 0 || !offsets_are(g->offset, n, &g->row[l], particle[l])); k++) {
             int32_t offset = g->row[l].nbr[k] - particle[l];
             while (at < n && g->offset[at] < offset) at++;
             if (at < n && g->offset[at] == offset) continue;
@@ -237,11 +247,13 @@ static void rows_arrays(struct bonds *b)
     b->broken = NEW("bonds.broken", padded, int32_t);
 }
 
-/* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice. */
-static void rows_pass(struct bonds *b, const struct bonds *old, const struct particles *p, const struct bond_source *s,
+/* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice.
+ * Returns how many there are. */
+static int64_t rows_pass(struct bonds *b, const struct bonds *old, const struct particles *p, const struct bond_source *s,
                       const struct pair_table *pairs, const struct lattice *lattice, const uint8_t *fresh, int most, bool count)
 {
-#pragma omp parallel
+    int64_t made = 0;
+#pragma omp parallel reduction(+ : made)
     {
         struct group_room room = {0};
         rooms_make(&room, most, lattice);
@@ -253,11 +265,13 @@ static void rows_pass(struct bonds *b, const struct bonds *old, const struct par
                 group_regular(lattice, s, p, particle[0], &room.regular)) {
                 if (count) b->slot[g + 1] = room.regular.n;
                 else group_fill_regular(b, &room.regular, g, s, p, pairs);
+                for (int k = 0; k < room.regular.n; k++) made += room.regular.to[k] - room.regular.from[k] + 1;
                 continue;
             }
             for (int l = 0; l < rows; l++) {
                 int32_t i = b->particle[g * LANES + l];
                 row_make(&room.row[l], old, s, p, pairs, i, most, !count, fresh[i]);
+                made += room.row[l].n;
             }
             bool by_offset;
             int slots = group_slots(&room, b->particle + g * LANES, rows, &by_offset);
@@ -266,6 +280,7 @@ static void rows_pass(struct bonds *b, const struct bonds *old, const struct par
         }
         rooms_free(&room);
     }
+    return made;
 }
 
 static void rows_carry(struct bonds *b, const struct bonds *old)
@@ -307,14 +322,10 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
         b->plastic_path = NEW("bonds.plastic_path", b->slots * LANES, real);
         b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
     }
-    rows_pass(b, old, p, s, &pairs, &lattice, fresh, most, false);
+    b->n = rows_pass(b, old, p, s, &pairs, &lattice, fresh, most, false);
     lattice_free(&lattice);
     memory_free(fresh);
     memory_free(pairs.ratio);
-    int64_t made = 0;
-#pragma omp parallel for schedule(static) reduction(+ : made)
-    for (int64_t q = 0; q < b->slots * LANES; q++) made += b->inverse_length[q] != 0;
-    b->n = made;
     if (old) rows_carry(b, old);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);

@@ -24,32 +24,18 @@ void bonds_share_make(struct bonds *b, real spacing)
 static int lattice_of(struct bonds *b, int64_t slot)
 {
     const real *inverse = b->inverse_length + slot * LANES;
-    int lattice = 0;
-    for (int l = 0; l < LANES; l++) {
-        if (inverse[l] == 0) continue;
-        const real squares = square(b->lattice[1].inverse / inverse[l]);
-        if (lattice == 0 && squares < BOND_LATTICE - 0.5) lattice = (int)(squares + 0.5);
-        const int64_t excess = lattice ? bits_of(fabs(inverse[l])) - bits_of(b->lattice[lattice].inverse) : INT64_MAX;
-        if (excess < INT16_MIN || excess > INT16_MAX) return 0;
-        b->common[slot].excess[l] = (int16_t)excess;
-    }
-    return lattice;
-}
-
-/* The same of eight bonds side by side; 0 also where they are to be looked at one by one. */
-static int lattice_of_eight(struct bonds *b, int64_t slot)
-{
-    const real *inverse = b->inverse_length + slot * LANES;
-    const real squares = square(b->lattice[1].inverse / inverse[0]);
-    if (!(squares < BOND_LATTICE - 0.5)) return 0;
+    int one = 0;
+    while (one < LANES - 1 && inverse[one] == 0) one++;
+    const real squares = square(b->lattice[1].inverse / inverse[one]);
+    if (!(squares >= 0.5 && squares < BOND_LATTICE - 0.5)) return 0;
     const int lattice = (int)(squares + 0.5);
     const int64_t zero = bits_of(b->lattice[lattice].inverse);
     int64_t excess[LANES], outside = 0;
     for (int l = 0; l < LANES; l++) {
-        excess[l] = (int64_t)(((uint64_t)bits_of(inverse[l]) & INT64_MAX) - (uint64_t)zero);
-        outside |= (int64_t)(excess[l] != (int16_t)excess[l]);
+        excess[l] = inverse[l] == 0 ? 0 : bits_of(fabs(inverse[l])) - zero;
+        outside |= excess[l] != (int16_t)excess[l];
     }
-    if (outside || lattice == 0) return 0;
+    if (outside) return 0;
     for (int l = 0; l < LANES; l++) b->common[slot].excess[l] = (int16_t)excess[l];
     return lattice;
 }
@@ -59,8 +45,7 @@ void bonds_share(struct bonds *b, int64_t slot)
     const float *w = b->w + slot * LANES;
     struct bond_slot *c = &b->common[slot];
     *c = (struct bond_slot){.first = b->first[slot]};
-    if (c->first >= 0) c->lattice = (uint8_t)lattice_of_eight(b, slot);
-    if (c->first >= 0 && !c->lattice) c->lattice = (uint8_t)lattice_of(b, slot);
+    if (c->first >= 0) c->lattice = (uint8_t)lattice_of(b, slot);
     c->alike = c->lattice != 0;
     bool same = w[0] != 0;
     for (int l = 1; l < LANES; l++) same &= w[l] == w[0];
