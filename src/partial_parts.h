@@ -27,6 +27,7 @@ struct partial_table;
 struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size);
 void partial_table_free(struct partial_table *t);
 bool partial_table_serves(const struct partial_table *t);
+bool partial_table_serves_all(const struct partial_table *t);
 /* Is the cell of this particle one of the lattice? */
 bool partial_table_knows(const struct particles *p, const struct bond_source *s, int64_t i);
 /* What the bonds of a row answer, by vector, into so many zeros. */

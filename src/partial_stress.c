@@ -229,13 +229,14 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
 }
 
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                         const int32_t *changed, int64_t n)
+                         const struct partial_table *table, const int32_t *changed, int64_t n)
 {
-    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses */
-    const real radius = s->family.cutoff + s->family.spacing * sqrt(p->dim);
+    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice, within its
+     * own length: the middle of the cell lies in the box that it spans */
+    const real radius = s->family.cutoff + (partial_table_serves_all(table) ? 0 : s->family.spacing * sqrt(p->dim));
     uint8_t *mark = NEW("partial.mark", p->n, uint8_t);
     int64_t rows = 0, dirties = 0;
-    mark_dirty(mark, p, s, radius, s->family.cutoff + s->family.spacing * sqrt(p->dim), changed, n);
+    mark_dirty(mark, p, s, radius, radius, changed, n);
     for (int64_t i = 0; i < p->n; i++) rows += mark[i] & OTHERS_ROW, dirties += (mark[i] & DIRTY) > 0;
     *r = (struct renewal){.list = NEW("partial.list", dirties, int32_t), .row = NEW("partial.row", rows, int32_t),
                           .own = NEW("partial.own", dirties, bool)};
@@ -317,8 +318,7 @@ static void matrices_make(real *M, bool *crossed, int whole, const struct partia
                           const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
     const bool served = partial_table_serves(table);
-    bool strange = false;                /* is there a cell that the table does not know? */
-    for (int64_t k = 0; k < r->n && !strange; k++) strange = !served || !partial_table_knows(p, s, r->list[k]);
+    const bool strange = !partial_table_serves_all(table);    /* is there a cell that the table does not know? */
     const int64_t each = served ? partial_table_row_size(table) : 0;
     real *answer = NEW("partial.answer", r->rows * each, real);
     int32_t *answer_of = NEW("partial.answer_of", b->rows, int32_t);
@@ -361,7 +361,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
         partial->table = partial_table_make(p, source, whole);
     }
-    renewal_make(&r, p, b, source, changed, n);
+    renewal_make(&r, p, b, source, partial->table, changed, n);
     real *M = NEW("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
     matrices_make(M, crossed, whole, partial->table, &r, p, b, source);

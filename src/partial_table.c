@@ -25,6 +25,7 @@ struct partial_table {
     int32_t *start;                      /* [places + 1] crossings of bonds from a place: start .. next start  */
     struct crossing *crossing;
     real *tensor;                        /* [directions][parts][size]                                          */
+    bool uniform;                        /* knows all cells                                                    */
 };
 
 /* ---- places ------------------------------------------------------------------------------------------ */
@@ -167,6 +168,14 @@ static bool on_lattice(const struct particles *p, real spacing)
     return regular;
 }
 
+static bool all_known(const struct particles *p, const struct bond_source *s)
+{
+    bool known = true;
+#pragma omp parallel for schedule(static) reduction(&& : known)
+    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_knows(p, s, i);
+    return known;
+}
+
 struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size)
 {
     const struct family *f = &s->family;
@@ -177,6 +186,7 @@ struct partial_table *partial_table_make(const struct particles *p, const struct
     vectors_make(t, f->cutoff);
     if (t->vectors * t->parts > VECTORS_MOST) t->vectors = 0;
     if (t->vectors == 0) return t;
+    t->uniform = all_known(p, s);
     mirrors_make(t);
     crossings_make(t);
     tensors_make(t, s);
@@ -197,6 +207,7 @@ void partial_table_free(struct partial_table *t)
 /* ---- what the bonds of rows answer ------------------------------------------------------------------- */
 
 bool partial_table_serves(const struct partial_table *t) { return t->vectors > 0; }
+bool partial_table_serves_all(const struct partial_table *t) { return t->uniform; }
 int64_t partial_table_row_size(const struct partial_table *t) { return (int64_t)t->vectors * t->parts; }
 
 void partial_table_row(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
