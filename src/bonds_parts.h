@@ -59,6 +59,15 @@ bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i
 void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i, int64_t j,
                    real *inverse, float *w);
 
+/* Can the map of sites tell the bonds of particles i .. i + 7, all peridynamic? Then `to` has them. */
+bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
+                   struct lattice_bonds *to);
+struct pair_table pairs_make(const struct bond_source *s);
+static inline int group_rows(const struct bonds *b, int64_t g)
+{
+    return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
+}
+
 /* Room for what slots have in common; bonds_share fills it. */
 void bonds_share_make(struct bonds *b, real spacing);
 
