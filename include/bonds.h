@@ -180,6 +180,11 @@ void family_constants(const struct family *f, const struct material *m, real *c1
 /* Work that separates a lattice of the model with rotations normal to a plane, over the square of the stretch at which its
  * bonds break [N/m] (separation.c). */
 real family_separation(const struct family *f, const struct state_modulus *m, bool local);
+/* Most scenes: all bonds weigh shell_weight[0], nothing to work out. */
+static inline bool family_plain(const struct family *f)
+{
+    return f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1];
+}
 /* beta x omega x shell weight of a reference bond of components xi and length r [1]. */
 real family_weight(const struct family *f, const real *xi, real r);
 

@@ -32,6 +32,8 @@ int cells_most(const struct cells *c, real radius);
  * it frees it. */
 struct near { int32_t *at; int n, room; };
 void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself);
+/* The same in the order of cells: a little faster where there are images, and as good where order does not matter. */
+void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself);
 
 /* ---- the order of transfers ------------------------------------------------------------------------ */
 

@@ -16,6 +16,10 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
 /* Frees; NULL is allowed. */
 void memory_free(void *pointer);
 
+/* Arrays that are freed may wait for others of about their size. For runs, which make the same arrays anew when particles
+ * convert; set-up needs the memory that this takes. */
+void memory_reuse(bool reuse);
+
 /* High-water mark of the process as the operating system knows it [byte]. */
 int64_t memory_peak(void);
 

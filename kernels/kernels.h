@@ -39,6 +39,7 @@ struct partial_stress {
     int64_t entries, room;
     int32_t *touched;                    /* particles whose entry was made anew; whoever follows them sets touches = 0 */
     int64_t touches, touched_room;
+    struct partial_table *table;         /* src/partial_table.c                                       */
 };
 
 /* What the transfers need besides particles and grid. */

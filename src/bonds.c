@@ -9,6 +9,7 @@
 
 /* A thread's room for the eight rows of a group. */
 struct group_room {
+    struct lattice_bonds regular;        /* without a search                   */
     int room;                            /* bonds a row may have */
     struct row row[LANES];
     int32_t *offset;                     /* [LANES room] distinct index distances */
@@ -54,17 +55,22 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 
 /* ---- one group ------------------------------------------------------------------------------------- */
 
-static int group_rows(const struct bonds *b, int64_t g)
+/* Are these the index distances of a row? */
+static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
 {
-    return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
+    int32_t other = 0;
+    if (row->n != n) return false;
+    for (int k = 0; k < n; k++) other |= row->nbr[k] - particle - offset[k];
+    return other == 0;
 }
 
 /* Distinct index distances of the group's bonds, ascending. */
 static int group_offsets(struct group_room *g, const int32_t *particle, int rows)
 {
-    int n = 0;
-    for (int l = 0; l < rows; l++)
-        for (int k = 0, at = 0; k < g->row[l].n; k++) {
+    int n = g->row[0].n;
+    for (int k = 0; k < n; k++) g->offset[k] = g->row[0].nbr[k] - particle[0];
+    for (int l = 1; l < rows; l++)
+        for (int k = 0, at = 0; k < g->row[l].n && (k > 0 || !offsets_are(g->offset, n, &g->row[l], particle[l])); k++) {
             int32_t offset = g->row[l].nbr[k] - particle[l];
             while (at < n && g->offset[at] < offset) at++;
             if (at < n && g->offset[at] == offset) continue;
@@ -82,7 +88,7 @@ static int group_slots(struct group_room *g, const int32_t *particle, int rows, 
     for (int l = 0; l < rows; l++)
         if (g->row[l].n > longest) longest = g->row[l].n;
     int offsets = group_offsets(g, particle, rows);
-    *by_offset = offsets <= longest + longest / 3;
+    *by_offset = slots_by_offset(offsets, longest);
     return *by_offset ? offsets : longest;
 }
 
@@ -132,6 +138,40 @@ static void group_fill(struct bonds *b, struct group_room *room, int64_t g, int 
     }
 }
 
+bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
+                          struct lattice_bonds *to)
+{
+    if (!lattice_bonds(lattice, p, i, to)) return false;
+    for (int l = 0; l < LANES; l++)
+        if (p->kind[i + l] != KIND_PD || cracks_near(s, p, i + l)) return false;
+    return true;
+}
+
+/* group_fill and group_note of whole rows on a lattice. */
+static void group_fill_regular(struct bonds *b, const struct lattice_bonds *bonds, int64_t g, const struct bond_source *s,
+                               const struct particles *p, const struct pair_table *pairs)
+{
+    const int32_t i = b->particle[g * LANES];
+    real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
+    for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
+    for (int k = 0; k < bonds->n; k++) {
+        const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
+        const int64_t q = bond_index(b, g, k, 0);
+        lattice_weigh(s, p, pairs, i, j, b->inverse_length + q, b->w + q);
+        for (int l = 0; l < LANES; l++) b->nbr[q + l] = j + l;
+        for (int l = 0; l < LANES; l++)
+            if (l < from || l > to) slot_pad(b, q + l, j + l);
+        for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? p->volume0[j + l] : 0;
+        for (int l = from; l <= to; l++)
+            if (s->limit.materials > 1 || trigger[l] == INFINITY)
+                trigger[l] = real_min(trigger[l], row_trigger(s, p, i + l, j + l));
+        b->first[b->slot[g] + k] = j;
+        bonds_share(b, b->slot[g] + k);
+    }
+    for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
+    b->aligned[g] = true;
+}
+
 static void group_note(struct bonds *b, const struct group_room *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -148,20 +188,22 @@ static void group_note(struct bonds *b, const struct group_room *room, int64_t g
 
 /* ---- all rows -------------------------------------------------------------------------------------- */
 
-static void rooms_make(struct group_room *g, int room)
+static void rooms_make(struct group_room *g, int room, const struct lattice *lattice)
 {
     g->room = room;
     for (int l = 0; l < LANES; l++) row_room_make(&g->row[l], room);
     g->offset = NEW("bonds.offset", (int64_t)LANES * room + 1, int32_t);
+    lattice_bonds_make(&g->regular, lattice);
 }
 
 static void rooms_free(struct group_room *g)
 {
     for (int l = 0; l < LANES; l++) row_room_free(&g->row[l]);
     memory_free(g->offset);
+    lattice_bonds_free(&g->regular);
 }
 
-static struct pair_table pairs_make(const struct bond_source *s)
+struct pair_table pairs_make(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
     real *c = NEW("bonds.moduli", s->materials, real);
@@ -199,20 +241,31 @@ static void rows_arrays(struct bonds *b)
     b->broken = NEW("bonds.broken", padded, int32_t);
 }
 
-/* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice. */
-static void rows_pass(struct bonds *b, const struct bonds *old, const struct particles *p, const struct bond_source *s,
-                      const struct pair_table *pairs, const uint8_t *fresh, int most, bool count)
+/* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice.
+ * Returns how many there are. */
+static int64_t rows_pass(struct bonds *b, const struct bonds *old, const struct particles *p, const struct bond_source *s,
+                      const struct pair_table *pairs, const struct lattice *lattice, const uint8_t *fresh, int most, bool count)
 {
-#pragma omp parallel
+    int64_t made = 0;
+#pragma omp parallel reduction(+ : made)
     {
         struct group_room room = {0};
-        rooms_make(&room, most);
+        rooms_make(&room, most, lattice);
 #pragma omp for schedule(static)
         for (int64_t g = 0; g < b->groups; g++) {
             int rows = group_rows(b, g);
+            const int32_t *particle = b->particle + g * LANES;
+            if (lattice->at && rows == LANES && particle[LANES - 1] - particle[0] == LANES - 1 &&
+                group_regular(lattice, s, p, particle[0], &room.regular)) {
+                if (count) b->slot[g + 1] = room.regular.n;
+                else group_fill_regular(b, &room.regular, g, s, p, pairs);
+                for (int k = 0; k < room.regular.n; k++) made += room.regular.to[k] - room.regular.from[k] + 1;
+                continue;
+            }
             for (int l = 0; l < rows; l++) {
                 int32_t i = b->particle[g * LANES + l];
                 row_make(&room.row[l], old, s, p, pairs, i, most, !count, fresh[i]);
+                made += room.row[l].n;
             }
             bool by_offset;
             int slots = group_slots(&room, b->particle + g * LANES, rows, &by_offset);
@@ -221,6 +274,7 @@ static void rows_pass(struct bonds *b, const struct bonds *old, const struct par
         }
         rooms_free(&room);
     }
+    return made;
 }
 
 static void rows_carry(struct bonds *b, const struct bonds *old)
@@ -246,7 +300,9 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     rows_arrays(b);
 
     struct pair_table pairs = pairs_make(s);
-    rows_pass(b, old, p, s, &pairs, fresh, most, true);
+    struct lattice lattice = {0};
+    if (!old) lattice_make(&lattice, s, p);      /* a map of all sites does not pay for a few rows */
+    rows_pass(b, old, p, s, &pairs, &lattice, fresh, most, true);
     for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
     b->slots = b->slot[b->groups];
     b->first = NEW("bonds.first", b->slots, int32_t);
@@ -260,13 +316,10 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
         b->plastic_path = NEW("bonds.plastic_path", b->slots * LANES, real);
         b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
     }
-    rows_pass(b, old, p, s, &pairs, fresh, most, false);
+    b->n = rows_pass(b, old, p, s, &pairs, &lattice, fresh, most, false);
+    lattice_free(&lattice);
     memory_free(fresh);
     memory_free(pairs.ratio);
-    int64_t made = 0;
-#pragma omp parallel for schedule(static) reduction(+ : made)
-    for (int64_t q = 0; q < b->slots * LANES; q++) made += b->inverse_length[q] != 0;
-    b->n = made;
     if (old) rows_carry(b, old);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
@@ -321,92 +374,6 @@ void bonds_free(struct bonds *b)
     memory_free(b->fracture_energy);
     memory_free(b->broken);
     memset(b, 0, sizeof *b);
-}
-
-/* ---- sums over all particles as if all were peridynamic -------------------------------------------- */
-
-void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
-{
-    int most = bonds_room(s);
-    struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
-    plain.shell_weight[0] = plain.shell_weight[1] = 1;
-    plain.influence = INFLUENCE_ONE;
-#pragma omp parallel
-    {
-        int32_t *found = NEW("bonds.found", most, int32_t);
-#pragma omp for schedule(static)
-        for (int64_t i = 0; i < p->n_all; i++) {
-            int n = family_search(s, p, (int32_t)i, found, most);
-            volume[i] = 0;
-            for (int k = 0; k < n; k++) {
-                real xi[DIM_MAX];
-                for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][found[k]] - p->X[d][i];
-                real r = sqrt(dot(xi, xi, p->dim));
-                volume[i] += p->volume0[found[k]] * family_weight(&plain, xi, r);
-            }
-        }
-        memory_free(found);
-    }
-    for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
-}
-
-/* omega^2 m of one particle [N/m]. */
-static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
-{
-    struct spring_bound bound = {{{0}}, 0};
-    for (int k = 0; k < row->n; k++) {
-        real n[DIM_MAX] = {0};
-        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][row->nbr[k]] - p->X[d][i]) * row->inverse_length[k];
-        spring_bound_add(&bound, stiffness * row->w[k] * row->inverse_length[k], n, p->dim);
-    }
-    return spring_bound_of(&bound, p->dim);
-}
-
-real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row)
-{
-    const int64_t g = row / LANES, i = b->particle[row];
-    struct spring_bound bound = {{{0}}, 0};
-    for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
-        const int64_t q = bond_index(b, g, k, (int)(row % LANES));
-        real n[DIM_MAX] = {0};
-        if (b->w[q] == 0) continue;
-        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][b->nbr[q]] - p->X[d][i]) * b->inverse_length[q];
-        spring_bound_add(&bound, b->stiffness * b->w[q] * b->inverse_length[q], n, p->dim);
-    }
-    return spring_bound_of(&bound, p->dim);
-}
-
-real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
-{
-    real largest = 0;
-#pragma omp parallel for schedule(static) reduction(max : largest)
-    for (int64_t r = 0; r < b->rows; r++) largest = real_max(largest, bonds_row_bound(b, p, r) / p->mass[b->particle[r]]);
-    return largest > 0 ? 2 / sqrt(largest) : INFINITY;
-}
-
-real bonds_critical_step(const struct particles *p, const struct bond_source *s)
-{
-    int most = bonds_room(s);
-    real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
-    struct pair_table pairs = pairs_make(s);
-    uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);
-    struct particles all = *p;
-    memset(kind, KIND_PD, (size_t)p->n_all);
-    all.kind = kind;
-#pragma omp parallel reduction(max : largest)
-    {
-        struct group_room room = {0};
-        rooms_make(&room, most);
-#pragma omp for schedule(static)
-        for (int64_t i = 0; i < p->n; i++) {
-            row_make(&room.row[0], NULL, s, &all, &pairs, (int32_t)i, most, true, true);
-            largest = real_max(largest, row_stiffness(&room.row[0], &all, (int32_t)i, stiffness) / p->mass[i]);
-        }
-        rooms_free(&room);
-    }
-    memory_free(kind);
-    memory_free(pairs.ratio);
-    return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
 /* ---- state that survives a restart ------------------------------------------------------------------ */

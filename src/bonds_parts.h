@@ -29,6 +29,45 @@ int family_search(const struct bond_source *s, const struct particles *p, int32_
 void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
               const struct pair_table *pairs, int32_t i, int room, bool weigh, bool fresh);
 
+/* Can a crack cut any bond of particle i? */
+bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i);
+/* No bond of these materials breaks below this stretch. */
+real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
+/* Is one index distance to a slot (a lattice) worth its padding? Else the rows are simply packed. */
+static inline bool slots_by_offset(int offsets, int longest) { return offsets <= longest + longest / 3; }
+
+/* Sites of a lattice that all particles and images stand on (bonds_lattice.c). */
+struct stencil_row { int64_t site; int half; };  /* its middle from a site; bonds reach that far either side */
+struct lattice {
+    int32_t *at;                         /* [sites] particle + 1, 0 without; NULL: no lattice               */
+    real low[DIM_MAX], spacing;
+    int64_t stride[DIM_MAX];
+    struct stencil_row *row;
+    int reach, rows, most;               /* most bonds that eight particles in a row can have slots for      */
+};
+/* False, and nothing to free, where particles do not stand on one. */
+bool lattice_make(struct lattice *l, const struct bond_source *s, const struct particles *p);
+void lattice_free(struct lattice *l);
+
+/* Bonds of eight consecutive particles: lanes `from` to `to` have one at this index distance; distances ascend. */
+struct lattice_bonds { int n; int32_t *offset; uint8_t *from, *to; };
+void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l);
+void lattice_bonds_free(struct lattice_bonds *to);
+/* Those of particles i .. i + 7, all of which may be read at each distance. False where they are to be searched. */
+bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to);
+/* 1/length and weight of the bonds from particles i .. i + 7 to j .. j + 7, none of them cut. */
+void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i, int64_t j,
+                   real *inverse, float *w);
+
+/* Can the map of sites tell the bonds of particles i .. i + 7, all peridynamic? Then `to` has them. */
+bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
+                   struct lattice_bonds *to);
+struct pair_table pairs_make(const struct bond_source *s);
+static inline int group_rows(const struct bonds *b, int64_t g)
+{
+    return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
+}
+
 /* Room for what slots have in common; bonds_share fills it. */
 void bonds_share_make(struct bonds *b, real spacing);
 

@@ -10,10 +10,10 @@
 
 void row_room_make(struct row *row, int room)
 {
-    row->nbr = NEW("bonds.row", room, int32_t);
-    row->inverse_length = NEW("bonds.row", room, real);
-    row->w = NEW("bonds.row", room, float);
-    row->plastic = NEW("bonds.row", room, struct bond_plasticity);
+    row->nbr = NEW("bonds.row", room + 1, int32_t);       /* row_copy writes one too many */
+    row->inverse_length = NEW("bonds.row", room + 1, real);
+    row->w = NEW("bonds.row", room + 1, float);
+    row->plastic = NEW("bonds.row", room + 1, struct bond_plasticity);
 }
 
 void row_room_free(struct row *row)
@@ -53,8 +53,7 @@ bool cracks_part(const struct crack *crack, int cracks, const struct particles *
     return false;
 }
 
-/* May a crack cut any bond of particle i? */
-static bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i)
+bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
@@ -119,6 +118,12 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
     return (struct bond_plasticity){length / r - 1 - 0.5 * elastic, 0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
+/* Vectors look for bonds above this, a margin below their limit. */
+real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
+{
+    return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * (1 - TRIGGER_MARGIN);
+}
+
 /* Lengths, weights and what cracks cut, of the bonds that row_search has found. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
@@ -135,8 +140,7 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
         row->inverse_length[k] = (cut ? -1 : 1) / r;
         row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
         if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
-        real limit = s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]];
-        row->trigger = real_min(row->trigger, limit * (1 - TRIGGER_MARGIN));
+        row->trigger = real_min(row->trigger, row_trigger(s, p, i, j));
     }
 }
 
@@ -150,32 +154,38 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
 {
     int64_t group = old_row / LANES;
     int lane = (int)(old_row % LANES);
+    int m = 0;                           /* neighbours ascend in both */
     for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
         int64_t q = bond_index(old, group, k, lane);
         if (old->inverse_length[q] == 0) continue;
-        for (int m = 0; m < row->n; m++) {
-            if (row->nbr[m] != old->nbr[q] || row->w[m] == 0) continue;
-            if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, q);
-            if (old->w[q] != 0) continue;
-            row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
-            row->cut_volume += p->volume0[row->nbr[m]];
-        }
+        while (m < row->n && row->nbr[m] < old->nbr[q]) m++;
+        if (m == row->n || row->nbr[m] != old->nbr[q] || row->w[m] == 0) continue;
+        if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, q);
+        if (old->w[q] != 0) continue;
+        row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
+        row->cut_volume += p->volume0[row->nbr[m]];
     }
 }
 
 /* A row that held its whole family before is the same row now; so is one whose neighbours are what they were. */
-static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
+static void row_copy(struct row *row, const struct bonds *old, int64_t old_row, bool weigh)
 {
     int64_t group = old_row / LANES;
     int lane = (int)(old_row % LANES);
-    row->n = 0;
-    for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
-        int64_t q = bond_index(old, group, k, lane);
-        if (old->inverse_length[q] == 0) continue;
-        row->nbr[row->n] = old->nbr[q];
-        row->inverse_length[row->n] = old->inverse_length[q];
-        if (old->plastic_stretch) row->plastic[row->n] = stored_plasticity(old, q);
-        row->w[row->n++] = old->w[q];
+    const int64_t from = bond_index(old, group, 0, lane), end = bond_index(old, group + 1, 0, lane);
+    int n = 0;
+    for (int64_t q = from; q < end; q += LANES) {          /* padding is written over */
+        row->nbr[n] = old->nbr[q];
+        n += old->inverse_length[q] != 0;
+    }
+    row->n = n;
+    if (!weigh) return;
+    n = 0;
+    for (int64_t q = from; q < end; q += LANES) {
+        row->inverse_length[n] = old->inverse_length[q];
+        row->w[n] = old->w[q];
+        if (old->plastic_stretch) row->plastic[n] = stored_plasticity(old, q);
+        n += old->inverse_length[q] != 0;
     }
     row->trigger = old->trigger[old_row];
     row->family_volume = old->family_volume[old_row];
@@ -187,7 +197,7 @@ void row_make(struct row *row, const struct bonds *old, const struct bond_source
 {
     int64_t before = old ? old->row_of[i] : -1;
     if (before >= 0 && ((old->whole[before] && p->kind[i] == KIND_PD) || !fresh)) {
-        row_copy(row, old, before);
+        row_copy(row, old, before, weigh);
         return;
     }
     row_search(row, s, p, i, room);

@@ -24,15 +24,19 @@ void bonds_share_make(struct bonds *b, real spacing)
 static int lattice_of(struct bonds *b, int64_t slot)
 {
     const real *inverse = b->inverse_length + slot * LANES;
-    int lattice = 0;
+    int one = 0;
+    while (one < LANES - 1 && inverse[one] == 0) one++;
+    const real squares = square(b->lattice[1].inverse / inverse[one]);
+    if (!(squares >= 0.5 && squares < BOND_LATTICE - 0.5)) return 0;
+    const int lattice = (int)(squares + 0.5);
+    const int64_t zero = bits_of(b->lattice[lattice].inverse);
+    int64_t excess[LANES], outside = 0;
     for (int l = 0; l < LANES; l++) {
-        if (inverse[l] == 0) continue;
-        const real squares = square(b->lattice[1].inverse / inverse[l]);
-        if (lattice == 0 && squares < BOND_LATTICE - 0.5) lattice = (int)(squares + 0.5);
-        const int64_t excess = lattice ? bits_of(fabs(inverse[l])) - bits_of(b->lattice[lattice].inverse) : INT64_MAX;
-        if (excess < INT16_MIN || excess > INT16_MAX) return 0;
-        b->common[slot].excess[l] = (int16_t)excess;
+        excess[l] = inverse[l] == 0 ? 0 : bits_of(fabs(inverse[l])) - zero;
+        outside |= excess[l] != (int16_t)excess[l];
     }
+    if (outside) return 0;
+    for (int l = 0; l < LANES; l++) b->common[slot].excess[l] = (int16_t)excess[l];
     return lattice;
 }
 
@@ -43,6 +47,12 @@ void bonds_share(struct bonds *b, int64_t slot)
     *c = (struct bond_slot){.first = b->first[slot]};
     if (c->first >= 0) c->lattice = (uint8_t)lattice_of(b, slot);
     c->alike = c->lattice != 0;
+    bool same = w[0] != 0;
+    for (int l = 1; l < LANES; l++) same &= w[l] == w[0];
+    if (same) {                          /* most slots */
+        c->w = w[0], c->intact = UINT8_MAX;
+        return;
+    }
     for (int l = 0; l < LANES; l++) {
         if (w[l] == 0) continue;
         if (c->intact != 0 && w[l] != c->w) c->alike = 0;

@@ -76,58 +76,97 @@ void cells_free(struct cells *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Keeps found[0 .. n] ascending; new indices come almost in order. */
-static void insert_ascending(int32_t *found, int n, int32_t index)
+/* What is found row by row is in order but for images, which come last of all. */
+static void sort_ascending(int32_t *found, int n)
 {
-    int k = n;
-    for (; k > 0 && found[k - 1] > index; k--) found[k] = found[k - 1];
-    found[k] = index;
-}
-
-static inline int near_in_row(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-                              int64_t first, int64_t last, int32_t *found, int room, int n, const int dim)
-{
-    for (int32_t k = c->start[first]; k < c->start[last + 1]; k++) {
-        int32_t j = c->order[k];
-        real r2 = 0;
-        for (int d = 0; d < dim; d++) r2 += square(p->X[d][j] - X[d]);
-        if (r2 > radius * radius || j == skip) continue;
-        if (n < room) insert_ascending(found, n, j);
-        n++;
+    for (int k = 1; k < n; k++) {
+        const int32_t index = found[k];
+        int at = k;
+        for (; at > 0 && found[at - 1] > index; at--) found[at] = found[at - 1];
+        found[at] = index;
     }
-    return n;
 }
 
-static inline int near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-                       int32_t *found, int room, const int dim)
+/* What a search looks for and what it has found. */
+struct search {
+    const struct cells *c;
+    const real *X;
+    real radius;
+    int32_t skip, *found;
+    int room, n;
+    bool ascending, any_order;
+};
+
+static inline void near_in_row(struct search *s, const struct particles *p, int64_t first, int64_t last, const int dim)
 {
+    const int32_t *order = s->c->order;
+    int32_t before = s->n > 0 && s->n <= s->room ? s->found[s->n - 1] : -1;
+    for (int32_t k = s->c->start[first]; k < s->c->start[last + 1]; k++) {
+        const int32_t j = order[k];
+        real r2 = 0;
+        for (int d = 0; d < dim; d++) r2 += square(p->X[d][j] - s->X[d]);
+        if (r2 > s->radius * s->radius || j == s->skip) continue;
+        if (s->n < s->room) s->found[s->n] = j;
+        s->n++;
+        s->ascending &= j > before;
+        before = j;
+    }
+}
+
+/* How far X is from the cells of index k in direction d, a little less for round-off [m]. */
+static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
+{
+    const real low = c->origin[d] + (real)k * c->width;
+    return real_max(0, real_max(low - X[d], X[d] - low - c->width) - 1e-9 * c->width - 1e-15 * fabs(X[d]));
+}
+
+/* Cells of direction d within `reach` of X: none if low > high. */
+static inline void cells_within(const struct cells *c, const real *X, int d, real reach, int64_t *low, int64_t *high)
+{
+    reach = reach * (1 + 1e-12) + 1e-15 * fabs(X[d]);          /* round-off of the distance */
+    *low = (int64_t)floor((X[d] - reach - c->origin[d]) / c->width);
+    *high = (int64_t)floor((X[d] + reach - c->origin[d]) / c->width);
+    if (*low < 0) *low = 0;
+    if (*high >= c->count[d]) *high = c->count[d] - 1;
+}
+
+static inline int near(struct search *s, const struct particles *p, const int dim)
+{
+    const struct cells *c = s->c;
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
     for (int d = 0; d < dim; d++) {
-        const real reach = radius * (1 + 1e-12) + 1e-15 * fabs(X[d]);    /* round-off of the distance below */
-        low[d] = (int64_t)floor((X[d] - reach - c->origin[d]) / c->width);
-        high[d] = (int64_t)floor((X[d] + reach - c->origin[d]) / c->width);
-        if (low[d] < 0) low[d] = 0;
-        if (high[d] >= c->count[d]) high[d] = c->count[d] - 1;
+        cells_within(c, s->X, d, s->radius, &low[d], &high[d]);
         if (low[d] > high[d]) return 0;
     }
-    int n = 0;
     for (int64_t a = low[2]; a <= high[2]; a++) {
+        const real above = dim > 2 ? square(gap(c, s->X, 2, a)) : 0;
         for (int64_t b = low[1]; b <= high[1]; b++) {
-            int64_t row = (a * (dim > 1 ? c->count[1] : 1) + b) * c->count[0];
-            n = near_in_row(c, p, X, radius, skip, row + low[0], row + high[0], found, room, n, dim);
+            const real left = square(s->radius) - (above + (dim > 1 ? square(gap(c, s->X, 1, b)) : 0));
+            int64_t from = low[0], to = high[0];
+            if (left < 0) continue;
+            if (dim > 1) cells_within(c, s->X, 0, sqrt(left) + 1e-9 * c->width, &from, &to);
+            const int64_t row = (a * (dim > 1 ? c->count[1] : 1) + b) * c->count[0];
+            if (from <= to) near_in_row(s, p, row + from, row + to, dim);
         }
     }
-    return n;
+    if (!s->ascending && !s->any_order) sort_ascending(s->found, s->n < s->room ? s->n : s->room);
+    return s->n;
+}
+
+static int search(struct search *s, const struct particles *p)
+{
+    switch (s->c->dim) {
+    case 1: return near(s, p, 1);
+    case 2: return near(s, p, 2);
+    default: return near(s, p, 3);
+    }
 }
 
 int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
                int32_t *found, int room)
 {
-    switch (c->dim) {
-    case 1: return near(c, p, X, radius, skip, found, room, 1);
-    case 2: return near(c, p, X, radius, skip, found, room, 2);
-    default: return near(c, p, X, radius, skip, found, room, 3);
-    }
+    struct search s = {.c = c, .X = X, .radius = radius, .skip = skip, .found = found, .room = room, .ascending = true};
+    return search(&s, p);
 }
 
 /* Particles in the cells round a cell, those at most `reach` cells away. */
@@ -162,16 +201,29 @@ int cells_most(const struct cells *c, real radius)
     return (int)most;
 }
 
-void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+static void find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself,
+                 bool any_order)
 {
-    const int32_t skip = itself ? -1 : (int32_t)i;
     real X[DIM_MAX];
     particle_place(p, i, X);
-    near->n = cells_near(c, p, X, radius, skip, near->at, near->room);
-    if (near->n <= near->room) return;
-    near->at = memory_resize("cells.near", near->at, near->room, 2 * near->n, sizeof *near->at);
-    near->room = 2 * near->n;
-    near->n = cells_near(c, p, X, radius, skip, near->at, near->room);
+    for (;;) {
+        struct search s = {.c = c, .X = X, .radius = radius, .skip = itself ? -1 : (int32_t)i, .found = near->at, .room = near->room,
+                           .ascending = true, .any_order = any_order};
+        near->n = search(&s, p);
+        if (near->n <= near->room) return;
+        near->at = memory_resize("cells.near", near->at, near->room, 2 * near->n, sizeof *near->at);
+        near->room = 2 * near->n;
+    }
+}
+
+void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+{
+    find(near, c, p, i, radius, itself, false);
+}
+
+void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+{
+    find(near, c, p, i, radius, itself, true);
 }
 
 /* ---- transfer order --------------------------------------------------------------------------------- */

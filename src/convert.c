@@ -1,4 +1,5 @@
 /* floor 3: conversion of material points to peridynamic particles (Zeng et al. 2022, eqs. 28, 31, 32). */
+#include "bonds_parts.h"
 #include "convert.h"
 
 #include <math.h>
@@ -44,7 +45,7 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
             real X[DIM_MAX];
             particle_place(p, i, X);
             if (region && region_contains(region, X, p->dim, 1e-9 * source->family.spacing)) p->kind[i] = KIND_PD;
-            if (source->cracks == 0) continue;
+            if (!cracks_near(source, p, i)) continue;
             family_find(&near, source, p, i);
             if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;
         }

@@ -4,6 +4,7 @@
 
 #include "engine.h"
 #include "engine_report.h"
+#include "memory.h"
 
 /* ---- one step on the grid ------------------------------------------------------------------------------- */
 
@@ -163,6 +164,7 @@ status engine_step(struct engine *e)
 
 status engine_run(struct engine *e)
 {
+    memory_reuse(true);
     if (e->scene->solver != SOLVER_EXPLICIT) return engine_solve(e);
     TRY(engine_report_start(e));
     laps_start(&e->laps);

@@ -377,6 +377,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
 
 void engine_free(struct engine *e)
 {
+    memory_reuse(false);
     if (e->out) (void)output_wait(e->out);   /* a frame on its way still reads the particles */
     probes_free(&e->probes);
     for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]);

@@ -34,9 +34,7 @@ real family_weight(const struct family *f, const real *xi, real r)
 {
     int dim = space_dim(f->space);
     real fourth = 0;
-    /* most scenes: nothing to work out, and the same bits */
-    if (f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1])
-        return f->shell_weight[0];
+    if (family_plain(f)) return f->shell_weight[0];
     for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
     /* mean of n1^4 + .. over all directions: 1, 3/4, 3/5 */
     bool axial = fourth > 3.0 / (dim + 2) + 1e-9;

@@ -6,20 +6,21 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 /* A cache line and the widest vector [byte]; the pieces in which pages are touched; a page, a large one, and the arrays that
  * lie on such. */
 enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 4 << 20 };
 
-#ifdef __GLIBC__
-/* From this size on an array has pages of its own, given back when it is freed: pages used before would lie where
- * somebody else's threads touched them first. */
+/* From this size on an array has pages of its own: pages used before would lie where somebody else's threads touched them
+ * first; and new ones are zero, so that they need not be written twice. */
 enum { OWN_PAGES = 1 << 20 };
-__attribute__((constructor)) static void own_pages(void) { mallopt(M_MMAP_THRESHOLD, OWN_PAGES); }
-#endif
+/* Where asked, some of those that are freed wait for an array of about their size, which is mostly the same one made anew: the system takes
+ * longer to give a page than it takes to write one. */
+enum { KEPT = 8, KEPT_MOST = 16 << 20 };
+
+/* Stands before the array. */
+struct block { void *whole; size_t mapped; };    /* what to free; its bytes if it has its own pages, else 0 */
+_Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 
 static _Noreturn void out_of_memory(const char *label, int64_t count, size_t size)
 {
@@ -29,18 +30,19 @@ static _Noreturn void out_of_memory(const char *label, int64_t count, size_t siz
 }
 
 /* Writes zeros piece by piece in the static partition of the loops that will use the array, so that a page
- * lies in the memory of the processor whose thread works on it. */
-static void zero(char *bytes, size_t length)
+ * lies in the memory of the processor whose thread works on it; of fresh pages only a byte each. */
+static void zero(char *bytes, size_t length, bool fresh)
 {
     int64_t pieces = (int64_t)((length + PIECE - 1) / PIECE);
     if (pieces < 2) {
-        memset(bytes, 0, length);
+        if (!fresh) memset(bytes, 0, length);
         return;
     }
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < pieces; k++) {
-        size_t first = (size_t)k * PIECE, rest = length - first;
-        memset(bytes + first, 0, rest < PIECE ? rest : PIECE);
+        size_t first = (size_t)k * PIECE, end = length - first < PIECE ? length : first + PIECE;
+        if (!fresh) memset(bytes + first, 0, end - first);
+        for (size_t at = first; fresh && at < end; at += PAGE) ((volatile char *)bytes)[at] = 0;
     }
 }
 
@@ -53,21 +55,92 @@ static size_t offset(size_t length)
     return __atomic_fetch_add(&arrays, 13, __ATOMIC_RELAXED) % (PAGE / ALIGNMENT) * ALIGNMENT;
 }
 
+#ifdef MAP_ANONYMOUS
+static struct block waiting[KEPT];
+static int waiting_longest;
+static bool reusing;
+
+/* Sizes come in steps of a quarter at most, so that what has grown a little finds its old place; pages beyond an array are never
+ * touched. */
+static size_t room_of(size_t length)
+{
+    size_t step = OWN_PAGES / 4;
+    while (step * 8 <= length) step *= 2;
+    return (length + step - 1) / step * step;
+}
+
+/* A block that waits, of this many bytes; `whole` NULL: none does. */
+static struct block take_kept(size_t room)
+{
+    struct block block = {NULL, 0};
+#pragma omp critical(memory_kept)
+    for (int k = 0; k < KEPT && !block.whole; k++)
+        if (waiting[k].mapped == room) block = waiting[k], waiting[k] = (struct block){NULL, 0};
+    return block;
+}
+
+/* Lets a block wait in place of the one that has done so longest. */
+static void keep(struct block block)
+{
+    if (reusing && block.mapped <= KEPT_MOST) {
+#pragma omp critical(memory_kept)
+        {
+            const struct block oldest = waiting[waiting_longest];
+            waiting[waiting_longest] = block, block = oldest;
+            waiting_longest = (waiting_longest + 1) % KEPT;
+        }
+    }
+    if (block.whole) munmap(block.whole, block.mapped);
+}
+
+static void keep_none(void)
+{
+    waiting_longest = 0;
+#pragma omp critical(memory_kept)
+    for (int k = 0; k < KEPT; k++) {
+        if (waiting[k].whole) munmap(waiting[k].whole, waiting[k].mapped);
+        waiting[k] = (struct block){NULL, 0};
+    }
+}
+#endif
+
+/* `length` bytes from an alignment on; `whole` NULL: there are none. `fresh`: they are zero. */
+static char *block_make(struct block *block, size_t length, size_t alignment, bool *fresh)
+{
+    *block = (struct block){NULL, 0}, *fresh = false;
+#ifdef MAP_ANONYMOUS
+    if (length >= OWN_PAGES) {
+        const size_t room = room_of(length) + (alignment > PAGE ? alignment : 0);
+        *block = take_kept(room);
+        if (!block->whole) {
+            void *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+            if (pages == MAP_FAILED) return NULL;
+            *block = (struct block){pages, room}, *fresh = true;
+        }
+        return (char *)(((uintptr_t)block->whole + alignment - 1) / alignment * alignment);
+    }
+#endif
+    if (posix_memalign(&block->whole, alignment, length) != 0) block->whole = NULL;
+    return block->whole;
+}
+
 void *memory_new(const char *label, int64_t count, size_t size)
 {
     size_t length;
-    void *whole = NULL;
-    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * PAGE)
+    struct block block;
+    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
         out_of_memory(label, count, size);
     const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;   /* also for count 0 */
     const bool large = rounded >= LARGE_ARRAY;
-    if (posix_memalign(&whole, large ? LARGE_PAGE : ALIGNMENT, ahead + rounded) != 0) out_of_memory(label, count, size);
+    bool fresh;
+    char *from = block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, &fresh);
+    if (!block.whole) out_of_memory(label, count, size);
 #ifdef MADV_HUGEPAGE
-    if (large) madvise(whole, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
+    if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
 #endif
-    char *pointer = (char *)whole + ahead;
-    ((void **)pointer)[-1] = whole;
-    zero(pointer, rounded);
+    char *pointer = from + ahead;
+    zero(pointer, rounded, fresh);
+    memcpy(pointer - sizeof block, &block, sizeof block);
     return pointer;
 }
 
@@ -83,7 +156,26 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
 
 void memory_free(void *pointer)
 {
-    if (pointer) free(((void **)pointer)[-1]);
+    struct block block;
+    if (!pointer) return;
+    memcpy(&block, (char *)pointer - sizeof block, sizeof block);
+#ifdef MAP_ANONYMOUS
+    if (block.mapped > 0) {
+        keep(block);
+        return;
+    }
+#endif
+    free(block.whole);
+}
+
+void memory_reuse(bool reuse)
+{
+#ifdef MAP_ANONYMOUS
+    reusing = reuse;
+    if (!reuse) keep_none();
+#else
+    (void)reuse;
+#endif
 }
 
 /* VmHWM is of this program alone; ru_maxrss remembers the program that started it. */

@@ -11,7 +11,31 @@ real segment_share(const real *a, const real *b, const real *X, real half, int d
 struct reflection { real sign[DIM_MAX], offset[DIM_MAX]; int64_t root; };
 struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i);
 
+/* How the force F of a bond of direction e answers to a uniform strain, times the bond's length [N m]:
+ *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
+struct response { real central, pressure, vector; };
+struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t row, int64_t q);
+/* Adds the part of one bond, from p (a material point) to m, in the cell round X: T_abcd = l e_b dF_a/deps_cd, symmetric in cd. */
+void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim);
+
 /* Half the edge of a particle's cell [m]. */
 real half_edge(const struct particles *p, const struct bond_source *s, int64_t i);
+
+/* The sums on a lattice (partial_table.c); `size`: numbers of a tensor. One that serves nobody where particles do not stand on
+ * lattices. */
+struct partial_table;
+struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size);
+void partial_table_free(struct partial_table *t);
+bool partial_table_serves(const struct partial_table *t);
+bool partial_table_serves_all(const struct partial_table *t);
+/* Is the cell of this particle one of the lattice? */
+bool partial_table_knows(const struct particles *p, const struct bond_source *s, int64_t i);
+/* What the bonds of a row answer, by vector, into so many zeros. */
+int64_t partial_table_row_size(const struct partial_table *t);
+void partial_table_row(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                       int64_t row, real *answer);
+/* T of point i from the answers of rows round it: answer_of[row] is the place of a row's, -1: it has none. */
+void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                       const int32_t *answer_of, const real *answer, int64_t i, struct near *near, real *T);
 
 #endif

@@ -49,10 +49,6 @@ struct reflection reflection_of(const struct bond_source *s, const struct partic
 
 /* ---- the tensor -------------------------------------------------------------------------------------- */
 
-/* How the force F of a bond of direction e answers to a uniform strain, times the bond's length [N m]:
- *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
-struct response { real central, pressure, vector; };
-
 static bool same(int a, int b) { return a == b; }
 
 /* Rows of a matrix from symmetric stress: its symmetric components, then those of its skew part (partial_stress_skew). */
@@ -77,8 +73,7 @@ static void tensor_add_skew(real *T, const real *e, real vector, int dim)
         }
 }
 
-/* Adds the part of one bond, from p (a material point) to m: T_abcd = l e_b dF_a/deps_cd, symmetric in cd. */
-static void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim)
+void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim)
 {
     real share = segment_share(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
     if (share == 0) return;
@@ -106,8 +101,7 @@ static real family_share(const struct particles *p, const struct bonds *b, const
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 
-static struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                                   int64_t row, int64_t q)
+struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
     const real r = fabs(1 / b->inverse_length[q]), D = p->dim;
@@ -173,17 +167,24 @@ real half_edge(const struct particles *p, const struct bond_source *s, int64_t i
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). False if no bond crosses. */
-static bool partial_matrix(real *M, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                           const struct box *box, int64_t i, struct near *near)
+/* T V of point i from each bond around; any cloud of particles. */
+static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                       const struct box *box, int64_t i, struct near *near)
 {
-    const int dim = p->dim, n = symmetric_count(dim), rows = rows_of(s, dim);
-    real X[DIM_MAX], T[ROWS_MAX * SYM_MAX] = {0}, compliance[SYM_MAX * SYM_MAX], half = half_edge(p, s, i);
-    for (int d = 0; d < dim; d++) X[d] = p->X[d][i];
-    near_find(near, s->cells, p, i, s->family.cutoff + half * sqrt(dim), true);
+    const real half = half_edge(p, s, i);
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    near_find(near, s->cells, p, i, s->family.cutoff + half * sqrt(p->dim), true);
     for (int k = 0; k < near->n; k++)
         if (p->kind[near->at[k]] == KIND_MPM && p->body[near->at[k]] == p->body[i])
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
+}
+
+/* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). False if no bond crosses. */
+static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    const int dim = p->dim, n = symmetric_count(dim), rows = rows_of(s, dim);
+    real compliance[SYM_MAX * SYM_MAX];
     material_compliance(&s->material[p->material[i]], dim, compliance);
     real largest = 0;
     for (int a = 0; a < rows; a++)
@@ -198,23 +199,64 @@ static bool partial_matrix(real *M, const struct particles *p, const struct bond
 
 /* ---- who needs one ----------------------------------------------------------------------------------- */
 
-/* Points within the radius of what has changed, ascending; NULL: of all peridynamic particles. */
-static int64_t list_dirty(const struct particles *p, const struct bond_source *s, real radius, const int32_t *changed,
-                          int64_t n, int32_t *list)
+/* What is made anew: points around what has changed, and the rows whose bonds may cross their cells. */
+struct renewal {
+    int32_t *list;                       /* points and others there, ascending                              */
+    int64_t n;
+    int32_t *row;                        /* rows of material points                                         */
+    int64_t rows;
+    bool *own;                           /* [n] has changed itself                                          */
+};
+
+enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
+
+/* Marks who is within the radius of what has changed, and who within `reach` of those; NULL: all peridynamic particles. */
+static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
+                       const int32_t *changed, int64_t n)
 {
-    uint8_t *dirty = NEW("partial.dirty", p->n, uint8_t);
     struct near near = {0};
-    int64_t dirties = 0;
     for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
-        near_find(&near, s->cells, p, changed ? changed[k] : p->list[KIND_PD][k], radius, true);
-        for (int m = 0; m < near.n; m++) dirty[image_root(p, s->image, near.at[m])] = 1;
+        const int64_t i = changed ? changed[k] : p->list[KIND_PD][k];
+        near_find_any(&near, s->cells, p, i, radius + reach, true);
+        for (int m = 0; m < near.n; m++) {
+            real r2 = 0;
+            for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);
+            mark[image_root(p, s->image, near.at[m])] |= r2 <= radius * radius ? OTHERS_ROW | DIRTY : OTHERS_ROW;
+        }
+        mark[i] |= OWN;
     }
-    for (int64_t i = 0; i < p->n; i++)
-        if (dirty[i]) list[dirties++] = (int32_t)i;
     memory_free(near.at);
-    memory_free(dirty);
-    return dirties;
 }
+
+static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                         const struct partial_table *table, const int32_t *changed, int64_t n)
+{
+    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice, within its
+     * own length: the middle of the cell lies in the box that it spans */
+    const real radius = s->family.cutoff + (partial_table_serves_all(table) ? 0 : s->family.spacing * sqrt(p->dim));
+    uint8_t *mark = NEW("partial.mark", p->n, uint8_t);
+    int64_t rows = 0, dirties = 0;
+    mark_dirty(mark, p, s, radius, radius, changed, n);
+    for (int64_t i = 0; i < p->n; i++) rows += mark[i] & OTHERS_ROW, dirties += (mark[i] & DIRTY) > 0;
+    *r = (struct renewal){.list = NEW("partial.list", dirties, int32_t), .row = NEW("partial.row", rows, int32_t),
+                          .own = NEW("partial.own", dirties, bool)};
+    for (int64_t i = 0; i < p->n; i++) {
+        if (mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->row_of[i] >= 0) r->row[r->rows++] = b->row_of[i];
+        if (!(mark[i] & DIRTY)) continue;
+        r->own[r->n] = !changed || mark[i] & OWN;
+        r->list[r->n++] = (int32_t)i;
+    }
+    memory_free(mark);
+}
+
+static void renewal_free(struct renewal *r)
+{
+    memory_free(r->list);
+    memory_free(r->row);
+    memory_free(r->own);
+}
+
+/* ---- entries ----------------------------------------------------------------------------------------- */
 
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int skew)
 {
@@ -253,48 +295,88 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
     memory_free(old.skew);
 }
 
-void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
-                         const struct bond_source *source, const int32_t *changed, int64_t n)
+/* Is the entry of point i this matrix already, bit by bit? */
+static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int skew)
 {
-    const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
-    const int whole = rows_of(source, p->dim) * n_symmetric;
-    if (!partial->index) {
-        partial->index = NEW("partial.index", p->n, int32_t);
-        for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
+    const int64_t at = partial->index[i];
+    return at >= 0 && memcmp(partial->matrix + at * size, M, (size_t)size * sizeof *M) == 0 &&
+           (skew == 0 || memcmp(partial->skew + at * skew, M + size, (size_t)skew * sizeof *M) == 0);
+}
+
+static void touch(struct partial_stress *partial, int64_t i)
+{
+    if (partial->touches == partial->touched_room) {
+        const int64_t more = partial->touched_room ? 2 * partial->touched_room : 256;
+        partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *partial->touched);
+        partial->touched_room = more;
     }
-    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses */
-    const real radius = source->family.cutoff + source->family.spacing * sqrt(p->dim);
-    int32_t *list = NEW("partial.list", p->n, int32_t);
-    const int64_t dirties = list_dirty(p, source, radius, changed, n, list);
-    real *M = NEW("partial.new", dirties * whole, real);
-    bool *crossed = NEW("partial.crossed", dirties, bool);
-    struct box *box = NEW("partial.box", b->rows, struct box);
+    partial->touched[partial->touches++] = (int32_t)i;
+}
+
+/* M of all points of the renewal. */
+static void matrices_make(real *M, bool *crossed, int whole, const struct partial_table *table, const struct renewal *r,
+                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
+{
+    const bool served = partial_table_serves(table);
+    const bool strange = !partial_table_serves_all(table);    /* is there a cell that the table does not know? */
+    const int64_t each = served ? partial_table_row_size(table) : 0;
+    real *answer = NEW("partial.answer", r->rows * each, real);
+    int32_t *answer_of = NEW("partial.answer_of", b->rows, int32_t);
+    struct box *box = NEW("partial.box", strange ? b->rows : 0, struct box);
 #pragma omp parallel
     {
         struct near near = {0};
 #pragma omp for schedule(static)
-        for (int64_t r = 0; r < b->rows; r++)
-            if (!b->whole[r]) box[r] = box_of(p, b, r);
+        for (int64_t row = 0; row < b->rows; row++) answer_of[row] = -1;
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < r->rows; k++) {
+            answer_of[r->row[k]] = (int32_t)k;
+            if (strange) box[r->row[k]] = box_of(p, b, r->row[k]);
+            if (served) partial_table_row(table, p, b, s, r->row[k], answer + k * each);
+        }
 #pragma omp for schedule(dynamic, 16)
-        for (int64_t k = 0; k < dirties; k++)
-            crossed[k] = p->kind[list[k]] == KIND_MPM && partial_matrix(M + k * whole, p, b, source, box, list[k], &near);
+        for (int64_t k = 0; k < r->n; k++) {
+            const int64_t i = r->list[k];
+            real T[ROWS_MAX * SYM_MAX] = {0};
+            if (p->kind[i] != KIND_MPM) continue;
+            if (served && partial_table_knows(p, s, i)) partial_table_sum(table, p, b, s, answer_of, answer, i, &near, T);
+            else tensor_sum(T, p, b, s, box, i, &near);
+            crossed[k] = partial_matrix(M + k * whole, T, p, s, i);
+        }
         memory_free(near.at);
     }
-    for (int64_t k = 0; k < dirties; k++) {
-        if (crossed[k]) entry_put(partial, list[k], M + k * whole, size, whole - size);
-        else partial->index[list[k]] = -1;
-    }
-    entries_squeeze(partial, p, size, whole - size);
-    if (partial->touches + dirties > partial->touched_room) {
-        const int64_t more = 2 * (partial->touches + dirties);
-        partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *list);
-        partial->touched_room = more;
-    }
-    for (int64_t k = 0; k < dirties; k++) partial->touched[partial->touches++] = list[k];
+    memory_free(answer_of);
+    memory_free(answer);
     memory_free(box);
+}
+
+void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
+                         const struct bond_source *source, const int32_t *changed, int64_t n)
+{
+    const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
+    const int whole = rows_of(source, p->dim) * n_symmetric, skew = whole - size;
+    struct renewal r;
+    if (!partial->index) {
+        partial->index = NEW("partial.index", p->n, int32_t);
+        for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
+        partial->table = partial_table_make(p, source, whole);
+    }
+    renewal_make(&r, p, b, source, partial->table, changed, n);
+    real *M = NEW("partial.new", r.n * whole, real);
+    bool *crossed = NEW("partial.crossed", r.n, bool);
+    matrices_make(M, crossed, whole, partial->table, &r, p, b, source);
+    for (int64_t k = 0; k < r.n; k++) {
+        const int64_t i = r.list[k];
+        const bool same = crossed[k] ? entry_is(partial, i, M + k * whole, size, skew) : partial->index[i] < 0;
+        if (!same || r.own[k]) touch(partial, i);
+        if (same) continue;
+        if (crossed[k]) entry_put(partial, i, M + k * whole, size, skew);
+        else partial->index[i] = -1;
+    }
+    entries_squeeze(partial, p, size, skew);
     memory_free(crossed);
     memory_free(M);
-    memory_free(list);
+    renewal_free(&r);
 }
 
 void partial_stress_free(struct partial_stress *partial)
@@ -303,5 +385,6 @@ void partial_stress_free(struct partial_stress *partial)
     memory_free(partial->matrix);
     memory_free(partial->skew);
     memory_free(partial->touched);
+    if (partial->table) partial_table_free(partial->table);
     memset(partial, 0, sizeof *partial);
 }

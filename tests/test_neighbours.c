@@ -287,6 +287,56 @@ static void test_rows_inherit(void **state)
     }
 }
 
+/* Rows that the map of a lattice's sites tells are those of the search, bit by bit; bonds that may yield are always searched. */
+static void test_rows_of_lattice(void **state)
+{
+    (void)state;
+    static const struct cloud_plan plan[] = {
+        {.space = SPACE_LINE, .count = {50}, .horizon = 3},
+        {.space = SPACE_PLANE_STRESS, .count = {32, 9}, .horizon = 3.015},
+        {.space = SPACE_PLANE_STRESS, .count = {29, 9}, .horizon = 3.015, .surface = SURFACE_VOLUME},
+        {.space = SPACE_PLANE_STRESS, .count = {30, 12}, .horizon = 3, .volume = VOLUME_RAMP, .shells = SHELLS_ISOTROPIC},
+        {.space = SPACE_SOLID, .count = {16, 7, 8}, .horizon = 3.015, .surface = SURFACE_VOLUME},
+        {.space = SPACE_SOLID, .count = {11, 6, 5}, .horizon = 2, .influence = INFLUENCE_GAUSSIAN},
+    };
+    for (size_t k = 0; k < COUNT_OF(plan); k++) {
+        struct cloud c;
+        struct bonds searched;
+        cloud_make(&c, &plan[k]);
+        for (int64_t i = 0; i < c.p.n; i++) c.p.material[i] = i % 3 == 0;
+        for (int64_t i = 2 * c.p.n / 3; i < c.p.n && k % 2; i++) c.p.kind[i] = KIND_MPM;
+        for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c.limit[m] = 0.01 + 0.001 * m;
+        cloud_bonds(&c);
+        searched = c.bonds;
+        assert_non_null(c.source.yield.stretch);
+        c.source.yield = (struct bond_yield){NULL, NULL, 0};
+        if (c.neighbour_volume) {
+            real *volume = NEW("test.volume", c.p.n_all, real);
+            bonds_neighbour_volume(volume, &c.p, &c.source);
+            assert_memory_equal(volume, c.neighbour_volume, (size_t)c.p.n * sizeof *volume);
+            memory_free(volume);
+        }
+        bonds_make(&c.bonds, NULL, &c.p, &c.source);
+        const real step = bonds_critical_step_made(&c.bonds, &c.p);
+        if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_step(&c.p, &c.source));
+        const struct bonds *b = &c.bonds;
+        const size_t slots = (size_t)b->slots, entries = slots * LANES, rows = (size_t)b->rows;
+        assert_int_equal(b->slots, searched.slots);
+        assert_int_equal(b->n, searched.n);
+        assert_memory_equal(b->nbr, searched.nbr, entries * sizeof *b->nbr);
+        assert_memory_equal(b->inverse_length, searched.inverse_length, entries * sizeof *b->inverse_length);
+        assert_memory_equal(b->w, searched.w, entries * sizeof *b->w);
+        assert_memory_equal(b->first, searched.first, slots * sizeof *b->first);
+        assert_memory_equal(b->common, searched.common, slots * sizeof *b->common);
+        assert_memory_equal(b->trigger, searched.trigger, rows * sizeof *b->trigger);
+        assert_memory_equal(b->family_volume, searched.family_volume, rows * sizeof *b->family_volume);
+        assert_memory_equal(b->broken_volume, searched.broken_volume, rows * sizeof *b->broken_volume);
+        assert_memory_equal(b->aligned, searched.aligned, (size_t)b->groups * sizeof *b->aligned);
+        bonds_free(&searched);
+        cloud_free(&c);
+    }
+}
+
 static void test_rows_threads(void **state)
 {
     (void)state;
@@ -433,6 +483,7 @@ int main(void)
         cmocka_unit_test(test_search),
         cmocka_unit_test(test_rows),
         cmocka_unit_test(test_rows_inherit),
+        cmocka_unit_test(test_rows_of_lattice),
         cmocka_unit_test(test_rows_threads),
         cmocka_unit_test(test_transfer_order),
         cmocka_unit_test(test_transfer_order_growth),
