@@ -28,6 +28,9 @@ struct mesh_run {
     bool stressed;                       /* a point of it may have passed the trigger                 */
 };
 
+/* Points of a cell whose motion is needed in every step, by place. */
+struct mesh_seen { int32_t cell; uint8_t places; };
+
 struct mesh {
     struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused      */
     int64_t points;                      /* particles in the mesh; 0: there is no mesh                */
@@ -53,8 +56,8 @@ struct mesh {
     real *odd;                           /* [groups][modes (modes - 1)/2][LANES] half of the rest, NULL: none [Pa] */
     real *skew;                          /* [groups][skews modes][LANES] of forces that bonds off their line leave, NULL: none [Pa] */
     real *cut_force;                     /* [groups][corners dim][LANES]                      [N]     */
-    int64_t seen;
-    int32_t *see;                        /* [seen] points whose motion is needed in every step        */
+    int64_t seen, seen_room;
+    struct mesh_seen *see;               /* [seen] by ascending cell                                  */
 };
 
 /* Modes that a cell's energy hangs on: of its mean strain, and what bends it; and what skew stress acts on: the mean rotations

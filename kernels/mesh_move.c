@@ -4,17 +4,24 @@
 #include "kernels.h"
 #include "lanes.h"
 
-/* What a held component does to its node: the force becomes what the prescribed motion needs. */
-static void wall_force(struct mesh *mesh, struct wall *w, real dt_velocity, real impulse[DIM_MAX], real *work)
+/* What held components do to their nodes: the force becomes what the prescribed motion needs. Sums join the totals at the end. */
+static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
-    const int d = w->component;
-    const real before = g->velocity[d][w->node], mass = g->mass[w->node];
-    const real needed = mass * (w->velocity - before), given = needed - dt_velocity * g->force[d][w->node];
-    w->reaction = given - mass * w->change;
-    impulse[d] += given;
-    *work += given * 0.5 * (before + w->velocity);
-    g->force[d][w->node] = needed / dt_velocity;
+    real sum[DIM_MAX] = {0}, all = 0;
+    const real inverse = 1 / dt_velocity;
+    for (int64_t k = 0; k < g->walls; k++) {
+        struct wall *w = &g->wall[k];
+        const int d = w->component;
+        const real before = g->velocity[d][w->node], mass = g->mass[w->node];
+        const real needed = mass * (w->velocity - before), given = needed - dt_velocity * g->force[d][w->node];
+        w->reaction = given - mass * w->change;
+        sum[d] += given;
+        all += given * 0.5 * (before + w->velocity);
+        g->force[d][w->node] = needed * inverse;
+    }
+    for (int d = 0; d < g->dim; d++) impulse[d] += sum[d];
+    *work += all;
 }
 
 void mesh_clear(struct mesh *mesh)
@@ -51,7 +58,7 @@ real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MA
 {
     struct grid *g = &mesh->grid;
     real most = 0;
-    for (int64_t k = 0; k < g->walls; k++) wall_force(mesh, &g->wall[k], dt_velocity, impulse, work);
+    walls_force(mesh, dt_velocity, impulse, work);
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t r = 0; r < mesh->rows; r++)
         most = real_max(most, row_move(mesh, mesh->span[2 * r], mesh->span[2 * r + 1], dt, dt_velocity));

@@ -197,7 +197,6 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     mesh->place = NEW("mesh.place", p->n, int32_t);
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
-    mesh->see = NEW("mesh.see", p->n, int32_t);
     mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
     return OK;
 }
@@ -307,6 +306,23 @@ real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_sourc
     return energy;
 }
 
+static void cell_see(struct mesh *mesh, const uint8_t *seen, int64_t I)
+{
+    const int corners = 1 << mesh->grid.dim;
+    unsigned places = 0;
+    for (int q = 0; q < corners; q++) {
+        const int32_t i = mesh->point[I * corners + q];
+        if (i >= 0 && seen[i]) places |= 1u << q;
+    }
+    if (places == 0) return;
+    if (mesh->seen == mesh->seen_room) {
+        const int64_t room = mesh->seen_room ? 2 * mesh->seen_room : 256;
+        mesh->see = memory_resize("mesh.see", mesh->see, mesh->seen_room, room, sizeof *mesh->see);
+        mesh->seen_room = room;
+    }
+    mesh->see[mesh->seen++] = (struct mesh_seen){(int32_t)I, (uint8_t)places};
+}
+
 void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
 {
     if (!mesh->place) return;
@@ -318,8 +334,8 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
         if (b->nbr[k] >= p->n) seen[image_root(p, l->image, b->nbr[k])] = 1;
     }
     mesh->seen = 0;
-    for (int64_t i = 0; i < p->n; i++)
-        if (seen[i] && mesh->place[i] >= 0) mesh->see[mesh->seen++] = (int32_t)i;
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, seen, I);
     memory_free(seen);
 }
 

@@ -394,7 +394,7 @@ static void test_release(void **state)
         for (int64_t I = 0; I < b.mesh.grid.n; I++) b.mesh.grid.velocity[0][I] = b.mesh.grid.mass[I] > 0 ? cloud_random(&seed) : 0;
         real before = 0, after = 0, kinetic = mesh_kinetic(&b.mesh);
         for (int64_t I = 0; I < b.mesh.grid.n; I++) before += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
-        mesh_points_move(&b.mesh, p, NULL, p->n);
+        mesh_points_move(&b.mesh, p);
         for (int64_t i = 0; i < p->n; i++) p->kind[i] = fresh.c.p.kind[i];
         kinetic -= mesh_follow(&b.mesh, p, &b.source, NULL, 0);
         for (int64_t I = 0; I < b.mesh.grid.n; I++) {
