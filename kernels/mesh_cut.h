@@ -27,16 +27,18 @@ static ALWAYS_INLINE void cut_modes(const struct mesh_cell *s, lanes *v, const i
         symmetric_axes(dim, k, &a, &b);
         v[k] = a == b ? s->e[a][a] : s->e[a][b] + s->e[b][a];
     }
-    for (int M = 3; M < 1 << dim; M++)
-        for (int i = 0; i < dim && M & (M - 1); i++) v[n++] = s->mode[M][i];
+    SETS for (int M = 3; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
 }
 
 /* f = K v of the symmetric part, half of which is stored, row by row from the diagonal on. */
 static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, const int n)
 {
     for (int a = 0; a < n; a++) f[a] = lanes_of(0);
+#pragma GCC unroll 18
     for (int a = 0; a < n; a++) {
         lanes sum = f[a] + *K++ * v[a];
+#pragma GCC unroll 18
         for (int b = a + 1; b < n; b++, K++) sum += *K * v[b], f[b] += *K * v[a];
         f[a] = sum;
     }
@@ -63,8 +65,8 @@ static ALWAYS_INLINE void cut_law(const struct mesh *mesh, int64_t group, struct
         symmetric_axes(dim, t, &a, &b);
         s->P[a][b] = s->P[b][a] = f[t];
     }
-    for (int M = 3; M < 1 << dim; M++)
-        for (int i = 0; i < dim && M & (M - 1); i++) s->force[M][i] = f[k++];
+    SETS for (int M = 3; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = f[k++];
 }
 
 /* Adds the skew stress that bonds off their line leave: it balances their torque, and is not balanced itself. */
@@ -83,8 +85,8 @@ static ALWAYS_INLINE void cut_add_skew(const struct mesh *mesh, int64_t group, s
         symmetric_axes(dim, dim + t, &a, &b);
         s->P[a][b] += f[t], s->P[b][a] -= f[t];
     }
-    for (int M = 3; M < 1 << dim; M++)
-        for (int i = 0; i < dim && M & (M - 1); i++) s->force[M][i] += f[k++];
+    SETS for (int M = 3; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] += f[k++];
 }
 
 #endif

@@ -25,6 +25,9 @@ struct mesh_cell {
     lanes R[3][3], e[3][3], P[3][3];                     /* rotation; strain and stress of the mean gradient        */
 };
 
+/* Loops over sets of axes are written out: what they hold stays in registers. */
+#define SETS _Pragma("GCC unroll 8")
+
 /* ---- modes -------------------------------------------------------------------------------------------- */
 
 /* v[M] = sum_c sign v[c], in place. */
@@ -166,26 +169,27 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
         lanes v[CORNERS_MAX];
         for (int c = 0; c < corners; c++) v[c] = u[c][i];
         modes_of_corners(v, dim);
-        for (int M = 1; M < corners; M++) s->mode[M][i] = v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
+        SETS for (int M = 1; M < corners; M++) s->mode[M][i] = v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
         for (int b = 0; b < dim; b++) g[i][b] = s->mode[1 << b][i];
     }
-    if (turns) {
-        if (dim == 2) cell_turn_2d(g, s->R, s->e);
-        else cell_turn_3d(g, s->R, s->e);
-        for (int M = 1; M < corners; M++)
-            if (M & (M - 1)) turn_vector(s->R, s->mode[M], false, dim);
-    } else {
-        for (int a = 0; a < dim; a++)
-            for (int b = 0; b < dim; b++) s->e[a][b] = 0.5 * (g[a][b] + g[b][a]);
-    }
+    lanes R[3][3], e[3][3];                      /* of their own: Newton's loop keeps them in registers */
+    if (turns && dim == 2) cell_turn_2d(g, R, e);
+    if (turns && dim == 3) cell_turn_3d(g, R, e);
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) {
+            s->e[a][b] = turns ? e[a][b] : 0.5 * (g[a][b] + g[b][a]);
+            if (turns) s->R[a][b] = R[a][b];
+        }
+    SETS for (int M = 1; M < corners && turns; M++)
+        if (M & (M - 1)) turn_vector(s->R, s->mode[M], false, dim);
 }
 
 /* What whole cells answer. */
 static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
     stress_of(m, s->e, s->P, dim);
-    for (int M = 1; M < 1 << dim; M++)
-        for (int i = 0; i < dim && M & (M - 1); i++) s->force[M][i] = bend(m, s->mode, M, i, dim);
+    SETS for (int M = 1; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = bend(m, s->mode, M, i, dim);
 }
 
 /* A bound of the largest principal stress at the points of cells with all their stress P: of the mean the largest normal
@@ -193,8 +197,8 @@ static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s,
 static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct mesh_cell *s, const lanes P[3][3], const int dim)
 {
     lanes largest = lanes_of(0), bound = P[0][0];
-    for (int M = 1; M < 1 << dim; M++)
-        for (int i = 0; i < dim && M & (M - 1); i++) largest += lanes_max(s->mode[M][i], -s->mode[M][i]);
+    SETS for (int M = 1; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) largest += lanes_max(s->mode[M][i], -s->mode[M][i]);
     for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
@@ -207,7 +211,7 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
     lanes energy = lanes_of(0);
     for (int i = 0; i < dim; i++) {
         for (int b = 0; b < dim; b++) energy += s->P[i][b] * s->e[i][b];
-        for (int M = 1; M < 1 << dim; M++)
+        SETS for (int M = 1; M < 1 << dim; M++)
             if (M & (M - 1)) energy += s->force[M][i] * s->mode[M][i];
     }
     return energy * (0.5 * volume);
@@ -221,7 +225,7 @@ static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, const int dim)
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         moment[k] = lanes_of(0);
         for (int b = 0; b < dim; b++) moment[k] += s->P[j][b] * s->e[i][b] - s->P[i][b] * s->e[j][b];
-        for (int M = 1; M < 1 << dim; M++)
+        SETS for (int M = 1; M < 1 << dim; M++)
             if (M & (M - 1)) moment[k] += s->force[M][j] * s->mode[M][i] - s->force[M][i] * s->mode[M][j];
     }
     add_skew(s->P, s->e, moment, dim);
@@ -238,12 +242,12 @@ static ALWAYS_INLINE void cell_corners(struct mesh_cell *s, real h, real volume,
         turn_vector(s->R, column, true, dim);
         for (int a = 0; a < dim; a++) s->P[a][b] = column[a];
     }
-    for (int M = 1; M < corners && turns; M++)
+    SETS for (int M = 1; M < corners && turns; M++)
         if (M & (M - 1)) turn_vector(s->R, s->force[M], true, dim);
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         v[0] = lanes_of(0);
-        for (int M = 1; M < corners; M++) {
+        SETS for (int M = 1; M < corners; M++) {
             const lanes by = M & (M - 1) ? s->force[M][i] : s->P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
             v[M] = by * (-volume / (h * (1 << (dim - __builtin_popcount(M)))));
         }

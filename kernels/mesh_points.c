@@ -1,5 +1,7 @@
 /* floor 2: what the material points of a mesh know: their motion, their stress, and whether it asks for conversion. */
+#include "mesh_cut.h"
 #include "mesh_point.h"
+#include "mesh_run.h"
 
 /* One body for every number of axes; the parallel region stands in each instance. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
@@ -183,20 +185,107 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
     }
 }
 
-#define MARK(D)                                                                                                      \
-    static void cells_mark_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)   \
-    {                                                                                                                \
-        for (int64_t k = 0; k < mesh->cuts; k++)                                                                     \
-            if (mesh->cut_stressed[k]) cell_mark(mesh, p, m, mesh->cut[k], D, finite);                               \
-        for (int64_t r = 0; r < mesh->runs; r++)                                                                     \
-            for (int64_t k = 0; mesh->run[r].stressed && k < mesh->run[r].cells; k++)                                \
-                cell_mark(mesh, p, m, mesh->run[r].cell + k, D, finite);                                             \
+/* Strain of eight cells at place q: the mean, and what bends times the place's coordinates +-1/4. */
+static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
+{
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) {
+            e[i][j] = s->e[i][j];
+            SETS for (int M = 3; M < 1 << dim; M++)
+                if (M & (M - 1) && M >> j & 1) {
+                    real x = 1;
+                    for (int d = 0; d < dim; d++)
+                        if (d != j && M >> d & 1) x *= q >> d & 1 ? 0.25 : -0.25;
+                    e[i][j] += x * s->mode[M][i];
+                }
+        }
+}
+
+/* A bound of the largest principal stress, closer than that of mesh_force: place by place, where there are points (`there`,
+ * NULL: everywhere). */
+static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there, const int dim)
+{
+    lanes most = lanes_of(-INFINITY), e[3][3], P[3][3];
+    SETS for (int q = 0; q < 1 << dim; q++) {
+        cells_strain_at(s, q, e, dim);
+        stress_of(m, e, P, dim);
+        lanes bound = P[0][0];
+        for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
+        most = lanes_max(most, there ? lanes_choose(there[q], bound, most) : bound);
     }
-DIMENSIONS(MARK)
+    return most;
+}
+
+/* Does a cell hold points of another material? */
+static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct particles *p, int64_t I, uint8_t material, const int dim)
+{
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        if (i >= 0 && p->material[i] != material) return true;
+    }
+    return false;
+}
+
+static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
+                                   const struct mesh_run *run, const int dim, const bool finite)
+{
+    const struct elastic *own = &m[run->material];
+    for (int64_t k = 0; k < run->cells; k += LANES) {
+        struct mesh_cell s;
+        lanes u[CORNERS_MAX][3];
+        mesh_run_load(mesh, run, k, u, dim);
+        cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+        const lanes tension = cells_tension(own, &s, NULL, dim);
+        for (int64_t l = 0; l < LANES && l < run->cells - k; l++)
+            if (tension[l] > own->trigger) cell_mark(mesh, p, m, run->cell + k + l, dim, finite);
+    }
+}
+
+static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t group,
+                                     const int dim, const bool finite)
+{
+    const int64_t first = group * LANES;
+    struct mesh_cell s;
+    lanes u[CORNERS_MAX][3], tension = lanes_of(0);
+    lanes_mask there[CORNERS_MAX];
+    for (int q = 0; q < 1 << dim; q++)
+        for (int l = 0; l < LANES; l++) there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->cut[first + l] << dim) + q] >= 0);
+    mesh_cut_load(mesh, group, u, dim);
+    cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+    for (int64_t k = first; k < first + LANES && k < mesh->cuts; k++) {
+        const uint8_t material = mesh->cut_material[k];
+        if (k == first || material != mesh->cut_material[k - 1]) tension = cells_tension(&m[material], &s, there, dim);
+        if (mesh->cut_stressed[k] && (tension[k - first] > m[material].trigger || cell_mixed(mesh, p, mesh->cut[k], material, dim)))
+            cell_mark(mesh, p, m, mesh->cut[k], dim, finite);
+    }
+}
+
+static inline bool group_stressed(const struct mesh *mesh, int64_t group)
+{
+    bool any = false;
+    for (int l = 0; l < LANES; l++) any |= mesh->cut_stressed[group * LANES + l];
+    return any;
+}
+
+#define MARK(D, FINITE)                                                                                              \
+    static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)     \
+    {                                                                                                                \
+        for (int64_t k = 0; k < mesh_groups(mesh); k++)                                                              \
+            if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                       \
+        for (int64_t r = 0; r < mesh->runs; r++)                                                                     \
+            if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                               \
+    }
+MARK(1, false)
+MARK(2, false)
+MARK(2, true)
+MARK(3, false)
+MARK(3, true)
 
 void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)
 {
-    if (p->dim == 1) cells_mark_1(mesh, p, m, finite);
-    else if (p->dim == 2) cells_mark_2(mesh, p, m, finite);
-    else cells_mark_3(mesh, p, m, finite);
+    if (p->dim == 1) cells_mark_1_false(mesh, p, m);
+    else if (p->dim == 2) (finite ? cells_mark_2_true : cells_mark_2_false)(mesh, p, m);
+    else (finite ? cells_mark_3_true : cells_mark_3_false)(mesh, p, m);
 }

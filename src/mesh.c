@@ -306,6 +306,15 @@ real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_sourc
     return energy;
 }
 
+/* Images that bonds look at move as their sources; of the bonds of a slot most have none. */
+static void images_see(uint8_t *seen, const struct particles *p, const struct image *image, const int32_t *nbr)
+{
+    int32_t most = nbr[0];
+    for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
+    for (int l = 0; l < LANES && most >= p->n; l++)
+        if (nbr[l] >= p->n) seen[image_root(p, image, nbr[l])] = 1;
+}
+
 static void cell_see(struct mesh *mesh, const uint8_t *seen, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
@@ -330,9 +339,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
     for (int64_t row = 0; row < b->rows; row++) seen[b->particle[row]] = 1;
     for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
         for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
-    for (int64_t k = 0; k < b->slots * LANES && p->n_all > p->n; k++) {      /* images that bonds look at move as their sources */
-        if (b->nbr[k] >= p->n) seen[image_root(p, l->image, b->nbr[k])] = 1;
-    }
+    for (int64_t k = 0; k < b->slots && p->n_all > p->n; k++) images_see(seen, p, l->image, b->nbr + k * LANES);
     mesh->seen = 0;
     for (int64_t I = 0; I < mesh->grid.n; I++)
         if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, seen, I);

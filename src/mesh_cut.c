@@ -127,25 +127,37 @@ static real entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][ROWS_MAX 
     return value;
 }
 
-/* One lane of a group; K, odd and skew where that begins. `odd` may be NULL: whether there is such a part is returned. */
+/* Is D symmetric, but for round-off? Then so is the stiffness. */
+static bool sums_symmetric(const struct cell_maker *c, real sum[CORNERS_MAX][ROWS_MAX * SYM_MAX])
+{
+    const int n = c->columns;
+    real most = 0, odd = 0;
+    for (int q = 0; q < 1 << c->dim; q++)
+        for (int a = 0; a < n; a++)
+            for (int b = 0; b <= a; b++) {
+                most = real_max(most, fabs(sum[q][a * n + b]));
+                odd = real_max(odd, fabs(sum[q][a * n + b] - sum[q][b * n + a]));
+            }
+    return odd <= ODD_LEAST * most;
+}
+
+/* One lane of a group; K, odd (NULL: not wanted) and skew where that begins. Returns whether there is an odd part. */
 static bool cell_make(const struct cell_maker *c, int64_t I, real *K, real *odd, real *skew)
 {
     const int n = c->modes;
-    real sum[CORNERS_MAX][ROWS_MAX * SYM_MAX], full[MODES_MAX][MODES_MAX], most = 0, most_odd = 0;
+    real sum[CORNERS_MAX][ROWS_MAX * SYM_MAX];
     cell_sums(c, I, sum);
-    for (int a = 0; a < n; a++)
-        for (int b = 0; b < n; b++) full[a][b] = entry_of(c, sum, &c->in[a], &c->in[b]);
+    const bool symmetric = sums_symmetric(c, sum);
     for (int a = 0; a < n; a++)
         for (int b = a; b < n; b++, K += LANES) {
-            *K = 0.5 * (full[a][b] + full[b][a]);
-            most = real_max(most, fabs(*K)), most_odd = real_max(most_odd, 0.5 * fabs(full[a][b] - full[b][a]));
+            const real upper = entry_of(c, sum, &c->in[a], &c->in[b]);
+            const real lower = symmetric ? upper : entry_of(c, sum, &c->in[b], &c->in[a]);
+            *K = 0.5 * (upper + lower);
+            if (odd && a < b) *odd = 0.5 * (upper - lower), odd += LANES;
         }
-    const bool is_odd = most_odd > ODD_LEAST * most;
-    for (int a = 0; a < n && odd; a++)
-        for (int b = a + 1; b < n; b++, odd += LANES) *odd = is_odd ? 0.5 * (full[a][b] - full[b][a]) : 0;
     for (int a = 0; a < mesh_skews(c->dim) && skew; a++)
         for (int b = 0; b < n; b++, skew += LANES) *skew = entry_of(c, sum, &c->skew[a], &c->in[b]);
-    return is_odd;
+    return !symmetric;
 }
 
 /* ---- all cut cells -------------------------------------------------------------------------------------------- */
