@@ -11,14 +11,15 @@
  *     cell I     0 .. 2^dim - 1      point[(I << dim) + c]: the particle there, -1 without
  *
  * Cells with all their points, of one material, none beside bonds, are whole: runs of them along x are swept eight at a
- * time in closed form. All other cells that hold points are cut: each has its own stiffness. */
+ * time in closed form. All other cells that hold points are cut: each has its own stiffness, and eight are
+ * swept side by side. */
 #ifndef CLEAVE_MESH_H
 #define CLEAVE_MESH_H
 
 #include "grid.h"
 #include "particles.h"
 
-enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX };
+enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 18 };
 
 /* Whole cells side by side. */
 struct mesh_run {
@@ -26,6 +27,9 @@ struct mesh_run {
     uint8_t material;
     bool stressed;                       /* a point of it may have passed the trigger                 */
 };
+
+/* Points of a cell whose motion is needed in every step, by place. */
+struct mesh_seen { int32_t cell; uint8_t places; };
 
 struct mesh {
     struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused      */
@@ -44,16 +48,26 @@ struct mesh {
     int64_t runs, runs_room;
     struct mesh_run *run;
     int64_t cuts, cuts_room;
-    int32_t *cut;                        /* [cuts] cut cells, ascending                               */
-    uint8_t *cut_material;               /* [cuts] of their points, the one that converts first       */
-    real *stiffness;                     /* [cuts] (corners dim)^2, column by column        [N/m]     */
-    real *skew;                          /* the same of forces that bonds off their line leave, NULL: none [N/m] */
-    real *whole;                         /* [materials] stiffness of a whole cell           [N/m]     */
-    real *cut_force;                     /* [cuts] corners x dim                            [N]       */
-    bool *cut_stressed;                  /* [cuts] as of a run                                        */
-    int64_t seen;
-    int32_t *see;                        /* [seen] points whose motion is needed in every step        */
+    int32_t *cut;                        /* [cuts, filled up to whole groups of LANES] cut cells, ascending */
+    uint8_t *cut_material;               /* [as cut] of their points, the one that converts first     */
+    bool *cut_stressed;                  /* [as cut] as of a run                                      */
+    real *stiffness;                     /* [groups][modes (modes + 1)/2][LANES] half of its symmetric part, by modes
+                                          * (mesh_cut.h), of all the cell's volume            [Pa]    */
+    real *odd;                           /* [groups][modes (modes - 1)/2][LANES] half of the rest, NULL: none [Pa] */
+    real *skew;                          /* [groups][skews modes][LANES] of forces that bonds off their line leave, NULL: none [Pa] */
+    real *cut_force;                     /* [groups][corners dim][LANES]                      [N]     */
+    int64_t seen, seen_room;
+    struct mesh_seen *see;               /* [seen] by ascending cell                                  */
 };
+
+/* Modes that a cell's energy hangs on: of its mean strain, and what bends it; and what skew stress acts on: the mean rotations
+ * instead of the strains. */
+static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }
+static inline int mesh_modes(int dim) { return symmetric_count(dim) + mesh_bends(dim); }
+static inline int mesh_skews(int dim) { return dim * (dim - 1) / 2 + mesh_bends(dim); }
+
+/* Groups of cut cells side by side. */
+static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->cuts + LANES - 1) / LANES; }
 
 /* Share of node `corner` in a point at `place` of its cell: 3/4 or 1/4 by direction. */
 static inline real mesh_weight(int dim, int corner, int place)

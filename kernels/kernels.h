@@ -160,10 +160,12 @@ void mesh_force(struct mesh *mesh, const struct elastic *m, bool finite);
  * number [m/s]. */
 real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work);
 
-/* Position and velocity of its points among the n listed particles (list NULL: all). */
-void mesh_points_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
-/* Adds the forces f of the n listed points to the nodes; serial. */
-void mesh_points_force(struct mesh *mesh, const struct particles *p, const int32_t *list, int64_t n);
+/* Position and velocity of all its points; of those that mesh->see names; of those among the n listed particles. */
+void mesh_points_move(const struct mesh *mesh, struct particles *p);
+void mesh_seen_move(const struct mesh *mesh, struct particles *p);
+void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+/* Adds the forces f of the points that mesh->see names to the nodes; serial. */
+void mesh_seen_force(struct mesh *mesh, const struct particles *p);
 /* Cauchy stress and volume of all its points, for whoever looks. */
 void mesh_points_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite);
 /* FLAG_STRESSED for points past their trigger, in the cut cells and runs that mesh_force marked. */

@@ -1,55 +1,92 @@
-/* floor 2: displacements of a cell's corners in axes that turn with it: u -> R^T (X + u) - X, plainly. */
+/* floor 2: eight cut cells: what is left of the points of each answers by a stiffness of its own.
+ *
+ * A cell's energy hangs on its mean strain and on what bends it (mesh_law.h), not on its translation and rotation: in 3D on
+ * 18 modes, not on 24 displacements. The stiffness is that of these modes, eight cells side by side: of its symmetric part
+ * one half is stored, 171 numbers in 3D and 15 in the plane, and the odd part only where partial stress has one (state-based
+ * models). Shear strains count by their angle, so that what belongs to them is their stress. */
 #ifndef CLEAVE_MESH_CUT_H
 #define CLEAVE_MESH_CUT_H
 
-#include "kernels.h"
-#include "polar.h"
+#include "mesh_law.h"
 
-/* Place of corner c about the cell's centre along axis i [m]. */
-static ALWAYS_INLINE real mesh_corner(int c, int i, real h) { return (c >> i & 1 ? 0.5 : -0.5) * h; }
-
-/* Rotation R of the mean gradient F = R U of the corners' displacements u[c dim + i]. */
-static ALWAYS_INLINE void mesh_cell_turn(real h, const real *u, real *R, real *U, const int dim)
+/* Displacements of the corners of the eight cut cells of a group. */
+static ALWAYS_INLINE void mesh_cut_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3], const int dim)
 {
-    real F[DIM_MAX * DIM_MAX];
-    for (int i = 0; i < dim; i++)
-        for (int b = 0; b < dim; b++) {
-            F[i * dim + b] = i == b;
-            for (int c = 0; c < 1 << dim; c++)
-                F[i * dim + b] += (c >> b & 1 ? 1 : -1) * u[c * dim + i] / (h * (1 << (dim - 1)));
-        }
-    polar_rotation(F, R, dim);
-    for (int i = 0; i < dim; i++)
-        for (int b = 0; b < dim; b++) {
-            U[i * dim + b] = 0;
-            for (int k = 0; k < dim; k++) U[i * dim + b] += R[k * dim + i] * F[k * dim + b];
-        }
+    const int32_t *cell = mesh->cut + group * LANES;
+    const int32_t first = cell[LANES - 1] - cell[0] == LANES - 1 ? cell[0] : -1;
+    for (int c = 0; c < 1 << dim; c++)
+        for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
-/* Displacements u[c dim + i] of the corners of cell I about their mean (a stiffness does not feel a common one, but for
- * round-off); where the cell turns in its own axes, with R and U of its mean gradient unless they are not wanted. */
-static ALWAYS_INLINE void mesh_cell_local(const struct mesh *mesh, int64_t I, real *u, real *R, real *U, const int dim,
-                                          const bool turns)
+/* Modes as one vector: symmetric components of the mean strain, then what bends, set by set. */
+static ALWAYS_INLINE void cut_modes(const struct mesh_cell *s, lanes *v, const int dim)
 {
-    const int corners = 1 << dim;
-    const real h = mesh->grid.h;
-    real R_own[DIM_MAX * DIM_MAX], U_own[DIM_MAX * DIM_MAX];
-    for (int i = 0; i < dim; i++) {
-        real mean = 0;
-        for (int c = 0; c < corners; c++) mean += u[c * dim + i] = mesh->displacement[i][I + mesh->corner[c]];
-        for (int c = 0; c < corners; c++) u[c * dim + i] -= mean / corners;
+    int n = symmetric_count(dim);
+    for (int k = 0; k < n; k++) {
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
+        v[k] = a == b ? s->e[a][a] : s->e[a][b] + s->e[b][a];
     }
-    if (!turns) return;
-    if (!R) R = R_own, U = U_own;
-    mesh_cell_turn(h, u, R, U, dim);
-    for (int c = 0; c < corners; c++) {
-        real x[DIM_MAX];
-        for (int a = 0; a < dim; a++) x[a] = mesh_corner(c, a, h) + u[c * dim + a];
-        for (int a = 0; a < dim; a++) {
-            u[c * dim + a] = -mesh_corner(c, a, h);
-            for (int b = 0; b < dim; b++) u[c * dim + a] += R[b * dim + a] * x[b];
-        }
+    SETS for (int M = 3; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
+}
+
+/* f = K v of the symmetric part, half of which is stored, row by row from the diagonal on. */
+static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, const int n)
+{
+    for (int a = 0; a < n; a++) f[a] = lanes_of(0);
+#pragma GCC unroll 18
+    for (int a = 0; a < n; a++) {
+        lanes sum = f[a] + *K++ * v[a];
+#pragma GCC unroll 18
+        for (int b = a + 1; b < n; b++, K++) sum += *K * v[b], f[b] += *K * v[a];
+        f[a] = sum;
     }
+}
+
+/* f += K v of the odd part, stored the same way without its diagonal. */
+static ALWAYS_INLINE void cut_add_odd(const lanes *K, const lanes *v, lanes *f, const int n)
+{
+    for (int a = 0; a < n; a++)
+        for (int b = a + 1; b < n; b++, K++) f[a] += *K * v[b], f[b] -= *K * v[a];
+}
+
+/* Stress and forces of the modes; v keeps the modes. */
+static ALWAYS_INLINE void cut_law(const struct mesh *mesh, int64_t group, struct mesh_cell *s, lanes *v, const int dim)
+{
+    const int n = mesh_modes(dim), half = n * (n + 1) / 2, odd = half - n;
+    lanes f[MODES_MAX];
+    cut_modes(s, v, dim);
+    cut_times((const lanes *)mesh->stiffness + group * half, v, f, n);
+    if (mesh->odd) cut_add_odd((const lanes *)mesh->odd + group * odd, v, f, n);
+    int k = symmetric_count(dim);
+    for (int t = 0; t < k; t++) {
+        int a, b;
+        symmetric_axes(dim, t, &a, &b);
+        s->P[a][b] = s->P[b][a] = f[t];
+    }
+    SETS for (int M = 3; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = f[k++];
+}
+
+/* Adds the skew stress that bonds off their line leave: it balances their torque, and is not balanced itself. */
+static ALWAYS_INLINE void cut_add_skew(const struct mesh *mesh, int64_t group, struct mesh_cell *s, const lanes *v, const int dim)
+{
+    const int n = mesh_modes(dim), count = mesh_skews(dim);
+    const lanes *K = (const lanes *)mesh->skew + group * count * n;
+    lanes f[MODES_MAX];
+    int k = dim * (dim - 1) / 2;
+    for (int a = 0; a < count; a++) {
+        f[a] = lanes_of(0);
+        for (int b = 0; b < n; b++, K++) f[a] += *K * v[b];
+    }
+    for (int t = 0; t < k; t++) {
+        int a, b;
+        symmetric_axes(dim, dim + t, &a, &b);
+        s->P[a][b] += f[t], s->P[b][a] -= f[t];
+    }
+    SETS for (int M = 3; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] += f[k++];
 }
 
 #endif

@@ -1,6 +1,6 @@
 /* floor 2: energies of the mesh, for the ledger. */
 #include "mesh_cut.h"
-#include "mesh_law.h"
+#include "mesh_run.h"
 #include "team.h"
 
 static real kinetic_term(const void *context, int64_t I)
@@ -29,24 +29,25 @@ real mesh_kick(const struct mesh *mesh, real dt)
     return mesh->points > 0 ? dt * dt * team_sum(mesh->grid.n, kick_term, mesh) : 0;
 }
 
-/* 1/2 u K u of a cell, u in axes that turn with it. */
-static real cell_energy(const struct mesh *mesh, int64_t I, const real *K, bool finite)
-{
-    const int dim = mesh->grid.dim, n = (1 << dim) * dim;
-    real u[CELL_UNKNOWNS_MAX], energy = 0;
-    mesh_cell_local(mesh, I, u, NULL, NULL, dim, finite && dim > 1);
-    for (int b = 0; b < n; b++)
-        for (int a = 0; a < n; a++) energy += 0.5 * u[a] * K[b * n + a] * u[b];
-    return energy;
-}
-
 struct strain_sum { const struct mesh *mesh; const struct elastic *elastic; bool finite; };
 
-static real cut_term(const void *context, int64_t k)
+static ALWAYS_INLINE real lanes_sum(lanes a)
 {
-    const struct strain_sum *s = context;
-    const int n = (1 << s->mesh->grid.dim) * s->mesh->grid.dim;
-    return cell_energy(s->mesh, s->mesh->cut[k], s->mesh->stiffness + k * n * n, s->finite);
+    real all = 0;
+    for (int l = 0; l < LANES; l++) all += a[l];
+    return all;
+}
+
+/* Of a group of cut cells; behind the last lies no stiffness. */
+static ALWAYS_INLINE real cut_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
+{
+    const struct mesh *mesh = s->mesh;
+    struct mesh_cell cell;
+    lanes u[CORNERS_MAX][3], v[MODES_MAX];
+    mesh_cut_load(mesh, group, u, dim);
+    cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
+    cut_law(mesh, group, &cell, v, dim);
+    return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
 /* Of a run, eight cells at a time; cells behind its end count nothing. */
@@ -54,15 +55,15 @@ static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct me
 {
     const struct mesh *mesh = s->mesh;
     lanes sum = lanes_of(0);
-    real all = 0;
     for (int64_t k = 0; k < run->cells; k += LANES) {
-        lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], tension = lanes_of(0), energy;
+        struct mesh_cell cell;
+        lanes u[CORNERS_MAX][3];
         mesh_run_load(mesh, run, k, u, dim);
-        mesh_cell_force(&s->elastic[run->material], mesh->grid.h, mesh->volume * (1 << dim), u, f, &tension, &energy, dim, finite);
-        sum += energy;
+        cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
+        cell_law(&s->elastic[run->material], &cell, dim);
+        sum += cell_energy(&cell, mesh->volume * (1 << dim), dim);
     }
-    for (int l = 0; l < LANES; l++) all += sum[l];
-    return all;
+    return lanes_sum(sum);
 }
 
 #define TERM(D, FINITE)                                                                                              \
@@ -70,6 +71,10 @@ static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct me
     {                                                                                                                \
         const struct strain_sum *s = context;                                                                        \
         return run_energy(s, &s->mesh->run[r], D, FINITE);                                                           \
+    }                                                                                                                \
+    static real cut_term_##D##_##FINITE(const void *context, int64_t group)                                          \
+    {                                                                                                                \
+        return cut_energy(context, group, D, FINITE);                                                                \
     }
 TERM(1, 0)
 TERM(2, 0)
@@ -79,9 +84,12 @@ TERM(3, 1)
 
 real mesh_strain(const struct mesh *mesh, const struct elastic *m, bool finite)
 {
-    static real (*const term[DIM_MAX + 1][2])(const void *, int64_t) = {
+    static real (*const run[DIM_MAX + 1][2])(const void *, int64_t) = {
         {NULL, NULL}, {run_term_1_0, run_term_1_0}, {run_term_2_0, run_term_2_1}, {run_term_3_0, run_term_3_1}};
+    static real (*const cut[DIM_MAX + 1][2])(const void *, int64_t) = {
+        {NULL, NULL}, {cut_term_1_0, cut_term_1_0}, {cut_term_2_0, cut_term_2_1}, {cut_term_3_0, cut_term_3_1}};
     struct strain_sum s = {mesh, m, finite};
+    const int dim = mesh->grid.dim;
     if (mesh->points == 0) return 0;
-    return team_sum(mesh->cuts, cut_term, &s) + team_sum(mesh->runs, term[mesh->grid.dim][finite], &s);
+    return team_sum(mesh_groups(mesh), cut[dim][finite], &s) + team_sum(mesh->runs, run[dim][finite], &s);
 }

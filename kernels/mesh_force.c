@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "mesh_cut.h"
-#include "mesh_law.h"
-#include "mesh_point.h"
+#include "mesh_run.h"
 
 /* ---- whole cells ------------------------------------------------------------------------------------------ */
 
@@ -23,6 +22,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
 {
     const struct grid *g = &mesh->grid;
     const real volume = mesh->volume * (1 << dim);
+    const bool balanced = mesh_balanced(m, dim);
     lanes carry[CORNERS_MAX][3], tension = lanes_of(-INFINITY);
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) carry[c][i] = lanes_of(0);
@@ -30,7 +30,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
         mesh_run_load(mesh, run, k, u, dim);
-        mesh_cell_force(m, g->h, volume, u, f, &tension, NULL, dim, finite);
+        mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];
@@ -59,108 +59,60 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
 
 /* ---- cut cells -------------------------------------------------------------------------------------------- */
 
-/* q = K u over the corners and components. */
-static ALWAYS_INLINE void times(const real *K, const real *u, real *q, const int n)
+/* Which cells of a group may have a point past its trigger. */
+static ALWAYS_INLINE void cut_mark(struct mesh *mesh, const struct elastic *m, int64_t group, const struct mesh_cell *s, const int dim)
 {
-    for (int a = 0; a < n; a++) q[a] = 0;
-    for (int b = 0; b < n; b++)
-        for (int a = 0; a < n; a++) q[a] += K[b * n + a] * u[b];     /* columns: whole vectors */
-}
-
-/* Adds to the corner forces q the skew part w x of the mean stress that balances their moment about the cell's corners at
- * X + u: (tr U - U) w = sum (X + u) x q, and what w gives to a corner is its share of the mean gradient. */
-static ALWAYS_INLINE void cut_balance(real h, const real *u, const real *U, real *q, const int dim)
-{
-    real m[3] = {0}, w[3] = {0};
-    for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        for (int c = 0; c < 1 << dim; c++)
-            m[k] += (mesh_corner(c, i, h) + u[c * dim + i]) * q[c * dim + j] -
-                    (mesh_corner(c, j, h) + u[c * dim + j]) * q[c * dim + i];
-    }
-    if (dim == 2) w[2] = m[2] / (U[0] + U[3]);
-    else {
-        real A[9], C[9], size = 0;
-        for (int a = 0; a < 9; a++) A[a] = (a % 4 == 0 ? U[0] + U[4] + U[8] : 0) - U[a];
-        for (int a = 0; a < 3; a++)
-            for (int b = 0; b < 3; b++) {
-                const int i = (a + 1) % 3, j = (a + 2) % 3, k = (b + 1) % 3, l = (b + 2) % 3;
-                C[a * 3 + b] = A[i * 3 + k] * A[j * 3 + l] - A[i * 3 + l] * A[j * 3 + k];
-            }
-        for (int b = 0; b < 3; b++) size += A[b] * C[b];
-        for (int a = 0; a < 3; a++)
-            for (int b = 0; b < 3; b++) w[a] += C[a * 3 + b] * m[b] / size;
-    }
-    for (int c = 0; c < 1 << dim; c++) {
-        real slope[DIM_MAX];
-        for (int d = 0; d < dim; d++) slope[d] = (c >> d & 1 ? 1 : -1) / (h * (1 << (dim - 1)));
-        for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
-            const int i = (k + 1) % 3, j = (k + 2) % 3;
-            q[c * dim + j] -= w[k] * slope[i], q[c * dim + i] += w[k] * slope[j];
+    const uint8_t *material = mesh->cut_material + group * LANES;
+    lanes tension = lanes_of(0), P[3][3];
+    for (int l = 0; l < LANES; l++) {
+        if (l == 0 || material[l] != material[l - 1]) {
+            stress_of(&m[material[l]], s->e, P, dim);
+            tension = cell_tension(&m[material[l]], s, P, dim);
         }
+        mesh->cut_stressed[group * LANES + l] = tension[l] > m[material[l]].trigger;
     }
 }
 
-/* May a point of the cell be past the trigger? The bound of whole cells (mesh_law.h), of the corners' displacements. */
-static ALWAYS_INLINE bool cut_tension(const struct elastic *m, real h, const real *u, const int dim)
+static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct elastic *m, int64_t group, const int dim, const bool finite)
 {
-    static const real scale[DIM_MAX + 1] = {0, 0.25, 0.5, 1};    /* 2^-(3 - |M|) */
-    const real inverse = (1 << (DIM_MAX - dim)) / h;
-    real e[DIM_MAX * DIM_MAX], s[SYM_MAX], bent = 0;
-    for (int a = 0; a < dim; a++) {
-        real v[CORNERS_MAX];
-        for (int c = 0; c < 1 << dim; c++) v[c] = u[c * dim + a];
-        for (int d = 0; d < dim; d++)
-            for (int c = 0; c < 1 << dim; c++)
-                if (!(c >> d & 1)) {
-                    const real low = v[c], high = v[c | 1 << d];
-                    v[c] = low + high, v[c | 1 << d] = high - low;
-                }
-        for (int d = 0; d < dim; d++) e[a * dim + d] = v[1 << d] * scale[1] * inverse;
-        for (int M = 3; M < 1 << dim; M++)
-            if (M != 4) bent += fabs(v[M]) * scale[M == 7 ? 3 : 2] * inverse;
-    }
-    mesh_point_stress(m, e, s, dim);
-    return stress_bound(s, dim) + bent * (m->c11 + m->shear) * 0.25 > m->trigger;
-}
-
-static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct elastic *m, int64_t k, const int dim, const bool finite)
-{
-    const int corners = 1 << dim, n = corners * dim;
     const bool turns = finite && dim > 1;
-    real u[CELL_UNKNOWNS_MAX], pull[CELL_UNKNOWNS_MAX], R[DIM_MAX * DIM_MAX], U[DIM_MAX * DIM_MAX];
-    real *out = mesh->cut_force + k * n;
-    mesh_cell_local(mesh, mesh->cut[k], u, R, U, dim, turns);
-    times(mesh->stiffness + k * n * n, u, pull, n);
-    for (int a = 0; a < n; a++) out[a] = -pull[a];
-    if (turns) cut_balance(mesh->grid.h, u, U, out, dim);
-    mesh->cut_stressed[k] = cut_tension(m, mesh->grid.h, u, dim);
-    if (mesh->skew) {
-        times(mesh->skew + k * n * n, u, pull, n);
-        for (int a = 0; a < n; a++) out[a] -= pull[a];
-    }
-    for (int c = 0; c < corners && turns; c++) {
-        real q[DIM_MAX];
-        for (int a = 0; a < dim; a++) q[a] = out[c * dim + a];
-        for (int a = 0; a < dim; a++) out[c * dim + a] = dot(&R[a * dim], q, dim);
-    }
+    struct mesh_cell s;
+    lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], v[MODES_MAX];
+    mesh_cut_load(mesh, group, u, dim);
+    cell_strain(&s, mesh->grid.h, u, dim, turns);
+    cut_mark(mesh, m, group, &s, dim);
+    cut_law(mesh, group, &s, v, dim);
+    if (turns) cell_balance(&s, dim);
+    if (mesh->skew) cut_add_skew(mesh, group, &s, v, dim);
+    cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, turns);
+    lanes *out = (lanes *)mesh->cut_force + group * (1 << dim) * dim;
+    for (int c = 0; c < 1 << dim; c++)
+        for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
 }
 
-/* Few, and several may share a node: computed by the team, added in order. */
+/* Several share a node: computed by the team, added in order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
-    const int corners = 1 << dim;
-    for (int64_t k = 0; k < mesh->cuts; k++)
-        for (int c = 0; c < corners; c++)
-            for (int a = 0; a < dim; a++)
-                mesh->grid.force[a][mesh->cut[k] + mesh->corner[c]] += mesh->cut_force[(k * corners + c) * dim + a];
+    for (int64_t group = 0; group < mesh_groups(mesh); group++) {
+        const int32_t *cell = mesh->cut + group * LANES;
+        const int64_t left = mesh->cuts - group * LANES;
+        const lanes *f = (const lanes *)mesh->cut_force + group * (1 << dim) * dim;
+        const bool in_line = cell[LANES - 1] - cell[0] == LANES - 1;
+        for (int c = 0; c < 1 << dim; c++)
+            for (int i = 0; i < dim; i++) {
+                real *to = mesh->grid.force[i] + mesh->corner[c];
+                if (in_line) lanes_store(to + cell[0], lanes_load(to + cell[0]) + f[c * dim + i]);
+                else
+                    for (int l = 0; l < LANES && l < left; l++) to[cell[l]] += f[c * dim + i][l];
+            }
+    }
 }
 
 #define CUTS(D, FINITE)                                                                                              \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                \
     {                                                                                                                \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < mesh->cuts; k++)                        \
-            cut_force(mesh, &m[mesh->cut_material[k]], k, D, FINITE);                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < mesh_groups(mesh); k++)                 \
+            cut_force(mesh, m, k, D, FINITE);                                                                        \
         cuts_add(mesh, D);                                                                                           \
     }
 

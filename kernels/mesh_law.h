@@ -19,6 +19,15 @@
 #include "kernels.h"
 #include "lanes.h"
 
+/* Eight cells: modes and what belongs to them, in axes that turn with the cell where it turns. */
+struct mesh_cell {
+    lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3];   /* of sets of two axes and more; energy per volume by mode */
+    lanes R[3][3], e[3][3], P[3][3];                     /* rotation; strain and stress of the mean gradient        */
+};
+
+/* Loops over sets of axes are written out: what they hold stays in registers. */
+#define SETS _Pragma("GCC unroll 8")
+
 /* ---- modes -------------------------------------------------------------------------------------------- */
 
 /* v[M] = sum_c sign v[c], in place. */
@@ -151,93 +160,95 @@ static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX]
     return (mode[M][i] * (m->c11 + m->shear) + mode[7 & ~(1 << i)][k] * m->c12) * (1.0 / 16);
 }
 
-/* Displacements of the corners of eight cells of a run from its k-th on; 0 behind its end, whatever lies there. */
-static ALWAYS_INLINE void mesh_run_load(const struct mesh *mesh, const struct mesh_run *run, int64_t k,
-                                        lanes u[CORNERS_MAX][3], const int dim)
-{
-    const int64_t I = run->cell + k, left = run->cells - k;
-    for (int c = 0; c < 1 << dim; c++)
-        for (int i = 0; i < dim; i++) u[c][i] = lanes_load(mesh->displacement[i] + I + mesh->corner[c]);
-    if (left >= LANES) return;
-    const lanes inside = (lanes)((lanes_of((real)left) > (lanes){0, 1, 2, 3, 4, 5, 6, 7}) & (lanes_mask)lanes_of(1));
-    for (int c = 0; c < 1 << dim; c++)
-        for (int i = 0; i < dim; i++) u[c][i] *= inside;
-}
-
-/* Forces f [N] on the corners of eight cells with displacements u [m]; both corner by corner. `tension` grows to a bound of
- * the largest principal stress at their points [Pa]; `energy`, unless NULL, is what they store [J]. */
-static ALWAYS_INLINE void mesh_cell_force(const struct elastic *m, real h, real volume, lanes u[CORNERS_MAX][3],
-                                          lanes f[CORNERS_MAX][3], lanes *tension, lanes *energy, const int dim,
-                                          const bool finite)
+/* Strain and modes of displacements u[c][i] of the corners. */
+static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3], const int dim, const bool turns)
 {
     const int corners = 1 << dim;
-    lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3], g[3][3], R[3][3], e[3][3], P[3][3], moment[3];
+    lanes g[3][3];
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         for (int c = 0; c < corners; c++) v[c] = u[c][i];
         modes_of_corners(v, dim);
-        for (int M = 1; M < corners; M++) mode[M][i] = v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
-        for (int b = 0; b < dim; b++) g[i][b] = mode[1 << b][i];
+        SETS for (int M = 1; M < corners; M++) s->mode[M][i] = v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
+        for (int b = 0; b < dim; b++) g[i][b] = s->mode[1 << b][i];
     }
-    const bool turns = finite && dim > 1;
-    if (turns) {
-        if (dim == 2) cell_turn_2d(g, R, e);
-        else cell_turn_3d(g, R, e);
-        for (int M = 1; M < corners; M++)
-            if (M & (M - 1)) turn_vector(R, mode[M], false, dim);
-    } else {
-        for (int a = 0; a < dim; a++)
-            for (int b = 0; b < dim; b++) e[a][b] = 0.5 * (g[a][b] + g[b][a]);
-    }
-    stress_of(m, e, P, dim);
+    lanes R[3][3], e[3][3];                      /* of their own: Newton's loop keeps them in registers */
+    if (turns && dim == 2) cell_turn_2d(g, R, e);
+    if (turns && dim == 3) cell_turn_3d(g, R, e);
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) {
+            s->e[a][b] = turns ? e[a][b] : 0.5 * (g[a][b] + g[b][a]);
+            if (turns) s->R[a][b] = R[a][b];
+        }
+    SETS for (int M = 1; M < corners && turns; M++)
+        if (M & (M - 1)) turn_vector(s->R, s->mode[M], false, dim);
+}
 
-    lanes largest = lanes_of(0);                 /* of all that bends */
-    for (int M = 1; M < corners; M++)
-        if (M & (M - 1))
-            for (int i = 0; i < dim; i++) {
-                force[M][i] = bend(m, mode, M, i, dim);
-                largest += lanes_max(mode[M][i], -mode[M][i]);
-            }
-    lanes bound = P[0][0];                       /* of the mean: largest normal stress and all shears (Gershgorin) */
+/* What whole cells answer. */
+static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
+{
+    stress_of(m, s->e, s->P, dim);
+    SETS for (int M = 1; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = bend(m, s->mode, M, i, dim);
+}
+
+/* A bound of the largest principal stress at the points of cells with all their stress P: of the mean the largest normal
+ * stress and all shears (Gershgorin), and all that bends. */
+static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct mesh_cell *s, const lanes P[3][3], const int dim)
+{
+    lanes largest = lanes_of(0), bound = P[0][0];
+    SETS for (int M = 1; M < 1 << dim; M++)
+        if (M & (M - 1)) for (int i = 0; i < dim; i++) largest += lanes_max(s->mode[M][i], -s->mode[M][i]);
     for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
-    *tension = lanes_max(*tension, bound + largest * ((m->c11 + m->shear) * 0.25));
+    return bound + largest * ((m->c11 + m->shear) * 0.25);
+}
 
-    if (energy) {
-        *energy = lanes_of(0);
-        for (int i = 0; i < dim; i++) {
-            for (int b = 0; b < dim; b++) *energy += P[i][b] * e[i][b];
-            for (int M = 1; M < corners; M++)
-                if (M & (M - 1)) *energy += force[M][i] * mode[M][i];
-        }
-        *energy *= 0.5 * volume;
+/* Energy that the cells store [J]. */
+static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, const int dim)
+{
+    lanes energy = lanes_of(0);
+    for (int i = 0; i < dim; i++) {
+        for (int b = 0; b < dim; b++) energy += s->P[i][b] * s->e[i][b];
+        SETS for (int M = 1; M < 1 << dim; M++)
+            if (M & (M - 1)) energy += s->force[M][i] * s->mode[M][i];
     }
-    if (turns) {                                 /* axial parts of sum P U^T over all modes */
-        for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
-            const int i = (k + 1) % 3, j = (k + 2) % 3;
-            moment[k] = lanes_of(0);
-            for (int b = 0; b < dim; b++)        /* U = 1 + e */
-                moment[k] += P[j][b] * e[i][b] - P[i][b] * e[j][b];
-            for (int M = 1; M < corners; M++)
-                if (M & (M - 1)) moment[k] += force[M][j] * mode[M][i] - force[M][i] * mode[M][j];
-        }
-        add_skew(P, e, moment, dim);
-        for (int b = 0; b < dim; b++) {
-            lanes column[3];
-            for (int a = 0; a < dim; a++) column[a] = P[a][b];
-            turn_vector(R, column, true, dim);
-            for (int a = 0; a < dim; a++) P[a][b] = column[a];
-        }
-        for (int M = 1; M < corners; M++)
-            if (M & (M - 1)) turn_vector(R, force[M], true, dim);
-    }
+    return energy * (0.5 * volume);
+}
 
+/* Balances the moment of stresses: axial parts of sum P U^T over all modes, U = 1 + e of the mean. */
+static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, const int dim)
+{
+    lanes moment[3];
+    for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        moment[k] = lanes_of(0);
+        for (int b = 0; b < dim; b++) moment[k] += s->P[j][b] * s->e[i][b] - s->P[i][b] * s->e[j][b];
+        SETS for (int M = 1; M < 1 << dim; M++)
+            if (M & (M - 1)) moment[k] += s->force[M][j] * s->mode[M][i] - s->force[M][i] * s->mode[M][j];
+    }
+    add_skew(s->P, s->e, moment, dim);
+}
+
+/* Forces f [N] on the corners, turned back. */
+static ALWAYS_INLINE void cell_corners(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3], const int dim,
+                                       const bool turns)
+{
+    const int corners = 1 << dim;
+    for (int b = 0; b < dim && turns; b++) {
+        lanes column[3];
+        for (int a = 0; a < dim; a++) column[a] = s->P[a][b];
+        turn_vector(s->R, column, true, dim);
+        for (int a = 0; a < dim; a++) s->P[a][b] = column[a];
+    }
+    SETS for (int M = 1; M < corners && turns; M++)
+        if (M & (M - 1)) turn_vector(s->R, s->force[M], true, dim);
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         v[0] = lanes_of(0);
-        for (int M = 1; M < corners; M++) {
-            const lanes by = M & (M - 1) ? force[M][i] : P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
+        SETS for (int M = 1; M < corners; M++) {
+            const lanes by = M & (M - 1) ? s->force[M][i] : s->P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
             v[M] = by * (-volume / (h * (1 << (dim - __builtin_popcount(M)))));
         }
         corners_of_modes(v, dim);

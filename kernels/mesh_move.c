@@ -4,17 +4,40 @@
 #include "kernels.h"
 #include "lanes.h"
 
-/* What a held component does to its node: the force becomes what the prescribed motion needs. */
-static void wall_force(struct mesh *mesh, struct wall *w, real dt_velocity, real impulse[DIM_MAX], real *work)
+/* What held components do to their nodes: the force becomes what the prescribed motion needs. Walls of one component follow
+ * each other; their sums join the totals at the end. */
+static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
-    const int d = w->component;
-    const real before = g->velocity[d][w->node], mass = g->mass[w->node];
-    const real needed = mass * (w->velocity - before), given = needed - dt_velocity * g->force[d][w->node];
-    w->reaction = given - mass * w->change;
-    impulse[d] += given;
-    *work += given * 0.5 * (before + w->velocity);
-    g->force[d][w->node] = needed / dt_velocity;
+    const real inverse = 1 / dt_velocity;
+    for (int64_t k = 0; k < g->walls;) {
+        const int d = g->wall[k].component;
+        const real *velocity = g->velocity[d], *mass = g->mass;
+        real *force = g->force[d], sum = 0, all = 0;
+        for (; k < g->walls && g->wall[k].component == d; k++) {
+            struct wall *w = &g->wall[k];
+            const real before = velocity[w->node], needed = mass[w->node] * (w->velocity - before);
+            const real given = needed - dt_velocity * force[w->node];
+            w->reaction = given - mass[w->node] * w->change;
+            sum += given;
+            all += given * 0.5 * (before + w->velocity);
+            force[w->node] = needed * inverse;
+        }
+        impulse[d] += sum;
+        *work += all;
+    }
+}
+
+/* What round-off left. */
+static void walls_move(struct mesh *mesh, real dt)
+{
+    const struct grid *g = &mesh->grid;
+    for (int64_t k = 0; k < g->walls; k++) {
+        const struct wall *w = &g->wall[k];
+        real *velocity = &g->velocity[w->component][w->node];
+        mesh->displacement[w->component][w->node] += dt * (w->velocity - *velocity);
+        *velocity = w->velocity;
+    }
 }
 
 void mesh_clear(struct mesh *mesh)
@@ -51,14 +74,10 @@ real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MA
 {
     struct grid *g = &mesh->grid;
     real most = 0;
-    for (int64_t k = 0; k < g->walls; k++) wall_force(mesh, &g->wall[k], dt_velocity, impulse, work);
+    walls_force(mesh, dt_velocity, impulse, work);
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t r = 0; r < mesh->rows; r++)
         most = real_max(most, row_move(mesh, mesh->span[2 * r], mesh->span[2 * r + 1], dt, dt_velocity));
-    for (int64_t k = 0; k < g->walls; k++) {     /* what round-off left */
-        const int d = g->wall[k].component;
-        mesh->displacement[d][g->wall[k].node] += dt * (g->wall[k].velocity - g->velocity[d][g->wall[k].node]);
-        g->velocity[d][g->wall[k].node] = g->wall[k].velocity;
-    }
+    walls_move(mesh, dt);
     return sqrt(most);
 }

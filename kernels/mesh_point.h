@@ -1,4 +1,7 @@
-/* floor 2: strain and stress of one material point of a mesh, plainly: what the closed forms of mesh_law.h add up. */
+/* floor 2: what the material points of one cell of a mesh have by its nodes, plainly: what the closed forms of mesh_law.h add up.
+ *
+ * Points lie at a quarter and three quarters along every axis: from corners to points, and from points to corners, values go
+ * by one axis after the other, near + (far - near)/4. A quarter is exact: all ways to a point give the same bits. */
 #ifndef CLEAVE_MESH_POINT_H
 #define CLEAVE_MESH_POINT_H
 
@@ -6,40 +9,83 @@
 #include "polar.h"
 #include "stress.h"
 
-/* Gradient of the displacement at place q of cell I, or with q < 0 the mean, row major. */
-static ALWAYS_INLINE void mesh_gradient(const struct mesh *mesh, int64_t I, int q, real *g, const int dim)
+static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
 {
-    for (int a = 0; a < dim; a++)
-        for (int b = 0; b < dim; b++) {
-            real sum = 0;
-            for (int c = 0; c < 1 << dim; c++) {
-                const real slope = q < 0 ? (c >> b & 1 ? 1.0 : -1.0) / (1 << (dim - 1)) : mesh_slope(dim, c, q, b);
-                sum += slope * mesh->displacement[a][I + mesh->corner[c]];
-            }
-            g[a * dim + b] = sum / mesh->grid.h;
-        }
+    const real by = 0.25 * (*high - *low), near = *low + by;
+    *high = *high - by;
+    *low = near;
 }
 
-/* e = R^T F_p - 1 of point i, R the rotation of its cell's mean gradient (1 at small strain). Row major; only the
- * symmetric part is strain. */
-static ALWAYS_INLINE void mesh_point_strain(const struct mesh *mesh, int64_t i, real *R, real *e, const int dim, bool finite)
+/* Values at the corners to values at the places, in place; and, the matrix being symmetric, shares of places to corners. */
+static ALWAYS_INLINE void mesh_places(real *v, const int dim)
 {
-    const int64_t I = mesh->place[i] >> dim;
-    real g[9], mean[9];
-    mesh_gradient(mesh, I, mesh->place[i] & ((1 << dim) - 1), g, dim);
+    for (int d = 0; d < dim; d++)
+        for (int c = 0; c < 1 << dim; c++)
+            if (!(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
+}
+
+/* The value at place q alone. */
+static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
+{
+    for (int d = 0; d < dim; d++)
+        for (int c = 0; c < 1 << dim; c++)
+            if (!(c & ((2 << d) - 1))) {
+                const real low = v[c], high = v[c | 1 << d], by = 0.25 * (high - low);
+                v[c] = q >> d & 1 ? high - by : low + by;
+            }
+    return v[0];
+}
+
+/* Values of a nodal field at the corners of cell I. */
+static ALWAYS_INLINE void mesh_corners(const struct mesh *mesh, const real *field, int64_t I, real *v, const int dim)
+{
+    for (int c = 0; c < 1 << dim; c++) v[c] = field[I + mesh->corner[c]];
+}
+
+/* Gradients of the displacement at the places of cell I, row major. */
+static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, real g[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+{
+    const real inverse = 1 / mesh->grid.h;
+    for (int a = 0; a < dim; a++) {
+        real u[CORNERS_MAX];
+        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
+        for (int b = 0; b < dim; b++) {
+            real v[CORNERS_MAX];
+            for (int c = 0; c < 1 << dim; c++) v[c] = u[c ^ 1 << b] - u[c];
+            for (int c = 0; c < 1 << dim; c++) v[c] *= c >> b & 1 ? -inverse : inverse;
+            for (int d = 0; d < dim; d++)
+                for (int c = 0; c < 1 << dim; c++)
+                    if (d != b && !(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
+            for (int q = 0; q < 1 << dim; q++) g[q][a * dim + b] = v[q];
+        }
+    }
+}
+
+/* e = R^T F_p - 1 at the places of cell I, R the rotation of its mean gradient (1 at small strain). Row major; only the
+ * symmetric part is strain. */
+static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real *R, real e[CORNERS_MAX][DIM_MAX * DIM_MAX],
+                                       const int dim, bool finite)
+{
+    real g[CORNERS_MAX][DIM_MAX * DIM_MAX], mean[DIM_MAX * DIM_MAX];
+    mesh_gradients(mesh, I, g, dim);
     if (!finite || dim == 1) {
-        for (int k = 0; k < dim * dim; k++) e[k] = g[k];
-        R[0] = 1;
+        for (int a = 0; a < dim * dim; a++) R[a] = a % (dim + 1) == 0;
+        for (int q = 0; q < 1 << dim; q++)
+            for (int a = 0; a < dim * dim; a++) e[q][a] = g[q][a];
         return;
     }
-    mesh_gradient(mesh, I, -1, mean, dim);
-    for (int a = 0; a < dim; a++) mean[a * dim + a] += 1;
+    for (int a = 0; a < dim * dim; a++) {
+        real sum = 0;
+        for (int q = 0; q < 1 << dim; q++) sum += g[q][a];
+        mean[a] = sum / (1 << dim) + (a % (dim + 1) == 0);
+    }
     polar_rotation(mean, R, dim);
-    for (int a = 0; a < dim; a++)
-        for (int b = 0; b < dim; b++) {
-            e[a * dim + b] = R[b * dim + a] - (a == b);
-            for (int k = 0; k < dim; k++) e[a * dim + b] += R[k * dim + a] * g[k * dim + b];
-        }
+    for (int q = 0; q < 1 << dim; q++)
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < dim; b++) {
+                e[q][a * dim + b] = R[b * dim + a] - (a == b);
+                for (int k = 0; k < dim; k++) e[q][a * dim + b] += R[k * dim + a] * g[q][k * dim + b];
+            }
 }
 
 /* C : sym e, symmetric components. */

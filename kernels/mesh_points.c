@@ -1,61 +1,115 @@
 /* floor 2: what the material points of a mesh know: their motion, their stress, and whether it asks for conversion. */
+#include "mesh_cut.h"
 #include "mesh_point.h"
+#include "mesh_run.h"
 
-/* Motion of one point: weights are constants, u_p = sum N u_I, v_p = sum N v_I. */
+/* One body for every number of axes; the parallel region stands in each instance. */
+#define DIMENSIONS(X) X(1) X(2) X(3)
+
+/* ---- motion ------------------------------------------------------------------------------------------------- */
+
+/* Of the points at the places set in `places`: u_p = sum N u_I, v_p = sum N v_I with constant weights. */
+static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places, const int dim)
+{
+    const int32_t *point = &mesh->point[I << dim];
+    for (int a = 0; a < dim; a++) {
+        real u[CORNERS_MAX], v[CORNERS_MAX];
+        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
+        mesh_corners(mesh, mesh->grid.velocity[a], I, v, dim);
+        mesh_places(u, dim);
+        mesh_places(v, dim);
+        for (int q = 0; q < 1 << dim; q++) {
+            const int32_t i = point[q];
+            if (i < 0 || !(places >> q & 1)) continue;
+            p->x[a][i] = p->X[a][i] + u[q];
+            p->v[a][i] = v[q];
+        }
+    }
+}
+
 static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *p, int64_t i, const int dim)
 {
     const int64_t I = mesh->place[i] >> dim;
     const int q = mesh->place[i] & ((1 << dim) - 1);
     for (int a = 0; a < dim; a++) {
-        real u = 0, v = 0;
-        for (int c = 0; c < 1 << dim; c++) {
-            const real N = mesh_weight(dim, c, q);
-            u += N * mesh->displacement[a][I + mesh->corner[c]];
-            v += N * mesh->grid.velocity[a][I + mesh->corner[c]];
-        }
-        p->x[a][i] = p->X[a][i] + u;
-        p->v[a][i] = v;
+        real u[CORNERS_MAX], v[CORNERS_MAX];
+        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
+        mesh_corners(mesh, mesh->grid.velocity[a], I, v, dim);
+        p->x[a][i] = p->X[a][i] + mesh_place_value(u, q, dim);
+        p->v[a][i] = mesh_place_value(v, q, dim);
     }
 }
 
 #define MOVE(D)                                                                                                      \
+    static void all_move_##D(const struct mesh *mesh, struct particles *p)                                           \
+    {                                                                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                      \
+            if (mesh->kind[I]) cell_move(mesh, p, I, ~0u, D);                                                        \
+    }                                                                                                                \
+    static void seen_move_##D(const struct mesh *mesh, struct particles *p)                                          \
+    {                                                                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < mesh->seen; k++)                        \
+            cell_move(mesh, p, mesh->see[k].cell, mesh->see[k].places, D);                                           \
+    }                                                                                                                \
     static void points_move_##D(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)        \
     {                                                                                                                \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < n; k++)                                 \
-        {                                                                                                            \
-            const int64_t i = list ? list[k] : k;                                                                    \
-            if (mesh->place[i] >= 0) point_move(mesh, p, i, D);                                                      \
-        }                                                                                                            \
+            if (mesh->place[list[k]] >= 0) point_move(mesh, p, list[k], D);                                          \
     }
-MOVE(1)
-MOVE(2)
-MOVE(3)
+DIMENSIONS(MOVE)
 
-void mesh_points_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
+void mesh_points_move(const struct mesh *mesh, struct particles *p)
+{
+    if (p->dim == 1) all_move_1(mesh, p);
+    else if (p->dim == 2) all_move_2(mesh, p);
+    else all_move_3(mesh, p);
+}
+
+void mesh_seen_move(const struct mesh *mesh, struct particles *p)
+{
+    if (p->dim == 1) seen_move_1(mesh, p);
+    else if (p->dim == 2) seen_move_2(mesh, p);
+    else seen_move_3(mesh, p);
+}
+
+void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
 {
     if (p->dim == 1) points_move_1(mesh, p, list, n);
     else if (p->dim == 2) points_move_2(mesh, p, list, n);
     else points_move_3(mesh, p, list, n);
 }
 
-void mesh_points_force(struct mesh *mesh, const struct particles *p, const int32_t *list, int64_t n)
+/* ---- what points take ---------------------------------------------------------------------------------------- */
+
+static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places, const int dim)
 {
-    const int dim = p->dim;
-    for (int64_t k = 0; k < n; k++) {            /* few, and several share a node: in order */
-        const int64_t i = list[k], I = mesh->place[i] >> dim;
-        const int q = mesh->place[i] & ((1 << dim) - 1);
-        for (int c = 0; c < 1 << dim; c++)
-            for (int a = 0; a < dim; a++)
-                mesh->grid.force[a][I + mesh->corner[c]] += mesh_weight(dim, c, q) * p->f[a][i];
+    const int32_t *point = &mesh->point[I << dim];
+    for (int a = 0; a < dim; a++) {
+        real f[CORNERS_MAX];
+        for (int q = 0; q < 1 << dim; q++) f[q] = places >> q & 1 ? p->f[a][point[q]] : 0;
+        mesh_places(f, dim);
+        for (int c = 0; c < 1 << dim; c++) mesh->grid.force[a][I + mesh->corner[c]] += f[c];
     }
 }
 
-/* Cauchy stress R sym(s U) R^T/det U of a point, and its volume. */
-static void point_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t i, bool finite)
+void mesh_seen_force(struct mesh *mesh, const struct particles *p)
 {
-    const int dim = p->dim, n = symmetric_count(dim);
-    real R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, e[9], s[SYM_MAX] = {0}, S[9], T[9], det = 1;
-    mesh_point_strain(mesh, i, R, e, dim, finite);
+    for (int64_t k = 0; k < mesh->seen; k++) {   /* few, and several share a node: in order */
+        const struct mesh_seen s = mesh->see[k];
+        if (p->dim == 1) cell_pull(mesh, p, s.cell, s.places, 1);
+        else if (p->dim == 2) cell_pull(mesh, p, s.cell, s.places, 2);
+        else cell_pull(mesh, p, s.cell, s.places, 3);
+    }
+}
+
+/* ---- stress -------------------------------------------------------------------------------------------------- */
+
+/* Cauchy stress R sym(s U) R^T/det U of a point with the strain e, and its volume. */
+static ALWAYS_INLINE void point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R, const real *e,
+                                       const int dim, bool finite)
+{
+    const int n = symmetric_count(dim);
+    real s[SYM_MAX], S[9], T[9], det = 1;
     mesh_point_stress(m, e, s, dim);
     if (!finite) {
         for (int k = 0; k < n; k++) p->stress[k][i] = s[k];
@@ -88,11 +142,30 @@ static void point_stress(const struct mesh *mesh, struct particles *p, const str
     p->volume[i] = p->volume0[i] * det;
 }
 
+static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
+                                      const int dim, bool finite)
+{
+    real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX];
+    mesh_strains(mesh, I, R, e, dim, finite);
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        if (i >= 0) point_stress(p, &m[p->material[i]], i, R, e[q], dim, finite);
+    }
+}
+
+#define STRESS(D)                                                                                                    \
+    static void stress_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)       \
+    {                                                                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                      \
+            if (mesh->kind[I]) cell_stress(mesh, p, m, I, D, finite);                                                \
+    }
+DIMENSIONS(STRESS)
+
 void mesh_points_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)
 {
-#pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++)
-        if (mesh->place[i] >= 0) point_stress(mesh, p, &m[p->material[i]], i, finite);
+    if (p->dim == 1) stress_1(mesh, p, m, finite);
+    else if (p->dim == 2) stress_2(mesh, p, m, finite);
+    else stress_3(mesh, p, m, finite);
 }
 
 /* ---- conversion ------------------------------------------------------------------------------------------- */
@@ -101,33 +174,118 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
+    real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX], s[SYM_MAX];
+    mesh_strains(mesh, I, R, e, dim, finite);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
-        real R[9], e[9], s[SYM_MAX];
         if (i < 0) continue;
         const struct elastic *own = &m[p->material[i]];
-        mesh_point_strain(mesh, i, R, e, dim, finite);
-        mesh_point_stress(own, e, s, dim);
+        mesh_point_stress(own, e[q], s, dim);
         if (stress_bound(s, dim) > own->trigger && stress_principal(s, dim) > own->trigger) p->flag[i] |= FLAG_STRESSED;
     }
 }
 
-#define MARK(D)                                                                                                      \
-    static void cells_mark_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)   \
-    {                                                                                                                \
-        for (int64_t k = 0; k < mesh->cuts; k++)                                                                     \
-            if (mesh->cut_stressed[k]) cell_mark(mesh, p, m, mesh->cut[k], D, finite);                               \
-        for (int64_t r = 0; r < mesh->runs; r++)                                                                     \
-            for (int64_t k = 0; mesh->run[r].stressed && k < mesh->run[r].cells; k++)                                \
-                cell_mark(mesh, p, m, mesh->run[r].cell + k, D, finite);                                             \
+/* Strain of eight cells at place q: the mean, and what bends times the place's coordinates +-1/4. */
+static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
+{
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) {
+            e[i][j] = s->e[i][j];
+            SETS for (int M = 3; M < 1 << dim; M++)
+                if (M & (M - 1) && M >> j & 1) {
+                    real x = 1;
+                    for (int d = 0; d < dim; d++)
+                        if (d != j && M >> d & 1) x *= q >> d & 1 ? 0.25 : -0.25;
+                    e[i][j] += x * s->mode[M][i];
+                }
+        }
+}
+
+/* A bound of the largest principal stress, closer than that of mesh_force: place by place, where there are points (`there`,
+ * NULL: everywhere). */
+static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there, const int dim)
+{
+    lanes most = lanes_of(-INFINITY), e[3][3], P[3][3];
+    SETS for (int q = 0; q < 1 << dim; q++) {
+        cells_strain_at(s, q, e, dim);
+        stress_of(m, e, P, dim);
+        lanes bound = P[0][0];
+        for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
+        most = lanes_max(most, there ? lanes_choose(there[q], bound, most) : bound);
     }
-MARK(1)
-MARK(2)
-MARK(3)
+    return most;
+}
+
+/* Does a cell hold points of another material? */
+static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct particles *p, int64_t I, uint8_t material, const int dim)
+{
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        if (i >= 0 && p->material[i] != material) return true;
+    }
+    return false;
+}
+
+static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
+                                   const struct mesh_run *run, const int dim, const bool finite)
+{
+    const struct elastic *own = &m[run->material];
+    for (int64_t k = 0; k < run->cells; k += LANES) {
+        struct mesh_cell s;
+        lanes u[CORNERS_MAX][3];
+        mesh_run_load(mesh, run, k, u, dim);
+        cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+        const lanes tension = cells_tension(own, &s, NULL, dim);
+        for (int64_t l = 0; l < LANES && l < run->cells - k; l++)
+            if (tension[l] > own->trigger) cell_mark(mesh, p, m, run->cell + k + l, dim, finite);
+    }
+}
+
+static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t group,
+                                     const int dim, const bool finite)
+{
+    const int64_t first = group * LANES;
+    struct mesh_cell s;
+    lanes u[CORNERS_MAX][3], tension = lanes_of(0);
+    lanes_mask there[CORNERS_MAX];
+    for (int q = 0; q < 1 << dim; q++)
+        for (int l = 0; l < LANES; l++) there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->cut[first + l] << dim) + q] >= 0);
+    mesh_cut_load(mesh, group, u, dim);
+    cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+    for (int64_t k = first; k < first + LANES && k < mesh->cuts; k++) {
+        const uint8_t material = mesh->cut_material[k];
+        if (k == first || material != mesh->cut_material[k - 1]) tension = cells_tension(&m[material], &s, there, dim);
+        if (mesh->cut_stressed[k] && (tension[k - first] > m[material].trigger || cell_mixed(mesh, p, mesh->cut[k], material, dim)))
+            cell_mark(mesh, p, m, mesh->cut[k], dim, finite);
+    }
+}
+
+static inline bool group_stressed(const struct mesh *mesh, int64_t group)
+{
+    bool any = false;
+    for (int l = 0; l < LANES; l++) any |= mesh->cut_stressed[group * LANES + l];
+    return any;
+}
+
+#define MARK(D, FINITE)                                                                                              \
+    static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)     \
+    {                                                                                                                \
+        for (int64_t k = 0; k < mesh_groups(mesh); k++)                                                              \
+            if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                       \
+        for (int64_t r = 0; r < mesh->runs; r++)                                                                     \
+            if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                               \
+    }
+MARK(1, false)
+MARK(2, false)
+MARK(2, true)
+MARK(3, false)
+MARK(3, true)
 
 void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)
 {
-    if (p->dim == 1) cells_mark_1(mesh, p, m, finite);
-    else if (p->dim == 2) cells_mark_2(mesh, p, m, finite);
-    else cells_mark_3(mesh, p, m, finite);
+    if (p->dim == 1) cells_mark_1_false(mesh, p, m);
+    else if (p->dim == 2) (finite ? cells_mark_2_true : cells_mark_2_false)(mesh, p, m);
+    else (finite ? cells_mark_3_true : cells_mark_3_false)(mesh, p, m);
 }

@@ -36,7 +36,7 @@ static inline void polar_rotation_3d(const real *M, real *R)
         }
         for (int c = 0; c < 9; c++) {
             const real next = 0.5 * (R[c] + cofactor[c] / determinant);
-            change = fmax(change, fabs(next - R[c]));
+            change = real_max(change, fabs(next - R[c]));
             R[c] = next;
         }
         if (change < 1e-15) return;

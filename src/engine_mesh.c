@@ -112,20 +112,20 @@ void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
     const bool finite = !e->scene->small_strain;
     if (mesh->points == 0) return;
     mesh_clear(mesh);
-    mesh_points_force(mesh, &e->part, mesh->see, mesh->seen);
+    mesh_seen_force(mesh, &e->part);
     mesh_force(mesh, e->cell_elastic, finite);
     engine_residual_of(e, &mesh->grid);
     if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->cell_elastic, finite);
     loads_mesh_walls(&e->loads, mesh, middle, e->dt);
     e->mesh_speed = mesh_move(mesh, e->dt, dt_velocity, e->loads.impulse, &e->loads.held_work);
     loads_react(&e->loads, &mesh->grid, dt_velocity);
-    mesh_points_move(mesh, &e->part, mesh->see, mesh->seen);
+    mesh_seen_move(mesh, &e->part);
 }
 
 void engine_mesh_show(struct engine *e)
 {
     if (e->mesh.points == 0) return;
-    mesh_points_move(&e->mesh, &e->part, NULL, e->part.n);
+    mesh_points_move(&e->mesh, &e->part);
     mesh_points_stress(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain);
     loads_mirror(&e->loads, &e->part);
 }
@@ -134,7 +134,8 @@ void engine_mesh_look(void *engine, const int32_t *list, int64_t n)
 {
     struct engine *e = engine;
     if (e->mesh.points == 0) return;
-    mesh_points_move(&e->mesh, &e->part, list, n);
+    if (list) mesh_listed_move(&e->mesh, &e->part, list, n);
+    else mesh_points_move(&e->mesh, &e->part);
     loads_mirror(&e->loads, &e->part);
 }
 
@@ -162,6 +163,6 @@ void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n)
 status engine_mesh_alarm(struct engine *e)
 {
     const bool wild = e->mesh.points > 0 && !(e->mesh_speed <= e->wave_speed / sqrt(e->part.dim));
-    if (wild) mesh_points_move(&e->mesh, &e->part, NULL, e->part.n);
+    if (wild) mesh_points_move(&e->mesh, &e->part);
     return watch_alarm(&e->part, wild, e->wave_speed, e->step, e->t, e->dt);
 }

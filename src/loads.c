@@ -74,10 +74,17 @@ static void drive(struct loads *l, struct load *load, struct particles *p, real 
 
 struct force_sum { const struct particles *p; int component; };
 
-static real force_term(const void *context, int64_t i)
+/* In eight sums side by side: one alone would wait for itself. */
+static void force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct force_sum *s = context;
-    return s->p->f[s->component][i];
+    const real *f = s->p->f[s->component];
+    real part[LANES] = {0};
+    int64_t i = first;
+    for (; i + LANES <= end; i += LANES)
+        for (int l = 0; l < LANES; l++) part[l] += f[i + l];
+    for (; i < end; i++) part[0] += f[i];
+    for (int l = 0; l < LANES; l++) *sum += part[l];
 }
 
 /* Bonds between particles add up to no force; what is left across a mirror is what its images gave, the support's
@@ -90,8 +97,12 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
         for (int d = 0; d < p->dim; d++)
             if (l->load[b].boundary->kind == BOUNDARY_MIRROR)
                 held[d] = held[d] || d == l->load[b].boundary->axis || l->load[b].boundary->hold_tangential;
-    for (int d = 0; d < p->dim; d++)
-        if (held[d]) l->impulse[d] += dt_velocity * team_sum(p->n, force_term, &(struct force_sum){p, d});
+    for (int d = 0; d < p->dim; d++) {
+        real sum;
+        if (!held[d]) continue;
+        team_sums(p->n, 1, force_block, &(struct force_sum){p, d}, &sum);
+        l->impulse[d] += dt_velocity * sum;
+    }
 }
 
 /* Adds an applied force. What a step gives is summed before it joins what all steps gave: round-off then grows with the
@@ -168,8 +179,14 @@ static void applied_work(struct loads *l, const struct load *load, const struct 
 
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
 {
-    for (int64_t q = 0; q < g->walls; q++)
-        l->load[g->wall[q].load].reaction[g->wall[q].component] += g->wall[q].reaction / dt_velocity;
+    const real inverse = 1 / dt_velocity;
+    for (int64_t q = 0; q < g->walls;) {         /* walls of one load and component follow each other */
+        const struct wall first = g->wall[q];
+        real sum = 0;
+        for (; q < g->walls && g->wall[q].load == first.load && g->wall[q].component == first.component; q++)
+            sum += g->wall[q].reaction;
+        l->load[first.load].reaction[first.component] += sum * inverse;
+    }
     for (int64_t q = 0; q < g->folds; q++)
         for (int d = 0; d < g->dim; d++)
             l->load[g->fold[q].load].reaction[d] += g->fold[q].reaction[d] / dt_velocity;

@@ -10,8 +10,6 @@
 #define PLACE_TOLERANCE 1e-6             /* of a cell */
 #define VOLUME_TOLERANCE 1e-9
 
-enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_CUT };
-
 /* ---- who lies where ---------------------------------------------------------------------------------------- */
 
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
@@ -141,7 +139,7 @@ static void rows_span(struct mesh *mesh)
 }
 
 /* Runs of whole cells band by band, and the list of cut cells. */
-static void cells_list(struct mesh *mesh, const uint8_t *kind, const struct particles *p)
+static void cells_list(struct mesh *mesh, const struct particles *p)
 {
     const struct grid *g = &mesh->grid;
     const int last = g->dim - 1;
@@ -152,105 +150,23 @@ static void cells_list(struct mesh *mesh, const uint8_t *kind, const struct part
         const int64_t from = g->dim == 1 ? 0 : layer * g->stride[last], to = g->dim == 1 ? g->n : end * g->stride[last];
         mesh->band[mesh->bands] = mesh->runs;
         for (int64_t I = from; I < to; I++) {
-            if (kind[I] == CELL_WHOLE) run_add(mesh, I, p->material[mesh->point[I << g->dim]]);
-            if (kind[I] != CELL_CUT) continue;
-            if (mesh->cuts == mesh->cuts_room) {
-                const int64_t room = mesh->cuts_room ? 2 * mesh->cuts_room : 256;
-                mesh->cut = memory_resize("mesh.cut", mesh->cut, mesh->cuts_room, room, sizeof *mesh->cut);
-                mesh->cuts_room = room;
-            }
-            mesh->cut[mesh->cuts++] = (int32_t)I;
+            if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, p->material[mesh->point[I << g->dim]]);
+            if (mesh->kind[I] == CELL_CUT) mesh_cuts_add(mesh, I);
         }
         mesh->bands++;
     }
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-/* Of the points of a cell, that with the lowest trigger. */
-static uint8_t cut_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I)
-{
-    int least = -1;
-    for (int q = 0; q < 1 << p->dim; q++) {
-        const int32_t i = mesh->point[(I << p->dim) + q];
-        if (i < 0) continue;
-        if (least < 0 || s->elastic[p->material[i]].trigger < s->elastic[least].trigger) least = p->material[i];
-    }
-    return (uint8_t)least;
-}
-
-static void cut_make(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I, real *K, real *skew)
-{
-    const int dim = p->dim, n = (1 << dim) * dim;
-    unsigned done = 0;
-    memset(K, 0, sizeof *K * (size_t)(n * n));
-    if (skew) memset(skew, 0, sizeof *skew * (size_t)(n * n));
-    for (int q = 0; q < 1 << dim; q++) {         /* by material */
-        const int32_t first = mesh->point[(I << dim) + q];
-        if (first < 0 || done >> q & 1) continue;
-        real part[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX], turned[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX];
-        int32_t entry[CORNERS_MAX];
-        unsigned places = 0;
-        for (int r = q; r < 1 << dim; r++) {
-            const int32_t i = mesh->point[(I << dim) + r];
-            if (i < 0 || p->material[i] != p->material[first]) continue;
-            entry[r] = s->partial && s->partial->index ? s->partial->index[i] : -1;
-            places |= 1u << r;
-        }
-        done |= places;
-        mesh_stiffness(part, skew ? turned : NULL, &s->elastic[p->material[first]], &s->isotropic[p->material[first]], dim,
-                       mesh->grid.h, mesh->volume, places, s->partial, entry);
-        for (int k = 0; k < n * n; k++) K[k] += part[k];
-        for (int k = 0; k < n * n && skew; k++) skew[k] += turned[k];
-    }
-}
-
-/* Stiffness of every cut cell: taken over where nothing has changed, else made. `dirty` NULL: all. */
-static void cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
-                      const int32_t *old, int64_t olds)
-{
-    const int n = (1 << p->dim) * p->dim, size = n * n;
-    const bool skewed = s->partial && s->partial->skew;
-    real *K = NEW("mesh.stiffness", mesh->cuts * size, real);
-    real *skew = skewed ? NEW("mesh.skew", mesh->cuts * size, real) : NULL;
-    int64_t *from = NEW("mesh.from", mesh->cuts, int64_t);
-    for (int64_t k = 0, q = 0; k < mesh->cuts; k++) {
-        while (q < olds && old[q] < mesh->cut[k]) q++;
-        from[k] = dirty && q < olds && old[q] == mesh->cut[k] && !dirty[mesh->cut[k]] ? q : -1;
-    }
-#pragma omp parallel for schedule(dynamic, 16)
-    for (int64_t k = 0; k < mesh->cuts; k++) {
-        if (from[k] < 0) {
-            cut_make(mesh, p, s, mesh->cut[k], K + k * size, skew ? skew + k * size : NULL);
-            continue;
-        }
-        memcpy(K + k * size, mesh->stiffness + from[k] * size, sizeof *K * (size_t)size);
-        if (skew && mesh->skew) memcpy(skew + k * size, mesh->skew + from[k] * size, sizeof *K * (size_t)size);   /* none before: 0 */
-    }
-    memory_free(from);
-    memory_free(mesh->stiffness);
-    memory_free(mesh->skew);
-    memory_free(mesh->cut_force);
-    memory_free(mesh->cut_stressed);
-    memory_free(mesh->cut_material);
-    mesh->cut_stressed = NEW("mesh.cut_stressed", mesh->cuts, bool);
-    mesh->cut_material = NEW("mesh.cut_material", mesh->cuts, uint8_t);
-    for (int64_t k = 0; k < mesh->cuts; k++) mesh->cut_material[k] = cut_material(mesh, p, s, mesh->cut[k]);
-    mesh->stiffness = K, mesh->skew = skew;
-    mesh->cut_force = NEW("mesh.cut_force", mesh->cuts * n, real);
-}
-
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
 {
-    int32_t *old = NEW("mesh.old", mesh->cuts, int32_t);
-    const int64_t olds = mesh->cuts;
-    if (olds > 0) memcpy(old, mesh->cut, sizeof *old * (size_t)olds);
+    struct mesh_cuts old = mesh_cuts_keep(mesh);
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++)
         if (!dirty || dirty[I]) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     rows_span(mesh);
-    cells_list(mesh, mesh->kind, p);
-    cuts_make(mesh, p, s, dirty, old, olds);
-    memory_free(old);
+    cells_list(mesh, p);
+    mesh_cuts_make(mesh, p, s, dirty, &old);
 }
 
 /* ---- set-up ------------------------------------------------------------------------------------------------- */
@@ -281,7 +197,6 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     mesh->place = NEW("mesh.place", p->n, int32_t);
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
-    mesh->see = NEW("mesh.see", p->n, int32_t);
     mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
     return OK;
 }
@@ -296,15 +211,6 @@ static void nodes_start(struct mesh *mesh, const struct particles *p)
     mesh_project(mesh, p, u, mesh->displacement);
     mesh_project(mesh, p, p->v, mesh->grid.velocity);
     for (int d = 0; d < p->dim; d++) memory_free(u[d]);
-}
-
-static void wholes_make(struct mesh *mesh, const struct mesh_source *s)
-{
-    const int dim = mesh->grid.dim, n = (1 << dim) * dim;
-    mesh->whole = NEW("mesh.whole", (int64_t)s->materials * n * n, real);
-    for (int m = 0; m < s->materials; m++)
-        mesh_stiffness(mesh->whole + (int64_t)m * n * n, NULL, &s->elastic[m], &s->elastic[m], dim, mesh->grid.h, mesh->volume,
-                       (1u << (1 << dim)) - 1, NULL, NULL);
 }
 
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source)
@@ -322,7 +228,6 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
     TRY(bodies_apart(mesh, p));
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_weigh(mesh, p, I);
-    wholes_make(mesh, source);
     cells_sort_out(mesh, p, source, NULL);
     nodes_start(mesh, p);
     return OK;
@@ -338,13 +243,7 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->place);
     memory_free(mesh->band);
     memory_free(mesh->run);
-    memory_free(mesh->cut);
-    memory_free(mesh->stiffness);
-    memory_free(mesh->skew);
-    memory_free(mesh->whole);
-    memory_free(mesh->cut_force);
-    memory_free(mesh->cut_stressed);
-    memory_free(mesh->cut_material);
+    mesh_cuts_free(mesh);
     memory_free(mesh->see);
     memory_free(mesh->span);
     memset(mesh, 0, sizeof *mesh);
@@ -367,30 +266,70 @@ static real release(struct mesh *mesh, struct particles *p, int64_t i)
     mesh->point[place] = -1;
     mesh->points--;
     p->flag[i] &= (uint8_t)~FLAG_MESHED;
-    for (int c = 0; c < 1 << p->dim; c++) {
-        const int64_t I = (place >> p->dim) + mesh->corner[c];
-        mesh_node_weigh(mesh, p, I);
-        for (int d = 0; d < p->dim && mesh->grid.mass[I] == 0; d++) mesh->grid.velocity[d][I] = mesh->displacement[d][I] = 0;
-    }
     return energy;
+}
+
+/* Nodes of the marked cells lose what left them. */
+static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
+{
+    uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);
+    for (int64_t cell = 0; cell < mesh->grid.n; cell++)
+        for (int c = 0; c < 1 << p->dim && left[cell]; c++) {
+            const int64_t I = cell + mesh->corner[c];
+            if (done[I]) continue;
+            done[I] = 1;
+            mesh_node_weigh(mesh, p, I);
+            for (int d = 0; d < p->dim && mesh->grid.mass[I] == 0; d++)
+                mesh->grid.velocity[d][I] = mesh->displacement[d][I] = 0;
+        }
+    memory_free(done);
 }
 
 real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n)
 {
     real energy = 0;
     if (!mesh->place) return 0;
-    uint8_t *dirty = changed ? NEW("mesh.dirty", mesh->grid.n, uint8_t) : NULL;
+    uint8_t *left = NEW("mesh.left", mesh->grid.n, uint8_t), *dirty = changed ? NEW("mesh.dirty", mesh->grid.n, uint8_t) : NULL;
     for (int64_t k = 0; k < n && changed; k++)
         if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
     for (int64_t i = 0; i < p->n; i++)
         if (mesh->place[i] >= 0 && p->kind[i] != KIND_MPM) {
+            left[mesh->place[i] >> p->dim] = 1;
             if (dirty) dirty[mesh->place[i] >> p->dim] = 1;
             energy += release(mesh, p, i);
         }
+    nodes_lighten(mesh, p, left);
     particles_list(p);
     cells_sort_out(mesh, p, source, dirty);
+    memory_free(left);
     memory_free(dirty);
     return energy;
+}
+
+/* Images that bonds look at move as their sources; of the bonds of a slot most have none. */
+static void images_see(uint8_t *seen, const struct particles *p, const struct image *image, const int32_t *nbr)
+{
+    int32_t most = nbr[0];
+    for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
+    for (int l = 0; l < LANES && most >= p->n; l++)
+        if (nbr[l] >= p->n) seen[image_root(p, image, nbr[l])] = 1;
+}
+
+static void cell_see(struct mesh *mesh, const uint8_t *seen, int64_t I)
+{
+    const int corners = 1 << mesh->grid.dim;
+    unsigned places = 0;
+    for (int q = 0; q < corners; q++) {
+        const int32_t i = mesh->point[I * corners + q];
+        if (i >= 0 && seen[i]) places |= 1u << q;
+    }
+    if (places == 0) return;
+    if (mesh->seen == mesh->seen_room) {
+        const int64_t room = mesh->seen_room ? 2 * mesh->seen_room : 256;
+        mesh->see = memory_resize("mesh.see", mesh->see, mesh->seen_room, room, sizeof *mesh->see);
+        mesh->seen_room = room;
+    }
+    mesh->see[mesh->seen++] = (struct mesh_seen){(int32_t)I, (uint8_t)places};
 }
 
 void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
@@ -400,12 +339,10 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
     for (int64_t row = 0; row < b->rows; row++) seen[b->particle[row]] = 1;
     for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
         for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
-    for (int64_t k = 0; k < b->slots * LANES && p->n_all > p->n; k++) {      /* images that bonds look at move as their sources */
-        if (b->nbr[k] >= p->n) seen[image_root(p, l->image, b->nbr[k])] = 1;
-    }
+    for (int64_t k = 0; k < b->slots && p->n_all > p->n; k++) images_see(seen, p, l->image, b->nbr + k * LANES);
     mesh->seen = 0;
-    for (int64_t i = 0; i < p->n; i++)
-        if (seen[i] && mesh->place[i] >= 0) mesh->see[mesh->seen++] = (int32_t)i;
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, seen, I);
     memory_free(seen);
 }
 

@@ -76,7 +76,7 @@ real mesh_adopt(struct mesh *mesh, struct particles *p, const int32_t *list, int
     struct nodes t = {0};
     real *u[DIM_MAX], energy = 0;
     nodes_find(&t, mesh, p, list, n);
-    mesh_points_move(mesh, p, NULL, p->n);               /* where the others are: displacements are fitted to all */
+    mesh_points_move(mesh, p);               /* where the others are: displacements are fitted to all */
     for (int64_t k = 0; k < n; k++)
         for (int d = 0; d < p->dim; d++) energy += 0.5 * p->mass[list[k]] * square(p->v[d][list[k]]);
     energy += kinetic_of(mesh, &t);

@@ -4,11 +4,16 @@
 
 #include "mesh_make.h"
 
-/* Stiffness of a cell with points at the places set in `places`, each of reference volume V; partial[q] is the entry of
- * place q in the partial stress, -1 without. Partial stress is a share of the stress by the
- * constants `isotropic`. Column by column; skew (may be NULL) gets what skew stress adds. */
-void mesh_stiffness(real *K, real *skew, const struct elastic *m, const struct elastic *isotropic, int dim, real h, real V, unsigned places,
-                    const struct partial_stress *partial, const int32_t *entry);
+enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_CUT };
+
+/* Cut cells with their stiffness (mesh_cut.c): taken off the mesh before cells are sorted out anew, put back where nothing has
+ * changed (`dirty` by cell, NULL: everywhere), else made; frees `old`. */
+struct mesh_cuts { int64_t cuts; int32_t *cut; real *stiffness, *odd, *skew; };
+struct mesh_cuts mesh_cuts_keep(struct mesh *mesh);
+void mesh_cuts_add(struct mesh *mesh, int64_t I);
+void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
+                    struct mesh_cuts *old);
+void mesh_cuts_free(struct mesh *mesh);
 
 /* Nodal values of a field that the points sample: least squares by mass, from the lumped projection. */
 void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);

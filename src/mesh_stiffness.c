@@ -1,4 +1,4 @@
-/* floor 3: stiffness of single cells of the mesh, point by point, and the time step they allow. */
+/* floor 3: the time step that single cells of the mesh allow. */
 #include <math.h>
 #include <string.h>
 
@@ -6,110 +6,56 @@
 #include "mesh_parts.h"
 #include "mesh_point.h"
 
-/* Stress that a point gives for the displacement gradient g: symmetric part of C : sym g less what bonds carry, and the skew
- * part that goes with it. */
-static void given(const struct elastic *m, const struct elastic *isotropic, const struct partial_stress *partial,
-                  int32_t entry, const real *g, real *P, real *S, int dim)
+/* Adds to the stiffness K of displacements, column by column, the part of a point at place q. */
+static void point_stiffness(real *K, const struct elastic *m, int dim, real h, real V, int q)
 {
-    const int n = symmetric_count(dim), rows = n - dim;
-    real s[SYM_MAX] = {0}, left[SYM_MAX] = {0};
-    mesh_point_stress(isotropic, g, s, dim);
-    mesh_point_stress(m, g, left, dim);
-    memset(S, 0, sizeof(real) * (size_t)(dim * dim));
-    if (entry >= 0) {
-        const real *M = partial->matrix + (int64_t)entry * n * n;
-        for (int k = 0; k < n; k++) left[k] -= dot(&M[k * n], s, n);
-        for (int k = 0; k < rows && partial->skew; k++) {
-            int a, b;
-            symmetric_axes(dim, dim + k, &a, &b);
-            const real skew = -dot(partial->skew + ((int64_t)entry * rows + k) * n, s, n);
-            S[a * dim + b] += skew, S[b * dim + a] -= skew;
-        }
-    }
-    for (int k = 0; k < n; k++) {
-        int a, b;
-        symmetric_axes(dim, k, &a, &b);
-        P[a * dim + b] = P[b * dim + a] = left[k];
-    }
-}
-
-/* Adds the part of the point at place q. What it gives hangs on its strain alone: found once for each component, a shear by its
- * angle, and put together for every corner. */
-static void point_stiffness(real *K, real *skew, const struct elastic *m, const struct elastic *isotropic, int dim, real h,
-                            real V, int q, const struct partial_stress *partial, int32_t entry)
-{
-    const int corners = 1 << dim, n = corners * dim, components = symmetric_count(dim), squares = dim * dim;
-    real P[SYM_MAX][DIM_MAX * DIM_MAX], S[SYM_MAX][DIM_MAX * DIM_MAX], slope[CORNERS_MAX][DIM_MAX];
-    for (int t = 0; t < components; t++) {
-        real g[DIM_MAX * DIM_MAX] = {0};
-        int a, b;
-        symmetric_axes(dim, t, &a, &b);
-        g[a * dim + b] += 0.5, g[b * dim + a] += 0.5;
-        given(m, isotropic, partial, entry, g, P[t], S[t], dim);
-    }
-    for (int c = 0; c < corners; c++)
-        for (int d = 0; d < dim; d++) slope[c][d] = mesh_slope(dim, c, q, d) / h;
+    const int corners = 1 << dim, n = corners * dim;
     for (int column = 0; column < n; column++) {
-        real pull[DIM_MAX * DIM_MAX] = {0}, turned[DIM_MAX * DIM_MAX] = {0};
-        for (int t = 0; t < components; t++) {
+        real g[DIM_MAX * DIM_MAX] = {0}, s[SYM_MAX], P[DIM_MAX * DIM_MAX];
+        for (int d = 0; d < dim; d++) g[column % dim * dim + d] = mesh_slope(dim, column / dim, q, d) / h;
+        mesh_point_stress(m, g, s, dim);
+        for (int k = 0; k < symmetric_count(dim); k++) {
             int a, b;
-            symmetric_axes(dim, t, &a, &b);
-            if (column % dim != a && column % dim != b) continue;
-            const real strain = slope[column / dim][column % dim == a ? b : a];
-            for (int k = 0; k < squares; k++) pull[k] += strain * P[t][k], turned[k] += strain * S[t][k];
+            symmetric_axes(dim, k, &a, &b);
+            P[a * dim + b] = P[b * dim + a] = s[k];
         }
         for (int c = 0; c < corners; c++)
             for (int a = 0; a < dim; a++)
-                for (int b = 0; b < dim; b++) {
-                    K[column * n + c * dim + a] += V * slope[c][b] * pull[a * dim + b];
-                    if (skew) skew[column * n + c * dim + a] += V * slope[c][b] * turned[a * dim + b];
-                }
+                for (int b = 0; b < dim; b++) K[column * n + c * dim + a] += V * mesh_slope(dim, c, q, b) / h * P[a * dim + b];
     }
 }
 
-void mesh_stiffness(real *K, real *skew, const struct elastic *m, const struct elastic *isotropic, int dim, real h, real V, unsigned places,
-                    const struct partial_stress *partial, const int32_t *entry)
-{
-    const int corners = 1 << dim, n = corners * dim;
-    memset(K, 0, sizeof *K * (size_t)(n * n));
-    if (skew) memset(skew, 0, sizeof *skew * (size_t)(n * n));
-    for (int q = 0; q < corners; q++)
-        if (places >> q & 1) point_stiffness(K, skew, m, isotropic, dim, h, V, q, partial, entry ? entry[q] : -1);
-}
-
-/* ---- time step -------------------------------------------------------------------------------------------- */
-
 enum { ITERATIONS = 200 };
 
-/* Largest eigenvalue of m^-1 K by power iteration on m^-1/2 K m^-1/2, a little above [1/s^2]. */
-static real largest_eigenvalue(const real *K, const real *mass, int n, int dim)
+/* Largest eigenvalue of a symmetric matrix by power iteration, a little above. */
+static real largest_eigenvalue(const real *A, int n)
 {
     real x[CELL_UNKNOWNS_MAX], y[CELL_UNKNOWNS_MAX], value = 0;
     for (int a = 0; a < n; a++) x[a] = 1 + 0.37 * a - 0.11 * a * a;      /* no mode is orthogonal to it */
     for (int k = 0; k < ITERATIONS; k++) {
-        real size = 0;
-        for (int a = 0; a < n; a++) size += x[a] * x[a];
-        for (int a = 0; a < n; a++) x[a] /= sqrt(size);
-        for (int a = 0; a < n; a++) {
-            y[a] = 0;
-            for (int b = 0; b < n; b++) y[a] += K[b * n + a] * x[b] / sqrt(mass[a / dim] * mass[b / dim]);
-        }
+        const real size = sqrt(dot(x, x, n));
+        for (int a = 0; a < n; a++) x[a] /= size, y[a] = 0;
+        for (int b = 0; b < n; b++)
+            for (int a = 0; a < n; a++) y[a] += A[b * n + a] * x[b];     /* columns: whole vectors */
         value = sqrt(dot(y, y, n));
         memcpy(x, y, sizeof x);
     }
     return value * 1.001;
 }
 
-/* A mesh moves no faster than its stiffest cell would alone, with the masses of its own points. */
+/* A mesh moves no faster than its stiffest cell would alone, with the masses of its own points: of m^-1/2 K m^-1/2 [1/s^2]. */
 static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
 {
-    const int corners = 1 << dim;
-    real K[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX], mass[CORNERS_MAX] = {0};
-    for (int c = 0; c < corners; c++)
-        for (int q = 0; q < corners; q++)
-            if (places >> q & 1) mass[c] += density * V * mesh_weight(dim, c, q);
-    mesh_stiffness(K, NULL, m, m, dim, h, V, places, NULL, NULL);
-    return largest_eigenvalue(K, mass, corners * dim, dim);
+    const int corners = 1 << dim, n = corners * dim;
+    real K[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX] = {0}, mass[CORNERS_MAX] = {0};
+    for (int q = 0; q < corners; q++) {
+        if (!(places >> q & 1)) continue;
+        for (int c = 0; c < corners; c++) mass[c] += density * V * mesh_weight(dim, c, q);
+        point_stiffness(K, m, dim, h, V, q);
+    }
+    for (int b = 0; b < n; b++)
+        for (int a = 0; a < n; a++) K[b * n + a] /= sqrt(mass[a / dim] * mass[b / dim]);
+    return largest_eigenvalue(K, n);
 }
 
 static unsigned places_of(const struct mesh *mesh, int64_t I)

@@ -280,7 +280,7 @@ static void test_mesh(void **state)
         memcpy(u[d], mesh.displacement[d], (size_t)mesh.grid.n * sizeof(real));
         for (int64_t I = 0; I < mesh.grid.n; I++) was[d] += mesh.grid.mass[I] * mesh.grid.velocity[d][I];
     }
-    mesh_points_move(&mesh, p, NULL, p->n);
+    mesh_points_move(&mesh, p);
     int32_t list[16 * 12];
     int64_t n = 0;
     for (int64_t i = 0; i < p->n; i++)
