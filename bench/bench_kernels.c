@@ -152,7 +152,7 @@ static void job_call(const struct job *j, struct ground *g)
         k.bond_stress(&pd->bonds, &pd->part);
         break;
     case PD_MOVE:
-        pd_move_table[j->dim](&pd->part, 1e-12, 1e-12);
+        pd_move_table[j->dim](&pd->part, &pd->bonds, 1e-12, 1e-12);
         break;
     case P2G:
         p2g_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer);

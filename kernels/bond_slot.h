@@ -17,6 +17,11 @@ enum slot_kind { SLOT_FREE, SLOT_LATTICE, SLOT_ALIKE };
         else if ((B)->common[SLOT].lattice) VISIT(SLOT, SLOT_LATTICE);                                \
         else VISIT(SLOT, SLOT_FREE)
 
+/* The groups of the k-th block of rows that is awake. */
+#define FOR_GROUPS(B, K, GROUP)                                                                       \
+    for (int64_t GROUP = rest_first(&(B)->rest, K) / LANES, group_end = groups_end(B, K); GROUP < group_end; GROUP++)
+static ALWAYS_INLINE int64_t groups_end(const struct bonds *b, int64_t k) { return (rest_end(&b->rest, k, b->rows) + LANES - 1) / LANES; }
+
 static ALWAYS_INLINE void slot_ask(const struct bonds *b, int64_t slot, const enum slot_kind kind)
 {
     const int64_t q = (slot + SLOTS_AHEAD) * LANES;
@@ -44,6 +49,12 @@ static ALWAYS_INLINE lanes slot_weight(const struct bonds *b, int64_t slot, cons
     const struct bond_slot *c = &b->common[slot];
     return kind == SLOT_ALIKE ? lanes_of_float(c->intact, c->w) : lanes_load_float(b->w + slot * LANES);
 }
+
+/* Stretch |y|/|xi| - 1, of broken bonds maybe -|y|/|xi| - 1: rounded to a multiple of 2^-49 by passing between 8 and 16, so
+ * that it is 0 to the last bit where nothing has moved. Whoever computes it is off by less than half of that there:
+ * in units of 2^-53, 1 for the stored inverse (bonds_row.c), 1.5 for three squares, 2.1 for the root, 2 for products. Far
+ * below what the last bit of a position makes, 1e-14 in a body of 100 spacings. */
+#define STRETCH_OF(LENGTH, INVERSE_LENGTH) (((LENGTH) * (INVERSE_LENGTH) + 8.0) - 9.0)
 
 /* a, or of intact bonds what is larger. Where lengths are read as stored those of broken ones are negative and tell by
  * themselves. */

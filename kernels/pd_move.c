@@ -12,18 +12,21 @@ static ALWAYS_INLINE void pd_move_particle(struct particles *p, int64_t i, real 
     }
 }
 
-#define INSTANCE(D)                                                                          \
-    static void pd_move_##D##d(struct particles *p, real dt, real dt_velocity)               \
-    {                                                                                        \
-        if (p->n_of[KIND_PD] == p->n && p->n_carried == 0) {        /* all of them: no list, whole vectors */     \
-            _Pragma("omp parallel for simd schedule(static)")                                \
-            for (int64_t i = 0; i < p->n; i++) pd_move_particle(p, i, dt, dt_velocity, D);   \
-            return;                                                                          \
-        }                                                                                    \
-        _Pragma("omp parallel for schedule(static)")                                         \
-        for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)                                       \
-            if (!(p->flag[p->list[KIND_PD][k]] & FLAG_CARRIED))                              \
-                pd_move_particle(p, p->list[KIND_PD][k], dt, dt_velocity, D);                \
+#define INSTANCE(D)                                                                                          \
+    static void pd_move_##D##d(struct particles *p, const struct bonds *b, real dt, real dt_velocity)        \
+    {                                                                                                        \
+        const bool all = p->n_of[KIND_PD] == p->n && p->n_carried == 0;      /* no list, whole vectors */    \
+        _Pragma("omp parallel for schedule(static)")                                                         \
+        for (int64_t k = 0; k < b->rest.awake; k++) {                                                        \
+            const int64_t first = rest_first(&b->rest, k), end = rest_end(&b->rest, k, b->rows);             \
+            if (all) {                                                                                       \
+                _Pragma("omp simd")                                                                          \
+                for (int64_t i = first; i < end; i++) pd_move_particle(p, i, dt, dt_velocity, D);            \
+            } else                                                                                           \
+                for (int64_t row = first; row < end; row++)                                                  \
+                    if (!particle_on_grid(p, b->particle[row]))                                              \
+                        pd_move_particle(p, b->particle[row], dt, dt_velocity, D);                           \
+        }                                                                                                    \
     }
 DIM_VARIANTS(INSTANCE)
 

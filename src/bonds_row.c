@@ -128,11 +128,12 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     for (int k = 0; k < row->n; k++) {
         int32_t j = row->nbr[k];
         real xi[DIM_MAX], r2 = 0;
-        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
+        long double squares = 0;             /* to the last bit: bond_slot.h */
+        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]), squares += (long double)xi[d] * xi[d];
         bool cut = near && cracks_part(s->crack, s->cracks, p, i, j);
         const real r = sqrt(r2);
         if (cut) row->cut_volume += p->volume0[j];
-        row->inverse_length[k] = (cut ? -1 : 1) / r;
+        row->inverse_length[k] = (real)((cut ? -1 : 1) / sqrtl(squares));
         row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
         if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
         real limit = s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]];
