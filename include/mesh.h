@@ -17,6 +17,7 @@
 
 #include "grid.h"
 #include "particles.h"
+#include "rest.h"
 
 enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX };
 
@@ -53,7 +54,23 @@ struct mesh {
     bool *cut_stressed;                  /* [cuts] as of a run                                        */
     int64_t seen;
     int32_t *see;                        /* [seen] points whose motion is needed in every step        */
+    struct rest rest;                    /* of blocks of nodes                                        */
+    int64_t segments;                    /* blocks in a row of nodes                                  */
+    real rounding;                       /* displacements lose what its last bit does not hold [m]    */
 };
+
+/* Block of a node. */
+static inline int64_t mesh_block(const struct mesh *mesh, int64_t I)
+{
+    return I / mesh->grid.count[0] * mesh->segments + I % mesh->grid.count[0] / LANES;
+}
+
+/* Levels of the blocks of a row of nodes; do eight nodes, or cells, of it sleep from the k-th of the row on? */
+static inline const uint8_t *mesh_levels(const struct mesh *mesh, int64_t row) { return mesh->rest.level + row * mesh->segments; }
+static inline bool mesh_asleep(const uint8_t *levels, int64_t k)
+{
+    return (levels[k / LANES] | levels[(k + LANES - 1) / LANES]) == 0;
+}
 
 /* Share of node `corner` in a point at `place` of its cell: 3/4 or 1/4 by direction. */
 static inline real mesh_weight(int dim, int corner, int place)

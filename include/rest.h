@@ -4,6 +4,8 @@
  * else moves a block, computing them again gives the same: the block sleeps, and no bit of a run knows. It wakes when somebody
  * within its reach leaves his place, and stays awake then.
  *
+ * A block is what the hot loops take at once: a group of eight rows of bonds; eight nodes of a mesh along x.
+ *
  *     level 0        asleep: neither forces nor motion
  *           1        awake: its forces are computed, it moves
  *           most     it has moved, or something moves it; who is next to it has one level less */
@@ -15,12 +17,11 @@
 struct particles;
 struct bonds;
 struct loads;
-
-enum { REST_ROWS = 64 };                 /* rows of bonds in a block; a multiple of LANES                 */
+struct mesh;
 
 struct rest {
     bool settled;                        /* who sleeps has been found; before all are awake               */
-    int64_t blocks, awake;
+    int64_t blocks, awake, empty;        /* in all; visited; of no body                                   */
     uint8_t *level, *moved;              /* [blocks]; scratch                                             */
     int32_t *list;                       /* [awake] ascending: what the hot loops visit                   */
 };
@@ -31,19 +32,22 @@ void rest_free(struct rest *r);
 /* The list of who is awake, for the levels of now. */
 void rest_list(struct rest *r);
 
-/* Rows of bonds, after a step in which forces of all awake have been computed: finds who sleeps in rows just made, else
+/* Groups of rows of bonds, after a step in which forces of all awake have been computed: finds who sleeps in rows just made, else
  * wakes who is next to what has moved. */
 void rest_rows(struct bonds *b, const struct particles *p, const struct loads *l);
 
-/* Does the block of a row sleep? */
-static inline bool rest_asleep(const struct rest *r, int64_t row) { return r->level[row / REST_ROWS] == 0; }
+/* The same of the nodes of a mesh, a cell being where its lowest node is; whoever sees other points than before, or has changed
+ * what nodes do, says so by rest_mesh_see or rest_mesh_all. */
+void rest_mesh(struct mesh *mesh, const struct loads *l);
+void rest_mesh_see(struct mesh *mesh);
+void rest_mesh_all(struct mesh *mesh);
 
-/* First row of the k-th block that is awake, and the one behind its last. */
-static inline int64_t rest_first(const struct rest *r, int64_t k) { return (int64_t)r->list[k] * REST_ROWS; }
-static inline int64_t rest_end(const struct rest *r, int64_t k, int64_t rows)
+/* Share of the blocks that sleep. */
+static inline real rest_share(const struct rest *r)
 {
-    const int64_t end = rest_first(r, k) + REST_ROWS;
-    return end < rows ? end : rows;
+    const int64_t blocks = r->blocks - r->empty;
+    return blocks > 0 && r->awake < blocks ? 1 - (real)r->awake / (real)blocks : 0;
 }
+
 
 #endif

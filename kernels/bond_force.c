@@ -67,13 +67,13 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
     {                                                                                                    \
         int64_t broken = 0;                                                                              \
         _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                               \
-        for (int64_t k = 0; k < b->rest.awake; k++)                                                      \
-            FOR_GROUPS(b, k, g) {                                                                        \
-                if (!bond_force_group(b, p, g, 1, D, PD_##M)) continue;                                  \
-                int64_t here = bond_break_group(b, p, limit, g);                                         \
-                if (here > 0) bond_force_group(b, p, g, 0.5, D, PD_##M);                                 \
-                broken += here;                                                                          \
-            }                                                                                            \
+        for (int64_t k = 0; k < b->rest.awake; k++) {                                                    \
+            const int64_t g = b->rest.list[k];                                                           \
+            if (!bond_force_group(b, p, g, 1, D, PD_##M)) continue;                                      \
+            int64_t here = bond_break_group(b, p, limit, g);                                             \
+            if (here > 0) bond_force_group(b, p, g, 0.5, D, PD_##M);                                     \
+            broken += here;                                                                              \
+        }                                                                                                \
         return broken;                                                                                   \
     }
 PD_VARIANTS(INSTANCE)

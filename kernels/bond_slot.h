@@ -17,11 +17,6 @@ enum slot_kind { SLOT_FREE, SLOT_LATTICE, SLOT_ALIKE };
         else if ((B)->common[SLOT].lattice) VISIT(SLOT, SLOT_LATTICE);                                \
         else VISIT(SLOT, SLOT_FREE)
 
-/* The groups of the k-th block of rows that is awake. */
-#define FOR_GROUPS(B, K, GROUP)                                                                       \
-    for (int64_t GROUP = rest_first(&(B)->rest, K) / LANES, group_end = groups_end(B, K); GROUP < group_end; GROUP++)
-static ALWAYS_INLINE int64_t groups_end(const struct bonds *b, int64_t k) { return (rest_end(&b->rest, k, b->rows) + LANES - 1) / LANES; }
-
 static ALWAYS_INLINE void slot_ask(const struct bonds *b, int64_t slot, const enum slot_kind kind)
 {
     const int64_t q = (slot + SLOTS_AHEAD) * LANES;

@@ -23,12 +23,15 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
 {
     const struct grid *g = &mesh->grid;
     const real volume = mesh->volume * (1 << dim);
+    const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
+    const uint8_t *levels = mesh_levels(mesh, row);
     lanes carry[CORNERS_MAX][3], tension = lanes_of(-INFINITY);
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) carry[c][i] = lanes_of(0);
     for (int64_t k = 0; k < run->cells; k += LANES) {
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
+        if (mesh_asleep(levels, start + k)) continue;      /* so what the cells before carry is 0 */
         mesh_run_load(mesh, run, k, u, dim);
         mesh_cell_force(m, g->h, volume, u, f, &tension, NULL, dim, finite);
         for (int c = 0; c < 1 << dim; c += 2)
@@ -58,6 +61,11 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
     }
 
 /* ---- cut cells -------------------------------------------------------------------------------------------- */
+
+static ALWAYS_INLINE bool mesh_cut_asleep(const struct mesh *mesh, int64_t k)
+{
+    return mesh->rest.level[mesh_block(mesh, mesh->cut[k])] == 0;
+}
 
 /* q = K u over the corners and components. */
 static ALWAYS_INLINE void times(const real *K, const real *u, real *q, const int n)
@@ -151,7 +159,7 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
     const int corners = 1 << dim;
     for (int64_t k = 0; k < mesh->cuts; k++)
-        for (int c = 0; c < corners; c++)
+        for (int c = 0; c < corners && !mesh_cut_asleep(mesh, k); c++)
             for (int a = 0; a < dim; a++)
                 mesh->grid.force[a][mesh->cut[k] + mesh->corner[c]] += mesh->cut_force[(k * corners + c) * dim + a];
 }
@@ -160,7 +168,7 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                \
     {                                                                                                                \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < mesh->cuts; k++)                        \
-            cut_force(mesh, &m[mesh->cut_material[k]], k, D, FINITE);                                                \
+            if (!mesh_cut_asleep(mesh, k)) cut_force(mesh, &m[mesh->cut_material[k]], k, D, FINITE);                                                \
         cuts_add(mesh, D);                                                                                           \
     }
 

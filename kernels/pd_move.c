@@ -12,21 +12,24 @@ static ALWAYS_INLINE void pd_move_particle(struct particles *p, int64_t i, real 
     }
 }
 
+/* The rows of a group that the grid does not move; where all are peridynamic, row i is particle i: no list, whole vectors. */
+static ALWAYS_INLINE void pd_move_group(struct particles *p, const struct bonds *b, int64_t g, bool all, real dt, real dt_velocity, const int dim)
+{
+    if (all && (g + 1) * LANES <= b->rows) {
+        _Pragma("omp simd") for (int l = 0; l < LANES; l++) pd_move_particle(p, g * LANES + l, dt, dt_velocity, dim);
+        return;
+    }
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
+        if (!particle_on_grid(p, b->particle[row])) pd_move_particle(p, b->particle[row], dt, dt_velocity, dim);
+}
+
 #define INSTANCE(D)                                                                                          \
     static void pd_move_##D##d(struct particles *p, const struct bonds *b, real dt, real dt_velocity)        \
     {                                                                                                        \
-        const bool all = p->n_of[KIND_PD] == p->n && p->n_carried == 0;      /* no list, whole vectors */    \
+        const bool all = p->n_of[KIND_PD] == p->n && p->n_carried == 0;                                      \
         _Pragma("omp parallel for schedule(static)")                                                         \
-        for (int64_t k = 0; k < b->rest.awake; k++) {                                                        \
-            const int64_t first = rest_first(&b->rest, k), end = rest_end(&b->rest, k, b->rows);             \
-            if (all) {                                                                                       \
-                _Pragma("omp simd")                                                                          \
-                for (int64_t i = first; i < end; i++) pd_move_particle(p, i, dt, dt_velocity, D);            \
-            } else                                                                                           \
-                for (int64_t row = first; row < end; row++)                                                  \
-                    if (!particle_on_grid(p, b->particle[row]))                                              \
-                        pd_move_particle(p, b->particle[row], dt, dt_velocity, D);                           \
-        }                                                                                                    \
+        for (int64_t k = 0; k < b->rest.awake; k++)                                                          \
+            pd_move_group(p, b, b->rest.list[k], all, dt, dt_velocity, D);                                   \
     }
 DIM_VARIANTS(INSTANCE)
 

@@ -37,7 +37,7 @@ static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct bonds 
     if (!state_turns(model)) return;
     for (int c = 0; c < dim; c++) {
         const lanes weighted = w * s.xi[c];
-        sum->moved |= (lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c];
+        sum->moved |= ((lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c]) & (w > 0.0);     /* padding may look at anybody */
         for (int d = 0; d < dim; d++) sum->moment[d * dim + c] += weighted * s.y[d];
     }
 }
@@ -203,7 +203,7 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
     {                                                                                                        \
         _Pragma("omp parallel for schedule(static)")                                                         \
         for (int64_t k = 0; k < b->rest.awake; k++)                                                          \
-            FOR_GROUPS(b, k, g) state_group(b, p, g, D, PD_##M);                                             \
+            state_group(b, p, b->rest.list[k], D, PD_##M);                                                   \
         _Pragma("omp parallel for schedule(static)")                                                         \
         for (int64_t row = 0; row < b->rows; row++)                                                          \
             if (p->kind[b->particle[row]] == KIND_MPM) state_of_point(b, p, row, D, PD_##M);                 \
@@ -214,14 +214,14 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
         int64_t broken = 0;                                                                                  \
         state_know_##D##d_##M(b, p);                                                                         \
         _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                                   \
-        for (int64_t k = 0; k < b->rest.awake; k++)                                                          \
-            FOR_GROUPS(b, k, g) {                                                                            \
-                force_group(b, p, g, 1, D, PD_##M);                                                          \
-                if (!b->state.past[g]) continue;                                                             \
-                int64_t here = bond_break_group(b, p, limit, g);                                             \
-                if (here > 0) force_group(b, p, g, 0.5, D, PD_##M);                                          \
-                broken += here;                                                                              \
-            }                                                                                                \
+        for (int64_t k = 0; k < b->rest.awake; k++) {                                                        \
+            const int64_t g = b->rest.list[k];                                                               \
+            force_group(b, p, g, 1, D, PD_##M);                                                              \
+            if (!b->state.past[g]) continue;                                                                 \
+            int64_t here = bond_break_group(b, p, limit, g);                                                 \
+            if (here > 0) force_group(b, p, g, 0.5, D, PD_##M);                                              \
+            broken += here;                                                                                  \
+        }                                                                                                    \
         return broken;                                                                                       \
     }
 STATE_VARIANTS(INSTANCE)

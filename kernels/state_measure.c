@@ -16,7 +16,7 @@ static ALWAYS_INLINE real energy_row(const struct row_sum *s, int64_t row, const
 {
     const struct bonds *b = s->b;
     real sum = 0, T[DIM_MAX], xi[DIM_MAX];
-    if (rest_asleep(&b->rest, row)) return 0;
+    if (b->rest.level[row / LANES] == 0) return 0;
     for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] != 0) sum += state_own_force(b, s->p, q, b->particle[row], T, xi, dim, state_turns(model));

@@ -197,7 +197,7 @@ static void rows_arrays(struct bonds *b)
     b->fracture_energy = NEW("bonds.fracture_energy", padded, real);
     b->plastic_work = NEW("bonds.plastic_work", padded, real);
     b->broken = NEW("bonds.broken", padded, int32_t);
-    rest_make(&b->rest, (padded + REST_ROWS - 1) / REST_ROWS);
+    rest_make(&b->rest, b->groups);
 }
 
 /* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice. */

@@ -1,4 +1,5 @@
 /* floor 3: the mesh of the reference frame: who lies where, masses, runs of whole cells, cut cells, and conversion. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,6 +10,8 @@
 
 #define PLACE_TOLERANCE 1e-6             /* of a cell */
 #define VOLUME_TOLERANCE 1e-9
+#define DISPLACEMENT_BITS 60             /* displacements are multiples of 2^-60 cells: far below the last bit of a place, and what
+                                          * runs ahead of a wave ends somewhere */
 
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_CUT };
 
@@ -281,6 +284,9 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     mesh->place = NEW("mesh.place", p->n, int32_t);
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
+    mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
+    rest_make(&mesh->rest, mesh->rows * mesh->segments);
+    mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->see = NEW("mesh.see", p->n, int32_t);
     mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
     return OK;
@@ -347,6 +353,7 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->cut_material);
     memory_free(mesh->see);
     memory_free(mesh->span);
+    rest_free(&mesh->rest);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -407,6 +414,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
     for (int64_t i = 0; i < p->n; i++)
         if (seen[i] && mesh->place[i] >= 0) mesh->see[mesh->seen++] = (int32_t)i;
     memory_free(seen);
+    rest_mesh_see(mesh);
 }
 
 status mesh_archive(struct mesh *mesh, struct archive *a)

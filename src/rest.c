@@ -6,6 +6,7 @@
 #include "bonds.h"
 #include "loads.h"
 #include "memory.h"
+#include "mesh.h"
 
 void rest_make(struct rest *r, int64_t blocks)
 {
@@ -38,36 +39,35 @@ static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
 static bool same(real a, real b) { return memcmp(&a, &b, sizeof a) == 0; }
 
-static bool has_moved(const struct bonds *b, const struct particles *p, int64_t block)
+static bool has_moved(const struct bonds *b, const struct particles *p, int64_t group)
 {
-    for (int64_t row = block * REST_ROWS; row < b->rows && row < (block + 1) * REST_ROWS; row++)
+    for (int64_t row = group * LANES; row < b->rows && row < (group + 1) * LANES; row++)
         for (int d = 0; d < p->dim; d++)
             if (!same(p->x[d][b->particle[row]], p->X[d][b->particle[row]])) return true;
     return false;
 }
 
 /* Neither places, velocities nor forces differ from nothing, and nothing but bonds will move its particles. */
-static bool is_quiet(const struct bonds *b, const struct particles *p, const uint8_t *loaded, int64_t block)
+static bool is_quiet(const struct bonds *b, const struct particles *p, const uint8_t *loaded, int64_t group)
 {
-    for (int64_t row = block * REST_ROWS; row < b->rows && row < (block + 1) * REST_ROWS; row++) {
+    for (int64_t row = group * LANES; row < b->rows && row < (group + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
         if (loaded[i] || particle_on_grid(p, i)) return false;
         for (int d = 0; d < p->dim; d++)
             if (!same(p->v[d][i], 0) || p->f[d][i] != 0) return false;
     }
-    return !has_moved(b, p, block);
+    return !has_moved(b, p, group);
 }
 
-/* Gives a block a level, and who is next to it one less, and so on. */
-static void wake(struct bonds *b, const struct particles *p, const struct loads *l, int64_t block, int level)
+/* Gives a group a level, and who is bonded to it one less, and so on. */
+static void wake(struct bonds *b, const struct particles *p, const struct loads *l, int64_t group, int level)
 {
-    if (b->rest.level[block] >= level) return;
-    b->rest.level[block] = (uint8_t)level;
-    const int64_t first = block * (REST_ROWS / LANES), end = first + REST_ROWS / LANES;
-    if (level == 1) return;
-    for (int64_t q = b->slot[first] * LANES; q < b->slot[end < b->groups ? end : b->groups] * LANES; q++) {
+    if (b->rest.level[group] >= level) return;
+    b->rest.level[group] = (uint8_t)level;
+    for (int64_t q = b->slot[group] * LANES; q < b->slot[group + 1] * LANES && level > 1; q++) {
+        if (b->inverse_length[q] == 0) continue;     /* padding looks at anybody */
         const int32_t row = b->row_of[image_root(p, l->image, b->nbr[q])];
-        if (row >= 0) wake(b, p, l, row / REST_ROWS, level - 1);
+        if (row >= 0) wake(b, p, l, row / LANES, level - 1);
     }
 }
 
@@ -112,4 +112,113 @@ void rest_rows(struct bonds *b, const struct particles *p, const struct loads *l
     }
     settle(b, p, l);
     rest_list(&b->rest);
+}
+
+/* ---- nodes of a mesh --------------------------------------------------------------------------------------- */
+
+enum { MOVED = 2 };                      /* forces on a node come from the cells round it: one block on every side at the most */
+
+/* First node of a block, and the one behind its last. */
+static int64_t nodes_first(const struct mesh *mesh, int64_t block)
+{
+    return block / mesh->segments * mesh->grid.count[0] + block % mesh->segments * LANES;
+}
+
+static int64_t nodes_end(const struct mesh *mesh, int64_t block)
+{
+    const int64_t end = nodes_first(mesh, block) + LANES, row = (block / mesh->segments + 1) * mesh->grid.count[0];
+    return end < row ? end : row;
+}
+
+static bool nodes_empty(const struct mesh *mesh, int64_t block)
+{
+    for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
+        if (mesh->inverse_mass[I] != 0) return false;
+    return true;
+}
+
+static void mesh_wake(struct mesh *mesh, int64_t block)
+{
+    struct rest *r = &mesh->rest;
+    const int dim = mesh->grid.dim;
+    const int64_t far[DIM_MAX] = {1, mesh->segments, dim > 2 ? mesh->segments * mesh->grid.count[1] : 0};
+    if (r->level[block] == MOVED) return;
+    r->level[block] = MOVED;
+    for (int q = 0; q < (dim == 1 ? 3 : dim == 2 ? 9 : 27); q++) {
+        int64_t near = block;
+        for (int d = 0, rest = q; d < dim; d++, rest /= 3) near += (rest % 3 - 1) * far[d];
+        if (near >= 0 && near < r->blocks && r->level[near] == 0 && !nodes_empty(mesh, near)) r->level[near] = 1;
+    }
+}
+
+static bool nodes_moved(const struct mesh *mesh, int64_t block)
+{
+    for (int d = 0; d < mesh->grid.dim; d++)
+        for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
+            if (mesh->displacement[d][I] != 0) return true;
+    return false;
+}
+
+static bool nodes_quiet(const struct mesh *mesh, int64_t block)
+{
+    for (int d = 0; d < mesh->grid.dim; d++)
+        for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
+            if (!same(mesh->grid.velocity[d][I], 0) || mesh->grid.force[d][I] != 0) return false;
+    return !nodes_moved(mesh, block);
+}
+
+/* A wall that never moves holds nobody who does not move. */
+static bool wall_rests(const struct loads *l, const struct wall *w)
+{
+    const struct boundary *b = l->load[w->load].boundary;
+    return b->kind == BOUNDARY_MIRROR || b->value[w->component] == 0;
+}
+
+void rest_mesh_see(struct mesh *mesh)
+{
+    const int dim = mesh->grid.dim;
+    for (int64_t k = 0; k < mesh->seen && mesh->rest.settled; k++)
+        for (int c = 0; c < 1 << dim; c++)
+            mesh_wake(mesh, mesh_block(mesh, (mesh->place[mesh->see[k]] >> dim) + mesh->corner[c]));
+    rest_list(&mesh->rest);
+}
+
+void rest_mesh_all(struct mesh *mesh)
+{
+    mesh->rest.settled = false;
+    memset(mesh->rest.level, 1, (size_t)mesh->rest.blocks);
+}
+
+static void mesh_settle(struct mesh *mesh, const struct loads *l)
+{
+    struct rest *r = &mesh->rest;
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < r->blocks; k++) r->moved[k] = !nodes_quiet(mesh, k);
+    memset(r->level, 0, (size_t)r->blocks);
+    r->settled = true, r->empty = 0;
+    for (int64_t k = 0; k < r->blocks; k++) r->empty += nodes_empty(mesh, k);
+    for (int64_t k = 0; k < r->blocks; k++)
+        if (r->moved[k]) mesh_wake(mesh, k);
+    for (int64_t k = 0; k < mesh->grid.walls; k++)
+        if (!wall_rests(l, &mesh->grid.wall[k])) mesh_wake(mesh, mesh_block(mesh, mesh->grid.wall[k].node));
+    rest_mesh_see(mesh);                         /* makes the list */
+}
+
+void rest_mesh(struct mesh *mesh, const struct loads *l)
+{
+    struct rest *r = &mesh->rest;
+    if (!r->settled) {
+        mesh_settle(mesh, l);
+        return;
+    }
+    bool moved = false;
+#pragma omp parallel for schedule(static) reduction(|| : moved)
+    for (int64_t k = 0; k < r->awake; k++) {
+        const int32_t block = r->list[k];
+        r->moved[block] = r->level[block] == 1 && nodes_moved(mesh, block);
+        moved = moved || r->moved[block];
+    }
+    for (int64_t k = 0; k < r->awake && moved; k++)
+        if (r->moved[r->list[k]]) mesh_wake(mesh, r->list[k]);
+    if (moved) rest_list(r);
 }
