@@ -49,5 +49,4 @@ static inline real rest_share(const struct rest *r)
     return blocks > 0 && r->awake < blocks ? 1 - (real)r->awake / (real)blocks : 0;
 }
 
-
 #endif

@@ -150,11 +150,11 @@ void grid_remapped(struct grid *g, real smallest_mass);
 /* f = 0. */
 void mesh_clear(struct mesh *mesh);
 
-/* Adds the internal forces of its cells to its nodes; runs whose points may be past their trigger are marked `stressed`.
+/* Adds the internal forces of its cells that are awake (rest.h) to its nodes; runs whose points may be past their trigger are marked `stressed`.
  * `finite`: strain of Biot in axes that turn with the cell, else the symmetric gradient (mesh_law.h). */
 void mesh_force(struct mesh *mesh, const struct elastic *m, bool finite);
 
-/* v += dt_velocity f/m, u += dt v of the nodes; walls prescribe their velocity, and what they gave joins impulse [N s] and
+/* v += dt_velocity f/m, u += dt v of the nodes that are awake, u to the multiples that mesh->rounding leaves; walls prescribe their velocity, and what they gave joins impulse [N s] and
  * work [J]. f becomes m dv/dt_velocity of each node. Returns the largest component of a velocity, infinite where one is no
  * number [m/s]. */
 real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work);
