@@ -71,19 +71,34 @@ static void wake(struct bonds *b, const struct particles *p, const struct loads 
     }
 }
 
+static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t group, int level)
+{
+    for (int64_t q = b->slot[group] * LANES; q < b->slot[group + 1] * LANES; q++) {
+        if (b->inverse_length[q] == 0) continue;
+        const int32_t row = b->row_of[image_root(p, l->image, b->nbr[q])];
+        if (row >= 0 && b->rest.level[row / LANES] == level) return true;
+    }
+    return false;
+}
+
+/* Rows are made anew whenever somebody converts: what is looked at is who may sleep, not who is awake. */
 static void settle(struct bonds *b, const struct particles *p, const struct loads *l)
 {
-    uint8_t *loaded = NEW("rest.loaded", p->n, uint8_t), *quiet = NEW("rest.quiet", b->rest.blocks, uint8_t);
+    struct rest *r = &b->rest;
+    uint8_t *loaded = NEW("rest.loaded", p->n, uint8_t);
     for (int c = 0; c < l->n; c++)
         for (int64_t k = 0; k < l->load[c].n; k++) loaded[l->load[c].particle[k]] = 1;
 #pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < b->rest.blocks; k++) quiet[k] = is_quiet(b, p, loaded, k);
-    memset(b->rest.level, memchr(quiet, 1, (size_t)b->rest.blocks) ? 0 : most_of(b), (size_t)b->rest.blocks);
-    for (int64_t k = 0; k < b->rest.blocks; k++)
-        if (!quiet[k]) wake(b, p, l, k, most_of(b));
-    b->rest.settled = true;
+    for (int64_t k = 0; k < r->blocks; k++) r->level[k] = is_quiet(b, p, loaded, k) ? 0 : (uint8_t)most_of(b);
     memory_free(loaded);
-    memory_free(quiet);
+    for (int level = most_of(b) - 1; level > 0; level--) {
+#pragma omp parallel for schedule(static)
+        for (int64_t k = 0; k < r->blocks; k++) r->moved[k] = r->level[k] == 0 && is_next_to(b, p, l, k, level + 1);
+        for (int64_t k = 0; k < r->blocks; k++)
+            if (r->moved[k]) r->level[k] = (uint8_t)level;
+    }
+    memset(r->moved, 0, (size_t)r->blocks);
+    r->settled = true;
 }
 
 /* Only who is awake but has not moved can have done so now. */

@@ -49,12 +49,12 @@ static void test_at_rest(void **state)
     (void)state;
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int model = PD_BOND; model < PD_MODELS; model++)
-            for (uint64_t seed = 1; seed <= 12 && (dim > 1 || model < PD_OSPD); seed++) check_at_rest(dim, model, seed);
+            for (uint64_t seed = 1; seed <= 6 && (dim > 1 || model < PD_OSPD); seed++) check_at_rest(dim, model, seed);
 }
 
 /* ---- the same bits ------------------------------------------------------------------------------------------ */
 
-/* A plate struck at one edge: a pulse of 2 us that crosses it; `%s` is what a case adds. */
+/* A plate and a block, struck or pulled at one end: a pulse that crosses them; `%s` is what a case adds. */
 static const char plate[] =
     "name: plate\nspace: plane stress\nthickness: 1 mm\nduration: 24 us\n"
     "material: {young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 135 J/m^2}\n"
@@ -77,7 +77,7 @@ static struct engine *run_make(struct scene *s, const char *body, const char *bo
     char text[4096], edges[1024];
     struct engine *e = NEW("test.engine", 1, struct engine);
     snprintf(edges, sizeof edges, boundary, more);
-    snprintf(text, sizeof text, "%s%s%s\ntime: {rest: %s, step: 0.05 us}\n", body, edges, keys, rest ? "true" : "false");
+    snprintf(text, sizeof text, "%s%s%s\ntime: {rest: %s, step: 0.08 us}\n", body, edges, keys, rest ? "true" : "false");
     if (scene_read_text(s, text, strlen(text), "rest.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
     e->quiet = true;
@@ -111,12 +111,13 @@ static void same_bits(const struct engine *a, const struct engine *b)
 }
 
 /* Runs it with and without; they agree after every tenth step. Something sleeps for at least `early` of the body after a tenth of
- * the steps, and nothing at the end. */
-static void check_same(const char *body, const char *boundary, const char *more, const char *keys, real early)
+ * the steps, and nothing at the end. Returns how many have become peridynamic. */
+static int64_t check_same(const char *body, const char *boundary, const char *more, const char *keys, real early)
 {
     struct scene s[2];
     struct engine *on = run_make(&s[0], body, boundary, more, keys, true), *off = run_make(&s[1], body, boundary, more, keys, false);
     assert_true(on->steps > 50);
+    const int64_t before = on->part.n_of[KIND_PD];
     for (int64_t step = 1; step <= on->steps; step++) {
         omp_set_num_threads(1 + (int)(step & 1));
         assert_ok(engine_step(on));
@@ -126,8 +127,10 @@ static void check_same(const char *body, const char *boundary, const char *more,
         if (step % 10 == 0 || step == on->steps) same_bits(on, off);
     }
     if (engine_rest(on) > 0) fail_msg("%s: %g sleep at the end", keys, engine_rest(on));
+    const int64_t converted = on->part.n_of[KIND_PD] - before;
     run_free(on, &s[0]);
     run_free(off, &s[1]);
+    return converted;
 }
 
 static void test_bonds(void **state)
@@ -159,13 +162,7 @@ static void test_adaptive(void **state)
 {
     (void)state;
     static const char keys[] = "method: adaptive\nconversion: {tips: 1, alpha: 0.2}\nmpm: {frame: reference}";
-    struct scene s;
-    struct engine *e = run_make(&s, plate, pulled, "", keys, true);
-    const int64_t before = e->part.n_of[KIND_PD];
-    while (e->step < e->steps) assert_ok(engine_step(e));
-    assert_true(e->part.n_of[KIND_PD] > before);
-    run_free(e, &s);
-    check_same(plate, pulled, "", keys, 0.05);
+    assert_true(check_same(plate, pulled, "", keys, 0.05) > 0);
     check_same(plate, pulled, "", "method: adaptive\nmodel: ospd\nconversion: {tips: 1, alpha: 0.2}\nmpm: {frame: reference}", 0.05);
 }
 
