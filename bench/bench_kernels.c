@@ -97,7 +97,7 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
         text, sizeof text,
         "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmodel: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800%s}\n"
         "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
-        "mpm: {%s}\noutput: {samples: 1, frames: 0}\n",
+        "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {rest: false}\n",
         space[dim], method, model, poisson[dim],
         strcmp(method, "pd") || strcmp(model, "bond") ? "" : ", yield_stress: 1 GPa", corner[dim], size[dim], mpm);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
@@ -152,7 +152,7 @@ static void job_call(const struct job *j, struct ground *g)
         k.bond_stress(&pd->bonds, &pd->part);
         break;
     case PD_MOVE:
-        pd_move_table[j->dim](&pd->part, 1e-12, 1e-12);
+        pd_move_table[j->dim](&pd->part, &pd->bonds, 1e-12, 1e-12);
         break;
     case P2G:
         p2g_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer);

@@ -19,6 +19,7 @@
 #include "cells.h"
 #include "material.h"
 #include "region.h"
+#include "rest.h"
 
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
@@ -100,7 +101,7 @@ struct state {
     real *weighted;                      /* [groups 8] Q                                               [m^2] */
     uint8_t *past;                       /* [groups] the last sweep saw a bond that may have passed its limit  */
     real *pressure, *spring;             /* [n_all] P and g                                          [N/m^2], [N/m] */
-    real *turn[DIM_MAX * DIM_MAX];       /* [n_all] g R, row major; only models with rotations         [N/m] */
+    real *turn[DIM_MAX * DIM_MAX];       /* [n_all] g (R - 1), row major; only models with rotations   [N/m] */
     struct state_image *image;           /* [n_all - n]                                                       */
 };
 
@@ -148,6 +149,7 @@ struct bonds {
     real *plastic_work;                  /* [groups 8] half of what its broken bonds had dissipated    [J] */
     int32_t *broken;                     /* [groups 8] bonds broken by load since the start               */
     struct state state;
+    struct rest rest;                    /* of blocks of rows                                             */
     real stiffness;                      /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 

@@ -83,6 +83,7 @@ struct engine {
     int optional;                        /* WITH_* arrays of the particles                            */
     int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
     int64_t bond_visits;
+    real rested;                         /* share of the body at rest, summed over the steps         */
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
     struct {                             /* a sample in the making (engine_report.h)                  */
         bool due;
@@ -128,6 +129,8 @@ void engine_return(struct engine *e);
 void engine_rim_make(struct engine *e);
 /* After the run: the same scene on material points alone, if a pulse probe wants to be compared with it. */
 status engine_baseline(struct engine *e);
+/* Share of the body at rest now (rest.h). */
+real engine_rest(const struct engine *e);
 /* Saves or restores the state between two steps. */
 status engine_archive(void *engine, struct archive *a);
 /* Prints a line for everything about the scene that is allowed but probably not meant. */

@@ -18,6 +18,7 @@
 
 #include "grid.h"
 #include "particles.h"
+#include "rest.h"
 
 enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 18 };
 
@@ -58,6 +59,9 @@ struct mesh {
     real *cut_force;                     /* [groups][corners dim][LANES]                      [N]     */
     int64_t seen, seen_room;
     struct mesh_seen *see;               /* [seen] by ascending cell                                  */
+    struct rest rest;                    /* of blocks of nodes                                        */
+    int64_t segments;                    /* blocks in a row of nodes                                  */
+    real rounding;                       /* displacements lose what its last bit does not hold [m]    */
 };
 
 /* Modes that a cell's energy hangs on: of its mean strain, and what bends it; and what skew stress acts on: the mean rotations
@@ -68,6 +72,19 @@ static inline int mesh_skews(int dim) { return dim * (dim - 1) / 2 + mesh_bends(
 
 /* Groups of cut cells side by side. */
 static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->cuts + LANES - 1) / LANES; }
+
+/* Block of a node. */
+static inline int64_t mesh_block(const struct mesh *mesh, int64_t I)
+{
+    return I / mesh->grid.count[0] * mesh->segments + I % mesh->grid.count[0] / LANES;
+}
+
+/* Levels of the blocks of a row of nodes; do eight nodes, or cells, of it sleep from the k-th of the row on? */
+static inline const uint8_t *mesh_levels(const struct mesh *mesh, int64_t row) { return mesh->rest.level + row * mesh->segments; }
+static inline bool mesh_asleep(const uint8_t *levels, int64_t k)
+{
+    return (levels[k / LANES] | levels[(k + LANES - 1) / LANES]) == 0;
+}
 
 /* Share of node `corner` in a point at `place` of its cell: 3/4 or 1/4 by direction. */
 static inline real mesh_weight(int dim, int corner, int place)

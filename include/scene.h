@@ -90,6 +90,7 @@ struct scene {
     int probes;     struct probe_request *probe;
 
     real time_step;                      /* [s]; 0: automatic                                         */
+    bool rest;                           /* what nothing has reached is skipped (rest.h)                  */
     real safety;                         /* of the automatic step                                     */
     int frames;                          /* frames after the one at t = 0                             */
     bool has_frames;                     /* the scene says how many                                   */

@@ -33,7 +33,7 @@ static ALWAYS_INLINE struct bond_sums bond_force_slot(struct bond_sums sum, cons
     if (dim > 1) distance2 += d1 * d1;
     if (dim > 2) distance2 += d2 * d2;
     const lanes inverse = lanes_inverse_root(distance2), w = slot_weight(b, slot, kind);
-    const lanes change = (distance2 * inverse * slot_inverse_length(b, slot, kind) - 1.0) * inverse;
+    const lanes change = STRETCH_OF(distance2 * inverse, slot_inverse_length(b, slot, kind)) * inverse;
     const lanes force = w * bond_law(model, b, slot * LANES, change, inverse, distance2, w);
     sum.passed = slot_largest(b, slot, kind, sum.passed, change - sum.trigger * inverse);
     sum.f0 += force * d0;
@@ -67,7 +67,8 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
     {                                                                                                    \
         int64_t broken = 0;                                                                              \
         _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                               \
-        for (int64_t g = 0; g < b->groups; g++) {                                                        \
+        for (int64_t k = 0; k < b->rest.awake; k++) {                                                    \
+            const int64_t g = b->rest.list[k];                                                           \
             if (!bond_force_group(b, p, g, 1, D, PD_##M)) continue;                                      \
             int64_t here = bond_break_group(b, p, limit, g);                                             \
             if (here > 0) bond_force_group(b, p, g, 0.5, D, PD_##M);                                     \

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "bond_laws.h"
+#include "bond_slot.h"
 #include "kernels.h"
 #include "team.h"
 #include "variants.h"
@@ -21,7 +22,7 @@ static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct 
             distance2 += relative * relative;
         }
         const lanes w = lanes_load_float(b->w + q), inverse = lanes_load(b->inverse_length + q);
-        const lanes stretch = distance2 * lanes_inverse_root(distance2) * inverse - 1.0;
+        const lanes stretch = STRETCH_OF(distance2 * lanes_inverse_root(distance2), inverse);
         const lanes length = lanes_inverse_root(inverse * inverse);        /* cheaper than a division */
         const lanes elastic = bond_elastic(model, b, q, stretch);
         sum += lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
@@ -48,7 +49,7 @@ static ALWAYS_INLINE void bond_stress_group(const struct bonds *b, struct partic
             distance2 += y[d] * y[d];
         }
         const lanes inverse = lanes_inverse_root(distance2);
-        const lanes stretch = distance2 * inverse * lanes_load(b->inverse_length + q) - 1.0;
+        const lanes stretch = STRETCH_OF(distance2 * inverse, lanes_load(b->inverse_length + q));
         const lanes share = lanes_load_float(b->w + q) * bond_elastic(model, b, q, stretch) * inverse;
         for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
         if (dim > 1) sum[dim] += share * y[0] * y[1];
@@ -86,7 +87,7 @@ enum { GROUPS_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
             for (int block = 0; block < BLOCKS_AT_ONCE; block++)                                                \
                 for (int k = 0; k < GROUPS_PER_BLOCK; k++) {                                                    \
                     int64_t g = first + (int64_t)block * GROUPS_PER_BLOCK + k;                                  \
-                    if (g < b->groups) part[block] += bond_energy_group(b, p, g, D, PD_##M);                    \
+                    if (g < b->groups && (PD_##M == PD_BOND_PLASTIC || b->rest.level[g] > 0)) part[block] += bond_energy_group(b, p, g, D, PD_##M);                    \
                 }                                                                                               \
             for (int block = 0; block < BLOCKS_AT_ONCE; block++) total += part[block];                          \
         }                                                                                                       \

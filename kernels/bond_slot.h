@@ -45,6 +45,13 @@ static ALWAYS_INLINE lanes slot_weight(const struct bonds *b, int64_t slot, cons
     return kind == SLOT_ALIKE ? lanes_of_float(c->intact, c->w) : lanes_load_float(b->w + slot * LANES);
 }
 
+/* Stretch |y|/|xi| - 1, of broken bonds maybe -|y|/|xi| - 1: rounded to a multiple of 2^-49 by passing between 8 and 16, so
+ * that it is 0 to the last bit where nothing has moved. Round-off there is below half of that, 8 units of 2^-53: 3.5 for the stored
+ * inverse (three squares, root, division), 1.5 for three squares, 2.1 for the root and 2 for products, if all of them were
+ * at their worst, and on one side, in one bond. Such a bond would pull, and its rows would not rest (rest.h). Far below what
+ * the last bit of a position makes, 1e-14 in a body of 100 spacings. */
+#define STRETCH_OF(LENGTH, INVERSE_LENGTH) (((LENGTH) * (INVERSE_LENGTH) + 8.0) - 9.0)
+
 /* a, or of intact bonds what is larger. Where lengths are read as stored those of broken ones are negative and tell by
  * themselves. */
 static ALWAYS_INLINE lanes slot_largest(const struct bonds *b, int64_t slot, const enum slot_kind kind, lanes a, lanes other)

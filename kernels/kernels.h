@@ -53,7 +53,7 @@ struct transfer_data {
     bool bare;                           /* carried peridynamic particles: no stress to give, none to update */
 };
 
-/* Force of all intact bonds on every row's particle (overwrites f there), then breaks what is stretched beyond its limit.
+/* Force of all intact bonds on the particle of every row that is awake (rest.h; overwrites f there), then breaks what is stretched beyond its limit.
  * A bond acts with half its force in the step in which it breaks: a leap-frog kick stands half before and half after that
  * instant, so the energy of breaking is second order in the time step (all or nothing of it is first order). Sets
  * FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves 4 bytes
@@ -88,8 +88,8 @@ real bond_plastic_work(const struct bonds *b);
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
-/* v += dt_velocity f/m, x += dt v of all peridynamic particles that the grid does not move. */
-typedef void pd_move_fn(struct particles *p, real dt, real dt_velocity);
+/* v += dt_velocity f/m, x += dt v of all peridynamic particles that are awake and that the grid does not move. */
+typedef void pd_move_fn(struct particles *p, const struct bonds *b, real dt, real dt_velocity);
 
 /* First map: mass, momentum, and force -V sigma_given . grad N + N f (Zeng et al. 2022, eqs. 33-38). */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
@@ -151,11 +151,11 @@ void grid_remapped(struct grid *g, real smallest_mass);
 /* f = 0. */
 void mesh_clear(struct mesh *mesh);
 
-/* Adds the internal forces of its cells to its nodes; runs whose points may be past their trigger are marked `stressed`.
+/* Adds the internal forces of its cells that are awake (rest.h) to its nodes; runs whose points may be past their trigger are marked `stressed`.
  * `finite`: strain of Biot in axes that turn with the cell, else the symmetric gradient (mesh_law.h). */
 void mesh_force(struct mesh *mesh, const struct elastic *m, bool finite);
 
-/* v += dt_velocity f/m, u += dt v of the nodes; walls prescribe their velocity, and what they gave joins impulse [N s] and
+/* v += dt_velocity f/m, u += dt v of the nodes that are awake, u to the multiples that mesh->rounding leaves; walls prescribe their velocity, and what they gave joins impulse [N s] and
  * work [J]. f becomes m dv/dt_velocity of each node. Returns the largest component of a velocity, infinite where one is no
  * number [m/s]. */
 real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work);

@@ -71,6 +71,12 @@ static ALWAYS_INLINE lanes lanes_min(lanes a, lanes b)
 #endif
 }
 
+static ALWAYS_INLINE lanes lanes_size(lanes a)
+{
+    const lanes_mask digits = (lanes_mask){0} + INT64_MAX;
+    return (lanes)((lanes_mask)a & digits);
+}
+
 /* Lanes with a bit. */
 static ALWAYS_INLINE lanes_mask lanes_of_bits(uint8_t bits)
 {

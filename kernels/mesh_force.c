@@ -23,12 +23,15 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
     const struct grid *g = &mesh->grid;
     const real volume = mesh->volume * (1 << dim);
     const bool balanced = mesh_balanced(m, dim);
+    const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
+    const uint8_t *levels = mesh_levels(mesh, row);
     lanes carry[CORNERS_MAX][3], tension = lanes_of(-INFINITY);
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) carry[c][i] = lanes_of(0);
     for (int64_t k = 0; k < run->cells; k += LANES) {
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
+        if (mesh_asleep(levels, start + k)) continue;      /* so what the cells before carry is 0 */
         mesh_run_load(mesh, run, k, u, dim);
         mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
         for (int c = 0; c < 1 << dim; c += 2)
@@ -58,6 +61,13 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
     }
 
 /* ---- cut cells -------------------------------------------------------------------------------------------- */
+
+static ALWAYS_INLINE bool cuts_asleep(const struct mesh *mesh, int64_t group)
+{
+    uint8_t level = 0;
+    for (int l = 0; l < LANES; l++) level |= mesh->rest.level[mesh_block(mesh, mesh->cut[group * LANES + l])];
+    return level == 0;
+}
 
 /* Which cells of a group may have a point past its trigger. */
 static ALWAYS_INLINE void cut_mark(struct mesh *mesh, const struct elastic *m, int64_t group, const struct mesh_cell *s, const int dim)
@@ -97,6 +107,7 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
         const int32_t *cell = mesh->cut + group * LANES;
         const int64_t left = mesh->cuts - group * LANES;
         const lanes *f = (const lanes *)mesh->cut_force + group * (1 << dim) * dim;
+        if (cuts_asleep(mesh, group)) continue;
         const bool in_line = cell[LANES - 1] - cell[0] == LANES - 1;
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
@@ -112,7 +123,7 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                \
     {                                                                                                                \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < mesh_groups(mesh); k++)                 \
-            cut_force(mesh, m, k, D, FINITE);                                                                        \
+            if (!cuts_asleep(mesh, k)) cut_force(mesh, m, k, D, FINITE);                                             \
         cuts_add(mesh, D);                                                                                           \
     }
 

@@ -45,22 +45,26 @@ void mesh_clear(struct mesh *mesh)
     const int dim = mesh->grid.dim;
 #pragma omp parallel for schedule(static)
     for (int64_t r = 0; r < mesh->rows; r++)
-        for (int d = 0; d < dim; d++)
-            for (int32_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I++) mesh->grid.force[d][I] = 0;
+        for (int64_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I += LANES)
+            for (int d = 0; d < dim && !mesh_asleep(mesh_levels(mesh, r), I - r * mesh->grid.count[0]); d++)
+                lanes_store(mesh->grid.force[d] + I, lanes_of(0));
 }
 
 /* Nodes of a row move, in whole vectors: what lies behind them has neither force nor mass and stays at rest. Returns the
  * largest component of a velocity, squared. Maxima drop what is no number: a sum keeps it. */
-static real row_move(struct mesh *mesh, int64_t first, int64_t end, real dt, real dt_velocity)
+static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
+    const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
+    const uint8_t *levels = mesh_levels(mesh, row);
     lanes most = lanes_of(0), sum = lanes_of(0);
     for (int d = 0; d < mesh->grid.dim; d++) {
         real *velocity = mesh->grid.velocity[d], *displacement = mesh->displacement[d];
         const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
         for (int64_t I = first; I < end; I += LANES) {
+            if (mesh_asleep(levels, I - start)) continue;
             const lanes v = lanes_load(velocity + I) + dt_velocity * lanes_load(inverse + I) * lanes_load(force + I);
             lanes_store(velocity + I, v);
-            lanes_store(displacement + I, lanes_load(displacement + I) + dt * v);
+            lanes_store(displacement + I, ((lanes_load(displacement + I) + dt * v) + mesh->rounding) - mesh->rounding);
             most = lanes_max(most, v * v);
             sum += v;
         }
@@ -72,12 +76,11 @@ static real row_move(struct mesh *mesh, int64_t first, int64_t end, real dt, rea
 
 real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
-    struct grid *g = &mesh->grid;
     real most = 0;
     walls_force(mesh, dt_velocity, impulse, work);
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t r = 0; r < mesh->rows; r++)
-        most = real_max(most, row_move(mesh, mesh->span[2 * r], mesh->span[2 * r + 1], dt, dt_velocity));
+        most = real_max(most, row_move(mesh, r, dt, dt_velocity));
     walls_move(mesh, dt);
     return sqrt(most);
 }

@@ -12,18 +12,24 @@ static ALWAYS_INLINE void pd_move_particle(struct particles *p, int64_t i, real 
     }
 }
 
-#define INSTANCE(D)                                                                          \
-    static void pd_move_##D##d(struct particles *p, real dt, real dt_velocity)               \
-    {                                                                                        \
-        if (p->n_of[KIND_PD] == p->n && p->n_carried == 0) {        /* all of them: no list, whole vectors */     \
-            _Pragma("omp parallel for simd schedule(static)")                                \
-            for (int64_t i = 0; i < p->n; i++) pd_move_particle(p, i, dt, dt_velocity, D);   \
-            return;                                                                          \
-        }                                                                                    \
-        _Pragma("omp parallel for schedule(static)")                                         \
-        for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)                                       \
-            if (!(p->flag[p->list[KIND_PD][k]] & FLAG_CARRIED))                              \
-                pd_move_particle(p, p->list[KIND_PD][k], dt, dt_velocity, D);                \
+/* The rows of a group that the grid does not move; where all are peridynamic, row i is particle i: no list, whole vectors. */
+static ALWAYS_INLINE void pd_move_group(struct particles *p, const struct bonds *b, int64_t g, bool all, real dt, real dt_velocity, const int dim)
+{
+    if (all && (g + 1) * LANES <= b->rows) {
+        _Pragma("omp simd") for (int l = 0; l < LANES; l++) pd_move_particle(p, g * LANES + l, dt, dt_velocity, dim);
+        return;
+    }
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
+        if (!particle_on_grid(p, b->particle[row])) pd_move_particle(p, b->particle[row], dt, dt_velocity, dim);
+}
+
+#define INSTANCE(D)                                                                                          \
+    static void pd_move_##D##d(struct particles *p, const struct bonds *b, real dt, real dt_velocity)        \
+    {                                                                                                        \
+        const bool all = p->n_of[KIND_PD] == p->n && p->n_carried == 0;                                      \
+        _Pragma("omp parallel for schedule(static)")                                                         \
+        for (int64_t k = 0; k < b->rest.awake; k++)                                                          \
+            pd_move_group(p, b, b->rest.list[k], all, dt, dt_velocity, D);                                   \
     }
 DIM_VARIANTS(INSTANCE)
 

@@ -55,12 +55,6 @@ static ALWAYS_INLINE lanes both_sums(lanes a)
     return a + __builtin_shuffle(a, beside);
 }
 
-static ALWAYS_INLINE lanes lanes_size(lanes a)
-{
-    const lanes_mask digits = (lanes_mask){0} + INT64_MAX;
-    return (lanes)((lanes_mask)a & digits);
-}
-
 /* `to` with the sign of `from`, which it has not itself. */
 static ALWAYS_INLINE lanes lanes_signed(lanes to, lanes from)
 {

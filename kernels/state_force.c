@@ -11,16 +11,17 @@
 
 /* ---- first sweep: what a particle knows of its family ---------------------------------------------------- */
 
-/* Rotation of the least energy from M = sum w Y (x) xi [dim dim], times g, into the particle's entries. */
+/* Rotation R of the least energy from M = sum w Y (x) xi [dim dim] into the particle's entries, as g (R - 1). */
 static ALWAYS_INLINE void turn_store(struct bonds *b, int32_t i, const real *M, real g, const int dim)
 {
     real R[DIM_MAX * DIM_MAX];
     polar_rotation(M, R, dim);
-    for (int c = 0; c < dim * dim; c++) b->state.turn[c][i] = g * R[c];
+    for (int c = 0; c < dim * dim; c++) b->state.turn[c][i] = g * (R[c] - (c % (dim + 1) == 0));
 }
 
-/* Sums over the families of a group. */
-struct family_sums { lanes extension, stretch, moment[DIM_MAX * DIM_MAX]; };   /* stretch: the largest [1] */
+/* Sums over the families of a group; `stretch` is the largest [1], `moved` has bits where somebody is not where it was: the
+ * rotation of nothing is none, to the last bit. */
+struct family_sums { lanes extension, stretch, moment[DIM_MAX * DIM_MAX]; lanes_mask moved; };
 
 /* Adds a slot: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
 static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
@@ -30,12 +31,13 @@ static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct bonds 
     struct state_bond s;
     slot_ask(b, slot, kind);
     state_bond_make(&s, b, p, slot, kind, x, X, dim, model);
-    const lanes w = slot_weight(b, slot, kind), stretch = lanes_root(s.distance2) * s.inverse_length - 1.0;
+    const lanes w = slot_weight(b, slot, kind), stretch = STRETCH_OF(lanes_root(s.distance2), s.inverse_length);
     sum->extension += state_weight(b, slot, kind, w, s.inverse_length, true) * stretch;
     sum->stretch = slot_largest(b, slot, kind, sum->stretch, stretch);
     if (!state_turns(model)) return;
     for (int c = 0; c < dim; c++) {
         const lanes weighted = w * s.xi[c];
+        sum->moved |= ((lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c]) & (w > 0.0);     /* padding may look at anybody */
         for (int d = 0; d < dim; d++) sum->moment[d * dim + c] += weighted * s.y[d];
     }
 }
@@ -63,6 +65,8 @@ static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p,
     const lanes inverse = lanes_choose(Q > 0.0, 1.0 / Q, zero), share = lanes_at(p->volume0, own, row) * inverse;
     const lanes pressure = A * sum->extension * inverse * share, spring = B * share;
     if (state_turns(model)) polar_rotation_lanes(sum->moment, R, dim);
+    for (int c = 0; state_turns(model) && c < dim * dim; c++)    /* R - 1 */
+        R[c] = lanes_choose(sum->moved != 0, R[c] - (c % (dim + 1) == 0 ? 1.0 : 0.0), zero);
     if (whole) {
         lanes_store(b->state.pressure + own, pressure);
         lanes_store(b->state.spring + own, spring);
@@ -86,7 +90,7 @@ static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p
     const int32_t own = b->aligned[g] ? row[0] : -1;
     lanes x[DIM_MAX], X[DIM_MAX];
     struct family_sums sum;
-    sum.extension = lanes_of(0), sum.stretch = lanes_of(-1);
+    sum.extension = lanes_of(0), sum.stretch = lanes_of(-1), sum.moved = (lanes_mask)lanes_of(0);
     for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_of(0);
     for (int d = 0; d < dim; d++) {
         x[d] = lanes_at(p->x[d], own, row);
@@ -115,7 +119,7 @@ static ALWAYS_INLINE void state_of_point(struct bonds *b, const struct particles
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         const int32_t j = b->nbr[q];
         if (b->w[q] == 0) continue;
-        for (int c = 0; c < dim * dim; c++) M[c] += b->w[q] * b->state.turn[c][j] / b->state.spring[j];
+        for (int c = 0; c < dim * dim; c++) M[c] += b->w[q] * (b->state.turn[c][j] / b->state.spring[j] + (c % (dim + 1) == 0));
     }
     turn_store(b, i, M, m->B * share, dim);
 }
@@ -140,7 +144,8 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 /* A group while its slots are visited. */
 struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], turn[DIM_MAX * DIM_MAX], pressure, spring; };
 
-/* Adds the forces of a slot, with e/|Y| = r (1/r - 1/|Y|) and, in the plane, g R = (a, -b; b, a). */
+/* Adds the forces of a slot, with e/|Y| = r (|Y|/r - 1)/|Y|. The effective displacement Y - R xi is (Y - xi) - (R - 1) xi: exactly
+ * 0 where nothing has moved; in the plane g (R - 1) = (a, -c; c, a). */
 static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
                                      const enum slot_kind kind, const int dim, const enum pd_model model)
 {
@@ -148,16 +153,16 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds 
     struct state_bond s;
     slot_ask(b, slot, kind);
     state_bond_make(&s, b, p, slot, kind, sum->x, sum->X, dim, model);
-    const lanes inverse = lanes_inverse_root(s.distance2), change = s.inverse_length - inverse;
+    const lanes inverse = lanes_inverse_root(s.distance2);
     const lanes w = slot_weight(b, slot, kind), wr = state_weight(b, slot, kind, w, s.inverse_length, false);
     const lanes pressure = sum->pressure + slot_at(b, slot, kind, t->pressure);
     const lanes spring = sum->spring + slot_at(b, slot, kind, t->spring);
     if (!state_turns(model)) {
-        const lanes along = wr * (pressure * inverse + spring * change);
+        const lanes along = wr * (pressure + spring * STRETCH_OF(s.distance2 * inverse, s.inverse_length)) * inverse;
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
         return;
     }
-    const lanes along = wr * pressure * inverse + w * spring;
+    const lanes along = wr * pressure * inverse;
     lanes turned[DIM_MAX];
     if (dim == 2) {
         const lanes a = sum->turn[0] + slot_at(b, slot, kind, t->turn[0]), c = sum->turn[2] + slot_at(b, slot, kind, t->turn[2]);
@@ -169,7 +174,7 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds 
             for (int c = 0; c < dim; c++)
                 turned[d] += (sum->turn[d * dim + c] + slot_at(b, slot, kind, t->turn[d * dim + c])) * s.xi[c];
         }
-    for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d] - w * turned[d];
+    for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d] + w * (spring * (s.y[d] - s.xi[d]) - turned[d]);
 }
 
 /* Force of one group, mixed into what f holds by `share`. */
@@ -197,7 +202,8 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
     static void state_know_##D##d_##M(struct bonds *b, const struct particles *p)                            \
     {                                                                                                        \
         _Pragma("omp parallel for schedule(static)")                                                         \
-        for (int64_t g = 0; g < b->groups; g++) state_group(b, p, g, D, PD_##M);                             \
+        for (int64_t k = 0; k < b->rest.awake; k++)                                                          \
+            state_group(b, p, b->rest.list[k], D, PD_##M);                                                   \
         _Pragma("omp parallel for schedule(static)")                                                         \
         for (int64_t row = 0; row < b->rows; row++)                                                          \
             if (p->kind[b->particle[row]] == KIND_MPM) state_of_point(b, p, row, D, PD_##M);                 \
@@ -208,7 +214,8 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
         int64_t broken = 0;                                                                                  \
         state_know_##D##d_##M(b, p);                                                                         \
         _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                                   \
-        for (int64_t g = 0; g < b->groups; g++) {                                                            \
+        for (int64_t k = 0; k < b->rest.awake; k++) {                                                        \
+            const int64_t g = b->rest.list[k];                                                               \
             force_group(b, p, g, 1, D, PD_##M);                                                              \
             if (!b->state.past[g]) continue;                                                                 \
             int64_t here = bond_break_group(b, p, limit, g);                                                 \

@@ -68,14 +68,14 @@ static inline real state_own_force(const struct bonds *b, const struct particles
         y[d] = p->x[d][j] - p->x[d][i], xi[d] = p->X[d][j] - p->X[d][i];
         y2 += square(y[d]);
     }
-    const real length = sqrt(y2), e = length - r, w = b->w[q];
+    const real length = sqrt(y2), e = r * STRETCH_OF(length, fabs(b->inverse_length[q])), w = b->w[q];
     real along = r * t->pressure[i] + (turns ? 0 : e * t->spring[i]);
     energy = 0.5 * w * along * e;
     for (int d = 0; d < dim; d++) T[d] = w * along * y[d] / length;
     if (!turns) return energy;
     real effective2 = 0;
     for (int d = 0; d < dim; d++) {
-        real effective = t->spring[i] * y[d];
+        real effective = t->spring[i] * (y[d] - xi[d]);
         for (int c = 0; c < dim; c++) effective -= t->turn[d * dim + c][i] * xi[c];
         T[d] += w * effective;
         effective2 += square(effective);

@@ -37,13 +37,14 @@ static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struc
         y[d] = lanes_at(p->x[d], first, nbr) - s->x[d], xi[d] = lanes_at(p->X[d], first, nbr) - s->X[d];
         distance2 += y[d] * y[d];
     }
-    const lanes inverse = lanes_inverse_root(distance2), e = distance2 * inverse - r;
+    const lanes inverse = lanes_inverse_root(distance2);
+    const lanes e = r * STRETCH_OF(distance2 * inverse, lanes_size(inverse_length));
     lanes along = r * s->pressure;
     if (!turns) along += e * s->spring;
     lanes energy = along * e;
     for (int d = 0; d < dim; d++) T[d] = w * along * y[d] * inverse;
     for (int d = 0; turns && d < dim; d++) {
-        lanes effective = s->spring * y[d];
+        lanes effective = s->spring * (y[d] - xi[d]);
         for (int c = 0; c < dim; c++) effective -= s->turn[d * dim + c] * xi[c];
         T[d] += w * effective;
         effective2 += effective * effective;
@@ -55,6 +56,7 @@ static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struc
 static ALWAYS_INLINE real energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                        const enum pd_model model)
 {
+    if (b->rest.level[g] == 0) return 0;
     const struct own_state s = own_state_of(b, p, g, dim, state_turns(model));
     lanes sum = lanes_of(0), T[DIM_MAX], xi[DIM_MAX];
     real total = 0;

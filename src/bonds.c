@@ -239,6 +239,7 @@ static void rows_arrays(struct bonds *b)
     b->fracture_energy = NEW("bonds.fracture_energy", padded, real);
     b->plastic_work = NEW("bonds.plastic_work", padded, real);
     b->broken = NEW("bonds.broken", padded, int32_t);
+    rest_make(&b->rest, b->groups);
 }
 
 /* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice.
@@ -368,6 +369,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->pair);
     memory_free(b->plastic_work);
     state_free(b);
+    rest_free(&b->rest);
     memory_free(b->trigger);
     memory_free(b->family_volume);
     memory_free(b->broken_volume);

@@ -136,7 +136,7 @@ status engine_step(struct engine *e)
     engine_sample_energy(e);
     broken += grow(e);                                                      /* 5: cracks that grow as they are told */
     lap(&e->laps, LAP_WATCH);
-    k->pd_move(p, e->dt, dt_velocity);                                      /* peridynamic particles move */
+    k->pd_move(p, &e->bonds, e->dt, dt_velocity);                           /* peridynamic particles move */
     lap(&e->laps, LAP_BONDS);
     if (p->n_free + p->n_carried > 0) step_grid(e, middle);                 /* 1, 3, 4, 6, 7: material points move */
     else step_without_grid(e);
@@ -144,6 +144,7 @@ status engine_step(struct engine *e)
     loads_hold(&e->loads, &e->grid, p, middle, dt_velocity);
     loads_mirror(&e->loads, p);
     lap(&e->laps, LAP_GRID);
+    if (s->rest) rest_rows(&e->bonds, p, &e->loads);
     engine_breaks(e, broken);
     const int64_t converted = convert(&e->conversion, &s->conversion, p, &e->bonds, &e->source,
                                       e->uses_partial ? &e->partial : NULL,

@@ -120,6 +120,7 @@ void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
     e->mesh_speed = mesh_move(mesh, e->dt, dt_velocity, e->loads.impulse, &e->loads.held_work);
     loads_react(&e->loads, &mesh->grid, dt_velocity);
     mesh_seen_move(mesh, &e->part);
+    if (e->scene->rest) rest_mesh(mesh, &e->loads);
 }
 
 void engine_mesh_show(struct engine *e)
@@ -154,7 +155,10 @@ void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n)
     int64_t m = 0;
     for (int64_t k = 0; k < n; k++)
         if (e->mesh.place && e->frame[e->part.body[list[k]]].reference) own[m++] = list[k];
-    if (m > 0) e->damped += mesh_adopt(&e->mesh, &e->part, own, m);
+    if (m > 0) {
+        e->damped += mesh_adopt(&e->mesh, &e->part, own, m);
+        rest_mesh_all(&e->mesh);
+    }
     memory_free(own);
     engine_mesh_follow(e, n);
     engine_mesh_look(e, NULL, e->part.n);

@@ -343,6 +343,13 @@ static status energy_alarm(const struct engine *e)
                       (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, e->dt);
 }
 
+real engine_rest(const struct engine *e)
+{
+    real at_rest = rest_share(&e->bonds.rest) * (real)e->part.n_of[KIND_PD];
+    if (e->mesh.points > 0) at_rest += rest_share(&e->mesh.rest) * (real)e->mesh.points;
+    return at_rest / (real)e->part.n;
+}
+
 /* ---- after a step ---------------------------------------------------------------------------------------------- */
 
 status engine_report(struct engine *e)
@@ -350,6 +357,7 @@ status engine_report(struct engine *e)
     e->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
     e->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
     e->bond_visits += e->bonds.n;
+    e->rested += engine_rest(e);
     lap(&e->laps, LAP_WATCH);
     if (e->step == e->steps) sample_last(e);     /* before any checkpoint: a finished run has nothing left to write */
     TRY(e->history_status);

@@ -1,4 +1,5 @@
 /* floor 3: the mesh of the reference frame: who lies where, masses, runs of whole cells, cut cells, and conversion. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,6 +10,8 @@
 
 #define PLACE_TOLERANCE 1e-6             /* of a cell */
 #define VOLUME_TOLERANCE 1e-9
+#define DISPLACEMENT_BITS 60             /* displacements are multiples of 2^-60 cells: far below the last bit of a place, and what
+                                          * runs ahead of a wave ends somewhere */
 
 /* ---- who lies where ---------------------------------------------------------------------------------------- */
 
@@ -197,6 +200,9 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     mesh->place = NEW("mesh.place", p->n, int32_t);
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
+    mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
+    rest_make(&mesh->rest, mesh->rows * mesh->segments);
+    mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
     return OK;
 }
@@ -246,6 +252,7 @@ void mesh_free(struct mesh *mesh)
     mesh_cuts_free(mesh);
     memory_free(mesh->see);
     memory_free(mesh->span);
+    rest_free(&mesh->rest);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -344,6 +351,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
     for (int64_t I = 0; I < mesh->grid.n; I++)
         if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, seen, I);
     memory_free(seen);
+    rest_mesh_see(mesh);
 }
 
 status mesh_archive(struct mesh *mesh, struct archive *a)

@@ -294,6 +294,8 @@ const struct key keys[] = {
     KEY("time", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "time step"),
     KEY("time.step", KEY_REAL, UNIT_TIME, AT(scene, time_step), ABOVE(0), "auto",
         "step; auto: safety x the critical one", .words = "auto", .word_value = 0),
+    KEY("time.rest", KEY_FLAG, UNIT_NONE, AT(scene, rest), ANY, "true",
+        "what no wave has reached is not computed; the results are the same to the last bit, false is slower"),
     KEY("time.safety", KEY_REAL, UNIT_NONE, AT(scene, safety), INSIDE(0, 2), "0.8", "above 1 shows instability"),
 
     KEY("output", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "what is written, and how often"),

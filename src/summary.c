@@ -231,6 +231,7 @@ static void put_machine(struct json *j, const struct engine *e, int threads, dou
     json_count(j, "memory_peak_bytes", memory_peak());
     json_number(j, "ns_per_particle_step", ns / steps, DIGITS_TIMING);
     json_number(j, "ns_per_bond_step", ns / (real)e->bond_visits, DIGITS_TIMING);
+    json_number(j, "rest_share", e->rested / (real)(e->step > 0 ? e->step : 1), DIGITS_TIMING);
 }
 
 static void summary_print(FILE *file, const struct engine *e, status s, const char *message, int threads,

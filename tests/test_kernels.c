@@ -291,7 +291,7 @@ static void test_pd_move(void **state)
             struct particles old;
             body_make(&c, dim, way);
             cloud_copy(&old, &c.p, 0);
-            pd_move_table[dim](&c.p, dt, dt_velocity);
+            pd_move_table[dim](&c.p, &c.bonds, dt, dt_velocity);
             for (int d = 0; d < dim; d++) {
                 for (int64_t i = 0; i < old.n; i++) {
                     if (old.kind[i] != KIND_PD) continue;
@@ -323,7 +323,7 @@ static void test_bond_threads(void **state)
                     energy[t] = bond_energy_table[dim][model](&c[t].bonds, &c[t].p);
                     bond_force_table[dim][model](&c[t].bonds, &c[t].p, &c[t].source.limit);
                     bond_stress_table[dim][model](&c[t].bonds, &c[t].p);
-                    pd_move_table[dim](&c[t].p, 1e-8, 1e-8);
+                    pd_move_table[dim](&c[t].p, &c[t].bonds, 1e-8, 1e-8);
                 }
                 assert_memory_equal(&energy[0], &energy[1], sizeof(real));
                 for (int f = 0; f < particle_fields_count; f++)

@@ -132,8 +132,8 @@ static real torque(const struct partners *k, bool skew)
             for (int end = 0; end < 2; end++) {
                 const int32_t own = end ? j : i, other = end ? i : j;
                 for (int d = 0; d < 2; d++) {
-                    real effective = bonds->state.spring[own] * (p->x[d][other] - p->x[d][own]);
                     xi[d] = p->X[d][other] - p->X[d][own];
+                    real effective = bonds->state.spring[own] * (p->x[d][other] - p->x[d][own] - xi[d]);
                     for (int e = 0; e < 2; e++)
                         effective -= bonds->state.turn[d * 2 + e][own] * (p->X[e][other] - p->X[e][own]);
                     T[end][d] = bonds->w[q] * effective;
