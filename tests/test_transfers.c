@@ -7,6 +7,7 @@
 
 #include "cloud.h"
 #include "reference_points.h"
+#include "sets.h"
 #include "shape.h"
 #include "team.h"
 
@@ -493,5 +494,7 @@ int main(void)
         cmocka_unit_test(test_threads),
     };
     team_make(2);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
 }
