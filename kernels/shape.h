@@ -25,13 +25,24 @@ typedef real pair_anywhere __attribute__((vector_size(2 * sizeof(real)), aligned
 static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
 static ALWAYS_INLINE real row_sum(row_of_nodes a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
+/* a where `sign` is negative, else b. Without AVX a comparison of four would be four comparisons. */
+static ALWAYS_INLINE row_of_nodes row_choose(row_of_nodes sign, row_of_nodes a, row_of_nodes b)
+{
+#ifdef __AVX__
+    return (row_of_nodes)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)sign);
+#else
+    typedef uint64_t row_bits __attribute__((vector_size(ROW * sizeof(uint64_t))));
+    const row_bits mask = -((row_bits)sign >> 63);
+    return (row_of_nodes)((mask & (row_bits)a) | (~mask & (row_bits)b));
+#endif
+}
+
 static ALWAYS_INLINE row_of_nodes row_max(row_of_nodes a, row_of_nodes b)
 {
 #ifdef __AVX__
     return (row_of_nodes)_mm256_max_pd((__m256d)a, (__m256d)b);
 #else
-    const row_mask more = a > b;
-    return (row_of_nodes)((more & (row_mask)a) | (~more & (row_mask)b));
+    return row_choose(b - a, a, b);
 #endif
 }
 
@@ -40,8 +51,7 @@ static ALWAYS_INLINE row_of_nodes row_min(row_of_nodes a, row_of_nodes b)
 #ifdef __AVX__
     return (row_of_nodes)_mm256_min_pd((__m256d)a, (__m256d)b);
 #else
-    const row_mask less = a < b;
-    return (row_of_nodes)((less & (row_mask)a) | (~less & (row_mask)b));
+    return row_choose(a - b, a, b);
 #endif
 }
 
@@ -91,8 +101,7 @@ static ALWAYS_INLINE void shape_gimp(real t, real l, real inverse_width, row_of_
     const row_of_nodes s = row_distance(t), a = row_size(s);
     const row_of_nodes near = row_min(row_size(a - l), row_of(1)), far = row_min(a + l, row_of(1));
     const row_of_nodes twice_near = (1 - near) * (1 - near), twice_far = (1 - far) * (1 - far), rest = 2 - twice_near;
-    const row_mask between = a < l;
-    const row_of_nodes from = (row_of_nodes)((between & (row_mask)rest) | (~between & (row_mask)twice_near));
+    const row_of_nodes from = row_choose(a - l, rest, twice_near);
     *N = (from - twice_far) * (0.5 * inverse_width);
     *dN = row_signed((far - near) * inverse_width, -s);
 }
