@@ -10,17 +10,18 @@ WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas -Wno-psabi
 LIBRARIES := hdf5 hwloc yaml-0.1
 
 CPPFLAGS += -Iinclude -Ikernels -Isrc -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
-CFLAGS   += -std=c11 $(OPTIMISE) -g $(ARCH:%=-march=%) -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
+CFLAGS   += -std=c11 $(OPTIMISE) -g -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
 LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
 LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
 
 # Kernels are compiled once for each set of vector instructions; the program takes one at start (src/simd.c). The rest is
 # for any machine of its kind, or for ARCH (native, ...).
+rest     := $(ARCH:%=-march=%)
 X86      := $(findstring x86_64,$(shell $(CC) -dumpmachine))
 SETS     := $(if $(X86),avx512 avx2) portable
 avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 avx2     := -march=x86-64-v3 -mmove-max=256 -mstore-max=256
-portable := $(if $(X86),-march=x86-64)
+portable := $(if $(X86),-march=x86-64,$(rest))
 
 SOURCES  := $(wildcard src/*.c bench/*.c)
 KERNELS  := $(wildcard kernels/*.c)
@@ -44,7 +45,7 @@ $(BUILD)/cleave: $(OBJECTS)
 
 $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(LIBFLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(rest) $(LIBFLAGS) -MMD -MP -c -o $@ $<
 
 # One rule a set: build/kernels/bond_force.avx2.o from kernels/bond_force.c.
 define SET

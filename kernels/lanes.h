@@ -55,7 +55,7 @@ static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
     return (lanes)((mask & (lanes_mask)a) | (~mask & (lanes_mask)b));
 }
 
-/* Lanes with a sign, as -0 and the difference of equal infinities have one. */
+/* Lanes with a sign. */
 static ALWAYS_INLINE lanes_mask lanes_negative(lanes a) { return (lanes_mask)-((lanes_bits)a >> 63); }
 
 static ALWAYS_INLINE lanes lanes_max(lanes a, lanes b)
@@ -129,7 +129,7 @@ static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
 #if defined __AVX512F__ || defined __FMA__
 
 /* 1/sqrt(a), roughly. Halving the exponent with the bits behind it and turning it round is right to 3.5 % for any normal
- * number (the constant makes the largest error least); one round of the series below leaves 7e-7. */
+ * number (the constant makes the largest error least); one round of the series below leaves 6e-6. */
 static ALWAYS_INLINE lanes lanes_estimate(lanes a)
 {
 #ifdef __AVX512F__
