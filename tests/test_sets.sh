@@ -11,7 +11,7 @@ test_name=test_sets
 sets=$(sed -n '/^kernels /,/^cores /{/^cores /d;/not on this processor/d;s/^kernels//;s/:.*//;p;}' "$work/info")
 sed -n 's/^  *\([a-z0-9]*\):.*not on this processor$/skipped: \1, not on this processor/p' "$work/info"
 case " $(echo $sets) " in *" portable "*) pass ;; *) fail "there is no portable set: $sets" ;; esac
-widest=$(echo $sets | cut -d ' ' -f 1)
+first=$(echo $sets | cut -d ' ' -f 1)              # the one in use
 
 # refused NAME WORDS: CLEAVE_SIMD=NAME is answered with one line that has WORDS, and exit status 2
 refused()
@@ -90,7 +90,7 @@ for scene in "strip" "strip -s mpm.frame=current" "strip -s model=ospd" "strip -
         same "threads: $scene, $set" "$work/$set" "$work/two"
         is "summary: $set" "$(figure "$work/$set" kernels)" $set
         # bonds break one by one: which of two equally stretched ones goes first is round-off's choice
-        holds "$scene: $set and $widest" alike "$work/$set" "$work/$widest" "$(figure "$work/$widest" crack.start_time)"
+        holds "$scene: $set and $first" alike "$work/$set" "$work/$first" "$(figure "$work/$first" crack.start_time)"
     done
 done
 finish
