@@ -1,6 +1,6 @@
 # Cleave: settings
 CC       ?= gcc
-ARCH     ?= native
+ARCH     ?=
 OPTIMISE ?= -O3
 PREFIX   ?= /usr/local
 BUILD    ?= build
@@ -10,13 +10,23 @@ WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas -Wno-psabi
 LIBRARIES := hdf5 hwloc yaml-0.1
 
 CPPFLAGS += -Iinclude -Ikernels -Isrc -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
-CFLAGS   += -std=c11 $(OPTIMISE) -g -march=$(ARCH) -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
+CFLAGS   += -std=c11 $(OPTIMISE) -g -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
 LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
 LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
 
-SOURCES  := $(wildcard src/*.c kernels/*.c bench/*.c)
+# Kernels are compiled once for each set of vector instructions; the program takes one at start (src/simd.c). The rest is
+# for any machine of its kind, or for ARCH (native, ...).
+rest     := $(ARCH:%=-march=%)
+X86      := $(findstring x86_64,$(shell $(CC) -dumpmachine))
+SETS     := $(if $(X86),avx512 avx2) portable
+avx512   := -march=x86-64-v4 -mprefer-vector-width=512
+avx2     := -march=x86-64-v3 -mmove-max=256 -mstore-max=256
+portable := $(if $(X86),-march=x86-64,$(rest))
+
+SOURCES  := $(wildcard src/*.c bench/*.c)
+KERNELS  := $(wildcard kernels/*.c)
 TESTS    := $(wildcard tests/test_*.c)
-OBJECTS  := $(SOURCES:%.c=$(BUILD)/%.o)
+OBJECTS  := $(SOURCES:%.c=$(BUILD)/%.o) $(foreach set,$(SETS),$(KERNELS:%.c=$(BUILD)/%.$(set).o))
 ENGINE   := $(filter-out $(BUILD)/src/main.o,$(OBJECTS))
 PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
 SCRIPTS  := $(sort $(wildcard tests/test_*.sh))
@@ -35,7 +45,15 @@ $(BUILD)/cleave: $(OBJECTS)
 
 $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(LIBFLAGS) -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(rest) $(LIBFLAGS) -MMD -MP -c -o $@ $<
+
+# One rule a set: build/kernels/bond_force.avx2.o from kernels/bond_force.c.
+define SET
+$(BUILD)/%.$(1).o: %.c Makefile
+	@mkdir -p $$(@D)
+	$$(Q)$$(CC) $$(CPPFLAGS) -DSIMD_SET='"$(1)"' $$(CFLAGS) $$($(1)) $$(LIBFLAGS) -MMD -MP -c -o $$@ $$<
+endef
+$(foreach set,$(SETS),$(eval $(call SET,$(set))))
 
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(ENGINE)
 	$(Q)$(CC) $(CFLAGS) -o $@ $^ -lcmocka $(LIBS)

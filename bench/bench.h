@@ -4,6 +4,7 @@
 #define CLEAVE_BENCH_H
 
 #include "engine.h"
+#include "probe.h"
 
 #define BENCH_FOLDER "results/bench"
 
@@ -37,30 +38,6 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
                   const void *context);
 /* One line about the processor, and one under it about the program. */
 void bench_print_machine(int threads);
-
-/* ---- bench_probe.c: the machine's own limits ---------------------------------------------------------- */
-
-/* Lattice stencil of the bond law: contiguous loads, no bond data, positions in cache. */
-struct stencil_probe;
-/* About 80,000 particles in `dim` dimensions, neighbours within 3.015 spacings. */
-struct stencil_probe *stencil_probe_make(int dim);
-/* One sweep over all bonds: seconds per directed bond. */
-double stencil_probe_run(struct stencil_probe *s);
-void stencil_probe_free(struct stencil_probe *s);
-
-/* STREAM triad a = b + q c over arrays that no cache holds: bytes per second, counted as 24 bytes an entry. */
-struct triad_probe;
-struct triad_probe *triad_probe_make(void);
-double triad_probe_run(struct triad_probe *t);
-void triad_probe_free(struct triad_probe *t);
-
-/* ---- bench_points.c: the plain material point method --------------------------------------------------- */
-
-/* 2D linear MUSL FLIP, 80,000 points sorted by cell, four a cell: seconds per point and step. */
-struct point_probe;
-struct point_probe *point_probe_make(void);
-double point_probe_run(struct point_probe *m);
-void point_probe_free(struct point_probe *m);
 
 /* ---- bench_scene.c: engines made for timing ------------------------------------------------------------- */
 

@@ -9,6 +9,7 @@
 #include "gnuplot.h"
 #include "memory.h"
 #include "output_files.h"
+#include "simd.h"
 
 /* ---- tables ---------------------------------------------------------------------------------------------- */
 
@@ -161,7 +162,7 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
 void bench_print_machine(int threads)
 {
     struct machine m = team_machine();
-    printf("  %s, %d cores, %lld kB L2, %lld MB L3; cleave %s, %d thread%s unless said otherwise\n", m.model, m.cores,
-           (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION, threads,
-           threads > 1 ? "s" : "");
+    printf("  %s, %d cores, %lld kB L2, %lld MB L3; cleave %s, kernels %s, %d thread%s unless said otherwise\n", m.model,
+           m.cores, (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION, simd_in_use()->name,
+           threads, threads > 1 ? "s" : "");
 }

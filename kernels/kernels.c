@@ -1,5 +1,5 @@
-/* floor 2: the choice of kernels, once, before the loop. */
-#include "kernels.h"
+/* floor 2: the choice of kernels, once, before the loop; and all that a set has. */
+#include "set.h"
 
 void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer)
 {
@@ -14,3 +14,7 @@ void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape 
     k->spread = spread_table[dim][shape];
     assert(k->bond_force && k->bond_energy && k->bond_stress && k->pd_move && k->p2g && k->remap && k->g2p && k->spread);
 }
+
+#define ENTRY(name) .name = name,
+extern const struct kernel_set kernel_set __asm__("kernel_set_" SIMD_SET);
+const struct kernel_set kernel_set = {KERNELS(ENTRY)};

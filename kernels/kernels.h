@@ -7,6 +7,7 @@
 #include "bonds.h"
 #include "cells.h"
 #include "grid.h"
+#include "kernel.h"
 #include "mesh.h"
 #include "particles.h"
 
@@ -67,23 +68,23 @@ typedef void state_know_fn(struct bonds *b, const struct particles *p);
 
 /* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then
  * may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
-int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group);
-int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit);
+KERNEL(int64_t, bond_break_group, (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group));
+KERNEL(int64_t, bond_break_all, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as fracture:
  * a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the next positions.
  * The other entry of the bond has to fade alike. */
-void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, float w);
+KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, float w));
 
 /* Elastic energy of a row of a state-based model by its present weights and places, whatever the last sweep left [J]. */
-real state_row_energy(const struct bonds *b, const struct particles *p, int64_t row);
+KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row));
 
 /* Half the elastic energy of every row's intact bonds, added up in fixed blocks [J]. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
 
 /* Half the plastic work k (s_y alpha + H_b alpha^2/2) of every row's bonds, broken ones included, added up in fixed
  * blocks [J]. 0 where no bond yields. */
-real bond_plastic_work(const struct bonds *b);
+KERNEL(real, bond_plastic_work, (const struct bonds *b));
 
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
@@ -116,65 +117,65 @@ struct kernels {                         /* chosen once, before the loop        
     spread_fn *spread;
 };
 
-extern bond_force_fn *const bond_force_table[DIM_MAX + 1][PD_MODELS];
-extern bond_energy_fn *const bond_energy_table[DIM_MAX + 1][PD_MODELS];
-extern bond_stress_fn *const bond_stress_table[DIM_MAX + 1][PD_MODELS];
-extern bond_force_fn *const state_force_table[DIM_MAX + 1][PD_MODELS];
-extern bond_energy_fn *const state_energy_table[DIM_MAX + 1][PD_MODELS];
-extern bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS];
-extern state_know_fn *const state_know_table[DIM_MAX + 1][PD_MODELS];
-extern pd_move_fn *const pd_move_table[DIM_MAX + 1];
-extern p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS];
-extern remap_fn *const remap_table[DIM_MAX + 1][SHAPES];
-extern g2p_fn *const g2p_table[DIM_MAX + 1][SHAPES][TRANSFERS];
-extern spread_fn *const spread_table[DIM_MAX + 1][SHAPES];
+KERNEL_TABLE(bond_force_fn, bond_force_table, [PD_MODELS]);
+KERNEL_TABLE(bond_energy_fn, bond_energy_table, [PD_MODELS]);
+KERNEL_TABLE(bond_stress_fn, bond_stress_table, [PD_MODELS]);
+KERNEL_TABLE(bond_force_fn, state_force_table, [PD_MODELS]);
+KERNEL_TABLE(bond_energy_fn, state_energy_table, [PD_MODELS]);
+KERNEL_TABLE(bond_stress_fn, state_stress_table, [PD_MODELS]);
+KERNEL_TABLE(state_know_fn, state_know_table, [PD_MODELS]);
+KERNEL_TABLE(pd_move_fn, pd_move_table, );
+KERNEL_TABLE(p2g_fn, p2g_table, [SHAPES][TRANSFERS]);
+KERNEL_TABLE(remap_fn, remap_table, [SHAPES]);
+KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
+KERNEL_TABLE(spread_fn, spread_table, [SHAPES]);
 
-void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer);
+KERNEL(void, kernels_choose, (struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer));
 
 /* ---- nodal updates between the maps, any dimension ------------------------------------------------- */
 
-void grid_clear(struct grid *g);         /* mass, momentum, force = 0 */
+KERNEL(void, grid_clear, (struct grid *g));      /* mass, momentum, force = 0 */
 
 /* Step 3: velocity = (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready for
  * the second map. At walls the velocity is prescribed and the change is that of the prescribed motion. Nodes
  * lighter than `smallest_mass` [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what the
  * walls gave to impulse [N s] and work [J]; with APIC, where particles take the nodal velocity itself, that includes the
  * momentum they replaced. */
-void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
-               real *work);
+KERNEL(void, grid_move, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
+                         real *work));
 
 /* Step 6: momentum of the second map becomes its velocity, in place; walls prescribe. */
-void grid_remapped(struct grid *g, real smallest_mass);
+KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 
 /* ---- the mesh of the reference frame (mesh.h), any dimension ---------------------------------------------- */
 
 /* f = 0. */
-void mesh_clear(struct mesh *mesh);
+KERNEL(void, mesh_clear, (struct mesh *mesh));
 
 /* Adds the internal forces of its cells that are awake (rest.h) to its nodes; runs whose points may be past their trigger are marked `stressed`.
  * `finite`: strain of Biot in axes that turn with the cell, else the symmetric gradient (mesh_law.h). */
-void mesh_force(struct mesh *mesh, const struct elastic *m, bool finite);
+KERNEL(void, mesh_force, (struct mesh *mesh, const struct elastic *m, bool finite));
 
 /* v += dt_velocity f/m, u += dt v of the nodes that are awake, u to the multiples that mesh->rounding leaves; walls prescribe their velocity, and what they gave joins impulse [N s] and
  * work [J]. f becomes m dv/dt_velocity of each node. Returns the largest component of a velocity, infinite where one is no
  * number [m/s]. */
-real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work);
+KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work));
 
 /* Position and velocity of all its points; of those that mesh->see names; of those among the n listed particles. */
-void mesh_points_move(const struct mesh *mesh, struct particles *p);
-void mesh_seen_move(const struct mesh *mesh, struct particles *p);
-void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+KERNEL(void, mesh_points_move, (const struct mesh *mesh, struct particles *p));
+KERNEL(void, mesh_seen_move, (const struct mesh *mesh, struct particles *p));
+KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n));
 /* Adds the forces f of the points that mesh->see names to the nodes; serial. */
-void mesh_seen_force(struct mesh *mesh, const struct particles *p);
+KERNEL(void, mesh_seen_force, (struct mesh *mesh, const struct particles *p));
 /* Cauchy stress and volume of all its points, for whoever looks. */
-void mesh_points_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite);
+KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 /* FLAG_STRESSED for points past their trigger, in the cut cells and runs that mesh_force marked. */
-void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite);
+KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 
 /* Sum of 1/2 m v^2 of the nodes, and of 1/4 (dt f)^2/m [J]. */
-real mesh_kinetic(const struct mesh *mesh);
-real mesh_kick(const struct mesh *mesh, real dt);
+KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
+KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
 /* Elastic energy of the cells [J]. */
-real mesh_strain(const struct mesh *mesh, const struct elastic *m, bool finite);
+KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct elastic *m, bool finite));
 
 #endif

@@ -249,7 +249,7 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     const int64_t first = group * LANES;
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], tension = lanes_of(0);
-    lanes_mask there[CORNERS_MAX];
+    lanes_mask there[CORNERS_MAX] = {{0}};
     for (int q = 0; q < 1 << dim; q++)
         for (int l = 0; l < LANES; l++) there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->cut[first + l] << dim) + q] >= 0);
     mesh_cut_load(mesh, group, u, dim);

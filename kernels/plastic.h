@@ -10,6 +10,6 @@
 /* Brings a trial stress [Pa] beyond the yield surface of `strain` = a back to it; returns the increment of a, 0 where the
  * step is elastic. Plane strain only: out_of_plane is sigma_zz - nu (sigma_xx + sigma_yy) [Pa], which elastic steps leave
  * as it is. Not inlined, so that elastic points carry none of it. */
-real plastic_return(const struct elastic *m, real *stress, real strain, real *out_of_plane);
+KERNEL(real, plastic_return, (const struct elastic *m, real *stress, real strain, real *out_of_plane));
 
 #endif

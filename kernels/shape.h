@@ -10,7 +10,10 @@
 #include <math.h>
 
 #include "kernels.h"
-#include "lanes.h"
+
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
 
 enum { ROW = 4 };
 typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
@@ -22,6 +25,36 @@ typedef real pair_anywhere __attribute__((vector_size(2 * sizeof(real)), aligned
 static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
 static ALWAYS_INLINE real row_sum(row_of_nodes a) { return (a[0] + a[2]) + (a[1] + a[3]); }
 
+/* a where `sign` is negative, else b. Without AVX a comparison of four would be four comparisons. */
+static ALWAYS_INLINE row_of_nodes row_choose(row_of_nodes sign, row_of_nodes a, row_of_nodes b)
+{
+#ifdef __AVX__
+    return (row_of_nodes)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)sign);
+#else
+    typedef uint64_t row_bits __attribute__((vector_size(ROW * sizeof(uint64_t))));
+    const row_bits mask = -((row_bits)sign >> 63);
+    return (row_of_nodes)((mask & (row_bits)a) | (~mask & (row_bits)b));
+#endif
+}
+
+static ALWAYS_INLINE row_of_nodes row_max(row_of_nodes a, row_of_nodes b)
+{
+#ifdef __AVX__
+    return (row_of_nodes)_mm256_max_pd((__m256d)a, (__m256d)b);
+#else
+    return row_choose(b - a, a, b);
+#endif
+}
+
+static ALWAYS_INLINE row_of_nodes row_min(row_of_nodes a, row_of_nodes b)
+{
+#ifdef __AVX__
+    return (row_of_nodes)_mm256_min_pd((__m256d)a, (__m256d)b);
+#else
+    return row_choose(a - b, a, b);
+#endif
+}
+
 /* The four sums of four rows. */
 static ALWAYS_INLINE row_of_nodes row_sums(row_of_nodes a, row_of_nodes b, row_of_nodes c, row_of_nodes d)
 {
@@ -31,42 +64,29 @@ static ALWAYS_INLINE row_of_nodes row_sums(row_of_nodes a, row_of_nodes b, row_o
     return __builtin_shuffle(ab, cd, low) + __builtin_shuffle(ab, cd, high);
 }
 
-/* Distance from the nodes of the row. */
-static ALWAYS_INLINE row_of_nodes row_distance(real t) { return t - (row_of_nodes){-1, 0, 1, 2}; }
-
-/* ---- two directions at once --------------------------------------------------------------------------
- *
- * Weights are found for two directions side by side: the four nodes along one, then the four along the other. */
-
-static ALWAYS_INLINE lanes both(real a, real b) { return (lanes){a, a, a, a, b, b, b, b}; }
-static ALWAYS_INLINE lanes both_rows(row_of_nodes a) { return (lanes){a[0], a[1], a[2], a[3], a[0], a[1], a[2], a[3]}; }
-
-/* One of the two. */
-static ALWAYS_INLINE row_of_nodes rows_half(lanes a, int half)
+static ALWAYS_INLINE row_of_nodes row_size(row_of_nodes a)
 {
-    return half ? (row_of_nodes){a[4], a[5], a[6], a[7]} : (row_of_nodes){a[0], a[1], a[2], a[3]};
-}
-
-/* Sum of each half, in all of its places. */
-static ALWAYS_INLINE lanes both_sums(lanes a)
-{
-    const lanes_mask across = {2, 3, 0, 1, 6, 7, 4, 5}, beside = {1, 0, 3, 2, 5, 4, 7, 6};
-    a += __builtin_shuffle(a, across);
-    return a + __builtin_shuffle(a, beside);
+    const row_mask digits = (row_mask){0} + INT64_MAX;
+    return (row_of_nodes)((row_mask)a & digits);
 }
 
 /* `to` with the sign of `from`, which it has not itself. */
-static ALWAYS_INLINE lanes lanes_signed(lanes to, lanes from)
+static ALWAYS_INLINE row_of_nodes row_signed(row_of_nodes to, row_of_nodes from)
 {
-    const lanes_mask sign = (lanes_mask){0} + INT64_MIN;
-    return (lanes)((lanes_mask)to | ((lanes_mask)from & sign));
+    const row_mask sign = (row_mask){0} + INT64_MIN;
+    return (row_of_nodes)((row_mask)to | ((row_mask)from & sign));
 }
 
+/* ---- one direction ---------------------------------------------------------------------------------- */
+
+/* Distances from the nodes of the row. */
+static ALWAYS_INLINE row_of_nodes row_distance(real t) { return t - (row_of_nodes){-1, 0, 1, 2}; }
+
 /* Hat function: N = 1 - |s|. */
-static ALWAYS_INLINE void shape_linear(lanes t, lanes *N, lanes *dN)
+static ALWAYS_INLINE void shape_linear(real t, row_of_nodes *N, row_of_nodes *dN)
 {
-    *dN = both_rows((row_of_nodes){0, -1, 1, 0});
-    *N = both_rows((row_of_nodes){0, 1, 0, 0}) + t * *dN;
+    *N = (row_of_nodes){0, 1, 0, 0} + t * (row_of_nodes){0, -1, 1, 0};
+    *dN = (row_of_nodes){0, -1, 1, 0};
 }
 
 /* Mean of the hat functions over the particle's width 2l <= 2, by what a hat has beyond the particle's ends, at a - l and
@@ -76,51 +96,52 @@ static ALWAYS_INLINE void shape_linear(lanes t, lanes *N, lanes *dN)
  * particle (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous particles then
  * share out every hat without gap or overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen &
  * Kober 2004). */
-static ALWAYS_INLINE void shape_gimp(lanes s, lanes l, lanes inverse_width, lanes *N, lanes *dN)
+static ALWAYS_INLINE void shape_gimp(real t, real l, real inverse_width, row_of_nodes *N, row_of_nodes *dN)
 {
-    const lanes a = lanes_size(s);
-    const lanes near = lanes_min(lanes_size(a - l), lanes_of(1)), far = lanes_min(a + l, lanes_of(1));
-    const lanes twice_near = (1 - near) * (1 - near), twice_far = (1 - far) * (1 - far), rest = 2 - twice_near;
-    *N = (lanes_choose(a < l, rest, twice_near) - twice_far) * (0.5 * inverse_width);
-    *dN = lanes_signed((far - near) * inverse_width, -s);
+    const row_of_nodes s = row_distance(t), a = row_size(s);
+    const row_of_nodes near = row_min(row_size(a - l), row_of(1)), far = row_min(a + l, row_of(1));
+    const row_of_nodes twice_near = (1 - near) * (1 - near), twice_far = (1 - far) * (1 - far), rest = 2 - twice_near;
+    const row_of_nodes from = row_choose(a - l, rest, twice_near);
+    *N = (from - twice_far) * (0.5 * inverse_width);
+    *dN = row_signed((far - near) * inverse_width, -s);
 }
 
 /* B-splines as sums of truncated powers, a = |s|: N = ((3/2 - a)_+^2 - 3 (1/2 - a)_+^2)/2. */
-static ALWAYS_INLINE void shape_quadratic(lanes s, lanes *N, lanes *dN)
+static ALWAYS_INLINE void shape_quadratic(real t, row_of_nodes *N, row_of_nodes *dN)
 {
-    const lanes size = lanes_size(s);
-    const lanes far = lanes_max(1.5 - size, lanes_of(0)), near = lanes_max(0.5 - size, lanes_of(0));
+    const row_of_nodes s = row_distance(t), size = row_size(s);
+    const row_of_nodes far = row_max(1.5 - size, row_of(0)), near = row_max(0.5 - size, row_of(0));
     *N = 0.5 * far * far - 1.5 * near * near;
-    *dN = lanes_signed(lanes_of(1), s) * (3 * near - far);
+    *dN = row_signed(row_of(1), s) * (3 * near - far);
 }
 
 /* N = ((2 - a)_+^3 - 4 (1 - a)_+^3)/6. */
-static ALWAYS_INLINE void shape_cubic(lanes s, lanes *N, lanes *dN)
+static ALWAYS_INLINE void shape_cubic(real t, row_of_nodes *N, row_of_nodes *dN)
 {
-    const lanes size = lanes_size(s);
-    const lanes far = lanes_max(2 - size, lanes_of(0)), near = lanes_max(1 - size, lanes_of(0));
-    const lanes far2 = far * far, near2 = near * near;
+    const row_of_nodes s = row_distance(t), size = row_size(s);
+    const row_of_nodes far = row_max(2 - size, row_of(0)), near = row_max(1 - size, row_of(0));
+    const row_of_nodes far2 = far * far, near2 = near * near;
     *N = (far2 * far - 4 * near2 * near) * (1.0 / 6);
-    *dN = lanes_signed(lanes_of(1), s) * (2 * near2 - 0.5 * far2);
+    *dN = row_signed(row_of(1), s) * (2 * near2 - 0.5 * far2);
 }
 
 /* Weights must add up to 1 to the last bit: every map gives momentum (sum N) times what it takes, and on a lattice all points
  * have the same round-off, which grows with the steps. The nearer node of the cell, never a light one, takes what is
  * missing. */
-static ALWAYS_INLINE lanes whole(lanes N, lanes t)
+static ALWAYS_INLINE row_of_nodes whole(row_of_nodes N, real t)
 {
-    const lanes nearer = lanes_choose(t < 0.5, both_rows((row_of_nodes){0, 1, 0, 0}), both_rows((row_of_nodes){0, 0, 1, 0}));
-    return N + (1 - both_sums(N)) * nearer;
+    const row_of_nodes nearer = t < 0.5 ? (row_of_nodes){0, 1, 0, 0} : (row_of_nodes){0, 0, 1, 0};
+    return N + (1 - row_sum(N)) * nearer;
 }
 
-static ALWAYS_INLINE void shape_rows(const enum shape shape, lanes t, lanes l, lanes inverse_width, lanes *N, lanes *dN)
+static ALWAYS_INLINE void shape_row(const enum shape shape, real t, real l, real inverse_width, row_of_nodes *N,
+                                    row_of_nodes *dN)
 {
-    const lanes s = t - both_rows((row_of_nodes){-1, 0, 1, 2});
     switch (shape) {
     case SHAPE_LINEAR: shape_linear(t, N, dN); return;
-    case SHAPE_QUADRATIC: shape_quadratic(s, N, dN); break;
-    case SHAPE_CUBIC: shape_cubic(s, N, dN); break;
-    default: shape_gimp(s, l, inverse_width, N, dN);
+    case SHAPE_QUADRATIC: shape_quadratic(t, N, dN); break;
+    case SHAPE_CUBIC: shape_cubic(t, N, dN); break;
+    default: shape_gimp(t, l, inverse_width, N, dN);
     }
     *N = whole(*N, t);
 }
@@ -235,28 +256,28 @@ static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, 
                                        const struct particles *p, int64_t i, real half_width, const int dim,
                                        const enum shape shape)
 {
-    const real inverse = 1 / g->h, l0 = half_width * inverse;
+    const real inverse = 1 / g->h, l0 = half_width * inverse, inverse_width0 = 0.5 / l0;
     for (int d = 0; d < dim; d++) s->t[d] = grid_place(g, d, p->x[d][i]) - c->place[d];
     if (IS_FACE(dim, shape)) {
         stencil_face(s, inverse, dim);
         return;
     }
-    for (int d = 0; d < dim; d += 2) {
-        const int e = d + 1 < dim ? d + 1 : d;
-        real l[2] = {l0, l0};
-        lanes N, dN, inverse_width = lanes_of(0.5 / l0);
+    for (int d = 0; d < dim; d++) {
+        row_of_nodes N, dN;
+        real l = l0, inverse_width = inverse_width0;
         if (shape == SHAPE_CPGIMP) {
-            l[0] = real_min(l0 * p->stretch[d][i], HALF_WIDTH_MOST), l[1] = real_min(l0 * p->stretch[e][i], HALF_WIDTH_MOST);
-            inverse_width = both(0.5 / l[0], 0.5 / l[1]);
+            l *= p->stretch[d][i];
+            if (l > HALF_WIDTH_MOST) l = HALF_WIDTH_MOST;
+            inverse_width = 0.5 / l;
         }
-        shape_rows(shape, both(s->t[d], s->t[e]), both(l[0], l[1]), inverse_width, &N, &dN);
+        shape_row(shape, s->t[d], l, inverse_width, &N, &dN);
         dN *= inverse;
-        if (d == 0) s->N = rows_half(N, 0), s->D[0] = rows_half(dN, 0);
-        for (int k = 0; k < ACROSS; k++) {
-            if (d > 0) s->A[d][k] = N[k], s->B[d][k] = dN[k];
-            if (e > d) s->A[e][k] = N[ACROSS + k], s->B[e][k] = dN[ACROSS + k];
+        if (d == 0) {
+            s->N = N, s->D[0] = dN;
+            continue;
         }
-        for (int a = d; a <= e && SKIPS(dim, shape); a++) s->low[a] = s->t[a] >= (shape == SHAPE_GIMP ? l0 : 0.5);
+        for (int k = 0; k < ACROSS; k++) s->A[d][k] = N[k], s->B[d][k] = dN[k];
+        if (SKIPS(dim, shape)) s->low[d] = s->t[d] >= (shape == SHAPE_GIMP ? l : 0.5);
     }
 }
 

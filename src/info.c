@@ -7,27 +7,8 @@
 #include <yaml.h>
 
 #include "commands.h"
+#include "simd.h"
 #include "team.h"
-
-/* What the compiler was allowed to use; the widest first. */
-static const char *instruction_set(void)
-{
-#if defined __AVX512F__
-    return "AVX-512, 8 doubles per vector";
-#elif defined __AVX2__ && defined __FMA__
-    return "AVX2 with fused multiply-add, 4 doubles per vector";
-#elif defined __AVX__
-    return "AVX, 4 doubles per vector";
-#elif defined __SSE2__
-    return "SSE2, 2 doubles per vector";
-#elif defined __ARM_FEATURE_SVE
-    return "ARM SVE, compiled for vectors of 2 doubles";
-#elif defined __ARM_NEON
-    return "ARM NEON, 2 doubles per vector";
-#else
-    return "no vectors known";
-#endif
-}
 
 static const char *compiler(void)
 {
@@ -70,15 +51,23 @@ static void print_build(void)
     printf("%-18s %s\n", "cleave", CLEAVE_VERSION);
     printf("%-18s %s\n", "compiler", compiler());
     printf("%-18s %s, %s precision\n", "build", build_flags(), sizeof(real) == sizeof(double) ? "double" : "single");
-    printf("%-18s %s\n", "instruction set", instruction_set());
     printf("%-18s OpenMP %d, HDF5 %u.%u.%u, libyaml %s, hwloc interface %u.%u\n", "libraries", _OPENMP, major, minor,
            release, yaml_get_version_string(), hwloc >> 16, hwloc >> 8 & 0xff);
+}
+
+/* The sets of kernels, the one in use first. */
+static void print_kernels(void)
+{
+    printf("%-18s %s: %s\n", "kernels", simd_in_use()->name, simd_in_use()->meaning);
+    for (const struct simd_set *s = simd_sets; s < simd_sets + simd_set_count; s++)
+        if (s != simd_in_use()) printf("%-18s %s: %s%s\n", "", s->name, s->meaning, s->runs() ? "" : "; not on this processor");
 }
 
 static void print_machine(void)
 {
     struct machine m = team_machine();
     printf("%-18s %s\n", "processor", m.model);
+    print_kernels();
     printf("%-18s %d\n", "cores", m.cores);
     printf("%-18s %d; the hardware allows %d\n", "threads of a run", team_make(0), m.threads_allowed);
     print_bytes("L1 data cache", m.cache[1]);

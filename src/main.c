@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "output.h"
 #include "scene.h"
+#include "simd.h"
 
 struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
 
@@ -17,7 +18,7 @@ static const struct command commands[] = {
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"bench", "[NAME...] [--quick]", "kernels, efficiency, coupling", command_bench},
     {"help", "[KEY]", "every scene key: type, unit, range, default", command_help},
-    {"info", "", "version, build, threads, cores and caches", command_info},
+    {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
 };
 
 static status usage(status result)
@@ -40,6 +41,7 @@ static status call(int argc, char **argv)
 {
     if (argc < 2) return usage(REFUSED);
     output_start();
+    TRY(simd_start());
     if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) return usage(OK);
     if (!strcmp(argv[1], "--version")) argv[1] = "info";
     for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)

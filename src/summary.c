@@ -6,6 +6,7 @@
 
 #include "engine.h"
 #include "memory.h"
+#include "simd.h"
 
 /* ---- JSON ------------------------------------------------------------------------------------------ */
 
@@ -226,6 +227,7 @@ static void put_machine(struct json *j, const struct engine *e, int threads, dou
     real steps = 0, ns = 1e9 * e->loop_seconds;
     for (int k = 0; k < KINDS; k++) steps += (real)e->particle_steps[k];
     json_count(j, "threads", threads);
+    json_text(j, "kernels", simd_in_use()->name);
     json_number(j, "wall_seconds", wall_seconds, DIGITS_TIMING);
     json_number(j, "loop_seconds", e->loop_seconds, DIGITS_TIMING);
     json_count(j, "memory_peak_bytes", memory_peak());

@@ -4,6 +4,7 @@
 
 #include "cloud.h"
 #include "near.h"
+#include "sets.h"
 
 #define YIELD 5e-5
 #define HARDENING 1.0                    /* E_t = E/2 */
@@ -222,5 +223,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_path), cmocka_unit_test(test_work), cmocka_unit_test(test_lanes),
         cmocka_unit_test(test_ends), cmocka_unit_test(test_taken_over)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
 }

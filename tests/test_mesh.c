@@ -7,6 +7,7 @@
 #include "convert.h"
 #include "near.h"
 #include "polar.h"
+#include "sets.h"
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
@@ -461,5 +462,7 @@ int main(void)
         cmocka_unit_test(test_momentum), cmocka_unit_test(test_start),
         cmocka_unit_test(test_release), cmocka_unit_test(test_step), cmocka_unit_test(test_refused),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
 }

@@ -4,6 +4,7 @@
 
 #include "cloud.h"
 #include "plastic.h"
+#include "sets.h"
 #include "stress.h"
 #include "watch.h"
 
@@ -399,5 +400,7 @@ int main(void)
         cmocka_unit_test(test_biaxial),              cmocka_unit_test(test_uniaxial_stress),
         cmocka_unit_test(test_work_is_booked),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
 }

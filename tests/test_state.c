@@ -5,6 +5,7 @@
 
 #include "cloud.h"
 #include "near.h"
+#include "sets.h"
 
 
 /* ---- bodies ------------------------------------------------------------------------------------------- */
@@ -323,5 +324,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ospd_plane_stress), cmocka_unit_test(test_mospd_exact), cmocka_unit_test(test_ospd_spaces),
         cmocka_unit_test(test_gradient), cmocka_unit_test(test_rotation), cmocka_unit_test(test_critical_step)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
 }

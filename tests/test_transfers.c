@@ -7,6 +7,7 @@
 
 #include "cloud.h"
 #include "reference_points.h"
+#include "sets.h"
 #include "shape.h"
 #include "team.h"
 
@@ -22,10 +23,10 @@
  * completeness: sum N = 1, sum N x_I = x, sum dN = 0, sum dN x_I = 1. */
 static void check_shape(enum shape shape, real r, real l)
 {
-    lanes N, dN;                             /* of r, and in the other half of some place else */
+    row_of_nodes N, dN;
     real sum[4] = {0};
     const int64_t cell = floor_to_int(r), base = cell - 1;
-    shape_rows(shape, both(r - (real)cell, 0.4), both(l, 0.25), both(0.5 / l, 2), &N, &dN);
+    shape_row(shape, r - (real)cell, l, 0.5 / l, &N, &dN);
     for (int64_t node = base - 3; node < base + ROW + 3; node++) {
         bool inside = node >= base && node < base + ROW;
         struct reference_shape s = reference_shape(shape, r - (real)node, 1, l);
@@ -493,5 +494,7 @@ int main(void)
         cmocka_unit_test(test_threads),
     };
     team_make(2);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
 }

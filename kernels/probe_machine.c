@@ -1,10 +1,11 @@
-/* floor 5: the machine's own limits: the arithmetic of one bond, and the memory's stream. */
+/* floor 2: the machine's own limits: the arithmetic of one bond, and the memory's stream. */
 #include <math.h>
 #include <string.h>
 
-#include "bench.h"
 #include "lanes.h"
 #include "memory.h"
+#include "probe.h"
+#include "team.h"
 #include "variants.h"
 
 /* ---- a lattice stencil ------------------------------------------------------------------------------------

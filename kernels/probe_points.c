@@ -1,4 +1,4 @@
-/* floor 5: a plain material point method, as a measure: 2D, linear shapes, MUSL, FLIP, elastic with Jaumann's rate.
+/* floor 2: a plain material point method, as a measure: 2D, linear shapes, MUSL, FLIP, elastic with Jaumann's rate.
  *
  * Points are stored sorted by cell, four a cell, and stay there (sorting is not counted). Each of the three maps goes
  * cell by cell: the four nodes of the cell are sums in local variables, added to the grid once. Rows of cells of one
@@ -6,8 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "bench.h"
 #include "memory.h"
+#include "probe.h"
+#include "team.h"
 
 enum { CELLS_X = 100, CELLS_Y = 200, CORNERS = 4, NODES_X = CELLS_X + 1, NODES = NODES_X * (CELLS_Y + 1) };
 
