@@ -66,6 +66,7 @@ struct accuracy_problem {
     const char *name, *title;
     const char *error;           /* what the error is, in words                              */
     const char *part[ACCURACY_PARTS];            /* what it is split into; NULL: nothing     */
+    bool draws_parts;            /* they have panels, of the worst of all cases              */
     const char *cases[ACCURACY_CASES];           /* a chart has a panel for each; NULL ends  */
     const char *counts;          /* what its resolutions count                               */
     int families;                /* that apply                                               */
@@ -141,8 +142,9 @@ void accuracy_label(const struct accuracy_point *p, char *text, size_t size);
 status accuracy_draw(const struct accuracy_plan *plan);
 /* results/bench/accuracy.md, and the same table to standard output. */
 status accuracy_page(const struct accuracy_plan *plan);
-/* Dots of one case (or the worst of all cases: at < 0) of a problem, and the entry that each stands for. */
-int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at,
+/* Dots of one case (or the worst of all cases: at < 0) of a problem, of its error (part < 0) or of the size of a part,
+ * and the entry that each stands for. */
+int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at, int part,
                   struct accuracy_dot *dot, const struct accuracy_entry **of);
 /* Names of the cases: how many. */
 int accuracy_cases(const struct accuracy_problem *problem);

@@ -31,34 +31,38 @@ static bool same_but_case(const struct accuracy_point *a, const struct accuracy_
            a->horizon == b->horizon && a->step == b->step;
 }
 
-static struct accuracy_dot dot_of(const struct accuracy_result *r)
+/* A part that is exactly 0 has no place on the axis of a logarithm: 1e-9. */
+static struct accuracy_dot dot_of(const struct accuracy_result *r, int part)
 {
-    return (struct accuracy_dot){r->seconds[0], r->stable ? r->error : NAN};
+    const double error = part < 0 ? r->error : fmax(fabs(r->part[part]), 1e-9);
+    return (struct accuracy_dot){r->seconds[0], r->stable ? error : NAN};
 }
 
-/* The worst error and the longest time of all cases: none if one of them is missing. */
-static struct accuracy_dot worst_dot(const struct accuracy_plan *plan, const struct accuracy_point *p)
+/* The worst error and the longest time of all cases; false: one of them is not known yet. */
+static bool worst_dot(const struct accuracy_plan *plan, const struct accuracy_point *p, int part,
+                      struct accuracy_dot *worst)
 {
-    struct accuracy_dot worst = {0};
+    *worst = (struct accuracy_dot){0};
     for (int k = 0; k < plan->n; k++) {
         const struct accuracy_entry *entry = &plan->entry[k];
         if (!same_but_case(p, &entry->point)) continue;
-        const struct accuracy_dot one = entry->result.known ? dot_of(&entry->result) : (struct accuracy_dot){NAN, NAN};
-        worst.time = isfinite(one.time) ? fmax(worst.time, one.time) : NAN;
-        worst.error = isfinite(one.error) && isfinite(worst.error) ? fmax(worst.error, one.error) : NAN;
+        if (!entry->result.known) return false;
+        const struct accuracy_dot one = dot_of(&entry->result, part);
+        worst->time = fmax(worst->time, one.time);
+        worst->error = isfinite(one.error) && isfinite(worst->error) ? fmax(worst->error, one.error) : NAN;
     }
-    return worst;
+    return true;
 }
 
-int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at,
+int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at, int part,
                   struct accuracy_dot *dot, const struct accuracy_entry **of)
 {
     int n = 0;
     for (int k = 0; k < plan->n; k++) {
         const struct accuracy_entry *entry = &plan->entry[k];
         if (entry->point.problem != problem || entry->point.at != (at < 0 ? 0 : at) || !entry->result.known) continue;
-        of[n] = entry;
-        dot[n++] = at < 0 ? worst_dot(plan, &entry->point) : dot_of(&entry->result);
+        dot[n] = dot_of(&entry->result, part);
+        if (at >= 0 || worst_dot(plan, &entry->point, part, &dot[n])) of[n++] = entry;
     }
     return n;
 }
@@ -87,11 +91,12 @@ static void panel_range(struct panel *q)
     q->latest *= 1.5, q->soonest *= pow(q->soonest / q->latest, 0.45);
 }
 
-static void panel_make(struct panel *q, const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at)
+static void panel_make(struct panel *q, const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at,
+                       int part)
 {
     q->dot = NEW("bench.dot", plan->n, struct accuracy_dot), q->front = NEW("bench.front", plan->n, int);
     q->of = NEW("bench.of", plan->n, const struct accuracy_entry *);
-    q->n = accuracy_dots(plan, problem, at, q->dot, q->of);
+    q->n = accuracy_dots(plan, problem, at, part, q->dot, q->of);
     q->front_n = accuracy_front(q->dot, q->n, q->front);
     panel_range(q);
 }
@@ -204,18 +209,20 @@ struct page {
 static int page_width(const struct page *p) { return p->columns * PANEL_WIDTH + KEY_PIXELS; }
 static int page_height(const struct page *p) { return p->rows * PANEL_HEIGHT; }
 
-static void add_panel(struct page *p, const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at)
+static void add_panel(struct page *p, const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at,
+                      int part)
 {
     struct panel *q = &p->panel[p->panels];
     assert(p->panels < PANELS_MAX);
     q->number = p->panels;
-    panel_make(q, plan, problem, at);
+    panel_make(q, plan, problem, at, part);
     if (q->n == 0) {
         panel_free(q);
         return;
     }
-    snprintf(p->title[p->panels++], sizeof p->title[0], "%s%s%s", problem->title, at < 0 ? "" : ": ",
-             at < 0 ? "" : problem->cases[at]);
+    const char *more = part >= 0 ? problem->part[part] : at >= 0 ? problem->cases[at] : "";
+    snprintf(p->title[p->panels++], sizeof p->title[0], "%s%s%s%s", problem->title, *more ? ": " : "", more,
+             part >= 0 ? ", worst of all" : "");
     p->columns = p->panels < COLUMNS ? p->panels : COLUMNS;
     p->rows = (p->panels + COLUMNS - 1) / COLUMNS;
 }
@@ -259,11 +266,13 @@ status accuracy_draw(const struct accuracy_plan *plan)
     for (int k = 0; k < accuracy_problems; k++) {
         struct page one = {0};
         char name[64];
-        for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++) add_panel(&one, plan, accuracy_problem[k], at);
+        for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++) add_panel(&one, plan, accuracy_problem[k], at, -1);
+        for (int part = 0; part < ACCURACY_PARTS && accuracy_problem[k]->draws_parts; part++)
+            add_panel(&one, plan, accuracy_problem[k], -1, part);
         snprintf(name, sizeof name, "accuracy_%s", accuracy_problem[k]->name);
         TRY(draw_and_free(&one, name));
     }
     struct page all = {0};
-    for (int k = 0; k < accuracy_problems; k++) add_panel(&all, plan, accuracy_problem[k], -1);
+    for (int k = 0; k < accuracy_problems; k++) add_panel(&all, plan, accuracy_problem[k], -1, -1);
     return draw_and_free(&all, "accuracy");
 }

@@ -30,7 +30,7 @@ static void put_row(FILE *to, const struct accuracy_plan *plan, const struct acc
 {
     struct accuracy_dot *dot = NEW("bench.dot", plan->n, struct accuracy_dot);
     const struct accuracy_entry **of = NEW("bench.of", plan->n, const struct accuracy_entry *);
-    const int n = accuracy_dots(plan, q, at, dot, of);
+    const int n = accuracy_dots(plan, q, at, -1, dot, of);
     if (n > 0) {
         fprintf(to, "| %s | %s |", q->name, at < 0 ? "worst of all" : q->cases[at]);
         for (size_t k = 0; k < COUNT_OF(wanted); k++) put_cheapest(to, dot, of, n, wanted[k]);

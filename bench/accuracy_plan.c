@@ -5,7 +5,7 @@
 #include "accuracy.h"
 #include "memory.h"
 
-const struct accuracy_problem *const accuracy_problem[] = {&accuracy_bar};
+const struct accuracy_problem *const accuracy_problem[] = {&accuracy_bar, &accuracy_wave, &accuracy_square, &accuracy_cube};
 const int accuracy_problems = COUNT_OF(accuracy_problem);
 
 int accuracy_cases(const struct accuracy_problem *problem)
