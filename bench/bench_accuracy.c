@@ -79,11 +79,14 @@ static status run_point(struct accuracy_entry *entry)
 
 /* ---- all points --------------------------------------------------------------------------------------------------- */
 
-/* Work of a point beside others of its problem: particles times steps, and as much again for setting it up. */
+/* Work of a point beside others of its problem, about in seconds: 100 ns a particle and step, more with long horizons; its
+ * set-up; repetitions. */
 static double work_of(const struct accuracy_point *p)
 {
     const int dim = p->problem->dim;
-    return pow(p->resolution, dim + 1) * (1 + 0.3 * pow(p->horizon, dim) / pow(3, dim)) / p->step;
+    const double particles = pow(p->resolution, dim), steps = p->resolution / p->step;
+    const double run = particles * (1e-7 * steps * (1 + 0.3 * pow(p->horizon / 3, dim)) + 3e-6) + 0.01;
+    return run * (dim > 1 ? 2 : 1) * (run < 0.5 * RUNS_SECONDS ? RUNS_MOST : 1);
 }
 
 struct progress { double started, spent[16], done[16], asked[16]; };
