@@ -73,9 +73,10 @@ struct accuracy_problem {
     int dim;                     /* of its space: how work grows with resolution             */
     int resolution[ACCURACY_RESOLUTIONS];        /* ascending; 0 ends                        */
     int quick_resolutions;       /* the first few                                            */
-    double horizon[ACCURACY_VARIATIONS];         /* of pure peridynamics beside 3.015; 0 ends */
-    double step[ACCURACY_VARIATIONS];            /* beside 0.8; 0 ends                       */
-    int varied;                  /* 1 + the resolution at which both are varied; 0: the second */
+    double horizon[ACCURACY_VARIATIONS];         /* of pure peridynamics beside 3.015: the first at every resolution, others
+                                                    at one; 0 ends                           */
+    double step[ACCURACY_VARIATIONS];            /* beside 0.8, at that one; 0 ends          */
+    int varied;                  /* 1 + its place; 0: the second                             */
     double seconds, quick_seconds;               /* it takes about, until measured           */
     void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
     /* Relative error and its parts, of a run that reached its end. */

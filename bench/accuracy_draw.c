@@ -244,10 +244,10 @@ static void draw_page(FILE *to, const void *context)
     for (int k = 0; k < p->panels; k++) {
         const double left = k % p->columns * width, above = 1 - k / p->columns * height;
         fprintf(to, "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n",
-                left + 0.17 * width, left + 0.97 * width, above - 0.1 * height, above - 0.86 * height);
+                left + 0.19 * width, left + 0.97 * width, above - 0.1 * height, above - 0.86 * height);
         fputs("set title ", to);
         gnuplot_quote(to, p->title[k]);
-        fprintf(to, "\nset ylabel '%s'\n", k % p->columns ? "" : "error");
+        fprintf(to, "\nset ylabel '%s' offset 0.8,0\n", k % p->columns ? "" : "error");
         plot_panel(to, &p->panel[k]);
     }
     plot_key(to, p->panel, p->panels, p->columns * width + 0.01);

@@ -66,16 +66,17 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
     return read_settings(&plan->entry[plan->n++], plan->machine.model);
 }
 
-static status add_variations(struct accuracy_plan *plan, struct accuracy_point p)
+/* The first of the horizons at every resolution, all the others and the steps at one. */
+static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all)
 {
     const struct accuracy_problem *q = p.problem;
     struct accuracy_point varied = p;
-    for (int k = 0; k < ACCURACY_VARIATIONS && q->horizon[k] > 0 && p.method->family & ACCURACY_PD; k++) {
+    for (int k = 0; k < (all ? ACCURACY_VARIATIONS : 1) && q->horizon[k] > 0 && p.method->family & ACCURACY_PD; k++) {
         varied.horizon = q->horizon[k];
         TRY(add_point(plan, varied, false));
     }
     varied = p;
-    for (int k = 0; k < ACCURACY_VARIATIONS && q->step[k] > 0; k++) {
+    for (int k = 0; all && k < ACCURACY_VARIATIONS && q->step[k] > 0; k++) {
         varied.step = q->step[k];
         TRY(add_point(plan, varied, false));
     }
@@ -94,7 +95,7 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
                                        .step = ACCURACY_STEP,
                                        .horizon = method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON};
             TRY(add_point(plan, p, method->quick && r < q->quick_resolutions));
-            if (r == varied) TRY(add_variations(plan, p));
+            TRY(add_variations(plan, p, r == varied));
         }
     return OK;
 }
