@@ -9,7 +9,7 @@ VERSION  := 0.1.0
 WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas -Wno-psabi
 LIBRARIES := hdf5 hwloc yaml-0.1
 
-CPPFLAGS += -Iinclude -Ikernels -Isrc -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
+CPPFLAGS += -Iinclude -Ikernels -Isrc -Ibench -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
 CFLAGS   += -std=c11 $(OPTIMISE) -g -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
 LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
 LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm

@@ -14,12 +14,15 @@ struct bench {
 static const struct bench benches[] = {
     {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
     {"factors", bench_factors}, {"threads", bench_threads},       {"scale", bench_scale},
-    {"peers", bench_peers}};
+    {"peers", bench_peers},     {"accuracy", bench_accuracy}};
 enum { BENCHES = COUNT_OF(benches) };
+
+/* `accuracy=NAME`: that problem alone. */
+static const char accuracy_of[] = "accuracy=";
 
 static status mark(const char *word, bool *asked)
 {
-    static const char *const later[] = {"accuracy", "stability"};
+    static const char *const later[] = {"stability"};
     for (int k = 0; k < BENCHES; k++)
         if (!strcmp(word, benches[k].name)) {
             asked[k] = true;
@@ -27,24 +30,26 @@ static status mark(const char *word, bool *asked)
         }
     for (size_t k = 0; k < COUNT_OF(later); k++)
         if (!strcmp(word, later[k]))
-            return status_set(REFUSED, "bench %s: not in this version; kernels, efficiency, coupling, factors, threads, scale and peers are",
-                              word);
+            return status_set(REFUSED, "bench %s: not in this version; kernels, efficiency, coupling, factors, threads, scale, "
+                                       "peers and accuracy are", word);
     return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [threads] [scale] "
-                               "[peers] [--quick]", word);
+                               "[peers] [accuracy[=PROBLEM]] [--quick]", word);
 }
 
 status command_bench(int argc, char **argv)
 {
     bool asked[BENCHES] = {false}, quick = false, any = false;
+    const char *only = NULL;
     for (int k = 1; k < argc; k++) {
         if (!strcmp(argv[k], "--quick")) {
             quick = true;
             continue;
         }
-        TRY(mark(argv[k], asked));
+        if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of))) only = argv[k] + strlen(accuracy_of);
+        else TRY(mark(argv[k], asked));
         any = true;
     }
     for (int k = 0; k < BENCHES; k++)
         if (asked[k] || !any) TRY(benches[k].call(quick));
-    return OK;
+    return only ? bench_accuracy_of(only, quick) : OK;
 }

@@ -49,7 +49,7 @@ void bench_engine_free(struct engine *e, struct scene *s);
 /* Goes on to the end of step `until`; the last step is a sample. Adds up laps over calls. */
 status bench_engine_run(struct engine *e, int64_t until, struct laps *spent);
 /* Texts of overrides, made on the way; `at` points into them only once all are added (bench_overrides_ready). */
-enum { OVERRIDES_MAX = 12, OVERRIDE_LENGTH = 160 };
+enum { OVERRIDES_MAX = 24, OVERRIDE_LENGTH = 160 };
 struct bench_overrides {
     int n;
     struct scene_override at[OVERRIDES_MAX];
@@ -120,6 +120,11 @@ void bench_floor_table(const struct floor *f, struct bench_table *t);
 
 /* bench_coupling.c: what an interface of material points and bonds does to waves and uniform strain. */
 status bench_coupling(bool quick);
+
+/* bench_accuracy.c: error against loop time of every method on problems with known solutions; goes on where it was
+ * broken off. Of one problem alone: NULL or its name. */
+status bench_accuracy(bool quick);
+status bench_accuracy_of(const char *only, bool quick);
 
 /* bench_factors.c: stress-intensity factors at rest and in motion beside closed forms and published tables. */
 status bench_factors(bool quick);

@@ -72,16 +72,19 @@ bool crack_near(const struct crack *c, const real *X, real reach, int dim);
 
 /* ---- waves ---------------------------------------------------------------------------------------- */
 
-/* A plane longitudinal wave: at t = 0 v = velocity exp(-(xi/r)^2) along `direction`, xi = (X - at) . direction, r a
- * quarter of the width. It moves along `direction` into material at rest and leaves displaced material behind. */
+/* A plane wave: at t = 0 v = velocity exp(-(xi/r)^2) along `polarisation`, xi = (X - at) . direction, r a quarter of the
+ * width. It moves along `direction` into material at rest and leaves displaced material behind. Its particles move along
+ * or across its direction: a longitudinal or a transverse wave. */
 struct wave_pulse {
     real at[DIM_MAX];                    /* centre                    [m]   */
     real direction[DIM_MAX];             /* unit vector                     */
     real width;                          /* four radii r              [m]   */
     real velocity;                       /* of particles, largest     [m/s] */
+    real polarisation[DIM_MAX];          /* unit vector                     */
+    bool transverse;
 };
 
-/* Velocity along `direction` [m/s], displacement along it [m] and its slope du/dxi [1] at X, in material of wave speed
+/* Velocity along the polarisation [m/s], displacement along it [m] and its slope du/dxi [1] at X, in material of wave speed
  * c [m/s]: v = -c du/dxi. */
 struct wave_state { real velocity, displacement, strain; };
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim);

@@ -318,22 +318,23 @@ static void start_strain(struct particles *p, int64_t i, const struct scene_init
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {
-    const struct wave_state wave = wave_pulse_at(w, X, m->wave_speed, p->dim);
+    const struct wave_state wave = wave_pulse_at(w, X, w->transverse ? m->shear_speed : m->wave_speed, p->dim);
+    const real *along = w->direction, *moved = w->polarisation;
     const int dim = p->dim, count = symmetric_count(dim);
     real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX];
     for (int k = 0; k < count; k++) {
         int a, b;
         symmetric_axes(dim, k, &a, &b);
-        strain[k] = wave.strain * w->direction[a] * w->direction[b];
+        strain[k] = 0.5 * wave.strain * (along[a] * moved[b] + along[b] * moved[a]);
     }
     material_stiffness(m, dim, stiffness);
     for (int k = 0; k < count; k++) p->stress[k][i] += dot(&stiffness[k * count], strain, count);
     for (int a = 0; a < dim; a++) {
-        p->v[a][i] += wave.velocity * w->direction[a];
-        p->x[a][i] += wave.displacement * w->direction[a];
+        p->v[a][i] += wave.velocity * moved[a];
+        p->x[a][i] += wave.displacement * moved[a];
         if (p->stretch[a] != NULL) p->stretch[a][i] += strain[a];
     }
-    p->volume[i] *= 1 + wave.strain;
+    p->volume[i] *= 1 + wave.strain * dot(along, moved, dim);
 }
 
 static status check_initial(const struct scene *s, const struct scene_initial *initial)

@@ -176,6 +176,24 @@ status read_bodies(struct reader *r, const struct node *root)
 
 /* ---- initial states ------------------------------------------------------------------------------------- */
 
+/* Along the direction of the wave, or across it; nothing given: along. What is off by round-off is put right. */
+static status read_polarisation(struct reader *r, const struct node *n, struct wave_pulse *w)
+{
+    const int dim = r->dim;
+    real *moved = w->polarisation, length = sqrt(dot(moved, moved, dim));
+    if (!n) memcpy(moved, w->direction, sizeof w->direction);
+    else if (!(length > 0)) return fault(r, n, "has no length; direction, or a vector across it, is expected");
+    for (int d = 0; n && d < dim; d++) moved[d] /= length;
+    const real along = dot(moved, w->direction, dim);
+    w->transverse = fabs(along) < 1e-6;
+    if (!w->transverse && fabs(along) < 1 - 1e-6)
+        return fault(r, n, "lies neither along direction nor across it; particles of a plane wave move in one of the two ways");
+    for (int d = 0; d < dim; d++) moved[d] = w->transverse ? moved[d] - along * w->direction[d] : along * w->direction[d];
+    length = sqrt(dot(moved, moved, dim));
+    for (int d = 0; d < dim; d++) moved[d] /= length;
+    return OK;
+}
+
 static status read_pulse(struct reader *r, const struct node *n, struct scene_initial *initial)
 {
     real *direction = initial->pulse.direction, length;
@@ -185,7 +203,7 @@ static status read_pulse(struct reader *r, const struct node *n, struct scene_in
     if (!(length > 0)) return fault(r, node_find(n, "direction"), "has no length; a direction such as 1 is expected");
     for (int d = 0; d < r->dim; d++) direction[d] /= length;
     initial->sets_pulse = true;
-    return OK;
+    return read_polarisation(r, node_find(n, "polarisation"), &initial->pulse);
 }
 
 static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)

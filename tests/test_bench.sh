@@ -11,7 +11,7 @@ cd "$work"
 fail() { echo "test_bench: $1" >&2; exit 1; }
 
 # Refused in one line, exit status 2, nothing written.
-for words in accuracy stability nonsense "--slow" "kernels nonsense" coupling factors efficiency; do
+for words in stability nonsense accuracy=nonsense "--slow" "kernels nonsense" coupling factors efficiency; do
     set +e
     "$cleave" bench $words >out 2>err
     ended=$?
@@ -63,6 +63,23 @@ done
 [ -z "$(ls -d run-* 2>/dev/null)" ] || fail "scaling leaves runs behind"
 cd ../..
 
+# Speed against accuracy, its bar: files, figures known from inputs/bar_smooth.yaml, and that nothing is run twice.
+"$cleave" bench accuracy=bar --quick >out || fail "accuracy failed"
+cp results/bench/accuracy.csv before.csv
+head -3 before.csv >results/bench/accuracy.csv
+printf 'bar,pulse,pd bo' >>results/bench/accuracy.csv      # broken off
+"$cleave" bench accuracy=bar --quick >out || fail "accuracy does not go on"
+grep -q ', 54 of them to be run' out || fail "accuracy runs again what it knows: $(grep 'to be run' out)"
+cut -d, -f1-9 before.csv >one
+cut -d, -f1-9 results/bench/accuracy.csv | cmp -s - one || fail "accuracy differs once it was broken off"
+cd results/bench
+[ "$(head -1 accuracy.csv)" = problem,case,method,resolution,horizon,step,error,part_1,part_2,loop_1_thread,loop_2_threads,\
+particles,steps,stable,version,settings ] || fail "columns of accuracy.csv"
+for file in accuracy.json accuracy.md accuracy.png accuracy.svg accuracy_bar.png accuracy_bar.svg; do
+    [ -s $file ] || fail "$file is missing"
+done
+cd ../..
+
 # Couplings: the columns, and figures known from the literature's couplings and from an independent prototype.
 cp "$inputs/bar_pulse.yaml" "$inputs/plate_pulse.yaml" inputs
 "$cleave" bench coupling --quick >out || fail "coupling failed"
@@ -102,6 +119,11 @@ line coupling_patch.csv 'bar,axial,2,partial stress,' 6 0 1e-5
 line coupling_patch.csv 'flat,axial,2,partial stress,isotropic,' 6 0 1e-5
 line coupling_patch.csv '45 degrees,axial,2,partial stress,isotropic,' 6 0.001 0.06
 line coupling_patch.csv 'square,axial,2,partial stress,isotropic,' 6 0.001 0.06
+# second order of bonds, first of the stress of linear cells (inputs/bar_smooth.yaml has 200 and 400 within it)
+line accuracy.csv 'bar,pulse,pd bond,200,' 7 0.004 0.008
+line accuracy.csv 'bar,pulse,pd bond,400,' 7 0.001 0.002
+line accuracy.csv 'bar,pulse,mpm reference,400,' 7 0.007 0.011
+line accuracy.csv 'bar,step,mpm reference,400,' 7 0.02 0.03
 # an oblique interface throws back less of a wave with partial stress
 line coupling_plane.csv '45 degrees,16,flip,handshake,isotropic,' 7 0.018 0.030
 line coupling_plane.csv '45 degrees,16,flip,partial stress,isotropic,' 7 0.006 0.017

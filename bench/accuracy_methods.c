@@ -1,0 +1,44 @@
+/* floor 5: the methods of `cleave bench accuracy`: names, and the scene keys that make them. */
+#include "accuracy.h"
+
+#define PD(...) {{"method", "pd"}, __VA_ARGS__}
+#define MPM(...) {{"method", "mpm"}, __VA_ARGS__}
+#define POINTS(shape, transfer) {{"method", "mpm"}, {"mpm.shape", shape}, {"mpm.transfer", transfer}}
+#define COUPLED(coupling) {{"method", "adaptive"}, {"coupling", coupling}}
+#define REFERENCE {"mpm.frame", "reference"}
+#define ISOTROPIC {"pd.weights", "isotropic"}
+
+/* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled. */
+const struct accuracy_method accuracy_method[] = {
+    {"pd bond", ACCURACY_BONDS, true, "#0072b2", 7, {{"method", "pd"}}},
+    {"pd bond isotropic", ACCURACY_BONDS, false, "#0072b2", 6, PD(ISOTROPIC)},
+    {"pd bond vmpd", ACCURACY_BONDS, false, "#56b4e9", 5, PD({"pd.calibration", "vmpd"}, {"pd.surface", "none"})},
+    {"pd ospd", ACCURACY_STATES, true, "#009e73", 9, PD({"model", "ospd"})},
+    {"pd mospd", ACCURACY_STATES, true, "#009e73", 8, PD({"model", "mospd"})},
+    {"mpm linear flip", ACCURACY_POINTS, false, "#e69f00", 5, POINTS("linear", "flip")},
+    {"mpm gimp flip", ACCURACY_POINTS, true, "#d55e00", 7, POINTS("gimp", "flip")},
+    {"mpm gimp apic", ACCURACY_POINTS, true, "#d55e00", 6, POINTS("gimp", "apic")},
+    {"mpm quadratic flip", ACCURACY_POINTS, false, "#e69f00", 9, POINTS("quadratic", "flip")},
+    {"mpm quadratic apic", ACCURACY_POINTS, false, "#e69f00", 8, POINTS("quadratic", "apic")},
+    {"mpm cubic flip", ACCURACY_POINTS, false, "#a0522d", 11, POINTS("cubic", "flip")},
+    {"mpm cubic apic", ACCURACY_POINTS, true, "#a0522d", 10, POINTS("cubic", "apic")},
+    {"mpm reference", ACCURACY_REFERENCE, true, "#111111", 7, MPM(REFERENCE)},
+    {"mpm reference small", ACCURACY_REFERENCE, false, "#111111", 6, MPM(REFERENCE, {"mpm.strain", "small"})},
+    {"coupled partial stress", ACCURACY_COUPLED, true, "#cc79a7", 7, COUPLED("partial stress")},
+    {"coupled reference", ACCURACY_COUPLED, true, "#7b3294", 5, {{"method", "adaptive"}, REFERENCE}},
+    {"coupled reference isotropic", ACCURACY_COUPLED, true, "#7b3294", 4, {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
+    {"coupled handshake", ACCURACY_COUPLED, false, "#cc79a7", 6, COUPLED("handshake")},
+    {"coupled pm", ACCURACY_COUPLED, false, "#9970ab", 9, COUPLED("pm")},
+    {"coupled pg", ACCURACY_COUPLED, false, "#9970ab", 8, COUPLED("pg")},
+    {"coupled pmg", ACCURACY_COUPLED, false, "#9970ab", 11, COUPLED("pmg")},
+    {"coupled pgg", ACCURACY_COUPLED, false, "#9970ab", 10, COUPLED("pgg")},
+    {"adaptive partial stress", ACCURACY_ADAPTIVE, true, "#cc79a7", 7, COUPLED("partial stress")},
+    {"adaptive reference", ACCURACY_ADAPTIVE, true, "#7b3294", 5, {{"method", "adaptive"}, REFERENCE}},
+    {"adaptive reference isotropic", ACCURACY_ADAPTIVE, true, "#7b3294", 4, {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
+    {"adaptive handshake", ACCURACY_ADAPTIVE, false, "#cc79a7", 6, COUPLED("handshake")},
+    {"adaptive pm", ACCURACY_ADAPTIVE, false, "#9970ab", 9, COUPLED("pm")},
+    {"adaptive pg", ACCURACY_ADAPTIVE, false, "#9970ab", 8, COUPLED("pg")},
+    {"adaptive pmg", ACCURACY_ADAPTIVE, false, "#9970ab", 11, COUPLED("pmg")},
+    {"adaptive pgg", ACCURACY_ADAPTIVE, false, "#9970ab", 10, COUPLED("pgg")},
+};
+const int accuracy_methods = COUNT_OF(accuracy_method);

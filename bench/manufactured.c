@@ -1,0 +1,75 @@
+/* floor 5: a motion that is known because its body force is chosen so. */
+#include "manufactured.h"
+
+#include <math.h>
+
+/* sin(k x_a) prod cos(k x_b), or its slope along axis `slope` over k (< 0: itself). */
+static real mode(const struct manufactured *m, const real *X, int a, int slope)
+{
+    const real k = 2 * M_PI / m->length;
+    real product = 1;
+    for (int b = 0; b < m->dim; b++) {
+        const real phase = k * X[b];
+        if (b == a) product *= b == slope ? cos(phase) : sin(phase);
+        else product *= b == slope ? -sin(phase) : cos(phase);
+    }
+    return product;
+}
+
+/* Factors of the mode of component a in the body force: what is steady and what goes with sin^2(pi t/T) [N/m^3]. */
+static void forces(const struct manufactured *m, int a, real *steady, real *beat)
+{
+    const real k = 2 * M_PI / m->length, inertia = m->density * m->share[a] * square(M_PI / m->period);
+    real sum = 0;
+    for (int b = 0; b < m->dim; b++) sum += m->share[b];
+    *steady = m->amplitude * 2 * inertia;
+    *beat = m->amplitude * (k * k * ((m->c12 + m->shear) * sum + m->shear * m->dim * m->share[a]) - 4 * inertia);
+}
+
+struct manufactured_values manufactured_at(const struct manufactured *m, const real *X, real t)
+{
+    const real k = 2 * M_PI / m->length, grown = square(sin(M_PI * t / m->period));
+    const real rate = M_PI / m->period * sin(2 * M_PI * t / m->period);
+    struct manufactured_values v = {0};
+    for (int a = 0; a < m->dim; a++) {
+        const real shape = m->amplitude * m->share[a] * mode(m, X, a, -1);
+        real steady, beat;
+        forces(m, a, &steady, &beat);
+        v.displacement[a] = shape * grown, v.velocity[a] = shape * rate;
+        v.force[a] = (steady + beat * grown) * mode(m, X, a, -1);
+    }
+    for (int s = 0; s < symmetric_count(m->dim); s++) {
+        int a, b;
+        symmetric_axes(m->dim, s, &a, &b);
+        v.strain[s] = 0.5 * m->amplitude * grown * k *
+                      (m->share[a] * mode(m, X, a, b) + m->share[b] * mode(m, X, b, a));
+    }
+    return v;
+}
+
+/* A product of one sine and cosines is the mean of 2^(dim - 1) sines of plane waves, of the sign of their direction's
+ * component a. */
+static void put_wave(FILE *to, const struct manufactured *m, const int *sign, bool beats)
+{
+    const int waves = 1 << (m->dim - 1);
+    fputs("  - {body_force: [", to);
+    for (int a = 0; a < m->dim; a++) {
+        real part[2];
+        forces(m, a, &part[0], &part[1]);
+        fprintf(to, "%s%.15g", a ? ", " : "", sign[a] * part[beats] / waves);
+    }
+    fprintf(to, "], profile: {sine: {wavelength: %.15g, direction: [", m->length / sqrt(m->dim));
+    for (int a = 0; a < m->dim; a++) fprintf(to, "%s%d", a ? ", " : "", sign[a]);
+    fputs("]}}", to);
+    if (beats) fprintf(to, ", time: {pulse: {until: %.15g}}", m->period);
+    fputs("}\n", to);
+}
+
+void manufactured_boundaries(FILE *to, const struct manufactured *m)
+{
+    for (int wave = 0; wave < 1 << (m->dim - 1); wave++) {
+        const int sign[DIM_MAX] = {1, wave & 1 ? -1 : 1, wave & 2 ? -1 : 1};
+        put_wave(to, m, sign, false);
+        put_wave(to, m, sign, true);
+    }
+}
