@@ -14,12 +14,12 @@ struct bench {
 static const struct bench benches[] = {
     {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
     {"factors", bench_factors}, {"threads", bench_threads},       {"scale", bench_scale},
-    {"peers", bench_peers}};
+    {"peers", bench_peers},       {"stability", bench_stability}};
 enum { BENCHES = COUNT_OF(benches) };
 
 static status mark(const char *word, bool *asked)
 {
-    static const char *const later[] = {"accuracy", "stability"};
+    static const char *const later[] = {"accuracy"};
     for (int k = 0; k < BENCHES; k++)
         if (!strcmp(word, benches[k].name)) {
             asked[k] = true;
@@ -27,10 +27,10 @@ static status mark(const char *word, bool *asked)
         }
     for (size_t k = 0; k < COUNT_OF(later); k++)
         if (!strcmp(word, later[k]))
-            return status_set(REFUSED, "bench %s: not in this version; kernels, efficiency, coupling, factors, threads, scale and peers are",
+            return status_set(REFUSED, "bench %s: not in this version; kernels, efficiency, coupling, factors, threads, scale, peers and stability are",
                               word);
     return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [threads] [scale] "
-                               "[peers] [--quick]", word);
+                               "[peers] [stability] [--quick]", word);
 }
 
 status command_bench(int argc, char **argv)

@@ -106,6 +106,8 @@ status solver_make(struct engine *e);
 /* One step in time. */
 status engine_step(struct engine *e);
 void engine_free(struct engine *e);
+/* The time step and the number of steps (engine_time.c). */
+status engine_time_make(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
  * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
  * of some; after conversion; the alarm. */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "eigenvalue.h"
 #include "memory.h"
 #include "mesh_parts.h"
 #include "mesh_point.h"
@@ -79,25 +80,16 @@ void mesh_stiffness(real *K, real *skew, const struct elastic *m, const struct e
 
 /* ---- time step -------------------------------------------------------------------------------------------- */
 
-enum { ITERATIONS = 200 };
+struct scaled_cell { const real *K, *mass; int n, dim; };
 
-/* Largest eigenvalue of m^-1 K by power iteration on m^-1/2 K m^-1/2, a little above [1/s^2]. */
-static real largest_eigenvalue(const real *K, const real *mass, int n, int dim)
+/* y = m^-1/2 K m^-1/2 x. */
+static void scaled_stiffness(void *context, const real *x, real *y)
 {
-    real x[CELL_UNKNOWNS_MAX], y[CELL_UNKNOWNS_MAX], value = 0;
-    for (int a = 0; a < n; a++) x[a] = 1 + 0.37 * a - 0.11 * a * a;      /* no mode is orthogonal to it */
-    for (int k = 0; k < ITERATIONS; k++) {
-        real size = 0;
-        for (int a = 0; a < n; a++) size += x[a] * x[a];
-        for (int a = 0; a < n; a++) x[a] /= sqrt(size);
-        for (int a = 0; a < n; a++) {
-            y[a] = 0;
-            for (int b = 0; b < n; b++) y[a] += K[b * n + a] * x[b] / sqrt(mass[a / dim] * mass[b / dim]);
-        }
-        value = sqrt(dot(y, y, n));
-        memcpy(x, y, sizeof x);
+    const struct scaled_cell *c = context;
+    for (int a = 0; a < c->n; a++) {
+        y[a] = 0;
+        for (int b = 0; b < c->n; b++) y[a] += c->K[b * c->n + a] * x[b] / sqrt(c->mass[a / c->dim] * c->mass[b / c->dim]);
     }
-    return value * 1.001;
 }
 
 /* A mesh moves no faster than its stiffest cell would alone, with the masses of its own points. */
@@ -109,7 +101,7 @@ static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, re
         for (int q = 0; q < corners; q++)
             if (places >> q & 1) mass[c] += density * V * mesh_weight(dim, c, q);
     mesh_stiffness(K, NULL, m, m, dim, h, V, places, NULL, NULL);
-    return largest_eigenvalue(K, mass, corners * dim, dim);
+    return largest_eigenvalue(corners * dim, scaled_stiffness, &(struct scaled_cell){K, mass, corners * dim, dim});
 }
 
 static unsigned places_of(const struct mesh *mesh, int64_t I)
