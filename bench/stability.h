@@ -21,6 +21,7 @@ struct stability_case {
     double heavier;          /* density of the other half over that of the first; 0: one material       */
     enum { HALF, ISLANDS, SPOTS } region; /* peridynamic: one half; all but scattered balls; these balls (adaptive) */
     int edge;                /* particles along it; 0: few                                              */
+    const char *text;        /* another scene than this block, at rest: the rest is not looked at; NULL: none */
     double quoted_low, quoted_high; /* limit of the design sheets in the case's unit, 0: none           */
 };
 
@@ -37,6 +38,10 @@ struct stability_limits {
 /* Finds them; `steps` of a growth run, `long_steps` of the three real runs (0: none). REFUSED with the reason where the
  * scene is. */
 status stability_observe(const struct stability_case *c, int steps, int long_steps, struct stability_limits *to);
+/* Does a body at rest, shaken at random and carried along at shares of the wave speed, stay bounded for so many steps of dt
+ * [s]? 0: the automatic step. */
+struct stability_shake { double speed, drift; int steps; };
+status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays);
 /* Text of the case's scene (stability_scene.c). */
 void stability_text(const struct stability_case *c, char *text, size_t size);
 /* Line that names it. */

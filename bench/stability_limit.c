@@ -17,8 +17,6 @@
 
 /* ---- a shaken body ------------------------------------------------------------------------------------------- */
 
-struct shaken { double speed, drift; int steps; };
-
 static double random_of(uint64_t *seed)
 {
     *seed = *seed * 6364136223846793005u + 1442695040888963407u;
@@ -47,11 +45,13 @@ static double motion(const struct engine *e, double drift)
     return watch_kinetic(&e->part) + mesh_kinetic(&e->mesh) - 0.5 * e->mass * e->part.dim * drift * drift;
 }
 
+/* Long enough that its only sample is the first step. */
 static status block_make(struct engine *e, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};
     char text[4096];
-    stability_text(c, text, sizeof text);
+    if (c->text) snprintf(text, sizeof text, "%s", c->text);
+    else stability_text(c, text, sizeof text);
     if (dt > 0) {
         bench_override(&o, "time.step", "%.17g", dt);
         bench_override(&o, "duration", "%.17g", dt * 1e9);
@@ -59,8 +59,7 @@ static status block_make(struct engine *e, struct scene *s, const struct stabili
     return bench_engine_make(e, s, "block", text, bench_overrides_ready(&o), o.n);
 }
 
-/* Does a body so shaken stay bounded under steps of dt? */
-static status bounded(const struct stability_case *c, double dt, struct shaken how, bool *stays)
+status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays)
 {
     struct engine e;
     struct scene s;
@@ -82,17 +81,17 @@ static status bounded(const struct stability_case *c, double dt, struct shaken h
 /* Between steps at which it stays bounded and does not, from the one called critical. */
 static status limit_of(const struct stability_case *c, double critical, int steps, double *limit)
 {
-    const struct shaken quietly = {QUIET, 0, steps};
+    const struct stability_shake quietly = {QUIET, 0, steps};
     double low = 0, high = 0;
     bool stays;
     for (double f = 1.05; low == 0 || high == 0; f *= stays ? 1.2 : 0.85) {
         if (f > 20 || f < 0.02) return status_set(REFUSED, "no limit between 0.02 and 20 of the predicted step");
-        TRY(bounded(c, f * critical, quietly, &stays));
+        TRY(stability_stays(c, f * critical, quietly, &stays));
         *(stays ? &low : &high) = f * critical;
     }
     while (high - low > WITHIN * low) {
         const double middle = 0.5 * (low + high);
-        TRY(bounded(c, middle, quietly, &stays));
+        TRY(stability_stays(c, middle, quietly, &stays));
         *(stays ? &low : &high) = middle;
     }
     *limit = 0.5 * (low + high);
@@ -133,7 +132,7 @@ static status predict(const struct stability_case *c, struct stability_limits *t
 static status real_run(const struct stability_case *c, double dt, double drift, int steps, int *run)
 {
     bool stays;
-    TRY(bounded(c, dt, (struct shaken){LOUD, drift, steps}, &stays));
+    TRY(stability_stays(c, dt, (struct stability_shake){LOUD, drift, steps}, &stays));
     *run = stays ? RUN_STAYS : RUN_GROWS;
     return OK;
 }

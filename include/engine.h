@@ -67,6 +67,7 @@ struct engine {
     struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
     struct laps laps;
     real t, dt, dt_critical;             /* [s]                                                       */
+    char cure[128];                      /* what to change about dt where a run is unstable           */
     int64_t step, steps;
     real wave_speed;                     /* fastest of the materials [m/s]                            */
     real residual_step0;                 /* largest nodal force of the first step, for patch probes [N] */

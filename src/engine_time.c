@@ -2,6 +2,7 @@
  *
  * What `bench stability` observes beside it: growth of the largest mode under the step itself. */
 #include <math.h>
+#include <stdio.h>
 
 #include "engine.h"
 
@@ -79,7 +80,10 @@ static real critical_of_bonds(struct engine *e)
     const struct scene *s = e->scene;
     real bound;
     if (s->method == METHOD_MPM) return INFINITY;
-    if (s->method == METHOD_PD) return critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
+    if (s->method == METHOD_PD) {
+        const real step = critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
+        return isfinite(step) ? step : s->spacing / e->wave_speed;   /* no bond: whatever loads want */
+    }
     const real step = critical_of_lattices(e, &bound);
     const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
     return share * step * (coupling_unified(e->coupling) && s->cell >= 2 ? CARRIED_BY_GRID : 1);
@@ -89,21 +93,32 @@ static real critical_of_bonds(struct engine *e)
 
 #define STEPS_MOST 1e12                  /* as scene_check.c: more than any machine will ever do */
 
-/* The smallest of all methods' limits, whichever kinds are present now: particles convert. */
-status engine_time_make(struct engine *e)
+static void make_cure(struct engine *e)
+{
+    snprintf(e->cure, sizeof e->cure, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
+             e->scene->time_step > 0 ? "step" : "safety", e->dt, e->dt / e->dt_critical, e->dt_critical);
+}
+
+static status make_steps(struct engine *e, real dt)
 {
     const struct scene *s = e->scene;
-    e->dt_critical = real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
-    real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
-    if (s->solver != SOLVER_EXPLICIT) {
-        e->steps = s->solver_steps, e->dt = dt;
-        return OK;
-    }
     if (!(s->duration / dt <= STEPS_MOST))
         return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
                           s->duration / dt, dt);
     e->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a hair less: round-off adds no step */
     if (e->steps < 1) e->steps = 1;
     e->dt = s->duration / (real)e->steps;
+    return OK;
+}
+
+/* The smallest of all methods' limits, whichever kinds are present now: particles convert. */
+status engine_time_make(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->dt_critical = real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
+    const real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
+    if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e, dt));
+    else e->steps = s->solver_steps, e->dt = dt;
+    make_cure(e);
     return OK;
 }

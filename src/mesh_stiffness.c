@@ -112,11 +112,23 @@ static unsigned places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
+/* Do points of a cell leave part of their stress to bonds? Then it is softer than the same cell by itself. */
+static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
+{
+    if (!partial || !partial->index) return false;
+    for (int q = 0; q < 1 << mesh->grid.dim; q++) {
+        const int32_t i = mesh->point[(I << mesh->grid.dim) + q];
+        if (i >= 0 && partial->index[i] >= 0) return true;
+    }
+    return false;
+}
+
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any)
 {
     const int dim = mesh->grid.dim, sets = 1 << (1 << dim);
     bool *there = NEW("mesh.there", sets, bool);
-    for (int64_t k = 0; k < mesh->cuts; k++) there[places_of(mesh, mesh->cut[k])] = true;
+    for (int64_t k = 0; k < mesh->cuts; k++)
+        if (!leaves_stress(mesh, source->partial, mesh->cut[k])) there[places_of(mesh, mesh->cut[k])] = true;
     real most = 0;
     for (int set = 1; set < sets; set++) {
         if (!any && !there[set] && set != sets - 1) continue;
