@@ -131,7 +131,7 @@ status bench_stability(bool quick)
         put_table(&t, map);
         s = bench_write("stability", &t, 1);
     }
-    if (s == OK) s = bench_draw("stability", 1500, 1100, stability_draw, map);
+    if (s == OK) s = bench_draw("stability", 1800, 1150, stability_draw, map);
     bench_table_free(&t);
     memory_free(map);
     return s;

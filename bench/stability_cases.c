@@ -4,7 +4,7 @@
 #include "stability.h"
 
 const char *const stability_group_name[STABILITY_GROUPS] = {
-    [GROUP_PD] = "peridynamics", [GROUP_SHEET] = "peridynamics as published", [GROUP_POINTS] = "material points",
+    [GROUP_PD] = "peridynamics", [GROUP_SHEET] = "as published", [GROUP_POINTS] = "material points",
     [GROUP_COUPLED] = "coupled", [GROUP_REFERENCE] = "reference frame"};
 
 struct taker { bool quick; stability_take *take; void *context; };
