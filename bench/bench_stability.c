@@ -7,6 +7,8 @@
 
 /* ---- measuring ------------------------------------------------------------------------------------------------- */
 
+enum { STEPS_OF_LINEAR = 1500 };         /* points on nodes grow slowly, by round-off */
+
 struct measuring { struct stability_map *map; int steps, long_steps; };
 
 static bool outside(const struct stability_row *r)
@@ -46,7 +48,8 @@ static status measure(void *context, const struct stability_case *c)
     *r = (struct stability_row){.c = *c};
     m->map->n++;
     stability_label(c, r->label, sizeof r->label);
-    const status s = stability_observe(c, m->steps, m->long_steps, &r->l);
+    const bool slow = c->shape && !strcmp(c->shape, "linear");
+    const status s = stability_observe(c, slow ? STEPS_OF_LINEAR : m->steps, m->long_steps, &r->l);
     if (s != OK && s != REFUSED) return s;
     if (s == REFUSED) {
         const char *why = strstr(status_message(), "was measured unstable") ? "strains are not mapped again: the limit tends to 0"
@@ -130,6 +133,7 @@ status bench_stability(bool quick)
         print_verdict(map);
         put_table(&t, map);
         s = bench_write("stability", &t, 1);
+        if (!quick) puts("  a run of APIC that stays above the limit: the growth moves points beyond an edge, and there the limit is another");
     }
     if (s == OK) s = bench_draw("stability", 1800, 1150, stability_draw, map);
     bench_table_free(&t);
