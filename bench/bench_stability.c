@@ -133,7 +133,8 @@ status bench_stability(bool quick)
         print_verdict(map);
         put_table(&t, map);
         s = bench_write("stability", &t, 1);
-        if (!quick) puts("  a run of APIC that stays above the limit: the growth moves points beyond an edge, and there the limit is another");
+        if (!quick)
+            puts("  a run of APIC that stays above the limit: growth moves points at an edge to where the limit is another");
     }
     if (s == OK) s = bench_draw("stability", 1800, 1150, stability_draw, map);
     bench_table_free(&t);

@@ -38,7 +38,8 @@ static void draw_horizons(FILE *to, const struct stability_map *map)
         fputs("EOD\n", to);
     }
     set_panel(to, 0, 0, "peridynamics: where runs begin to grow, and the automatic step");
-    fputs("set xrange [0.8:6.3]\nset yrange [0:*]\nset xlabel 'horizon [spacings]'\nset ylabel 'time step [spacing/wave speed]'\nplot ", to);
+    fputs("set xrange [0.8:6.3]\nset yrange [0:*]\nset xlabel 'horizon [spacings]'\n"
+          "set ylabel 'time step [spacing/wave speed]'\nplot ", to);
     for (int k = 0; k < LAWS; k++)
         fprintf(to, "$law%d using 1:2 smooth unique with linespoints pt 7 ps 0.9 lw 2.4 lc rgb '%s' title '%s', "
                     "$law%d using 1:4 with points pt 2 ps 0.9 lw 1.6 lc rgb '%s' notitle, ",

@@ -96,7 +96,8 @@ static void test_homologous(void **state)
 {
     (void)state;
     static const struct { const char *shape; double at_5[2], at_20[2]; } row[] = {   /* least and most */
-        {"linear", {1, 2.5}, {1, 3}}, {"gimp", {0, 0.065}, {0.3, 0.7}}, {"quadratic", {0, 0.06}, {0.2, 0.5}}, {"cpgimp", {0, 0.001}, {0, 0.002}}};
+        {"linear", {1, 2.5}, {1, 3}}, {"gimp", {0, 0.065}, {0.3, 0.7}}, {"quadratic", {0, 0.06}, {0.2, 0.5}},
+        {"cpgimp", {0, 0.001}, {0, 0.002}}};
     for (size_t k = 0; k < COUNT_OF(row); k++) {
         const double small = stretched(row[k].shape, 0.05), large = stretched(row[k].shape, 0.2);
         assert_true(small >= row[k].at_5[0] && small <= row[k].at_5[1]);
@@ -111,7 +112,8 @@ static double null_mode(const char *transfer, int steps)
 {
     struct engine e;
     struct scene s;
-    scene_make(&e, &s, BAR "duration: 1\nmethod: mpm\nbody: {box: {from: [0], to: [0.8]}}\n", SET("mpm.transfer", transfer, "mpm.shape", "gimp"));
+    scene_make(&e, &s, BAR "duration: 1\nmethod: mpm\nbody: {box: {from: [0], to: [0.8]}}\n",
+               SET("mpm.transfer", transfer, "mpm.shape", "gimp"));
     for (int64_t i = 0; i < e.part.n; i++) e.part.v[0][i] = i % 2 ? 1e-3 : -1e-3;
     const double first = watch_kinetic(&e.part);
     assert_ok(bench_engine_run(&e, steps, NULL));
@@ -140,7 +142,8 @@ static double on_faces(const char *shape, const char *transfer, double offset)
     snprintf(origin, sizeof origin, "[%.17g, %.17g]", offset, offset);
     scene_make(&e, &s, "space: plane stress\nthickness: 1\nduration: 3\nmethod: mpm\nmaterial: {young: 1, density: 1}\n"
                "body: {box: {from: [0, 0], to: [12, 8]}}\nparticles: {spacing: 1}\ninitial: [{velocity: [0.03125, -0.0625]}]\n"
-               "output: {frames: 0, samples: 1}\n", SET("mpm.shape", shape, "mpm.transfer", transfer, "mpm.origin", origin, "duration", "300"));
+               "output: {frames: 0, samples: 1}\n",
+               SET("mpm.shape", shape, "mpm.transfer", transfer, "mpm.origin", origin, "duration", "300"));
     assert_ok(engine_run(&e));
     for (int c = 0; c < 3; c++)
         for (int64_t i = 0; i < e.part.n; i++) most = fmax(most, fabs(e.part.stress[c][i]) / 0.07);
@@ -171,7 +174,8 @@ static void test_single(void **state)
             struct engine e;
             struct scene s;
             scene_make(&e, &s, "space: plane stress\nthickness: 1e-3\nduration: 2e-5\nmaterial: {young: 72e9, density: 2440, "
-                       "critical_stretch: 0.01, poisson: 1/3}\nbody: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\nparticles: {spacing: 1e-3}\n"
+                       "critical_stretch: 0.01, poisson: 1/3}\nbody: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
+                       "particles: {spacing: 1e-3}\n"
                        "initial:\n  - {velocity: [400, 300], region: {box: {from: [11e-3, 11e-3], to: [inf, inf]}}}\n"
                        "output: {frames: 0, samples: 20}\n", SET("model", model[m], "method", method[a], "time.safety", "0.2"));
             const status ran = engine_run(&e);
@@ -193,9 +197,12 @@ static int inverted(const char *model, double speed)
     struct scene s;
     char text[1024];
     int pairs = 0;
-    snprintf(text, sizeof text, "space: plane stress\nthickness: 1\nduration: 0.3\ntime: {safety: 0.2}\nmethod: pd\nmodel: %s\nmaterial: {young: 1e4, "
-             "density: 1}\nbody: {box: {from: [0, 0], to: [40, 6]}}\nparticles: {spacing: 1}\ninitial:\n  - {velocity: [%g, 0]}\n  - {velocity: "
-             "[%g, 0], region: {box: {from: [20, -inf], to: [inf, inf]}}}\noutput: {frames: 0, samples: 10}\n", model, 100 * speed, -100 * speed);
+    snprintf(text, sizeof text,
+             "space: plane stress\nthickness: 1\nduration: 0.3\ntime: {safety: 0.2}\nmethod: pd\nmodel: %s\n"
+             "material: {young: 1e4, density: 1}\nbody: {box: {from: [0, 0], to: [40, 6]}}\nparticles: {spacing: 1}\n"
+             "initial:\n  - {velocity: [%g, 0]}\n"
+             "  - {velocity: [%g, 0], region: {box: {from: [20, -inf], to: [inf, inf]}}}\n"
+             "output: {frames: 0, samples: 10}\n", model, 100 * speed, -100 * speed);
     assert_ok(bench_engine_make(&e, &s, "halves", text, NULL, 0));
     assert_ok(engine_run(&e));
     for (int64_t i = 0; i + 1 < e.part.n; i++)
@@ -225,9 +232,11 @@ static void disc(const char *frame, const char *transfer, double *momentum, doub
 {
     struct engine e;
     struct scene s;
-    scene_make(&e, &s, "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\nmaterial: {young: 192e9, density: 8000}\n"
-               "body: {disc: {centre: [0, 0], radius: 10e-3}}\nparticles: {spacing: 0.5e-3}\npd: {region: {disc: {centre: [0, 0], radius: 4e-3}}}\n"
-               "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -1e4], [1e4, 0]]}]\noutput: {frames: 0, samples: 2}\n",
+    scene_make(&e, &s, "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\n"
+               "material: {young: 192e9, density: 8000}\nbody: {disc: {centre: [0, 0], radius: 10e-3}}\n"
+               "particles: {spacing: 0.5e-3}\npd: {region: {disc: {centre: [0, 0], radius: 4e-3}}}\n"
+               "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -1e4], [1e4, 0]]}]\n"
+               "output: {frames: 0, samples: 2}\n",
                SET("mpm.frame", frame, "mpm.transfer", transfer));
     const struct particles *p = &e.part;
     double turn[2], kinetic[2];
