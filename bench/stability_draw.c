@@ -8,7 +8,7 @@
 /* One of four panels, its key on the right. */
 static void set_panel(FILE *to, int column, int row, const char *title)
 {
-    const double left = 0.045 + 0.5 * column, above = 0.95 - 0.5 * row;
+    const double left = 0.052 + 0.5 * column, above = 0.95 - 0.5 * row;
     fprintf(to,
             "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n"
             "set key at screen %g,%g left top vertical maxrows 20\nset title '%s'\n",

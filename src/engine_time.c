@@ -18,7 +18,9 @@ static real points_share(const struct scene *s)
     const real n = s->cell;
     const bool apic = s->transfer == TRANSFER_APIC;
     switch (s->shape) {
-    case SHAPE_LINEAR: return n < 1.5 ? 0.42 : (fabs(n - 2) < 0.3 ? 0.5 : 0.62) * (1 + 0.4 * (s->dim - 1));
+    case SHAPE_LINEAR:
+        if (n < 1.5) return s->dim == 1 ? 0.48 : 0.42;
+        return (fabs(n - 2) < 0.3 ? 0.52 : 0.62) * (1 + 0.4 * (s->dim - 1));
     case SHAPE_QUADRATIC: return apic ? 0.75 : 1.8;
     case SHAPE_CUBIC: return apic ? 1.15 : 2.1;
     default: return apic ? 0.84 / (1 + 0.16 * n) : 1.52;
