@@ -14,7 +14,7 @@ struct bench {
 static const struct bench benches[] = {
     {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
     {"factors", bench_factors}, {"threads", bench_threads},       {"scale", bench_scale},
-    {"peers", bench_peers},     {"accuracy", bench_accuracy}};
+    {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability}};
 enum { BENCHES = COUNT_OF(benches) };
 
 /* `accuracy=NAME`: that problem alone. */
@@ -22,18 +22,13 @@ static const char accuracy_of[] = "accuracy=";
 
 static status mark(const char *word, bool *asked)
 {
-    static const char *const later[] = {"stability"};
     for (int k = 0; k < BENCHES; k++)
         if (!strcmp(word, benches[k].name)) {
             asked[k] = true;
             return OK;
         }
-    for (size_t k = 0; k < COUNT_OF(later); k++)
-        if (!strcmp(word, later[k]))
-            return status_set(REFUSED, "bench %s: not in this version; kernels, efficiency, coupling, factors, threads, scale, "
-                                       "peers and accuracy are", word);
     return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [threads] [scale] "
-                               "[peers] [accuracy[=PROBLEM]] [--quick]", word);
+                               "[peers] [accuracy[=PROBLEM]] [stability] [--quick]", word);
 }
 
 status command_bench(int argc, char **argv)

@@ -138,6 +138,9 @@ status bench_scale(bool quick);
 /* bench_peers.c: a block and a plate by this program and by LAMMPS, where `lmp` is installed. */
 status bench_peers(bool quick);
 
+/* bench_stability.c: the critical time step observed beside the predicted one, for every method. */
+status bench_stability(bool quick);
+
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */
 status bench_efficiency(bool quick);
 

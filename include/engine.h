@@ -67,6 +67,7 @@ struct engine {
     struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
     struct laps laps;
     real t, dt, dt_critical;             /* [s]                                                       */
+    char cure[128];                      /* what to change about dt where a run is unstable           */
     int64_t step, steps;
     real wave_speed;                     /* fastest of the materials [m/s]                            */
     real residual_step0;                 /* largest nodal force of the first step, for patch probes [N] */
@@ -107,6 +108,8 @@ status solver_make(struct engine *e);
 /* One step in time. */
 status engine_step(struct engine *e);
 void engine_free(struct engine *e);
+/* The time step and the number of steps (engine_time.c). */
+status engine_time_make(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
  * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
  * of some; after conversion; the alarm. */

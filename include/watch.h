@@ -67,9 +67,9 @@ real watch_energy_change(const struct watch *w);
 /* Books the first break of the run from FLAG_CRACKED. */
 void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, real t);
 
-/* FAILED with place, step, cause and cure if a position or velocity is not finite or a particle outruns `limit`
+/* FAILED with place, step, cause and `cure` if a position or velocity is not finite or a particle outruns `limit`
  * [m/s] (the fastest wave of the scene). Points of a mesh are looked at only if told so: their nodes are watched. */
-status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, real dt);
+status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, const char *cure);
 
 status watch_archive(struct watch *w, struct archive *a);
 

@@ -5,11 +5,6 @@
 #include "engine.h"
 #include "memory.h"
 
-/* Critical steps of the material point method in h/(c + |v|), below the limits of the linearised step in 1D: MUSL 1.03 at
- * the worst with one point a cell; strain from the updated velocity (APIC) 0.73 at the worst with GIMP. */
-#define STEP_FLIP 1.0
-#define STEP_APIC 0.6
-
 static bool has_peridynamics(const struct scene *s) { return s->method != METHOD_MPM; }
 
 /* ---- materials -------------------------------------------------------------------------------------- */
@@ -185,66 +180,6 @@ static void make_grid(struct engine *e)
     e->sort_needed = true;
 }
 
-/* ---- time step ----------------------------------------------------------------------------------------- */
-
-static real fastest(const struct engine *e)
-{
-    real speed2 = 0;
-    for (int64_t i = 0; i < e->part.n; i++) {
-        real v2 = 0;
-        for (int d = 0; d < e->part.dim; d++) v2 += square(e->part.v[d][i]);
-        speed2 = real_max(speed2, v2);
-    }
-    for (int b = 0; b < e->scene->boundaries; b++)
-        if (e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
-            speed2 = real_max(speed2, dot(e->scene->boundary[b].value, e->scene->boundary[b].value, e->part.dim));
-    return sqrt(speed2);
-}
-
-/* Bonds have a sharp bound over all particles, whether peridynamic now or later; states are iterated: on the body itself
- * where all of it is peridynamic, else on a block of lattice. */
-static real critical_of_bonds(struct engine *e)
-{
-    const struct scene *s = e->scene;
-    real step = INFINITY;
-    if (s->model == MODEL_BOND && s->method == METHOD_PD) return bonds_critical_step_made(&e->bonds, &e->part);
-    if (s->model == MODEL_BOND) return bonds_critical_step(&e->part, &e->source);
-    if (s->method == METHOD_PD) return critical_step_of(&e->bonds, &e->part, e->kernels.bond_force, s->spacing);
-    for (int m = 0; m < s->materials; m++) {
-        struct bond_source one = e->source;      /* its particles are of material 0 */
-        one.modulus = &e->modulus[m];
-        step = real_min(step, critical_step_of_lattice(&one, e->kernels.bond_force, s->material[m].density));
-    }
-    return step;
-}
-
-#define STEPS_MOST 1e12                  /* as scene_check.c: more than any machine will ever do */
-
-/* The smaller of both methods' limits, whichever kinds are present now: particles convert. */
-static status make_time_step(struct engine *e)
-{
-    const struct scene *s = e->scene;
-    e->dt_critical = INFINITY;
-    if (has_peridynamics(s)) e->dt_critical = critical_of_bonds(e);
-    if (e->part.n_free > 0 || e->part.n_carried > 0) {
-        real share = s->transfer == TRANSFER_APIC ? STEP_APIC : STEP_FLIP;
-        e->dt_critical = real_min(e->dt_critical, share * e->grid.h / (e->wave_speed + fastest(e)));
-    }
-    e->dt_critical = real_min(e->dt_critical, engine_mesh_critical_step(e));
-    real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
-    if (s->solver != SOLVER_EXPLICIT) {
-        e->steps = s->solver_steps, e->dt = dt;
-        return OK;
-    }
-    if (!(s->duration / dt <= STEPS_MOST))
-        return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
-                          s->duration / dt, dt);
-    e->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a hair less: round-off adds no step */
-    if (e->steps < 1) e->steps = 1;
-    e->dt = s->duration / (real)e->steps;
-    return OK;
-}
-
 /* ---- what the machine can hold -------------------------------------------------------------------------- */
 
 #define BYTES_PER_PARTICLE 250.0         /* fields, cells, lists, its part of the grid */
@@ -360,7 +295,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     make_partial(e);
     make_grid(e);
     TRY(named(s, engine_mesh_make(e)));
-    TRY(named(s, make_time_step(e)));
+    TRY(named(s, engine_time_make(e)));
     make_rim_share(e);
     e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false};
     e->strain_stress = largest_stress(&e->part);

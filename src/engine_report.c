@@ -339,8 +339,8 @@ static status energy_alarm(const struct engine *e)
         used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
     return status_set(FAILED,
                       "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of "
-                      "its energy from nowhere; choose a smaller time.safety (now dt = %.3g s)",
-                      (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, e->dt);
+                      "its energy from nowhere; %s",
+                      (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, e->cure);
 }
 
 real engine_rest(const struct engine *e)

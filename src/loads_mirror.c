@@ -100,9 +100,26 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
     return sum > 0 ? -1 : 1;
 }
 
+/* Between parallel mirrors a particle would see images of images on both sides, of which there is but one: forces without a
+ * potential, and no time step that is small enough. */
+static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
+{
+    for (int k = 0; k < n; k++)
+        for (int m = 0; m < k; m++) {
+            if (b[k].kind != BOUNDARY_MIRROR || b[m].kind != BOUNDARY_MIRROR || b[k].axis != b[m].axis) continue;
+            if (b[k].body >= 0 && b[m].body >= 0 && b[k].body != b[m].body) continue;
+            const real apart = fabs(b[k].at - b[m].at);
+            if (apart > 0 && apart + spacing <= reach)
+                return status_set(REFUSED, "boundary %s: the mirror is %.6g m from that of %s; bonds that reach %.6g m want them "
+                                           "farther apart than %.6g m", b[k].name, apart, b[m].name, reach, reach - spacing);
+        }
+    return OK;
+}
+
 status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional)
 {
     const struct boundary *boundary = l->n ? l->load[0].boundary : NULL;
+    TRY(mirrors_apart(boundary, l->n, reach, l->spacing));
     for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, reach, d);
     for (int b = 0; b < l->n; b++) {
         if (boundary[b].kind != BOUNDARY_MIRROR) continue;

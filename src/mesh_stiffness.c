@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "eigenvalue.h"
 #include "memory.h"
 #include "mesh_parts.h"
 #include "mesh_point.h"
@@ -25,22 +26,17 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     }
 }
 
-enum { ITERATIONS = 200 };
+/* ---- time step -------------------------------------------------------------------------------------------- */
 
-/* Largest eigenvalue of a symmetric matrix by power iteration, a little above. */
-static real largest_eigenvalue(const real *A, int n)
+struct scaled_cell { const real *K; int n; };
+
+/* y = m^-1/2 K m^-1/2 x, column by column: whole vectors. */
+static void scaled_stiffness(void *context, const real *x, real *y)
 {
-    real x[CELL_UNKNOWNS_MAX], y[CELL_UNKNOWNS_MAX], value = 0;
-    for (int a = 0; a < n; a++) x[a] = 1 + 0.37 * a - 0.11 * a * a;      /* no mode is orthogonal to it */
-    for (int k = 0; k < ITERATIONS; k++) {
-        const real size = sqrt(dot(x, x, n));
-        for (int a = 0; a < n; a++) x[a] /= size, y[a] = 0;
-        for (int b = 0; b < n; b++)
-            for (int a = 0; a < n; a++) y[a] += A[b * n + a] * x[b];     /* columns: whole vectors */
-        value = sqrt(dot(y, y, n));
-        memcpy(x, y, sizeof x);
-    }
-    return value * 1.001;
+    const struct scaled_cell *c = context;
+    for (int a = 0; a < c->n; a++) y[a] = 0;
+    for (int b = 0; b < c->n; b++)
+        for (int a = 0; a < c->n; a++) y[a] += c->K[b * c->n + a] * x[b];
 }
 
 /* A mesh moves no faster than its stiffest cell would alone, with the masses of its own points: of m^-1/2 K m^-1/2 [1/s^2]. */
@@ -55,7 +51,7 @@ static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, re
     }
     for (int b = 0; b < n; b++)
         for (int a = 0; a < n; a++) K[b * n + a] /= sqrt(mass[a / dim] * mass[b / dim]);
-    return largest_eigenvalue(K, n);
+    return largest_eigenvalue(n, scaled_stiffness, &(struct scaled_cell){K, n});
 }
 
 static unsigned places_of(const struct mesh *mesh, int64_t I)
@@ -66,11 +62,23 @@ static unsigned places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
+/* Do points of a cell leave part of their stress to bonds? Then it is softer than the same cell by itself. */
+static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
+{
+    if (!partial || !partial->index) return false;
+    for (int q = 0; q < 1 << mesh->grid.dim; q++) {
+        const int32_t i = mesh->point[(I << mesh->grid.dim) + q];
+        if (i >= 0 && partial->index[i] >= 0) return true;
+    }
+    return false;
+}
+
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any)
 {
     const int dim = mesh->grid.dim, sets = 1 << (1 << dim);
     bool *there = NEW("mesh.there", sets, bool);
-    for (int64_t k = 0; k < mesh->cuts; k++) there[places_of(mesh, mesh->cut[k])] = true;
+    for (int64_t k = 0; k < mesh->cuts; k++)
+        if (!leaves_stress(mesh, source->partial, mesh->cut[k])) there[places_of(mesh, mesh->cut[k])] = true;
     real most = 0;
     for (int set = 1; set < sets; set++) {
         if (!any && !there[set] && set != sets - 1) continue;

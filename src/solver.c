@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bond_laws.h"
+#include "eigenvalue.h"
 #include "engine_report.h"
 #include "memory.h"
 #include "solver_parts.h"
@@ -87,39 +88,21 @@ static void field_free(struct field *v)
     for (int d = 0; d < DIM_MAX; d++) memory_free(v->of[d]);
 }
 
-static void vector_block(const void *context, int64_t first, int64_t end, real *sum)
+/* y = Lambda^-1/2 K Lambda^-1/2 x; `before` and v are its scratch. */
+static void scaled_stiffness(void *engine, const real *x, real *y)
 {
-    const struct engine *e = context;
-    const struct solver *s = &e->solver;
-    for (int d = 0; d < s->dim; d++)
-        for (int64_t i = first; i < end; i++) {
-            sum[0] += s->before.of[d][i] * e->part.v[d][i];
-            sum[1] += s->diagonal[i] * square(s->before.of[d][i]);
-        }
-}
-
-/* Largest eigenvalue of Lambda^-1 K by power iteration from an arbitrary vector; `before` and v are its scratch. */
-static real largest_eigenvalue(struct engine *e)
-{
-    enum { ITERATIONS = 30 };
+    struct engine *e = engine;
     struct solver *s = &e->solver;
-    struct particles *p = &e->part;
-    struct field out = {{p->v[0], p->v[1], p->v[2]}};
-    real largest = 0, sum[2];
-    for (int d = 0; d < p->dim; d++)
-        for (int64_t i = 0; i < p->n; i++)
-            s->before.of[d][i] = ((uint32_t)(i + d * p->n) * 2654435761u >> 16 & 1) ? 1 : -1;
-    for (int k = 0; k < ITERATIONS; k++) {
-        solver_tangent(e, &s->before, &out, 1 / e->scene->spacing);
-        team_sums(p->n, 2, vector_block, e, sum);
-        largest = real_max(largest, sum[0] / sum[1]);
-        for (int d = 0; d < p->dim; d++)
-            for (int64_t i = 0; i < p->n; i++) s->before.of[d][i] = out.of[d][i] / s->diagonal[i];
-    }
-    return largest;
+    struct field out = {{e->part.v[0], e->part.v[1], e->part.v[2]}};
+    const int64_t n = e->part.n;
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = 0; i < n; i++) s->before.of[d][i] = x[d * n + i] / sqrt(s->diagonal[i]);
+    solver_tangent(e, &s->before, &out, 1 / e->scene->spacing);
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = 0; i < n; i++) y[d * n + i] = out.of[d][i] / sqrt(s->diagonal[i]);
 }
 
-#define MARGIN_OF_EIGENVALUE 1.1         /* power iteration stays below what it seeks, by some per cent */
+#define MARGIN_OF_EIGENVALUE 1.02        /* the iteration comes from below */
 
 /* Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci 2010), of the bonds as springs; where the model is stiffer
  * than that, as many times as much. */
@@ -137,7 +120,7 @@ static void make_diagonal(struct engine *e)
         if (s->diagonal[i] < 1e-6 * most || most == 0) s->diagonal[i] = most > 0 ? 1e-6 * most : 1;
     field_make(&kept, p->dim, p->n);
     for (int d = 0; d < p->dim; d++) memcpy(kept.of[d], p->x[d], (size_t)p->n * sizeof(real));
-    const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(e) / 4;
+    const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, scaled_stiffness, e) / 4;
     for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
     for (int d = 0; d < p->dim; d++) memcpy(p->x[d], kept.of[d], (size_t)p->n * sizeof(real));
     solver_bond_force(e);                /* what energies of state-based models rest on */

@@ -249,7 +249,7 @@ static bool out_of_hand(const struct particles *p, int64_t i, real limit2)
     return !(speed2 <= limit2) || !isfinite(place);
 }
 
-static status alarm_raise(const struct particles *p, int64_t i, real limit, int64_t step, real t, real dt)
+static status alarm_raise(const struct particles *p, int64_t i, real limit, int64_t step, real t, const char *cure)
 {
     char place[128];
     real speed2 = 0;
@@ -262,10 +262,8 @@ static status alarm_raise(const struct particles *p, int64_t i, real limit, int6
     if (isfinite(speed2) && speed2 > limit * limit)
         snprintf(what, sizeof what, "moves at %.3g m/s, faster than the wave speed %.4g m/s", sqrt(speed2), limit);
     else snprintf(what, sizeof what, "has a position or velocity that is no finite number");
-    return status_set(FAILED,
-                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s; "
-                      "choose a smaller time.safety (now dt = %.3g s)",
-                      (long long)step, t, (int)p->id[i], place, what, dt);
+    return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s; %s", (long long)step, t,
+                      (int)p->id[i], place, what, cure);
 }
 
 /* First of the listed particles that is out of hand, n_all if none is. */
@@ -278,14 +276,14 @@ static int64_t first_out_of_hand(const struct particles *p, const int32_t *list,
     return first;
 }
 
-status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, real dt)
+status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, const char *cure)
 {
     assert(limit > 0);
     int64_t first = first_out_of_hand(p, p->list[KIND_PD], p->n_of[KIND_PD], limit * limit);
     const int64_t free = everywhere ? first_out_of_hand(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit * limit)
                                     : first_out_of_hand(p, p->list_free, p->n_free, limit * limit);
     if (free < first) first = free;
-    return first < p->n ? alarm_raise(p, first, limit, step, t, dt) : OK;
+    return first < p->n ? alarm_raise(p, first, limit, step, t, cure) : OK;
 }
 
 status watch_archive(struct watch *w, struct archive *a)

@@ -1,0 +1,161 @@
+/* floor 5: the observed critical step: growth of the largest mode under the engine's own step, and real runs beside it.
+ *
+ * The step is applied to a body at rest with velocities of 1e-8 c at random: that is the linearised step applied to a vector
+ * that has a part in every mode. Below the limit the velocities stay as large as they are, but for modes that do not grow
+ * or grow with the number of steps; a hair above it they grow by a factor each step. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "stability.h"
+
+#define QUIET 1e-8                       /* over c: linear, and round-off is 1e-8 of it                */
+#define LOUD 1e-4                        /* over c, of a real run that nothing breaks or converts      */
+#define DRIFT 3e-4                       /* over c: carries points through cells in a real run         */
+#define GROWN 1e3                        /* of velocities: more than modes that grow with the number of steps reach */
+#define WITHIN 0.004                     /* of the limit                                               */
+
+/* ---- a shaken body ------------------------------------------------------------------------------------------- */
+
+static double random_of(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-52 - 1;
+}
+
+/* Velocities at random, without the mean that would carry the body away, and then one that does. */
+static void shake(struct engine *e, double speed, double drift)
+{
+    struct particles *p = &e->part;
+    struct grid *g = &e->mesh.grid;
+    uint64_t seed = 1;
+    for (int d = 0; d < p->dim; d++) {
+        double mean = 0;
+        for (int64_t i = 0; i < p->n; i++) p->v[d][i] = speed * random_of(&seed);
+        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / e->mass;
+        for (int64_t i = 0; i < p->n; i++) p->v[d][i] += drift - mean;
+        for (int64_t I = 0; e->mesh.points > 0 && I < g->n; I++)
+            if (e->mesh.inverse_mass[I] > 0) g->velocity[d][I] = speed * random_of(&seed);
+    }
+}
+
+/* Kinetic energy in motion against the drift. */
+static double motion(const struct engine *e, double drift)
+{
+    return watch_kinetic(&e->part) + mesh_kinetic(&e->mesh) - 0.5 * e->mass * e->part.dim * drift * drift;
+}
+
+/* Long enough that its only sample is the first step. */
+static status block_make(struct engine *e, struct scene *s, const struct stability_case *c, double dt)
+{
+    struct bench_overrides o = {0};
+    char text[4096];
+    if (c->text) snprintf(text, sizeof text, "%s", c->text);
+    else stability_text(c, text, sizeof text);
+    if (dt > 0) {
+        bench_override(&o, "time.step", "%.17g", dt);
+        bench_override(&o, "duration", "%.17g", dt * 1e9);
+    }
+    return bench_engine_make(e, s, "block", text, bench_overrides_ready(&o), o.n);
+}
+
+status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays)
+{
+    struct engine e;
+    struct scene s;
+    TRY(block_make(&e, &s, c, dt));
+    const double drift = how.drift * e.wave_speed;
+    shake(&e, how.speed * e.wave_speed, drift);
+    const double first = motion(&e, drift);
+    *stays = bench_engine_run(&e, 1, NULL) == OK;    /* makes the record of the first sample */
+    while (*stays && e.step < how.steps) {
+        if (engine_step(&e) != OK) *stays = false;
+        else if (e.step % 8 == 0 && !(motion(&e, drift) < GROWN * GROWN * first)) *stays = false;
+    }
+    bench_engine_free(&e, &s);
+    return OK;
+}
+
+/* ---- limits ---------------------------------------------------------------------------------------------------- */
+
+/* Between steps at which it stays bounded and does not, from the one called critical. */
+static status limit_of(const struct stability_case *c, double critical, int steps, double *limit)
+{
+    const struct stability_shake quietly = {QUIET, 0, steps};
+    double low = 0, high = 0;
+    bool stays;
+    for (double f = 1.05; low == 0 || high == 0; f *= stays ? 1.2 : 0.85) {
+        if (f > 20 || f < 0.02) return status_set(REFUSED, "no limit between 0.02 and 20 of the predicted step");
+        TRY(stability_stays(c, f * critical, quietly, &stays));
+        *(stays ? &low : &high) = f * critical;
+    }
+    while (high - low > WITHIN * low) {
+        const double middle = 0.5 * (low + high);
+        TRY(stability_stays(c, middle, quietly, &stays));
+        *(stays ? &low : &high) = middle;
+    }
+    *limit = 0.5 * (low + high);
+    return OK;
+}
+
+/* sqrt(2 rho/sum c V/xi) of the stiffest row (Silling & Askari 2005). */
+static double silling_step(const struct engine *e)
+{
+    const struct bonds *b = &e->bonds;
+    double most = 0;
+    for (int64_t r = 0; r < b->rows; r++) {
+        const int64_t g = r / LANES;
+        double sum = 0;
+        for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
+            const int64_t q = bond_index(b, g, k, (int)(r % LANES));
+            sum += b->stiffness * b->w[q] * b->inverse_length[q];
+        }
+        most = fmax(most, sum / e->part.mass[b->particle[r]]);
+    }
+    return sqrt(2 / most);
+}
+
+static status predict(const struct stability_case *c, struct stability_limits *to)
+{
+    struct engine e;
+    struct scene s;
+    TRY(block_make(&e, &s, c, 0));
+    to->critical = e.dt_critical, to->automatic = s.safety * e.dt_critical;
+    to->unit = (c->group == GROUP_POINTS ? e.grid.h : s.spacing) / e.wave_speed;
+    to->gershgorin = to->silling = NAN;
+    if (s.method == METHOD_PD && s.model == MODEL_BOND)
+        to->gershgorin = bonds_critical_step_made(&e.bonds, &e.part), to->silling = silling_step(&e);
+    bench_engine_free(&e, &s);
+    return OK;
+}
+
+static status real_run(const struct stability_case *c, double dt, double drift, int steps, int *run)
+{
+    bool stays;
+    TRY(stability_stays(c, dt, (struct stability_shake){LOUD, drift, steps}, &stays));
+    *run = stays ? RUN_STAYS : RUN_GROWS;
+    return OK;
+}
+
+status stability_observe(const struct stability_case *given, int steps, int long_steps, struct stability_limits *to)
+{
+    struct stability_case c = *given;
+    *to = (struct stability_limits){.observed = INFINITY};
+    TRY(predict(&c, to));
+    for (int k = 0; k < (c.offsets > 0 ? c.offsets : 1); k++) {
+        double limit = 0;
+        if (c.offsets > 0) c.offset = (double)k / c.offsets;
+        TRY(limit_of(&c, to->critical, steps, &limit));
+        to->largest = fmax(to->largest, limit);
+        if (limit < to->observed) to->observed = limit, to->offset = c.offset;
+    }
+    if (long_steps <= 0) return OK;
+    const bool drifts = c.group == GROUP_POINTS;
+    int run[3];
+    c.offset = to->offset;
+    TRY(real_run(&c, to->automatic, drifts ? DRIFT : 0, long_steps, &run[0]));
+    TRY(real_run(&c, 0.97 * to->observed, 0, long_steps, &run[1]));
+    TRY(real_run(&c, 1.03 * to->observed, 0, long_steps, &run[2]));
+    to->automatic_run = run[0], to->below = run[1], to->above = run[2];
+    return OK;
+}

@@ -1,0 +1,180 @@
+/* floor 5: scenes of the stability bench: free blocks of 1 mm lattice that nothing loads, breaks or converts. */
+#include <stdio.h>
+#include <string.h>
+
+#include "stability.h"
+
+static const char *space_of(const struct stability_case *c)
+{
+    static const char *const space[] = {"", "line", "plane stress", "solid"};
+    return c->space ? c->space : space[c->dim];
+}
+
+static bool is(const char *word, const char *other) { return word && !strcmp(word, other); }
+
+/* ---- pieces of text ---------------------------------------------------------------------------------------- */
+
+/* A mapping in one line: entries as they come, none without any. */
+struct mapping { FILE *to; const char *name; int entries; };
+
+static void entry(struct mapping *m)
+{
+    if (m->entries++ == 0) fprintf(m->to, "%s: {", m->name);
+    else fputs(", ", m->to);
+}
+
+static void put_text(struct mapping *m, const char *key, const char *value)
+{
+    if (!value) return;
+    entry(m);
+    fprintf(m->to, "%s: %s", key, value);
+}
+
+static void put_number(struct mapping *m, const char *key, double value)
+{
+    if (value == 0) return;
+    entry(m);
+    fprintf(m->to, "%s: %.9g", key, value);
+}
+
+static void mapping_end(struct mapping *m)
+{
+    if (m->entries > 0) fputs("}\n", m->to);
+}
+
+static void put_point(FILE *to, int dim, double first, double rest)
+{
+    fprintf(to, "[%.9g", first);
+    for (int d = 1; d < dim; d++) fprintf(to, ", %.9g", rest);
+    fputc(']', to);
+}
+
+static void put_box(FILE *to, int dim, double from, double until, double edge)
+{
+    fputs("{box: {from: ", to);
+    put_point(to, dim, from, 0);
+    fputs(", to: ", to);
+    put_point(to, dim, until, edge);
+    fputs("}}", to);
+}
+
+/* ---- the scene ------------------------------------------------------------------------------------------------ */
+
+#define SPACING 1e-3
+
+static double edge_of(const struct stability_case *c)
+{
+    static const int edge[DIM_MAX + 1] = {0, 48, 16, 8};
+    int n = c->edge > 0 ? c->edge : edge[c->dim];
+    if (c->dim > 1 && c->edge == 0 && c->horizon > 3.1) n = (int)(2 * c->horizon) + (c->dim == 2 ? 10 : 4);
+    if (n < 3 * c->cell) n = (int)(3 * c->cell);
+    return n * SPACING;
+}
+
+static void put_bodies(FILE *to, const struct stability_case *c, double edge)
+{
+    char poisson[40] = "";
+    if (c->poisson != 0) snprintf(poisson, sizeof poisson, ", poisson: %.9g", c->poisson);
+    if (c->heavier == 0) {
+        fprintf(to, "material: {young: 72e9, density: 2440%s}\nbody: ", poisson);
+        put_box(to, c->dim, 0, edge, edge);
+        fputc('\n', to);
+        return;
+    }
+    fprintf(to, "materials:\n  - {name: first, young: 72e9, density: 2440%s}\n  - {name: second, young: 72e9, density: %.9g%s}\n",
+            poisson, 2440 * c->heavier, poisson);
+    for (int half = 0; half < 2; half++) {
+        fprintf(to, "%s  - {material: %s, shape: ", half ? "" : "bodies:\n", half ? "second" : "first");
+        put_box(to, c->dim, half ? edge / 2 : 0, half ? edge : edge / 2, edge);
+        fputs("}\n", to);
+    }
+}
+
+/* Balls of one to some particles, at odd places of the block. */
+static void put_balls(FILE *to, const struct stability_case *c, double edge, const char *before, const char *after)
+{
+    static const double place[][DIM_MAX] = {{0.5, 0.5, 0.5}, {0.19, 0.27, 0.71}, {0.81, 0.33, 0.2}, {0.3, 0.85, 0.4}, {0.7, 0.72, 0.83}};
+    static const double radius[] = {0.55, 1.05, 1.45, 0.75, 2.05};
+    for (size_t k = 0; k < COUNT_OF(radius); k++) {
+        fprintf(to, "%s%s{ball: {centre: [", k > 0 ? ", " : "", before);
+        for (int d = 0; d < c->dim; d++) {
+            const double at = ((int)(place[k][d] * edge / SPACING) + 0.5 + 0.1 * (int)k) * SPACING;
+            fprintf(to, "%s%.9g", d > 0 ? ", " : "", at);
+        }
+        fprintf(to, "], radius: %.9g}}%s", radius[k] * SPACING, after);
+    }
+}
+
+static void put_region(FILE *to, const struct stability_case *c, double edge)
+{
+    if (c->region == HALF) {
+        put_box(to, c->dim, 0, edge / 2, edge);
+        return;
+    }
+    fputc('[', to);
+    if (c->region == ISLANDS) {
+        put_box(to, c->dim, 0, edge, edge);
+        fputs(", ", to);
+    }
+    put_balls(to, c, edge, c->region == ISLANDS ? "{subtract: " : "", c->region == ISLANDS ? "}" : "");
+    fputc(']', to);
+}
+
+void stability_text(const struct stability_case *c, char *text, size_t size)
+{
+    const double edge = edge_of(c), cell = c->cell > 0 ? c->cell : 2, origin = c->offset * cell * SPACING;
+    FILE *to = fmemopen(text, size, "w");
+    fprintf(to, "name: block\nspace: %s\nmethod: %s\nduration: 1\n", space_of(c), c->method);
+    if (c->dim == 2) fputs("thickness: 1 mm\n", to);
+    if (c->model) fprintf(to, "model: %s\n", c->model);
+    if (c->coupling) fprintf(to, "coupling: %s\n", c->coupling);
+    put_bodies(to, c, edge);
+    struct mapping particles = {to, "particles", 0}, mpm = {to, "mpm", 0}, pd = {to, "pd", 0};
+    put_number(&particles, "spacing", SPACING);
+    put_number(&particles, "horizon", c->horizon);
+    put_number(&particles, "irregularity", c->irregularity);
+    mapping_end(&particles);
+    put_number(&mpm, "cell", cell);
+    put_text(&mpm, "shape", c->shape);
+    put_text(&mpm, "transfer", c->transfer);
+    put_text(&mpm, "frame", c->frame);
+    if (c->offset != 0) {
+        entry(&mpm);
+        fputs("origin: ", to);
+        put_point(to, c->dim, origin, origin);
+    }
+    mapping_end(&mpm);
+    put_text(&pd, "surface", c->surface);
+    put_text(&pd, "weights", c->weights);
+    put_text(&pd, "normalisation", c->normalisation);
+    put_text(&pd, "calibration", c->calibration);
+    if (is(c->method, "adaptive")) {
+        entry(&pd);
+        fputs("region: ", to);
+        put_region(to, c, edge);
+    }
+    mapping_end(&pd);
+    if (is(c->method, "adaptive")) fputs("conversion: {criteria: none}\n", to);
+    fputs("output: {frames: 0, samples: 1}\n", to);
+    fclose(to);
+}
+
+/* ---- its name -------------------------------------------------------------------------------------------------- */
+
+void stability_label(const struct stability_case *c, char *text, size_t size)
+{
+    FILE *to = fmemopen(text, size, "w");
+    fputs(space_of(c), to);
+    if (is(c->method, "pd")) fprintf(to, " %s, horizon %g", c->model ? c->model : "bond", c->horizon > 0 ? c->horizon : 3.015);
+    else if (is(c->frame, "reference")) fprintf(to, " %s", c->method);
+    else if (is(c->method, "adaptive"))
+        fprintf(to, " %s%s%s, %s %s", c->coupling, c->model ? ", " : "", c->model ? c->model : "", c->shape ? c->shape : "gimp",
+                c->transfer);
+    else fprintf(to, " %s %s", c->shape, c->transfer);
+    if (c->group == GROUP_POINTS || c->group == GROUP_COUPLED) fprintf(to, ", %g a cell", c->cell > 0 ? c->cell : 2);
+    if (c->poisson != 0) fprintf(to, ", nu %g", c->poisson);
+    if (c->note) fprintf(to, ", %s", c->note);
+    fputc('\0', to);
+    fclose(to);
+    text[size - 1] = 0;
+}
