@@ -153,7 +153,7 @@ static void check_smooth(const struct exact *e, real X, real t, real scale, real
 static void pulses_obey_the_wave_equation(void **state)
 {
     (void)state;
-    const struct wave_pulse pulse[] = {{{0.3}, {1}, 0.2, 2}, {{0.6}, {-1}, 0.12, -1}};
+    const struct wave_pulse pulse[] = {{{0.3}, {1}, 0.2, 2, {1}, false}, {{0.6}, {-1}, 0.12, -1, {-1}, false}};
     for (int ends = 0; ends < 4; ends++) {
         struct exact e = {.form = EXACT_PULSE, .left = 0, .right = 1, .young = 1e4, .density = 1,
                           .reflection = {ends & 1 ? 1 : -1, ends & 2 ? 1 : -1}, .pulse = pulse, .pulses = 2};
@@ -378,7 +378,7 @@ static void bars_that_have_no_closed_form(void **state)
     b.material.yield_tangent = 0, refused(&b, EXACT_PLASTIC_BAR, "without hardening");
     b.material.yield_stress = INFINITY, refused(&b, EXACT_PLASTIC_BAR, "does not yield");
     refused(&b, EXACT_PULSE, "starts no pulse");
-    const struct wave_pulse pulse = {{0.5}, {1}, 0.1, 1};
+    const struct wave_pulse pulse = {{0.5}, {1}, 0.1, 1, {1}, false};
     b.o.pulse = &pulse, b.o.pulses = 1, refused(&b, EXACT_PULSE, "a traction acts");
     b.loads.n = 1, refused(&b, EXACT_PULSE, "not that of its pulses"), b.loads.n = 2;
     b.p.material[3] = 1, refused(&b, EXACT_MANUFACTURED, "several materials"), b.p.material[3] = 0;
