@@ -1,4 +1,6 @@
 /* floor 5: the methods of `cleave bench accuracy`: names, and the scene keys that make them. */
+#include <string.h>
+
 #include "accuracy.h"
 
 #define PD(...) {{"method", "pd"}, __VA_ARGS__}
@@ -40,3 +42,19 @@ const struct accuracy_method accuracy_method[] = {
     {"adaptive pgg", ACCURACY_ADAPTIVE, false, "#9970ab", 10, COUPLED("pgg")},
 };
 const int accuracy_methods = COUNT_OF(accuracy_method);
+
+static bool sets(const struct accuracy_method *m, const char *key, const char *value)
+{
+    for (int k = 0; k < ACCURACY_SETTINGS && m->set[k].key; k++)
+        if (strcmp(m->set[k].key, key) == 0 && strcmp(m->set[k].value, value) == 0) return true;
+    return false;
+}
+
+bool accuracy_is_reference(const struct accuracy_point *p) { return sets(p->method, "mpm.frame", "reference"); }
+
+/* With flip they creep, and linear shapes, which couplings pm and pmg take, know no apic. */
+bool accuracy_relaxes(const struct accuracy_point *p)
+{
+    return !sets(p->method, "mpm.transfer", "flip") && !sets(p->method, "coupling", "pm") &&
+           !sets(p->method, "coupling", "pmg");
+}

@@ -5,7 +5,9 @@
 #include "accuracy.h"
 #include "memory.h"
 
-const struct accuracy_problem *const accuracy_problem[] = {&accuracy_bar, &accuracy_wave, &accuracy_square, &accuracy_cube};
+const struct accuracy_problem *const accuracy_problem[] = {
+    &accuracy_bar,    &accuracy_wave,   &accuracy_square, &accuracy_cube,    &accuracy_hole,
+    &accuracy_cracks, &accuracy_sudden, &accuracy_spall,  &accuracy_fracture};
 const int accuracy_problems = COUNT_OF(accuracy_problem);
 
 int accuracy_cases(const struct accuracy_problem *problem)
@@ -27,7 +29,7 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
     bench_override(&s->set, "time.step", "auto");
     bench_override(&s->set, "time.safety", "%.9g", p->step);
     bench_override(&s->set, "output.frames", "0");
-    bench_override(&s->set, "output.samples", "1");
+    bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
 
 /* FNV-1a over the scene with all its defaults and over the machine's name: whatever changes a result changes it. */
