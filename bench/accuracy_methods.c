@@ -10,7 +10,8 @@
 #define REFERENCE {"mpm.frame", "reference"}
 #define ISOTROPIC {"pd.weights", "isotropic"}
 
-/* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled. */
+/* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled, dark red,
+ * violet and teal adaptive. */
 const struct accuracy_method accuracy_method[] = {
     {"pd bond", ACCURACY_BONDS, true, "#0072b2", 7, {{"method", "pd"}}},
     {"pd bond isotropic", ACCURACY_BONDS, false, "#0072b2", 6, PD(ISOTROPIC)},
@@ -33,13 +34,13 @@ const struct accuracy_method accuracy_method[] = {
     {"coupled pg", ACCURACY_COUPLED, false, "#9970ab", 8, COUPLED("pg")},
     {"coupled pmg", ACCURACY_COUPLED, false, "#9970ab", 11, COUPLED("pmg")},
     {"coupled pgg", ACCURACY_COUPLED, false, "#9970ab", 10, COUPLED("pgg")},
-    {"adaptive partial stress", ACCURACY_ADAPTIVE, true, "#cc79a7", 7, COUPLED("partial stress")},
-    {"adaptive reference", ACCURACY_ADAPTIVE, true, "#7b3294", 5, {{"method", "adaptive"}, REFERENCE}},
-    {"adaptive handshake", ACCURACY_ADAPTIVE, false, "#cc79a7", 6, COUPLED("handshake")},
-    {"adaptive pm", ACCURACY_ADAPTIVE, false, "#9970ab", 9, COUPLED("pm")},
-    {"adaptive pg", ACCURACY_ADAPTIVE, false, "#9970ab", 8, COUPLED("pg")},
-    {"adaptive pmg", ACCURACY_ADAPTIVE, false, "#9970ab", 11, COUPLED("pmg")},
-    {"adaptive pgg", ACCURACY_ADAPTIVE, false, "#9970ab", 10, COUPLED("pgg")},
+    {"adaptive partial stress", ACCURACY_ADAPTIVE, true, "#c51b7d", 13, COUPLED("partial stress")},
+    {"adaptive reference", ACCURACY_ADAPTIVE, true, "#40004b", 13, {{"method", "adaptive"}, REFERENCE}},
+    {"adaptive handshake", ACCURACY_ADAPTIVE, false, "#c51b7d", 12, COUPLED("handshake")},
+    {"adaptive pm", ACCURACY_ADAPTIVE, false, "#35978f", 9, COUPLED("pm")},
+    {"adaptive pg", ACCURACY_ADAPTIVE, false, "#35978f", 8, COUPLED("pg")},
+    {"adaptive pmg", ACCURACY_ADAPTIVE, false, "#35978f", 11, COUPLED("pmg")},
+    {"adaptive pgg", ACCURACY_ADAPTIVE, false, "#35978f", 10, COUPLED("pgg")},
 };
 const int accuracy_methods = COUNT_OF(accuracy_method);
 
