@@ -42,7 +42,7 @@ extern const int accuracy_methods;
 
 /* ---- problems (accuracy_plan.c) ----------------------------------------------------------------------- */
 
-enum { ACCURACY_CASES = 6, ACCURACY_RESOLUTIONS = 6, ACCURACY_VARIATIONS = 3, ACCURACY_PARTS = 3 };
+enum { ACCURACY_CASES = 6, ACCURACY_RESOLUTIONS = 6, ACCURACY_VARIATIONS = 3, ACCURACY_PARTS = 3, ACCURACY_REMARKS = 5 };
 
 struct accuracy_problem;
 
@@ -73,9 +73,11 @@ struct accuracy_problem {
     int dim;                     /* of its space: how work grows with resolution             */
     int resolution[ACCURACY_RESOLUTIONS];        /* ascending; 0 ends                        */
     int quick_resolutions;       /* the first few                                            */
-    double horizon[ACCURACY_VARIATIONS];         /* of pure peridynamics beside 3.015; 0 ends */
-    double step[ACCURACY_VARIATIONS];            /* beside 0.8; 0 ends                       */
-    int varied;                  /* 1 + the resolution at which both are varied; 0: the second */
+    double horizon[ACCURACY_VARIATIONS];         /* of pure peridynamics beside 3.015: the first at every resolution, others
+                                                    at one; 0 ends                           */
+    double step[ACCURACY_VARIATIONS];            /* beside 0.8, at that one; 0 ends          */
+    int varied;                  /* 1 + its place; 0: the second                             */
+    const char *remark[ACCURACY_REMARKS];        /* for the page: what stands out and why    */
     int samples;                 /* its tips are looked at so often; 0: once                 */
     double seconds, quick_seconds;               /* it takes about, until measured           */
     void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
@@ -148,7 +150,7 @@ int accuracy_cheapest(const struct accuracy_dot *dot, int n, double error);
 
 /* ---- accuracy_draw.c, accuracy_page.c ----------------------------------------------------------------------------- */
 
-/* `pd bond 100`, with horizon and step where they are not the usual ones. */
+/* `pd bond 100`, with `h` the horizon and `dt` the share of the critical step where they are not the usual ones. */
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size);
 /* results/bench/accuracy_<problem>.png for every problem with known points, and accuracy.png with all of them. */
 status accuracy_draw(const struct accuracy_plan *plan);

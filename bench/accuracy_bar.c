@@ -51,7 +51,7 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
 }
 
 /* A line has one shell of bonds for each distance: isotropic weights change nothing. */
-static bool applies(const struct accuracy_point *p) { return strcmp(p->method->name, "pd bond isotropic") != 0; }
+static bool applies(const struct accuracy_point *p) { return !strstr(p->method->name, "isotropic"); }
 
 const struct accuracy_problem accuracy_bar = {
     .name = "bar",
@@ -67,8 +67,16 @@ const struct accuracy_problem accuracy_bar = {
     .horizon = {2.015, 5.015, 8.015},
     .step = {0.4, 0.2},
     .varied = 3,
-    .seconds = 120,
-    .quick_seconds = 10,
+    .remark = {"A front is of order 0.45 to 0.6 in the mean, whatever the method: 1600 particles reach 1.1 %.",
+               "Stress of linear shapes, GIMP and the reference frame is of first order, one strain a cell; that of bonds "
+               "and B-splines is of second, as all velocities are.",
+               "FLIP takes velocities to the grid and back in every step, which slows waves by 0.09 (k h)^2 beside the "
+               "grid's own 0.04: three times APIC's error in velocity, six times that of the reference frame.",
+               "Bonds calibrated by vmpd are 2 % soft at a horizon of 3.015 and 4 % at 2.015: the pulse stops at 4.3 and "
+               "8.4 %.",
+               "Bars are too short for two threads: their times are those of one."},
+    .seconds = 15,
+    .quick_seconds = 3,
     .scene = make_scene,
     .measure = measure,
     .applies = applies,

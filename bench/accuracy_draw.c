@@ -20,8 +20,8 @@ static bool is_usual(const struct accuracy_point *p)
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size)
 {
     char more[48] = "", *end = more;
-    if (p->horizon > 0 && p->horizon != ACCURACY_HORIZON) end += snprintf(more, 24, ", horizon %.3g", p->horizon);
-    if (p->step != ACCURACY_STEP) snprintf(end, 24, ", step %.3g", p->step);
+    if (p->horizon > 0 && p->horizon != ACCURACY_HORIZON) end += snprintf(more, 24, ", h %.4g", p->horizon);
+    if (p->step != ACCURACY_STEP) snprintf(end, 24, ", dt %.3g", p->step);
     snprintf(text, size, "%s %d%s", p->method->name, p->resolution, more);
 }
 
@@ -88,7 +88,7 @@ static void panel_range(struct panel *q)
     if (!isfinite(q->least)) q->least = 1e-3, q->most = 1;
     if (!isfinite(q->soonest)) q->soonest = 1e-3, q->latest = 1;
     q->least /= 1.5, q->most = fmin(q->most * 1.5, 5);
-    q->latest *= 1.5, q->soonest *= pow(q->soonest / q->latest, 0.45);
+    q->latest *= 1.5, q->soonest *= pow(q->soonest / q->latest, 0.55);
 }
 
 static void panel_make(struct panel *q, const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at,
@@ -244,10 +244,10 @@ static void draw_page(FILE *to, const void *context)
     for (int k = 0; k < p->panels; k++) {
         const double left = k % p->columns * width, above = 1 - k / p->columns * height;
         fprintf(to, "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n",
-                left + 0.17 * width, left + 0.97 * width, above - 0.1 * height, above - 0.86 * height);
+                left + 0.19 * width, left + 0.97 * width, above - 0.1 * height, above - 0.86 * height);
         fputs("set title ", to);
         gnuplot_quote(to, p->title[k]);
-        fprintf(to, "\nset ylabel '%s'\n", k % p->columns ? "" : "error");
+        fprintf(to, "\nset ylabel '%s' offset 0.8,0\n", k % p->columns ? "" : "error");
         plot_panel(to, &p->panel[k]);
     }
     plot_key(to, p->panel, p->panels, p->columns * width + 0.01);

@@ -80,13 +80,18 @@ const struct accuracy_problem accuracy_square = {
     .cases = {"plane stress"},
     .counts = "particles along an edge, half a wavelength",
     .dim = 2,
-    .resolution = {12, 25, 50, 100, 200},
+    .resolution = {12, 24, 48, 96, 192},
     .quick_resolutions = 3,
     .horizon = {2.015, 4.015},
     .step = {0.4},
     .varied = 3,
-    .seconds = 80,
-    .quick_seconds = 10,
+    .remark = {"Bonds of uniform weights and ospd stop at 2.7 %, the lattice's anisotropy, and at 27 % with a horizon of "
+               "2.015; with isotropic weights, and mospd, they are of second order and best at the short horizon.",
+               "Stress of linear shapes, GIMP and the reference frame is of first order (1.2 % of 192 particles), "
+               "velocities are of second (0.02 to 0.03 %).",
+               "Four body forces cost 28 ns a particle and step and hide how fast the reference frame is (2 ns)."},
+    .seconds = 60,
+    .quick_seconds = 6,
     COMMON,
 };
 
@@ -101,7 +106,11 @@ const struct accuracy_problem accuracy_cube = {
     .horizon = {2.015, 4.015},
     .step = {0.4},
     .varied = 3,
-    .seconds = 200,
-    .quick_seconds = 20,
+    .remark = {"Bonds of uniform weights and ospd stop at 7 to 8 %, the lattice's anisotropy (C11 - 5.7 %); with isotropic "
+               "weights, and mospd, they are of second order and best at the short horizon.",
+               "vmpd with a horizon of 2.015 is 34 % off: its calibration is that of a continuum.",
+               "Eight body forces cost 100 ns a particle and step and hide how fast the reference frame is (3 ns)."},
+    .seconds = 150,
+    .quick_seconds = 15,
     COMMON,
 };

@@ -86,8 +86,9 @@ static void put_page(FILE *to, const struct accuracy_plan *plan)
     for (int k = 0; k < accuracy_problems; k++) {
         const struct accuracy_problem *q = accuracy_problem[k];
         if (!has_points(plan, q)) continue;
-        fprintf(to, "\n### %s\n\nError: %s. Resolution: %s.\n\n![%s](accuracy_%s.png)\n", q->title, q->error, q->counts,
-                q->title, q->name);
+        fprintf(to, "\n### %s\n\nError: %s. Resolution: %s.\n\n![%s](accuracy_%s.png)\n\n", q->title, q->error,
+                q->counts, q->title, q->name);
+        for (int r = 0; r < ACCURACY_REMARKS && q->remark[r]; r++) fprintf(to, "- %s\n", q->remark[r]);
     }
 }
 

@@ -68,44 +68,46 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
     return read_settings(&plan->entry[plan->n++], plan->machine.model);
 }
 
-static status add_variations(struct accuracy_plan *plan, struct accuracy_point p)
+/* The first of the horizons at every resolution, all the others and the steps at one. */
+static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all)
 {
     const struct accuracy_problem *q = p.problem;
     struct accuracy_point varied = p;
-    for (int k = 0; k < ACCURACY_VARIATIONS && q->horizon[k] > 0 && p.method->family & ACCURACY_PD; k++) {
+    for (int k = 0; k < (all ? ACCURACY_VARIATIONS : 1) && q->horizon[k] > 0 && p.method->family & ACCURACY_PD; k++) {
         varied.horizon = q->horizon[k];
         TRY(add_point(plan, varied, false));
     }
     varied = p;
-    for (int k = 0; k < ACCURACY_VARIATIONS && q->step[k] > 0; k++) {
+    for (int k = 0; all && k < ACCURACY_VARIATIONS && q->step[k] > 0; k++) {
         varied.step = q->step[k];
         TRY(add_point(plan, varied, false));
     }
     return OK;
 }
 
-/* Coarse to fine, so that a chart that is broken off shows every method. */
-static status add_case(struct accuracy_plan *plan, const struct accuracy_problem *q, int at)
+static status add_case(struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int r)
 {
     const int varied = q->varied ? q->varied - 1 : 1;
-    for (int r = 0; r < ACCURACY_RESOLUTIONS && q->resolution[r]; r++)
-        for (int m = 0; m < accuracy_methods; m++) {
-            const struct accuracy_method *method = &accuracy_method[m];
-            if (!(method->family & q->families)) continue;
-            struct accuracy_point p = {.problem = q, .method = method, .at = at, .resolution = q->resolution[r],
-                                       .step = ACCURACY_STEP,
-                                       .horizon = method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON};
-            TRY(add_point(plan, p, method->quick && r < q->quick_resolutions));
-            if (r == varied) TRY(add_variations(plan, p));
-        }
+    for (int m = 0; m < accuracy_methods; m++) {
+        const struct accuracy_method *method = &accuracy_method[m];
+        if (!(method->family & q->families)) continue;
+        struct accuracy_point p = {.problem = q, .method = method, .at = at, .resolution = q->resolution[r],
+                                   .step = ACCURACY_STEP,
+                                   .horizon = method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON};
+        TRY(add_point(plan, p, method->quick && r < q->quick_resolutions));
+        TRY(add_variations(plan, p, r == varied));
+    }
     return OK;
 }
 
+/* Coarse to fine, so that a chart that is broken off shows every case and method. */
 status accuracy_plan_make(struct accuracy_plan *plan)
 {
     *plan = (struct accuracy_plan){.machine = team_machine()};
     for (int k = 0; k < accuracy_problems; k++)
-        for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++) TRY(add_case(plan, accuracy_problem[k], at));
+        for (int r = 0; r < ACCURACY_RESOLUTIONS && accuracy_problem[k]->resolution[r]; r++)
+            for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++)
+                TRY(add_case(plan, accuracy_problem[k], at, r));
     return OK;
 }
 

@@ -30,6 +30,7 @@ struct fold {
     int8_t sign[DIM_MAX];                /* -1: this component turns round                         */
     uint8_t load;                        /* whose plane it is                                      */
     real mass, taken[DIM_MAX];           /* of the node itself in this step       [kg], [N s]      */
+    real image_mass, image_inverse;      /* of the image alone (frame reference)  [kg], [1/kg]     */
     real reaction[DIM_MAX];              /* impulse of the plane on the body in this step [N s]    */
 };
 

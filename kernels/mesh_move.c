@@ -47,10 +47,50 @@ static real row_move(struct mesh *mesh, int64_t first, int64_t end, real dt, rea
     return isfinite(all) ? largest : INFINITY;
 }
 
+/* A node beyond a mirror half-way between two moves as its image (grid_move.c): for the step the image has the mass and the
+ * force of both. Few, in order, on one thread: several may share an image. */
+static void folds_in(struct mesh *mesh, real dt_velocity)
+{
+    struct grid *g = &mesh->grid;
+    for (int64_t k = 0; k < g->folds; k++) {
+        struct fold *f = &g->fold[k];
+        f->mass = g->mass[f->node];
+        if (f->mass <= 0) continue;
+        f->image_mass = g->mass[f->image], f->image_inverse = mesh->inverse_mass[f->image];
+        g->mass[f->image] += f->mass;
+        mesh->inverse_mass[f->image] = 1 / g->mass[f->image];
+        for (int d = 0; d < g->dim; d++) {
+            f->taken[d] = dt_velocity * g->force[d][f->node] + f->mass * g->velocity[d][f->node];
+            g->force[d][f->image] += f->sign[d] * g->force[d][f->node];
+            g->force[d][f->node] = 0;
+        }
+    }
+}
+
+/* The masses as they were, and what the mirror gave: to a component that turns round as much at the node as at its image. */
+static void folds_out(struct mesh *mesh, real impulse[DIM_MAX])
+{
+    struct grid *g = &mesh->grid;
+    for (int64_t k = g->folds - 1; k >= 0; k--) {        /* the other way round: to the same bits */
+        struct fold *f = &g->fold[k];
+        if (f->mass > 0) g->mass[f->image] = f->image_mass, mesh->inverse_mass[f->image] = f->image_inverse;
+        for (int d = 0; d < g->dim; d++) {
+            f->reaction[d] = 0;
+            if (f->mass <= 0) continue;
+            g->velocity[d][f->node] = f->sign[d] * g->velocity[d][f->image];
+            mesh->displacement[d][f->node] = f->sign[d] * mesh->displacement[d][f->image];
+            if (f->sign[d] > 0) continue;
+            f->reaction[d] = 2 * (f->mass * g->velocity[d][f->node] - f->taken[d]);
+            impulse[d] += f->reaction[d];
+        }
+    }
+}
+
 real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
     real most = 0;
+    folds_in(mesh, dt_velocity);
     for (int64_t k = 0; k < g->walls; k++) wall_force(mesh, &g->wall[k], dt_velocity, impulse, work);
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t r = 0; r < mesh->rows; r++)
@@ -60,5 +100,6 @@ real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MA
         mesh->displacement[d][g->wall[k].node] += dt * (g->wall[k].velocity - g->velocity[d][g->wall[k].node]);
         g->velocity[d][g->wall[k].node] = g->wall[k].velocity;
     }
+    folds_out(mesh, impulse);
     return sqrt(most);
 }
