@@ -76,6 +76,7 @@ struct accuracy_problem {
     double horizon[ACCURACY_VARIATIONS];         /* of pure peridynamics beside 3.015: the first at every resolution, others
                                                     at one; 0 ends                           */
     double step[ACCURACY_VARIATIONS];            /* beside 0.8, at that one; 0 ends          */
+    bool steps;                  /* the first of them at every resolution, and with --quick   */
     int varied;                  /* 1 + its place; 0: the second                             */
     const char *remark[ACCURACY_REMARKS];        /* for the page: what stands out and why    */
     int samples;                 /* its tips are looked at so often; 0: once                 */

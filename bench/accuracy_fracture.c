@@ -120,10 +120,11 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
     return OK;
 }
 
-/* Families cut short (vmpd) and couplings by the grid cost more than they say; states are a law of their own. */
+/* What is not on its way to the reference, or takes longest, stays coarse. */
 static bool applies(const struct accuracy_point *p)
 {
     if (p->resolution <= 100) return true;
+    if (p->resolution > 200 && p->method->family & ACCURACY_ADAPTIVE && !accuracy_is_reference(p)) return false;
     return p->method->quick && (p->method->family & (ACCURACY_BONDS | ACCURACY_ADAPTIVE));
 }
 
@@ -140,6 +141,7 @@ const struct accuracy_problem accuracy_fracture = {
     .resolution = {40, 60, 100, 200, 300},
     .quick_resolutions = 3,
     .step = {0.4, 0.2},
+    .steps = true,
     .varied = 3,
     .samples = SAMPLES,
     .seconds = 600,

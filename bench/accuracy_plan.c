@@ -69,7 +69,7 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
 }
 
 /* The first of the horizons at every resolution, all the others and the steps at one. */
-static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all)
+static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all, bool quick)
 {
     const struct accuracy_problem *q = p.problem;
     struct accuracy_point varied = p;
@@ -78,9 +78,9 @@ static status add_variations(struct accuracy_plan *plan, struct accuracy_point p
         TRY(add_point(plan, varied, false));
     }
     varied = p;
-    for (int k = 0; all && k < ACCURACY_VARIATIONS && q->step[k] > 0; k++) {
+    for (int k = 0; k < (all ? ACCURACY_VARIATIONS : q->steps) && q->step[k] > 0; k++) {
         varied.step = q->step[k];
-        TRY(add_point(plan, varied, false));
+        TRY(add_point(plan, varied, quick && q->steps && k == 0));
     }
     return OK;
 }
@@ -94,8 +94,9 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
         struct accuracy_point p = {.problem = q, .method = method, .at = at, .resolution = q->resolution[r],
                                    .step = ACCURACY_STEP,
                                    .horizon = method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON};
-        TRY(add_point(plan, p, method->quick && r < q->quick_resolutions));
-        TRY(add_variations(plan, p, r == varied));
+        const bool quick = method->quick && r < q->quick_resolutions;
+        TRY(add_point(plan, p, quick));
+        TRY(add_variations(plan, p, r == varied, quick));
     }
     return OK;
 }

@@ -87,6 +87,7 @@ const struct accuracy_problem accuracy_sudden = {
     .quick_resolutions = 2,
     .horizon = {2.015, 4, 5.015},
     .step = {0.4},
+    .steps = true,
     .seconds = 500,
     .quick_seconds = 40,
     .scene = make_scene,
