@@ -88,7 +88,7 @@ static void panel_range(struct panel *q)
     if (!isfinite(q->least)) q->least = 1e-3, q->most = 1;
     if (!isfinite(q->soonest)) q->soonest = 1e-3, q->latest = 1;
     q->least /= 1.5, q->most = fmin(q->most * 1.5, 5);
-    q->latest *= 1.5, q->soonest *= pow(q->soonest / q->latest, 0.55);
+    q->latest *= 1.5, q->soonest *= pow(q->soonest / q->latest, 0.52);
 }
 
 static void panel_make(struct panel *q, const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at,

@@ -101,14 +101,26 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
     return OK;
 }
 
+/* Scenes that are files may be elsewhere: then their problem is left out. */
+static bool is_here(const struct accuracy_problem *q)
+{
+    const struct accuracy_point any = {.problem = q, .method = accuracy_method, .resolution = q->resolution[0],
+                                       .step = ACCURACY_STEP};
+    struct accuracy_scene s;
+    accuracy_scene_make(&any, &s);
+    return !s.path[0] || bench_scene_exists(s.path);
+}
+
 /* Coarse to fine, so that a chart that is broken off shows every case and method. */
 status accuracy_plan_make(struct accuracy_plan *plan)
 {
     *plan = (struct accuracy_plan){.machine = team_machine()};
-    for (int k = 0; k < accuracy_problems; k++)
-        for (int r = 0; r < ACCURACY_RESOLUTIONS && accuracy_problem[k]->resolution[r]; r++)
-            for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++)
-                TRY(add_case(plan, accuracy_problem[k], at, r));
+    for (int k = 0; k < accuracy_problems; k++) {
+        const struct accuracy_problem *q = accuracy_problem[k];
+        if (!is_here(q)) continue;
+        for (int r = 0; r < ACCURACY_RESOLUTIONS && q->resolution[r]; r++)
+            for (int at = 0; at < accuracy_cases(q); at++) TRY(add_case(plan, q, at, r));
+    }
     return OK;
 }
 

@@ -90,7 +90,8 @@ static double work_of(const struct accuracy_point *p)
     return run * (dim > 1 ? 2 : 1) * (run < 0.5 * RUNS_SECONDS ? RUNS_MOST : 1);
 }
 
-struct progress { double started, spent[16], done[16], asked[16]; };
+enum { PROBLEMS_MAX = 16 };
+struct progress { double spent[PROBLEMS_MAX], done[PROBLEMS_MAX], asked[PROBLEMS_MAX]; };
 
 static int number_of(const struct accuracy_problem *q)
 {
@@ -133,8 +134,9 @@ static bool is_asked(const struct accuracy_entry *entry, const char *only, bool 
 
 static status run_all(struct accuracy_plan *plan, const char *only, bool quick)
 {
-    struct progress g = {.started = team_clock()};
+    struct progress g = {0};
     int asked = 0;
+    assert(accuracy_problems <= PROBLEMS_MAX);
     for (int k = 0; k < plan->n; k++) {
         if (!is_asked(&plan->entry[k], only, quick)) continue;
         g.asked[number_of(plan->entry[k].point.problem)] += work_of(&plan->entry[k].point), asked++;
