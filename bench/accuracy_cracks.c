@@ -52,7 +52,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
     char time[64] = "";
     if (waits) snprintf(time, sizeof time, ", time: {pulse: {until: %.9g}}", 2 * duration);
     FILE *to = fmemopen(s->text, sizeof s->text, "w");
-    fprintf(to, "%sduration: %.9g\nsolver: %s\nsolver_steps: 20000\n", text, waits ? duration : 1,
+    fprintf(to, "%sduration: %.9g\nsolver: %s\nsolver_steps: 8000\n", text, waits ? duration : 1,
             waits ? "explicit" : p->method->family & ACCURACY_PD ? "cg" : "relaxation");
     if (p->at == EDGE) put_edge(to, p, 10.0 / p->resolution, time);
     else put_inclined(to, time);
@@ -98,8 +98,15 @@ const struct accuracy_problem accuracy_cracks = {
     .quick_resolutions = 2,
     .horizon = {1.5, 2.015, 5.015},
     .varied = 3,
-    .seconds = 400,
-    .quick_seconds = 20,
+    .remark = {"The tip is known to no better than a cell: in the reference frame, linear cells of two spacings, K_I "
+               "of a gap is 4.6, 2.2 and 1.5 % high at 32, 64 and 100 particles.",
+               "mospd: 0.8, 0.2 % of K_I at 32 and 64 particles, but K_II of the inclined crack 7.5 and 4.6 % high; a "
+               "horizon of 1.5 with local families cures that (2.9 and 1.4 %).",
+               "Relaxation of coupled bodies in the current frame was not at rest after 8,000 steps at 64 particles "
+               "beside the edge crack's mouth: shown as unstable. Couplings by the grid (pg, pgg) hold the crack "
+               "together."},
+    .seconds = 500,
+    .quick_seconds = 40,
     .scene = make_scene,
     .measure = measure,
     .applies = applies,

@@ -66,7 +66,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
     char time[64] = "";
     if (waits) snprintf(time, sizeof time, ", time: {pulse: {until: %.9g}}", 2 * duration);
     snprintf(s->text, sizeof s->text,
-             "%sduration: %.9g\nsolver: %s\nsolver_steps: 20000\nboundary: [{traction: [0, 1e4], face: y+%s}, {traction: [0, -1e4], face: y-%s}]\n",
+             "%sduration: %.9g\nsolver: %s\nsolver_steps: 8000\nboundary: [{traction: [0, 1e4], face: y+%s}, {traction: [0, -1e4], face: y-%s}]\n",
              plate, waits ? duration : 1, waits ? "explicit" : p->method->family & ACCURACY_PD ? "cg" : "relaxation", time, time);
     bench_override(&s->set, "particles.spacing", "10/%d", p->resolution);
 }
@@ -98,7 +98,7 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
 static bool applies(const struct accuracy_point *p)
 {
     if (accuracy_is_reference(p)) return true;
-    if (p->method->family & ACCURACY_PD) return p->resolution < 640 && (p->horizon > 2 || p->method->family & ACCURACY_STATES);
+    if (p->method->family & ACCURACY_PD) return (p->horizon > 2 || p->method->family & ACCURACY_STATES);
     return accuracy_relaxes(p) && p->resolution <= 160;
 }
 
@@ -112,11 +112,18 @@ const struct accuracy_problem accuracy_hole = {
     .counts = "particles across ten radii",
     .families = ACCURACY_PD | ACCURACY_MPM | ACCURACY_COUPLED,
     .dim = 2,
-    .resolution = {40, 80, 160, 320, 640},
+    .resolution = {40, 80, 160, 320},
     .quick_resolutions = 2,
     .horizon = {1.5, 2.015, 5.015},
     .varied = 3,
-    .seconds = 300,
+    .remark = {"The hole is a staircase: which particles are in it makes 2 to 3 % at 40 and 80 particles, whatever the method, and "
+               "0.7 % at 160 with material points. The reference frame comes there in 0.15 s.",
+               "Bonds and states are soft at the hole's edge: the strain there is 16 % too large at 80 particles, 9 % at 160, 6 % at "
+               "320; material points have no such edge.",
+               "The field of bonds stays 2.3 % off, as their lattice is stiffer along its axes; with isotropic weights it comes to "
+               "0.3 % at 320.",
+               "Coupled bodies have the soft edge, too: at 40 particles, with a horizon of 3/4 of the hole's radius, 15 %."},
+    .seconds = 400,
     .quick_seconds = 20,
     .scene = make_scene,
     .measure = measure,
