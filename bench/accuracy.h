@@ -42,7 +42,7 @@ extern const int accuracy_methods;
 
 /* ---- problems (accuracy_plan.c) ----------------------------------------------------------------------- */
 
-enum { ACCURACY_CASES = 6, ACCURACY_RESOLUTIONS = 6, ACCURACY_VARIATIONS = 3, ACCURACY_PARTS = 2, ACCURACY_REMARKS = 5 };
+enum { ACCURACY_CASES = 6, ACCURACY_RESOLUTIONS = 6, ACCURACY_VARIATIONS = 3, ACCURACY_PARTS = 3, ACCURACY_REMARKS = 5 };
 
 struct accuracy_problem;
 
@@ -76,10 +76,13 @@ struct accuracy_problem {
     double horizon[ACCURACY_VARIATIONS];         /* of pure peridynamics beside 3.015: the first at every resolution, others
                                                     at one; 0 ends                           */
     double step[ACCURACY_VARIATIONS];            /* beside 0.8, at that one; 0 ends          */
+    bool steps;                  /* the first of them at every resolution, and with --quick   */
     int varied;                  /* 1 + its place; 0: the second                             */
     const char *remark[ACCURACY_REMARKS];        /* for the page: what stands out and why    */
+    int samples;                 /* its tips are looked at so often; 0: once                 */
     double seconds, quick_seconds;               /* it takes about, until measured           */
     void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
+    status (*run)(const struct accuracy_point *p, struct engine *e);     /* NULL: engine_run */
     /* Relative error and its parts, of a run that reached its end. */
     status (*measure)(const struct accuracy_point *p, struct engine *e, double *error, double *part);
     bool (*applies)(const struct accuracy_point *p);     /* NULL: every point of the families */
@@ -90,7 +93,17 @@ extern const int accuracy_problems;
 #define ACCURACY_HORIZON 3.015
 #define ACCURACY_STEP 0.8
 
-extern const struct accuracy_problem accuracy_bar, accuracy_wave, accuracy_square, accuracy_cube;
+extern const struct accuracy_problem accuracy_bar, accuracy_wave, accuracy_square, accuracy_cube, accuracy_hole,
+    accuracy_cracks, accuracy_sudden, accuracy_spall, accuracy_fracture;
+
+/* `cleave bench accuracy=reference`: prints the lines of accuracy_reference.h, finer and finer. */
+status accuracy_reference(bool quick);
+/* accuracy_hole.c: displacement [m] and stress xx, yy, xy [Pa] of the pulled plate with a hole of radius 1. */
+void accuracy_hole_exact(const double X[2], double u[2], double stress[3]);
+
+/* Material points of its method keep to the reference frame; it can relax to rest (solver: relaxation). */
+bool accuracy_is_reference(const struct accuracy_point *p);
+bool accuracy_relaxes(const struct accuracy_point *p);
 
 /* Helps for `measure`: a figure of a probe (NAN: none), in memory. */
 double accuracy_figure(const struct engine *e, const char *probe, const char *quantity);

@@ -1,4 +1,6 @@
 /* floor 5: the methods of `cleave bench accuracy`: names, and the scene keys that make them. */
+#include <string.h>
+
 #include "accuracy.h"
 
 #define PD(...) {{"method", "pd"}, __VA_ARGS__}
@@ -8,7 +10,8 @@
 #define REFERENCE {"mpm.frame", "reference"}
 #define ISOTROPIC {"pd.weights", "isotropic"}
 
-/* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled. */
+/* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled, dark red,
+ * violet and teal adaptive. */
 const struct accuracy_method accuracy_method[] = {
     {"pd bond", ACCURACY_BONDS, true, "#0072b2", 7, {{"method", "pd"}}},
     {"pd bond isotropic", ACCURACY_BONDS, false, "#0072b2", 6, PD(ISOTROPIC)},
@@ -32,13 +35,29 @@ const struct accuracy_method accuracy_method[] = {
     {"coupled pg", ACCURACY_COUPLED, false, "#9970ab", 8, COUPLED("pg")},
     {"coupled pmg", ACCURACY_COUPLED, false, "#9970ab", 11, COUPLED("pmg")},
     {"coupled pgg", ACCURACY_COUPLED, false, "#9970ab", 10, COUPLED("pgg")},
-    {"adaptive partial stress", ACCURACY_ADAPTIVE, true, "#cc79a7", 7, COUPLED("partial stress")},
-    {"adaptive reference", ACCURACY_ADAPTIVE, true, "#7b3294", 5, {{"method", "adaptive"}, REFERENCE}},
-    {"adaptive reference isotropic", ACCURACY_ADAPTIVE, true, "#7b3294", 4, {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
-    {"adaptive handshake", ACCURACY_ADAPTIVE, false, "#cc79a7", 6, COUPLED("handshake")},
-    {"adaptive pm", ACCURACY_ADAPTIVE, false, "#9970ab", 9, COUPLED("pm")},
-    {"adaptive pg", ACCURACY_ADAPTIVE, false, "#9970ab", 8, COUPLED("pg")},
-    {"adaptive pmg", ACCURACY_ADAPTIVE, false, "#9970ab", 11, COUPLED("pmg")},
-    {"adaptive pgg", ACCURACY_ADAPTIVE, false, "#9970ab", 10, COUPLED("pgg")},
+    {"adaptive partial stress", ACCURACY_ADAPTIVE, true, "#c51b7d", 13, COUPLED("partial stress")},
+    {"adaptive reference", ACCURACY_ADAPTIVE, true, "#40004b", 13, {{"method", "adaptive"}, REFERENCE}},
+    {"adaptive reference isotropic", ACCURACY_ADAPTIVE, true, "#40004b", 12, {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
+    {"adaptive handshake", ACCURACY_ADAPTIVE, false, "#c51b7d", 12, COUPLED("handshake")},
+    {"adaptive pm", ACCURACY_ADAPTIVE, false, "#35978f", 9, COUPLED("pm")},
+    {"adaptive pg", ACCURACY_ADAPTIVE, false, "#35978f", 8, COUPLED("pg")},
+    {"adaptive pmg", ACCURACY_ADAPTIVE, false, "#35978f", 11, COUPLED("pmg")},
+    {"adaptive pgg", ACCURACY_ADAPTIVE, false, "#35978f", 10, COUPLED("pgg")},
 };
 const int accuracy_methods = COUNT_OF(accuracy_method);
+
+static bool sets(const struct accuracy_method *m, const char *key, const char *value)
+{
+    for (int k = 0; k < ACCURACY_SETTINGS && m->set[k].key; k++)
+        if (strcmp(m->set[k].key, key) == 0 && strcmp(m->set[k].value, value) == 0) return true;
+    return false;
+}
+
+bool accuracy_is_reference(const struct accuracy_point *p) { return sets(p->method, "mpm.frame", "reference"); }
+
+/* With flip they creep, and linear shapes, which couplings pm and pmg take, know no apic. */
+bool accuracy_relaxes(const struct accuracy_point *p)
+{
+    return !sets(p->method, "mpm.transfer", "flip") && !sets(p->method, "coupling", "pm") &&
+           !sets(p->method, "coupling", "pmg");
+}

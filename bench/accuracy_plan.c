@@ -5,7 +5,9 @@
 #include "accuracy.h"
 #include "memory.h"
 
-const struct accuracy_problem *const accuracy_problem[] = {&accuracy_bar, &accuracy_wave, &accuracy_square, &accuracy_cube};
+const struct accuracy_problem *const accuracy_problem[] = {
+    &accuracy_bar,    &accuracy_wave,   &accuracy_square, &accuracy_cube,    &accuracy_hole,
+    &accuracy_cracks, &accuracy_sudden, &accuracy_spall,  &accuracy_fracture};
 const int accuracy_problems = COUNT_OF(accuracy_problem);
 
 int accuracy_cases(const struct accuracy_problem *problem)
@@ -27,7 +29,7 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
     bench_override(&s->set, "time.step", "auto");
     bench_override(&s->set, "time.safety", "%.9g", p->step);
     bench_override(&s->set, "output.frames", "0");
-    bench_override(&s->set, "output.samples", "1");
+    bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
 
 /* FNV-1a over the scene with all its defaults and over the machine's name: whatever changes a result changes it. */
@@ -67,7 +69,7 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
 }
 
 /* The first of the horizons at every resolution, all the others and the steps at one. */
-static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all)
+static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all, bool quick)
 {
     const struct accuracy_problem *q = p.problem;
     struct accuracy_point varied = p;
@@ -76,9 +78,9 @@ static status add_variations(struct accuracy_plan *plan, struct accuracy_point p
         TRY(add_point(plan, varied, false));
     }
     varied = p;
-    for (int k = 0; all && k < ACCURACY_VARIATIONS && q->step[k] > 0; k++) {
+    for (int k = 0; k < (all ? ACCURACY_VARIATIONS : q->steps) && q->step[k] > 0; k++) {
         varied.step = q->step[k];
-        TRY(add_point(plan, varied, false));
+        TRY(add_point(plan, varied, quick && q->steps && k == 0));
     }
     return OK;
 }
@@ -92,8 +94,9 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
         struct accuracy_point p = {.problem = q, .method = method, .at = at, .resolution = q->resolution[r],
                                    .step = ACCURACY_STEP,
                                    .horizon = method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON};
-        TRY(add_point(plan, p, method->quick && r < q->quick_resolutions));
-        TRY(add_variations(plan, p, r == varied));
+        const bool quick = method->quick && r < q->quick_resolutions;
+        TRY(add_point(plan, p, quick));
+        TRY(add_variations(plan, p, r == varied, quick));
     }
     return OK;
 }

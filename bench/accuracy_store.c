@@ -11,7 +11,7 @@
 
 #define STORE BENCH_FOLDER "/accuracy.csv"
 #define HEADER                                                                                                       \
-    "problem,case,method,resolution,horizon,step,error,part_1,part_2,loop_1_thread,loop_2_threads,particles,steps,"  \
+    "problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,particles,steps,"  \
     "stable,version,settings"
 
 /* What says which point a line is of: the columns before the figures. */
@@ -94,7 +94,7 @@ static void fill_points(struct bench_table *t, const struct accuracy_plan *plan)
         const struct accuracy_point *p = &plan->entry[k].point;
         const struct accuracy_result *r = &plan->entry[k].result;
         if (!r->known) continue;
-        const double figures[] = {r->error, r->part[0], r->part[1], r->seconds[0], r->seconds[1], r->particles, r->steps,
+        const double figures[] = {r->error, r->part[0], r->part[1], r->part[2], r->seconds[0], r->seconds[1], r->particles, r->steps,
                                   r->stable};
         bench_text(t, p->problem->name), bench_text(t, p->problem->cases[p->at]), bench_text(t, p->method->name);
         bench_number(t, p->resolution), bench_number(t, p->horizon), bench_number(t, p->step);
@@ -105,11 +105,11 @@ static void fill_points(struct bench_table *t, const struct accuracy_plan *plan)
 
 static void fill_problems(struct bench_table *t)
 {
-    bench_table_make(t, "problems", "problem,title,error,part_1,part_2,resolution");
+    bench_table_make(t, "problems", "problem,title,error,part_1,part_2,part_3,resolution");
     for (int k = 0; k < accuracy_problems; k++) {
         const struct accuracy_problem *q = accuracy_problem[k];
         const char *const words[] = {q->name, q->title, q->error, q->part[0] ? q->part[0] : "-",
-                                     q->part[1] ? q->part[1] : "-", q->counts};
+                                     q->part[1] ? q->part[1] : "-", q->part[2] ? q->part[2] : "-", q->counts};
         for (size_t c = 0; c < COUNT_OF(words); c++) bench_text(t, words[c]);
     }
 }

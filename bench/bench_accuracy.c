@@ -51,7 +51,7 @@ static status run_once(struct accuracy_entry *entry, int team)
     TRY(bench_engine_make(&e, &s, from.path[0] ? from.path : entry->point.problem->name, from.path[0] ? NULL : from.text,
                           bench_overrides_ready(&from.set), from.set.n));
     const double before = processor_seconds();
-    status ran = engine_run(&e);
+    status ran = entry->point.problem->run ? entry->point.problem->run(&entry->point, &e) : engine_run(&e);
     const double busy = team == 0 ? processor_seconds() - before : INFINITY;
     r->seconds[team] = fmin(r->seconds[team], fmin(e.loop_seconds, busy));
     r->particles = (double)e.part.n, r->steps = (double)e.step, r->stable = ran == OK;
@@ -65,7 +65,8 @@ static status run_once(struct accuracy_entry *entry, int team)
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
-    r->error = r->part[0] = r->part[1] = NAN;
+    r->error = NAN;
+    for (int k = 0; k < ACCURACY_PARTS; k++) r->part[k] = NAN;
     r->seconds[0] = r->seconds[1] = INFINITY;
     double spent = 0;
     for (int run = 0; run < RUNS_MOST && spent < RUNS_SECONDS; run++)
@@ -173,6 +174,7 @@ static bool is_problem(const char *name)
 status bench_accuracy_of(const char *only, bool quick)
 {
     struct accuracy_plan plan = {0};
+    if (only && strcmp(only, "reference") == 0) return accuracy_reference(quick);
     if (only && !is_problem(only)) return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
     printf("accuracy\n");
     bench_print_machine(team_make(0));

@@ -73,7 +73,7 @@ grep -q ', 54 of them to be run' out || fail "accuracy runs again what it knows:
 cut -d, -f1-9 before.csv >one
 cut -d, -f1-9 results/bench/accuracy.csv | cmp -s - one || fail "accuracy differs once it was broken off"
 cd results/bench
-[ "$(head -1 accuracy.csv)" = problem,case,method,resolution,horizon,step,error,part_1,part_2,loop_1_thread,loop_2_threads,\
+[ "$(head -1 accuracy.csv)" = problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,\
 particles,steps,stable,version,settings ] || fail "columns of accuracy.csv"
 for file in accuracy.json accuracy.md accuracy.png accuracy.svg accuracy_bar.png accuracy_bar.svg; do
     [ -s $file ] || fail "$file is missing"
