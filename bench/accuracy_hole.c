@@ -4,12 +4,13 @@
  * Peridynamics takes conjugate gradients, material points of the current frame relaxation (apic: with flip they creep). There
  * is no static solver for the reference frame: there the load grows by sin^2 over 30 transits of the plate, whose motion is
  * then 0.1 % of its displacement. */
-#include <complex.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "accuracy.h"
+
+#include <complex.h>                     /* last: it takes the name I */
 
 static const double young = 1e9, poisson = 1.0 / 3, pull = 1e4;      /* [Pa] [1] [Pa]: strains of 1e-5 */
 static const double ring[2] = {1.5, 3};                              /* where the field is compared [hole radii] */

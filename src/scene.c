@@ -46,6 +46,7 @@ static status read_nodes(struct reader *r, const struct node *root)
     TRY(read_group(r, root, root, "", s));
     TRY(check_scene(r, root));
     TRY(read_materials(r, root));
+    resolve_safety(r, root);
     TRY(read_bodies(r, root));
     TRY(check_size(r, root));
     TRY(read_cracks(r, root));

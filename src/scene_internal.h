@@ -139,6 +139,8 @@ status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);
 /* What joins several keys (scene_check.c): keys without lists; the number of particles of the bodies read. */
 status check_scene(struct reader *r, const struct node *root);
+/* Share of the critical step, by whether anything may break: after the materials. */
+void resolve_safety(struct reader *r, const struct node *root);
 status check_size(struct reader *r, const struct node *root);
 status check_solver(struct reader *r, const struct node *root);
 

@@ -298,7 +298,8 @@ const struct key keys[] = {
         "step; auto: safety x the critical one", .words = "auto", .word_value = 0),
     KEY("time.rest", KEY_FLAG, UNIT_NONE, AT(scene, rest), ANY, "true",
         "what no wave has reached is not computed; the results are the same to the last bit, false is slower"),
-    KEY("time.safety", KEY_REAL, UNIT_NONE, AT(scene, safety), INSIDE(0, 2), "0.8", "above 1 shows instability"),
+    KEY("time.safety", KEY_REAL, UNIT_NONE, AT(scene, safety), INSIDE(0, 2), "(0.8, or 0.5 where bonds may break)",
+        "share of the critical step; above 1 shows instability"),
 
     KEY("output", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "what is written, and how often"),
     KEY("output.frames", KEY_INT, UNIT_NONE, AT(scene, frames), BETWEEN(0, 100000), "20",

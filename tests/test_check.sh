@@ -42,8 +42,8 @@ says "narrow hole" 'unresolved: body .*: a gap of .* horizons' plate_hole -s par
 silent "wide hole" 'unresolved: body' plate_hole
 says "short crack" 'unresolved: crack 1 is 0.01 m long, 3.3 horizons' plate_crack -s particles.spacing=1mm
 silent "long crack" 'unresolved: crack' plate_crack
-says "narrow pulse" 'unresolved: an initial pulse is .* spacings wide' plate_pulse -s particles.spacing=4mm
-silent "wide pulse" 'initial pulse' plate_pulse
+says "narrow pulse" 'unresolved: an initial pulse is .* spacings wide' bar_pulse -s particles.spacing=40mm
+silent "wide pulse" 'initial pulse' bar_pulse
 
 # The ends of the plate's crack are between four particles, on their diagonals and longer bonds: six. A tenth of a spacing on
 # they are not.

@@ -80,6 +80,7 @@ body: {disc: {centre: [0, 0], radius: 10 mm}}
 particles: {spacing: 1 mm}
 boundary:
   - {name: gravity, body_force: [3e9, -4e9]}
+time: {safety: 0.8}
 output: {frames: 1, samples: 100}
 probes:
   - momentum
