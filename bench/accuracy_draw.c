@@ -38,20 +38,22 @@ static struct accuracy_dot dot_of(const struct accuracy_result *r, int part)
     return (struct accuracy_dot){r->seconds[0], r->stable ? error : NAN};
 }
 
-/* The worst error and the longest time of all cases; false: one of them is not known yet. */
+/* The worst error and the longest time of all cases; false: one of them is not known yet, or not for this method. */
 static bool worst_dot(const struct accuracy_plan *plan, const struct accuracy_point *p, int part,
                       struct accuracy_dot *worst)
 {
+    int cases = 0;
     *worst = (struct accuracy_dot){0};
     for (int k = 0; k < plan->n; k++) {
         const struct accuracy_entry *entry = &plan->entry[k];
         if (!same_but_case(p, &entry->point)) continue;
         if (!entry->result.known) return false;
         const struct accuracy_dot one = dot_of(&entry->result, part);
+        cases++;
         worst->time = fmax(worst->time, one.time);
         worst->error = isfinite(one.error) && isfinite(worst->error) ? fmax(worst->error, one.error) : NAN;
     }
-    return true;
+    return cases == accuracy_cases(p->problem);
 }
 
 int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at, int part,
@@ -268,7 +270,7 @@ status accuracy_draw(const struct accuracy_plan *plan)
         char name[64];
         for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++) add_panel(&one, plan, accuracy_problem[k], at, -1);
         for (int part = 0; part < ACCURACY_PARTS && accuracy_problem[k]->draws_parts; part++)
-            add_panel(&one, plan, accuracy_problem[k], -1, part);
+            if (accuracy_problem[k]->part[part]) add_panel(&one, plan, accuracy_problem[k], -1, part);
         snprintf(name, sizeof name, "accuracy_%s", accuracy_problem[k]->name);
         TRY(draw_and_free(&one, name));
     }

@@ -16,12 +16,15 @@ struct mark {
 
 struct scene_case {
     const char *name, *path, *model;
+    const char *tips;  /* conversion.tips of adaptive runs: horizons      */
     bool quick;        /* short enough for --quick, and the paper's model */
     double paper_t_r;  /* NAN: none                                       */
     int marks;
     struct mark mark[2];
 };
 
+/* Kalthoff's cracks start with those of peridynamics (1 % instead of 12 % later) if three horizons round the notches' ends are
+ * peridynamic from the start. */
 #define PLATE_CRACK "plate_crack", "inputs/plate_crack.yaml"
 #define PLATE_HOLE "plate_hole", "inputs/plate_hole.yaml"
 #define KALTHOFF "kalthoff_winkler", "inputs/kalthoff_winkler.yaml"
@@ -29,21 +32,28 @@ struct scene_case {
 #define NO_PAPER false, NAN, 0, {{0, 0}}
 
 static const struct scene_case cases[] = {
-    {PLATE_CRACK, "bond", true, 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
-    {PLATE_HOLE, "bond", true, 0.342, 0, {{0, 0}}},
-    {KALTHOFF, "bond", true, 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
-    {KALTHOFF_3D, "bond", true, NAN, 0, {{0, 0}}},
-    {PLATE_CRACK, "ospd", NO_PAPER}, {PLATE_CRACK, "mospd", NO_PAPER},
-    {PLATE_HOLE, "ospd", NO_PAPER},  {PLATE_HOLE, "mospd", NO_PAPER},
-    {KALTHOFF, "ospd", NO_PAPER},    {KALTHOFF, "mospd", NO_PAPER},
-    {KALTHOFF_3D, "ospd", NO_PAPER}, {KALTHOFF_3D, "mospd", NO_PAPER},
+    {PLATE_CRACK, "bond", "0", true, 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
+    {PLATE_HOLE, "bond", "0", true, 0.342, 0, {{0, 0}}},
+    {KALTHOFF, "bond", "3", true, 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
+    {KALTHOFF_3D, "bond", "0", true, NAN, 0, {{0, 0}}},
+    {PLATE_CRACK, "ospd", "0", NO_PAPER}, {PLATE_CRACK, "mospd", "0", NO_PAPER},
+    {PLATE_HOLE, "ospd", "0", NO_PAPER},  {PLATE_HOLE, "mospd", "0", NO_PAPER},
+    {KALTHOFF, "ospd", "3", NO_PAPER},    {KALTHOFF, "mospd", "3", NO_PAPER},
+    {KALTHOFF_3D, "ospd", "0", NO_PAPER}, {KALTHOFF_3D, "mospd", "0", NO_PAPER},
 };
 
 /* Full peridynamics first, then adaptive runs by what they may save with. */
 struct way {
-    const char *method, *levers, *frame;
+    const char *method, *levers, *frame, *rest, *back;
+    const char *colour;    /* of its bars; NULL: it has none */
 };
-static const struct way ways[] = {{"pd", "-", "current"}, {"adaptive", "none", "current"}, {"adaptive", "frame", "reference"}};
+static const struct way ways[] = {{"pd", "-", "current", "true", "false", NULL},
+                                  {"adaptive", "none", "current", "false", "false", "#b0b0b0"},
+                                  {"adaptive", "frame", "reference", "false", "false", "#2a6fbb"},
+                                  {"adaptive", "rest", "current", "true", "false", NULL},
+                                  {"adaptive", "return", "current", "false", "true", NULL},
+                                  {"adaptive", "all", "reference", "true", "true", "#d1603d"}};
+enum { BARS = 3 };     /* ways that have a colour */
 enum { CASES = COUNT_OF(cases), REPETITIONS = 3, SAMPLES = 100, WAYS = COUNT_OF(ways), SHOWN = 2 /* whose shares are drawn */ };
 
 /* One run of one method. Figures of the fracture are the same in every repetition. */
@@ -77,14 +87,17 @@ static bool of_bonds(const struct result *x) { return strcmp(x->scene->model, "b
 static status make(struct engine *e, struct scene *s, const struct result *x, int way)
 {
     char step[32], samples[16];
-    struct scene_override override[6] = {{"method", ways[way].method},
+    struct scene_override override[9] = {{"method", ways[way].method},
                                          {"output.samples", samples},
                                          {"model", x->scene->model},
-                                         {"mpm.frame", ways[way].frame}};
-    int n = 4;
+                                         {"mpm.frame", ways[way].frame},
+                                         {"time.rest", ways[way].rest},
+                                         {"pd.surface", of_bonds(x) ? "volume" : "none"}};
+    int n = 6;
     snprintf(step, sizeof step, "%.17g", x->dt);
     snprintf(samples, sizeof samples, "%d", SAMPLES);
-    if (!of_bonds(x)) override[n++] = (struct scene_override){"pd.surface", "none"};
+    if (way > 0) override[n++] = (struct scene_override){"conversion.return", ways[way].back};
+    if (way > 0) override[n++] = (struct scene_override){"conversion.tips", x->scene->tips};
     if (x->dt > 0) override[n++] = (struct scene_override){"time.step", step};
     return bench_engine_make(e, s, x->scene->path, NULL, override, n);
 }
@@ -309,7 +322,8 @@ static void draw_bars(FILE *to, const struct efficiency *all)
     for (int k = 0; k < all->n; k++) {
         const struct result *x = &all->result[k];
         fprintf(to, "\"%s\\n%s\"", x->scene->name, x->scene->model);
-        for (int way = 1; way < WAYS; way++) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
+        for (int way = 1; way < WAYS; way++)
+            if (ways[way].colour) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
         if (isfinite(x->scene->paper_t_r)) fprintf(to, " %.6g\n", x->scene->paper_t_r);
         else fputs(" NaN\n", to);
     }
@@ -324,13 +338,16 @@ static void draw_bars(FILE *to, const struct efficiency *all)
             "set ylabel 't_r'\nset yrange [-1.25:1]\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at screen 0.97,0.525 "
             "right center horizontal maxrows 1\n"
             "plot ");
-    for (int way = 1; way < WAYS; way++)
+    for (int way = 1, bar = 0; way < WAYS; way++) {
+        if (!ways[way].colour) continue;
+        bar++;
         fprintf(to,
-                "$bars using %d%s lc rgb '%s' title '%s frame', '' using ($0%+.2f):%d:(sprintf('%%.2f', $%d)) with labels "
-                "font ',7' offset 0, 0.6 notitle, ",
-                2 * way, way == 1 ? ":xtic(1)" : "", curve_colour[way == 1 ? 2 : 0], ways[way].frame,
-                ((double)way - 1 - 0.5 * (WAYS - 1)) / (WAYS + 1), 2 * way, 2 * way + 1);
-    fprintf(to, "'' using %d lc rgb '%s' title 'Zeng et al. 2022, table 1'\n", 2 * WAYS, curve_colour[4]);
+                "$bars using %d%s lc rgb '%s' title 'levers: %s', '' using ($0%+.2f):%d:(sprintf('%%.2f', $%d)) with labels "
+                "font ',6' offset 0, 0.6 notitle, ",
+                2 * bar, bar == 1 ? ":xtic(1)" : "", ways[way].colour, ways[way].levers,
+                ((double)bar - 1 - 0.5 * BARS) / (BARS + 2), 2 * bar, 2 * bar + 1);
+    }
+    fprintf(to, "'' using %d lc rgb '%s' title 'Zeng et al. 2022, table 1'\n", 2 * BARS + 2, curve_colour[4]);
     fputs("set yrange [*:*]\n", to);
 }
 

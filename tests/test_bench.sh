@@ -31,9 +31,9 @@ cd results/bench
 [ "$(head -1 efficiency.csv)" = \
     scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference,levers ] ||
     fail "columns of efficiency.csv"
-[ "$(wc -l <efficiency.csv)" -eq 3 ] || fail "one scene gives a line for each lever, of bonds where time is short"
+[ "$(wc -l <efficiency.csv)" -eq 6 ] || fail "one scene gives a line for each lever, of bonds where time is short"
 awk -F, 'NR > 1 { exit $2 != "bond" }' efficiency.csv || fail "the model"
-[ "$(awk -F, 'NR > 1 { printf "%s ", $9 }' efficiency.csv)" = "none frame " ] || fail "the levers"
+[ "$(awk -F, 'NR > 1 { printf "%s ", $9 }' efficiency.csv)" = "none frame rest return all " ] || fail "the levers"
 [ "$(head -1 efficiency_runs.csv)" = \
     scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg ] ||
     fail "columns of efficiency_runs.csv"
