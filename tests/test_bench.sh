@@ -40,7 +40,7 @@ awk -F, 'NR > 1 { exit $2 != "bond" }' efficiency.csv || fail "the model"
 # t_r is what the two times before it say, to the nine digits written
 awk -F, 'NR > 1 { d = $5 - (1 - $3 / $4); if (!($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6)) bad = 1 } END { exit bad }' efficiency.csv || fail "t_r"
 for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; do [ -s $file ] || fail "$file is missing"; done
-[ "$(wc -l <efficiency_share.csv)" -eq 203 ] || fail "the share is noted at 100 samples and at the start"
+[ "$(wc -l <efficiency_share.csv)" -eq 506 ] || fail "the share is noted at 100 samples and at the start"
 cd ../..
 
 # Scaling over threads and sizes: files, columns, and figures that follow from the others.
