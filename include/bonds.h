@@ -50,6 +50,7 @@ struct family {
 struct bond_limit {
     const real *critical_stretch;
     int materials;
+    bool whole_force;                    /* in the step in which a bond breaks; else half of it                */
 };
 
 /* When bonds yield, by pair of materials: stretch s_y and hardening modulus over the bond's own, H_b/k_e [materials^2].
@@ -114,13 +115,13 @@ struct bond_length { real inverse, length, square; };  /* [1/m], [m], [m^2] */
 struct bond_slot {
     int16_t excess[LANES];               /* |inverse_length| over the lattice's, in units of the last place: positions
                                             are rounded; the sum is exact                                 */
+    real w;                              /* of its intact bonds, where they are alike [1]                 */
     int32_t first;                       /* as below                                                      */
-    float w;                             /* of its intact bonds, where they are alike [1]                 */
     uint8_t intact;                      /* bit l: the bond of lane l is intact                           */
     uint8_t lattice;                     /* k: consecutive neighbours, lengths those of lattice[k] up to the
                                             round-off of positions; 0: not so                             */
     uint8_t alike;                       /* so, and the intact bonds weigh the same                       */
-    uint8_t unused[5];                   /* two of them in a cache line                                   */
+    uint8_t unused;                      /* two of them in a cache line                                   */
 };
 
 struct bonds {
@@ -135,7 +136,7 @@ struct bonds {
     int32_t *nbr;                        /* [slots 8] neighbour                                           */
     real *inverse_length;                /* [slots 8] 1/|X_j - X_i|; negative: broken, so that its stretch is below
                                             -1 and never looks like breaking; 0: padding        [1/m]     */
-    float *w;                            /* [slots 8] symmetric weight: beta x surface x V_i V_j c_ij over
+    real *w;                             /* [slots 8] symmetric weight: beta x surface x V_i V_j c_ij over
                                             stiffness; 0: broken, cut or padding                [1]       */
     struct bond_slot *common;            /* [slots]                                                       */
     struct bond_length *lattice;         /* [BOND_LATTICE]                                                */

@@ -61,7 +61,7 @@ struct ruling {
 
 /* One fading entry of the rows: bond i-j, its weight when whole, one step ago and now, and the crack's length when it was
  * crossed. */
-struct fading { int32_t i, j; float whole, before, now, spare; real length; };
+struct fading { int32_t i, j; real whole, before, now; real length; };
 
 struct growth {
     const struct growth_rule *rule;      /* borrowed                                                        */

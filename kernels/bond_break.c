@@ -57,7 +57,7 @@ static void row_changed(struct bonds *b, int64_t row)
     if (b->state.modulus && b->state.local && b->whole[row]) b->state.weighted[row] = state_weight_left(b, row);
 }
 
-void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, float w)
+void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
     const bool state = b->state.modulus != NULL;

@@ -71,7 +71,7 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
             const int64_t g = b->rest.list[k];                                                           \
             if (!bond_force_group(b, p, g, 1, D, PD_##M)) continue;                                      \
             int64_t here = bond_break_group(b, p, limit, g);                                             \
-            if (here > 0) bond_force_group(b, p, g, 0.5, D, PD_##M);                                     \
+            if (here > 0 && !limit->whole_force) bond_force_group(b, p, g, 0.5, D, PD_##M);              \
             broken += here;                                                                              \
         }                                                                                                \
         return broken;                                                                                   \

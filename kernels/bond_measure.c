@@ -21,7 +21,7 @@ static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct 
             const lanes relative = lanes_at(p->x[d], b->first[slot], b->nbr + q) - x[d];
             distance2 += relative * relative;
         }
-        const lanes w = lanes_load_float(b->w + q), inverse = lanes_load(b->inverse_length + q);
+        const lanes w = lanes_load(b->w + q), inverse = lanes_load(b->inverse_length + q);
         const lanes stretch = STRETCH_OF(distance2 * lanes_inverse_root(distance2), inverse);
         const lanes length = lanes_inverse_root(inverse * inverse);        /* cheaper than a division */
         const lanes elastic = bond_elastic(model, b, q, stretch);
@@ -50,7 +50,7 @@ static ALWAYS_INLINE void bond_stress_group(const struct bonds *b, struct partic
         }
         const lanes inverse = lanes_inverse_root(distance2);
         const lanes stretch = STRETCH_OF(distance2 * inverse, lanes_load(b->inverse_length + q));
-        const lanes share = lanes_load_float(b->w + q) * bond_elastic(model, b, q, stretch) * inverse;
+        const lanes share = lanes_load(b->w + q) * bond_elastic(model, b, q, stretch) * inverse;
         for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
         if (dim > 1) sum[dim] += share * y[0] * y[1];
         if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];

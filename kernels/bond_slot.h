@@ -42,7 +42,7 @@ static ALWAYS_INLINE lanes slot_inverse_length(const struct bonds *b, int64_t sl
 static ALWAYS_INLINE lanes slot_weight(const struct bonds *b, int64_t slot, const enum slot_kind kind)
 {
     const struct bond_slot *c = &b->common[slot];
-    return kind == SLOT_ALIKE ? lanes_of_float(c->intact, c->w) : lanes_load_float(b->w + slot * LANES);
+    return kind == SLOT_ALIKE ? lanes_keep(c->intact, lanes_of(c->w)) : lanes_load(b->w + slot * LANES);
 }
 
 /* Stretch |y|/|xi| - 1, of broken bonds maybe -|y|/|xi| - 1: rounded to a multiple of 2^-49 by passing between 8 and 16, so

@@ -58,7 +58,7 @@ struct transfer_data {
  * A bond acts with half its force in the step in which it breaks: a leap-frog kick stands half before and half after that
  * instant, so the energy of breaking is second order in the time step (all or nothing of it is first order). Sets
  * FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves 4 bytes
- * per bond from memory on a lattice, 8 where weights differ, 16 or 20 elsewhere (bond_slot.h); positions come from
+ * per bond from memory on a lattice, 12 where weights differ, 16 or 24 elsewhere (bond_slot.h); positions come from
  * cache. Returns the directed bonds broken. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit);
 
@@ -74,7 +74,7 @@ KERNEL(int64_t, bond_break_all, (struct bonds *b, struct particles *p, const str
 /* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as fracture:
  * a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the next positions.
  * The other entry of the bond has to fade alike. */
-KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, float w));
+KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
 /* Elastic energy of a row of a state-based model by its present weights and places, whatever the last sweep left [J]. */
 KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row));

@@ -14,7 +14,6 @@
 
 typedef real lanes __attribute__((vector_size(LANES * sizeof(real))));
 typedef real lanes_anywhere __attribute__((vector_size(LANES * sizeof(real)), aligned(sizeof(real)), may_alias));
-typedef float lanes_float __attribute__((vector_size(LANES * sizeof(float)), may_alias));
 typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))));
 typedef uint64_t lanes_bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
 typedef int16_t lanes_units __attribute__((vector_size(LANES * sizeof(int16_t)), may_alias));
@@ -22,16 +21,6 @@ typedef int16_t lanes_units __attribute__((vector_size(LANES * sizeof(int16_t)),
 static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (const lanes_anywhere *)from; }
 static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to = a; }
 static ALWAYS_INLINE lanes lanes_of(real a) { return (lanes){a, a, a, a, a, a, a, a}; }
-
-/* Eight floats at a 32-byte boundary. */
-static ALWAYS_INLINE lanes lanes_load_float(const float *from)
-{
-#ifdef __AVX512F__
-    return (lanes)_mm512_cvtps_pd((__m256)*(const lanes_float *)from);
-#else
-    return __builtin_convertvector(*(const lanes_float *)from, lanes);
-#endif
-}
 
 static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 {
@@ -96,16 +85,6 @@ static ALWAYS_INLINE lanes lanes_keep(uint8_t bits, lanes a)
     return (lanes)_mm512_maskz_mov_pd(bits, (__m512d)a);
 #else
     return (lanes)(lanes_of_bits(bits) & (lanes_mask)a);
-#endif
-}
-
-/* A float where the lane has a bit, else 0. */
-static ALWAYS_INLINE lanes lanes_of_float(uint8_t bits, float a)
-{
-#ifdef __AVX512F__
-    return (lanes)_mm512_maskz_cvtps_pd(bits, _mm256_set1_ps(a));
-#else
-    return lanes_keep(bits, lanes_of(a));
 #endif
 }
 

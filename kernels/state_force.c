@@ -219,7 +219,7 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
             force_group(b, p, g, 1, D, PD_##M);                                                              \
             if (!b->state.past[g]) continue;                                                                 \
             int64_t here = bond_break_group(b, p, limit, g);                                                 \
-            if (here > 0) force_group(b, p, g, 0.5, D, PD_##M);                                              \
+            if (here > 0 && !limit->whole_force) force_group(b, p, g, 0.5, D, PD_##M);                       \
             broken += here;                                                                                  \
         }                                                                                                    \
         return broken;                                                                                       \

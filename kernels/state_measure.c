@@ -30,7 +30,7 @@ static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struc
                                           int64_t slot, lanes *T, lanes *xi, const int dim, const bool turns)
 {
     const int32_t *nbr = b->nbr + slot * LANES, first = b->first[slot];
-    const lanes w = lanes_load_float(b->w + slot * LANES), inverse_length = lanes_load(b->inverse_length + slot * LANES);
+    const lanes w = lanes_load(b->w + slot * LANES), inverse_length = lanes_load(b->inverse_length + slot * LANES);
     const lanes r = lanes_inverse_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_of(1)));
     lanes y[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
     for (int d = 0; d < dim; d++) {

@@ -309,7 +309,7 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     b->first = NEW("bonds.first", b->slots, int32_t);
     b->nbr = NEW("bonds.nbr", b->slots * LANES, int32_t);
     b->inverse_length = NEW("bonds.inverse_length", b->slots * LANES, real);
-    b->w = NEW("bonds.w", b->slots * LANES, float);
+    b->w = NEW("bonds.w", b->slots * LANES, real);
     bonds_share_make(b, s->family.spacing);
     if (s->yield.stretch) {
         b->yield = s->yield;

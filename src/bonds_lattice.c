@@ -157,7 +157,7 @@ void lattice_bonds_free(struct lattice_bonds *to)
 
 /* 1/r and weight of the bonds from i + lane to j + lane, as row_weigh has them. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
-                                int64_t j, real *inverse, float *w, const int dim)
+                                int64_t j, real *inverse, real *w, const int dim)
 {
     const struct family *f = &s->family;
     const real *volume = p->volume0, *around = s->neighbour_volume;
@@ -181,11 +181,11 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
         for (int l = 0; l < LANES; l++) weight[l] *= pairs->ratio[p->material[i + l] * pairs->materials + p->material[j + l]];
     if (around)
         for (int l = 0; l < LANES; l++) weight[l] *= 2 * f->full / (around[i + l] + around[j + l]);
-    for (int l = 0; l < LANES; l++) w[l] = (float)weight[l];
+    for (int l = 0; l < LANES; l++) w[l] = weight[l];
 }
 
 void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i, int64_t j,
-                   real *inverse, float *w)
+                   real *inverse, real *w)
 {
     switch (p->dim) {
     case 1: weigh(s, p, pairs, i, j, inverse, w, 1); break;

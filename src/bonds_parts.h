@@ -8,7 +8,7 @@ struct row {
     int n;
     int32_t *nbr;
     real *inverse_length;
-    float *w;
+    real *w;
     struct bond_plasticity *plastic;
     real trigger, family_volume, cut_volume;
 };
@@ -57,7 +57,7 @@ void lattice_bonds_free(struct lattice_bonds *to);
 bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to);
 /* 1/length and weight of the bonds from particles i .. i + 7 to j .. j + 7, none of them cut. */
 void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i, int64_t j,
-                   real *inverse, float *w);
+                   real *inverse, real *w);
 
 /* Can the map of sites tell the bonds of particles i .. i + 7, all peridynamic? Then `to` has them. */
 bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,

@@ -12,7 +12,7 @@ void row_room_make(struct row *row, int room)
 {
     row->nbr = NEW("bonds.row", room + 1, int32_t);       /* row_copy writes one too many */
     row->inverse_length = NEW("bonds.row", room + 1, real);
-    row->w = NEW("bonds.row", room + 1, float);
+    row->w = NEW("bonds.row", room + 1, real);
     row->plastic = NEW("bonds.row", room + 1, struct bond_plasticity);
 }
 
@@ -64,7 +64,7 @@ bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t
 
 /* ---- one row --------------------------------------------------------------------------------------- */
 
-static float bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                          int32_t i, int32_t j, const real *xi, real r)
 {
     /* Written so that i and j may be exchanged without changing a bit. */
@@ -72,7 +72,7 @@ static float bond_weight(const struct bond_source *s, const struct particles *p,
     weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
     if (s->neighbour_volume)             /* volume method, Le & Bobaru 2018 */
         weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
-    return (float)weight;
+    return weight;
 }
 
 /* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */

@@ -42,7 +42,7 @@ static int lattice_of(struct bonds *b, int64_t slot)
 
 void bonds_share(struct bonds *b, int64_t slot)
 {
-    const float *w = b->w + slot * LANES;
+    const real *w = b->w + slot * LANES;
     struct bond_slot *c = &b->common[slot];
     *c = (struct bond_slot){.first = b->first[slot]};
     if (c->first >= 0) c->lattice = (uint8_t)lattice_of(b, slot);

@@ -89,7 +89,7 @@ real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t r
 struct eight_bounds { real block[DIM_MAX][DIM_MAX][LANES], total[LANES]; };
 
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
-                                     const real *inverse, const float *w, real stiffness, const int dim)
+                                     const real *inverse, const real *w, real stiffness, const int dim)
 {
     real n[DIM_MAX][LANES], K[LANES];
     for (int d = 0; d < dim; d++)
@@ -102,7 +102,7 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
 }
 
 static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j, const real *inverse,
-                           const float *w, real stiffness)
+                           const real *w, real stiffness)
 {
     switch (p->dim) {
     case 1: bounds_add(bound, p, i, j, inverse, w, stiffness, 1); break;
@@ -131,7 +131,7 @@ static real group_frequency(const struct lattice_bonds *bonds, const struct bond
     struct eight_bounds bounds = {0};
     for (int k = 0; k < bonds->n; k++) {
         real inverse[LANES];
-        float w[LANES];
+        real w[LANES];
         lattice_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
         for (int l = 0; l < LANES; l++) w[l] = l >= bonds->from[k] && l <= bonds->to[k] ? w[l] : 0;
         bounds_add_any(&bounds, p, i, i + bonds->offset[k], inverse, w, stiffness);

@@ -29,7 +29,7 @@ static void stiffness(void *context, const real *u, real *y)
     struct particles *p = body->p;
     real never[UINT8_MAX + 1];
     for (int m = 0; m <= UINT8_MAX; m++) never[m] = INFINITY;
-    const struct bond_limit limit = {never, 0};  /* one row for all pairs: bond by its neighbour's material */
+    const struct bond_limit limit = {never, 0, false};  /* one row for all pairs: bond by its neighbour's material */
     const real most = largest_motion(p, u), scale = most > 0 ? STRAIN * body->spacing / most : 0;
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)

@@ -17,7 +17,7 @@ static void make_limits(struct engine *e)
         for (int b = 0; b < s->materials; b++)
             e->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
-    e->source.limit = (struct bond_limit){e->pair_stretch, s->materials};
+    e->source.limit = (struct bond_limit){e->pair_stretch, s->materials, s->whole_force};
     if (s->solver == SOLVER_EXPLICIT) return;
     e->pair_never = NEW("engine.pair_never", s->materials * s->materials, real);
     for (int k = 0; k < s->materials * s->materials; k++) e->pair_never[k] = INFINITY;

@@ -30,11 +30,20 @@ static real influence(const struct family *f, real r)
     }
 }
 
+/* Neighbours on a lattice have the length that they would have without the round-off of positions: like bonds weigh alike, to
+ * the last bit. */
+static real true_length(const struct family *f, real r)
+{
+    const real squares = square(r / f->spacing), whole = floor(squares + 0.5);
+    return fabs(squares - whole) < 1e-9 * whole ? f->spacing * sqrt(whole) : r;
+}
+
 real family_weight(const struct family *f, const real *xi, real r)
 {
     int dim = space_dim(f->space);
     real fourth = 0;
     if (family_plain(f)) return f->shell_weight[0];
+    r = true_length(f, r);
     for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
     /* mean of n1^4 + .. over all directions: 1, 3/4, 3/5 */
     bool axial = fourth > 3.0 / (dim + 2) + 1e-9;
@@ -58,7 +67,7 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     int class = fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1;
     s->volume += V * beta;
     s->sigma += r * V * family_weight(f, xi, r);
-    s->weighted += r * r * (float)family_weight(f, xi, r);
+    s->weighted += r * r * family_weight(f, xi, r);
     s->axial[class] += r * V * beta * fourth / dim;
     s->mixed[class] += dim > 1 ? r * V * beta * (1 - fourth) / (dim * (dim - 1)) : 0;
 }

@@ -99,14 +99,14 @@ static bool fades(const struct growth *g, int32_t i, int32_t j)
     return false;
 }
 
-static void fading_add(struct growth *g, int32_t i, int32_t j, float w, real length)
+static void fading_add(struct growth *g, int32_t i, int32_t j, real w, real length)
 {
     if (g->n == g->room) {
         int64_t larger = g->room ? 2 * g->room : 256;
         g->fading = memory_resize("growth.fading", g->fading, g->room, larger, sizeof *g->fading);
         g->room = larger;
     }
-    g->fading[g->n++] = (struct fading){i, j, w, w, w, 0, length};
+    g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
 /* Entries of the row of particle i that the way of the tip crosses. */
@@ -202,7 +202,7 @@ static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, cons
         struct fading bond = g->fading[k];
         const real grown = g->grown - bond.length;
         const real share = grown < damping ? pow(1 - grown / damping, r->exponent) : 0;
-        const float next = (float)(bond.whole * share);
+        const real next = bond.whole * share;
         const int64_t q = entry_of(b, bond.i, bond.j, &row);
         if (next != bond.before) bond_fade(b, p, row, q, next);
         released += bond.now > 0 && next == 0;

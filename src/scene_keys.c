@@ -137,6 +137,9 @@ const struct key keys[] = {
         .words = "one|gaussian|inverse|inverse square|linear"),
     KEY("pd.normalisation", KEY_CHOICE, UNIT_NONE, AT(scene, bulk), ANY, "(bulk with mospd and irregularity 0, else local)",
         "ospd and mospd: constants from the family a particle has, or from a full one", .words = "local|bulk"),
+    KEY("pd.last_force", KEY_CHOICE, UNIT_NONE, AT(scene, whole_force), ANY, "half",
+        "of a bond in the step in which it breaks: half balances energy to second order in the step, whole is what other programs do",
+        .words = "half|whole"),
     KEY("pd.region", KEY_REGION, UNIT_NONE, AT(scene, pd_region), ANY, NONE,
         "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
 

@@ -233,7 +233,7 @@ static void flux_is_the_force_across(void **state)
             }
         sum /= c.source.family.section;
         scale = real_max(scale, fabs(sum));
-        assert_near(flux[k], sum, 2e-7 * scale + 1);         /* weights are stored in single precision */
+        assert_near(flux[k], sum, 1e-12 * scale + 1);
     }
     assert_true(scale > 1e7);                                /* 1 Pa above is nothing */
     memory_free(bar.order), memory_free(bar.rank);

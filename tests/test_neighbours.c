@@ -349,7 +349,7 @@ static void test_rows_threads(void **state)
         size_t entries = (size_t)c[0].bonds.slots * LANES;
         assert_int_equal(c[0].bonds.slots, c[1].bonds.slots);
         assert_memory_equal(c[0].bonds.nbr, c[1].bonds.nbr, entries * sizeof(int32_t));
-        assert_memory_equal(c[0].bonds.w, c[1].bonds.w, entries * sizeof(float));
+        assert_memory_equal(c[0].bonds.w, c[1].bonds.w, entries * sizeof(real));
         assert_memory_equal(c[0].bonds.inverse_length, c[1].bonds.inverse_length, entries * sizeof(real));
         for (int t = 0; t < 2; t++) cloud_free(&c[t]);
     }

@@ -327,7 +327,7 @@ static void probe_of_a_break(void **state)
         for (int64_t j = 0; j < p->n; j++)
             if (i != j && llabs(i - j) <= 3) half_energy += full * (real)llabs(i - j) / 12;   /* 2 (1 + 2 + 3) = 12 */
     probes_sample(&s, &o);
-    assert_near(s.value[column_named(&s, "energy.strain")], half_energy, 1e-6 * half_energy);   /* weights are floats */
+    assert_near(s.value[column_named(&s, "energy.strain")], half_energy, 1e-12 * half_energy);
     probes_free(&s);
     bonds_free(&bar.bonds);
     body_free(&bar.b);
