@@ -76,14 +76,17 @@ static real critical_of_lattices(struct engine *e, real *bound)
     return step;
 }
 
-/* Iterated on the body itself where all of it is peridynamic. Where particles become so later, on the lattice, less
- * as the bound over all of them is smaller than the lattice's: scattered particles, corrected surfaces, heavy neighbours. */
+enum { ITERATED_MOST = 15000 };          /* particles: an iteration is some steps, and takes some 30 rounds */
+
+/* Iterated on the body itself where all of it is peridynamic. Where particles become so later, or are many on a lattice, on a
+ * block of that, less as the bound over all of them is smaller than the block's: scattered particles, corrected surfaces,
+ * heavy neighbours. */
 static real critical_of_bonds(struct engine *e)
 {
     const struct scene *s = e->scene;
     real bound;
     if (s->method == METHOD_MPM) return INFINITY;
-    if (s->method == METHOD_PD) {
+    if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
         const real step = critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
         return isfinite(step) ? step : s->spacing / e->wave_speed;   /* no bond: whatever loads want */
     }
