@@ -8,8 +8,9 @@
 #include "memory.h"
 #include "solver_parts.h"
 
-enum { STEPS_MOST = 200 };
+enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15
+#define SECONDS_MOST 1.0
 #define FRAME_BYTES 72                   /* of a particle: copied for the writer, its room and its order */
 #define OUTPUT_BYTES 2.7e6               /* of the library that writes */
 #define SECONDS_PER_BOND 0.8e-9          /* peridynamic bond on one core, about */
@@ -20,50 +21,43 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Of a machine that does other things as well: the quarter that was disturbed least. */
-static double quick_quarter(double *spent, int n)
+static double median(double *spent, int n)
 {
     qsort(spent, (size_t)n, sizeof *spent, by_size);
-    return n > 0 ? spent[n / 4] : NAN;
+    return n > 0 ? spent[n / 2] : NAN;
 }
 
-/* Of the steps after the first, which meets cold memory. */
+/* Of the steps after the first, which meets cold memory; from sample to sample, so that these have their share. */
 static status time_steps(struct engine *e, double *step)
 {
-    double spent[STEPS_MOST], all = 0;
+    const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
+    const int64_t period = e->steps / samples > 0 ? e->steps / samples : 1;
+    double spent[PERIODS_MOST], all = 0;
     int n = 0;
     TRY(engine_step(e));
-    while (n < STEPS_MOST && (all < SECONDS_ENOUGH || n < 3) && e->step < e->steps - 1) {
+    while (n < PERIODS_MOST && (n < 1 || (all < SECONDS_ENOUGH || n < 3)) && (n < 1 || all < SECONDS_MOST)) {
         const double start = team_clock();
-        TRY(engine_step(e));
-        all += spent[n++] = team_clock() - start;
+        int64_t taken = 0;
+        for (; taken < period && e->step < e->steps - 1 && team_clock() - start < SECONDS_MOST; taken++) TRY(engine_step(e));
+        if (taken == 0) break;
+        all += team_clock() - start;
+        spent[n++] = (team_clock() - start) / (double)taken;
     }
-    *step = quick_quarter(spent, n);
+    *step = median(spent, n);
     return OK;
 }
 
 /* A static solver asks for the bonds' forces once in an iteration. */
 static double time_iteration(struct engine *e)
 {
-    double spent[STEPS_MOST], all = 0;
+    double spent[PERIODS_MOST], all = 0;
     int n = 0;
-    while (n < STEPS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
+    while (n < PERIODS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
         const double start = team_clock();
         solver_bond_force(e);
         all += spent[n++] = team_clock() - start;
     }
-    return quick_quarter(spent, n);
-}
-
-static double time_sample(struct engine *e)
-{
-    double least = INFINITY;
-    for (int k = 0; k < 3; k++) {
-        const double start = team_clock();
-        engine_sample_rest(e);
-        least = fmin(least, team_clock() - start);
-    }
-    return least;
+    return median(spent, n);
 }
 
 /* Neighbours of a particle inside the body, by the volume that they fill. */
@@ -79,7 +73,6 @@ status cost_measure(struct cost *c, struct engine *e, int threads)
     TRY(engine_report_start(e));
     if (explicit) TRY(time_steps(e, &c->step));
     else c->step = time_iteration(e);
-    c->sample = explicit ? time_sample(e) : 0;
     c->bytes = (double)memory_peak() + OUTPUT_BYTES + n * FRAME_BYTES;
     return OK;
 }

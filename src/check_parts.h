@@ -9,7 +9,7 @@
 /* ---- check_cost.c ----------------------------------------------------------------------------------------------- */
 
 struct cost {
-    double step, sample;                 /* of the body as it is at the start; with the team that runs now [s] */
+    double step;                         /* samples included, of the body as it is at the start; with the team that runs now [s] */
     double all_peridynamic;              /* a step if every particle were; NAN: it is, or cannot become so   [s] */
     double bytes;                        /* high-water mark of a run in which nothing converts                  */
 };
