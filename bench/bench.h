@@ -60,9 +60,11 @@ void bench_override(struct bench_overrides *o, const char *key, const char *valu
     __attribute__((format(printf, 3, 4)));
 /* The entries as readers of scenes take them. */
 const struct scene_override *bench_overrides_ready(struct bench_overrides *o);
+struct bench_figure { const char *probe, *quantity; double value; };
+/* Those that probes of a run have; the others keep their value. */
+void bench_figures_take(const struct engine *e, struct bench_figure *figure, int n);
 /* Runs a scene to its end, and its twin on material points if a pulse probe wants one, and reads figures of its probes:
  * NAN where it has none. */
-struct bench_figure { const char *probe, *quantity; double value; };
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
 /* Says in one line that there is no such scene here, if so. */
 bool bench_scene_exists(const char *path);

@@ -10,20 +10,11 @@
 
 /* ---- figures of a run ------------------------------------------------------------------------------------------ */
 
-struct wanted { const char *probe, *quantity; double value; };
-
-static void take_figure(void *context, const char *probe, const char *quantity, real value)
-{
-    struct wanted *w = context;
-    if (strcmp(probe, w->probe) == 0 && strcmp(quantity, w->quantity) == 0) w->value = value;
-}
-
 double accuracy_figure(const struct engine *e, const char *probe, const char *quantity)
 {
-    struct wanted w = {probe, quantity, NAN};
-    const struct observed seen = engine_observed(e);
-    probes_figures(&e->probes, &seen, take_figure, &w);
-    return w.value;
+    struct bench_figure figure = {probe, quantity, NAN};
+    bench_figures_take(e, &figure, 1);
+    return figure.value;
 }
 
 /* ---- one point -------------------------------------------------------------------------------------------------- */

@@ -168,20 +168,6 @@ static status find_step(struct result *x)
 
 /* ---- figures of a scene ----------------------------------------------------------------------------------- */
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(const double *value, int n)
-{
-    double sorted[REPETITIONS];
-    memcpy(sorted, value, (size_t)n * sizeof *value);
-    qsort(sorted, (size_t)n, sizeof *sorted, by_size);
-    return n % 2 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
-}
-
 static double distance(const real *a, const real *b)
 {
     double sum = 0;
@@ -225,7 +211,7 @@ static status scene_measure(struct result *x, int repetitions)
     for (int r = 0; r < repetitions; r++)
         for (int k = 0; k < WAYS; k++) TRY(run_once(x, (r + k) % WAYS, r)); /* none is always first */
     for (int way = 1; way < WAYS; way++) TRY(run_shares(x, way));
-    for (int way = 0; way < WAYS; way++) x->t[way] = median(x->run[way].seconds, repetitions);
+    for (int way = 0; way < WAYS; way++) x->t[way] = median_of(x->run[way].seconds, repetitions);
     for (int way = 1; way < WAYS; way++) {
         x->t_r[way] = 1 - x->t[way] / x->t[0];
         compare_tips(x, way, dim);

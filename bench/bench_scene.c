@@ -86,19 +86,21 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
         if (!strcmp(w->figure[k].probe, probe) && !strcmp(w->figure[k].quantity, quantity)) w->figure[k].value = value;
 }
 
+void bench_figures_take(const struct engine *e, struct bench_figure *figure, int n)
+{
+    const struct observed seen = engine_observed(e);
+    probes_figures(&e->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
+}
+
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n)
 {
     struct engine e;
     struct scene s;
-    struct wanted_figures wanted = {figure, n};
     for (int k = 0; k < n; k++) figure[k].value = NAN;
     TRY(bench_engine_make(&e, &s, path, text, bench_overrides_ready(o), o->n));
     status ran = engine_run(&e);
     if (ran == OK) ran = engine_baseline(&e);
-    if (ran == OK) {
-        struct observed seen = engine_observed(&e);
-        probes_figures(&e.probes, &seen, take_figure, &wanted);
-    }
+    if (ran == OK) bench_figures_take(&e, figure, n);
     bench_engine_free(&e, &s);
     return ran;
 }

@@ -37,6 +37,9 @@ typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *status_message(void);
 
+/* Sorts n > 0 numbers; the middle one, of an even number the upper. */
+double median_of(double *value, int64_t n);
+
 /* Hands a fault to the caller as it came. */
 #define TRY(call)                              \
     do {                                       \

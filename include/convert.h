@@ -74,4 +74,10 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 void partial_stress_free(struct partial_stress *partial);
 status conversion_archive(struct conversion *c, struct archive *a);
 
+/* What particles know of their families at the places of now; of bonds that know but themselves there is nothing. */
+static inline void families_know(struct bonds *b, const struct particles *p, const struct bond_source *s)
+{
+    if (s->modulus) state_know_table[p->dim][s->turns ? PD_MOSPD : PD_OSPD](b, p);
+}
+
 #endif

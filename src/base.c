@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 enum { MESSAGE_LENGTH = 1024 };
 
@@ -21,3 +22,15 @@ status status_set(status s, const char *format, ...)
 }
 
 const char *status_message(void) { return message; }
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double median_of(double *value, int64_t n)
+{
+    qsort(value, (size_t)n, sizeof *value, by_size);
+    return value[n / 2];
+}

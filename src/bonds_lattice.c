@@ -161,27 +161,26 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
 {
     const struct family *f = &s->family;
     const real *volume = p->volume0, *around = s->neighbour_volume;
-    real xi[DIM_MAX][LANES], r[LANES], weight[LANES];
+    real xi[DIM_MAX][LANES], r[LANES];
     for (int l = 0; l < LANES; l++) {
         real r2 = 0;
         for (int d = 0; d < dim; d++) xi[d][l] = p->X[d][j + l] - p->X[d][i + l], r2 += square(xi[d][l]);
         r[l] = sqrt(r2);
         inverse[l] = 1 / r[l];
-        weight[l] = f->shell_weight[0];
+        w[l] = f->shell_weight[0];
     }
     for (int l = 0; l < LANES && !family_plain(f); l++) {
         real one[DIM_MAX];
         for (int d = 0; d < dim; d++) one[d] = xi[d][l];
-        weight[l] = family_weight(f, one, r[l]);
+        w[l] = family_weight(f, one, r[l]);
     }
-    for (int l = 0; l < LANES; l++) weight[l] *= (volume[i + l] * volume[j + l]) / square(f->cell_volume);
+    for (int l = 0; l < LANES; l++) w[l] *= (volume[i + l] * volume[j + l]) / square(f->cell_volume);
     if (pairs->materials == 1)
-        for (int l = 0; l < LANES; l++) weight[l] *= pairs->ratio[0];
+        for (int l = 0; l < LANES; l++) w[l] *= pairs->ratio[0];
     else
-        for (int l = 0; l < LANES; l++) weight[l] *= pairs->ratio[p->material[i + l] * pairs->materials + p->material[j + l]];
+        for (int l = 0; l < LANES; l++) w[l] *= pairs->ratio[p->material[i + l] * pairs->materials + p->material[j + l]];
     if (around)
-        for (int l = 0; l < LANES; l++) weight[l] *= 2 * f->full / (around[i + l] + around[j + l]);
-    for (int l = 0; l < LANES; l++) w[l] = weight[l];
+        for (int l = 0; l < LANES; l++) w[l] *= 2 * f->full / (around[i + l] + around[j + l]);
 }
 
 void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i, int64_t j,

@@ -1,7 +1,6 @@
 /* floor 5: what a run costs, from steps that are thrown away: no table of figures knows the machine, its load and the scene as
  * well as they do. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "check_parts.h"
 #include "engine_report.h"
@@ -15,18 +14,6 @@ enum { PERIODS_MOST = 200 };
 #define OUTPUT_BYTES 2.7e6               /* of the library that writes */
 #define SECONDS_PER_BOND 0.8e-9          /* peridynamic bond on one core, about */
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *spent, int n)
-{
-    qsort(spent, (size_t)n, sizeof *spent, by_size);
-    return n > 0 ? spent[n / 2] : NAN;
-}
-
 /* Of the steps after the first, which meets cold memory; from sample to sample, so that these have their share. */
 static status time_steps(struct engine *e, double *step)
 {
@@ -35,7 +22,7 @@ static status time_steps(struct engine *e, double *step)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     TRY(engine_step(e));
-    while (n < PERIODS_MOST && (n < 1 || (all < SECONDS_ENOUGH || n < 3)) && (n < 1 || all < SECONDS_MOST)) {
+    while (n < PERIODS_MOST && all < SECONDS_MOST && (n < 3 || all < SECONDS_ENOUGH)) {
         const double start = team_clock();
         int64_t taken = 0;
         for (; taken < period && e->step < e->steps - 1 && team_clock() - start < SECONDS_MOST; taken++) TRY(engine_step(e));
@@ -43,7 +30,7 @@ static status time_steps(struct engine *e, double *step)
         all += team_clock() - start;
         spent[n++] = (team_clock() - start) / (double)taken;
     }
-    *step = median(spent, n);
+    *step = n > 0 ? median_of(spent, n) : NAN;
     return OK;
 }
 
@@ -57,7 +44,7 @@ static double time_iteration(struct engine *e)
         solver_bond_force(e);
         all += spent[n++] = team_clock() - start;
     }
-    return median(spent, n);
+    return median_of(spent, n);
 }
 
 /* Neighbours of a particle inside the body, by the volume that they fill. */

@@ -161,7 +161,7 @@ static void look_at(const struct conversion_look *look, const struct particles *
 static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
 {
     bonds_renew(b, p, source);
-    if (source->modulus) state_know_table[p->dim][source->turns ? PD_MOSPD : PD_OSPD](b, p);
+    families_know(b, p, source);
     return bond_break_all(b, p, &source->limit);
 }
 

@@ -94,7 +94,7 @@ static bool wants_stress(const struct engine *e)
  * step's rotation. */
 static void refresh_states(struct engine *e)
 {
-    if (e->source.modulus) state_know_table[e->part.dim][e->source.turns ? PD_MOSPD : PD_OSPD](&e->bonds, &e->part);
+    families_know(&e->bonds, &e->part, &e->source);
 }
 
 void engine_stress(struct engine *e)

@@ -17,12 +17,6 @@ static const double COMPARISONS = 2e7;
  * diagonal and more closes those of a turned or irregular one. */
 static const double SQUARE = 0.55, DISC = 0.9;       /* half width, radius over spacing */
 
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static int64_t sample_count(int64_t n)
 {
     int64_t samples = (int64_t)(COMPARISONS / (double)(n + 1));
@@ -59,8 +53,7 @@ double frame_spacing(const struct frame *f)
         if (isfinite(r)) distance[known++] = r;
     }
     if (known == 0) return 0;
-    qsort(distance, (size_t)known, sizeof *distance, by_size);
-    return distance[known / 2];
+    return median_of(distance, known);
 }
 
 /* Does the nearest neighbour in the map lie within 8 degrees of an axis? */
