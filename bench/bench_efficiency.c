@@ -320,9 +320,9 @@ static void draw_bars(FILE *to, const struct efficiency *all)
             "-1)'\n"
             "set style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\nset boxwidth "
             "0.9\n"
-            "set xtics scale 0 font ',8'\n"
-            "set ylabel 't_r'\nset yrange [-1.25:1]\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at screen 0.97,0.525 "
-            "right center horizontal maxrows 1\n"
+            "set xtics scale 0 font ',6'\n"
+            "set ylabel 't_r'\nset yrange [-1.25:1.4]\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at graph 0.995,0.985 "
+            "right top horizontal maxrows 1 font ',9'\n"
             "plot ");
     for (int way = 1, bar = 0; way < WAYS; way++) {
         if (!ways[way].colour) continue;
