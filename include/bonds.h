@@ -131,6 +131,7 @@ struct bonds {
     int32_t *row_of;                     /* [n_all] row of a particle, -1 without                         */
     int64_t *slot;                       /* [groups + 1] first slot of a group                            */
     uint8_t *whole;                      /* [groups 8] the row holds the whole family: its particle is peridynamic */
+    int32_t *made;                       /* [groups] directed bonds of the group, broken ones included    */
     uint8_t *aligned;                    /* [groups] the eight particles are consecutive                  */
     int32_t *first;                      /* [slots] neighbour of lane 0 where the eight are consecutive, else -1 */
     int32_t *nbr;                        /* [slots 8] neighbour                                           */

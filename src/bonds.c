@@ -30,6 +30,18 @@ static bool rows_last(const struct bonds *old, const struct particles *p)
     return true;
 }
 
+/* Eight particles of consecutive numbers have rows together: a group is the same eight for as long as it is there, it writes
+ * whole vectors, and on a lattice its neighbours are consecutive, too. Rows that nobody asked for have no bonds. */
+static void rows_complete(uint8_t *wanted, int64_t n)
+{
+    for (int64_t first = 0; first < n; first += LANES) {
+        const int64_t end = first + LANES < n ? first + LANES : n;
+        uint8_t any = 0;
+        for (int64_t i = first; i < end; i++) any |= wanted[i];
+        for (int64_t i = first; i < end; i++) wanted[i] = any;
+    }
+}
+
 /* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` those that have to be
  * searched anew: of who has become peridynamic and whoever is within its reach. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old, int room,
@@ -51,6 +63,7 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
             if (found[k] < p->n) wanted[found[k]] = fresh[found[k]] = 1;
     }
     memory_free(found);
+    rows_complete(wanted, p->n);
 }
 
 /* ---- one group ------------------------------------------------------------------------------------- */
@@ -231,6 +244,7 @@ static void rows_arrays(struct bonds *b)
 {
     int64_t padded = b->groups * LANES;
     b->slot = NEW("bonds.slot", b->groups + 1, int64_t);
+    b->made = NEW("bonds.made", b->groups, int32_t);
     b->aligned = NEW("bonds.aligned", b->groups, uint8_t);
     b->whole = NEW("bonds.whole", padded, uint8_t);
     b->trigger = NEW("bonds.trigger", padded, real);
@@ -242,40 +256,100 @@ static void rows_arrays(struct bonds *b)
     rest_make(&b->rest, b->groups);
 }
 
+/* Who does the two passes over the groups. */
+struct rows_pass {
+    struct bonds *b;
+    struct row_maker maker;
+    const struct lattice *lattice;
+    struct group_found **found;          /* [groups] of those that are searched, NULL: not kept   */
+    bool count;                          /* the first pass: slots are counted                     */
+};
+
+/* Counts the slots of a group, or fills them; returns its bonds. */
+static int64_t group_pass(const struct rows_pass *pass, struct group_room *room, int64_t g)
+{
+    struct bonds *b = pass->b;
+    const struct row_maker *m = &pass->maker;
+    const int rows = group_rows(b, g);
+    const int32_t *particle = b->particle + g * LANES;
+    int64_t made = 0;
+    bool by_offset;
+    if (pass->lattice->at && rows == LANES && particle[LANES - 1] - particle[0] == LANES - 1 &&
+        group_regular(pass->lattice, m->source, m->p, particle[0], &room->regular)) {
+        if (pass->count) b->slot[g + 1] = room->regular.n;
+        else group_fill_regular(b, &room->regular, g, m->source, m->p, m->pairs);
+        for (int k = 0; k < room->regular.n; k++) made += room->regular.to[k] - room->regular.from[k] + 1;
+        return made;
+    }
+    if (pass->found && pass->found[g]) group_found_take(pass->found[g], room->row, rows);
+    for (int l = 0; l < rows; l++) {
+        if (!pass->found || !pass->found[g]) row_find(&room->row[l], m, particle[l]);
+        if (!pass->count) row_finish(&room->row[l], m, particle[l]);
+        made += room->row[l].n;
+    }
+    const int slots = group_slots(room, particle, rows, &by_offset);
+    if (pass->count) b->slot[g + 1] = slots;
+    else group_fill(b, room, g, rows, by_offset, m->p), group_note(b, room, g, rows);
+    if (pass->count && pass->found) pass->found[g] = group_found_make(room->row, rows);
+    return made;
+}
+
 /* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice.
  * Returns how many there are. */
-static int64_t rows_pass(struct bonds *b, const struct bonds *old, const struct particles *p, const struct bond_source *s,
-                      const struct pair_table *pairs, const struct lattice *lattice, const uint8_t *fresh, int most, bool count)
+static int64_t rows_pass(const struct rows_pass *pass)
 {
+    const struct row_maker *m = &pass->maker;
     int64_t made = 0;
 #pragma omp parallel reduction(+ : made)
     {
         struct group_room room = {0};
-        rooms_make(&room, most, lattice);
+        rooms_make(&room, m->room, pass->lattice);
 #pragma omp for schedule(static)
-        for (int64_t g = 0; g < b->groups; g++) {
-            int rows = group_rows(b, g);
-            const int32_t *particle = b->particle + g * LANES;
-            if (lattice->at && rows == LANES && particle[LANES - 1] - particle[0] == LANES - 1 &&
-                group_regular(lattice, s, p, particle[0], &room.regular)) {
-                if (count) b->slot[g + 1] = room.regular.n;
-                else group_fill_regular(b, &room.regular, g, s, p, pairs);
-                for (int k = 0; k < room.regular.n; k++) made += room.regular.to[k] - room.regular.from[k] + 1;
-                continue;
-            }
-            for (int l = 0; l < rows; l++) {
-                int32_t i = b->particle[g * LANES + l];
-                row_make(&room.row[l], old, s, p, pairs, i, most, !count, fresh[i]);
-                made += room.row[l].n;
-            }
-            bool by_offset;
-            int slots = group_slots(&room, b->particle + g * LANES, rows, &by_offset);
-            if (count) b->slot[g + 1] = slots;
-            else group_fill(b, &room, g, rows, by_offset, p), group_note(b, &room, g, rows);
+        for (int64_t g = 0; g < pass->b->groups; g++) {
+            const int64_t from = group_kept(pass->b, m, g);
+            if (from < 0) pass->b->made[g] = (int32_t)group_pass(pass, &room, g);
+            else if (pass->count) pass->b->slot[g + 1] = m->old->slot[from + 1] - m->old->slot[from];
+            else group_keep(pass->b, m->old, g, from);
+            made += pass->b->made[g];
         }
         rooms_free(&room);
     }
     return made;
+}
+
+static void slots_arrays(struct bonds *b, const struct bond_source *s)
+{
+    b->first = NEW("bonds.first", b->slots, int32_t);
+    b->nbr = NEW("bonds.nbr", b->slots * LANES, int32_t);
+    b->inverse_length = NEW("bonds.inverse_length", b->slots * LANES, real);
+    b->w = NEW("bonds.w", b->slots * LANES, real);
+    bonds_share_make(b, s->family.spacing);
+    if (!s->yield.stretch) return;
+    b->yield = s->yield;
+    b->plastic_stretch = NEW("bonds.plastic_stretch", b->slots * LANES, real);
+    b->plastic_path = NEW("bonds.plastic_path", b->slots * LANES, real);
+    b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
+}
+
+/* With old rows few groups change, and what is found for them is kept; a map of all sites would not pay for them. */
+static void rows_make(struct bonds *b, struct row_maker maker)
+{
+    struct pair_table pairs = pairs_make(maker.source);
+    struct lattice lattice = {0};
+    if (!maker.old) lattice_make(&lattice, maker.source, maker.p);
+    maker.pairs = &pairs;
+    struct rows_pass pass = {.b = b, .maker = maker, .lattice = &lattice, .count = true,
+                             .found = maker.old ? NEW("bonds.found", b->groups, struct group_found *) : NULL};
+    rows_pass(&pass);
+    for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
+    b->slots = b->slot[b->groups];
+    slots_arrays(b, maker.source);
+    pass.count = false;
+    b->n = rows_pass(&pass);
+    for (int64_t g = 0; g < b->groups && pass.found; g++) memory_free(pass.found[g]);
+    memory_free(pass.found);
+    lattice_free(&lattice);
+    memory_free(pairs.ratio);
 }
 
 static void rows_carry(struct bonds *b, const struct bonds *old)
@@ -300,27 +374,8 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     memory_free(wanted);
     rows_arrays(b);
 
-    struct pair_table pairs = pairs_make(s);
-    struct lattice lattice = {0};
-    if (!old) lattice_make(&lattice, s, p);      /* a map of all sites does not pay for a few rows */
-    rows_pass(b, old, p, s, &pairs, &lattice, fresh, most, true);
-    for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
-    b->slots = b->slot[b->groups];
-    b->first = NEW("bonds.first", b->slots, int32_t);
-    b->nbr = NEW("bonds.nbr", b->slots * LANES, int32_t);
-    b->inverse_length = NEW("bonds.inverse_length", b->slots * LANES, real);
-    b->w = NEW("bonds.w", b->slots * LANES, real);
-    bonds_share_make(b, s->family.spacing);
-    if (s->yield.stretch) {
-        b->yield = s->yield;
-        b->plastic_stretch = NEW("bonds.plastic_stretch", b->slots * LANES, real);
-        b->plastic_path = NEW("bonds.plastic_path", b->slots * LANES, real);
-        b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
-    }
-    b->n = rows_pass(b, old, p, s, &pairs, &lattice, fresh, most, false);
-    lattice_free(&lattice);
+    rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .room = most});
     memory_free(fresh);
-    memory_free(pairs.ratio);
     if (old) rows_carry(b, old);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
@@ -356,6 +411,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->particle);
     memory_free(b->row_of);
     memory_free(b->slot);
+    memory_free(b->made);
     memory_free(b->aligned);
     memory_free(b->whole);
     memory_free(b->first);

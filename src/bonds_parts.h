@@ -24,10 +24,34 @@ void row_room_free(struct row *row);
  * `room` are not written. */
 int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room);
 
-/* Row of particle i: what it was in `old` if it held the whole family there or is not `fresh`, else made anew with what load has done to the
- * bonds that it held. `weigh` false: only who the neighbours are, to count them. */
-void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
-              const struct pair_table *pairs, int32_t i, int room, bool weigh, bool fresh);
+/* What rows are made of. `fresh`: particles whose neighbours may be others than they were in `old`. */
+struct row_maker {
+    const struct bonds *old;             /* NULL: none before                   */
+    const struct bond_source *source;
+    const struct particles *p;
+    const struct pair_table *pairs;
+    const uint8_t *fresh;                /* [n]                                 */
+    int room;                            /* bonds a row may have                */
+};
+
+/* A row that held its whole family before is the same row now; so is one whose neighbours are what they were. */
+static inline bool row_lasts(const struct row_maker *m, int64_t i)
+{
+    const int64_t before = m->old ? m->old->row_of[i] : -1;
+    return before >= 0 && ((m->old->whole[before] && m->p->kind[i] == KIND_PD) || !m->fresh[i]);
+}
+
+/* Who the neighbours of particle i are; then their lengths and weights, and what load has done to the bonds that it held. */
+void row_find(struct row *row, const struct row_maker *m, int32_t i);
+void row_finish(struct row *row, const struct row_maker *m, int32_t i);
+
+/* The group of old rows that group g is, as it was, -1: it has changed (bonds_keep.c). */
+int64_t group_kept(const struct bonds *b, const struct row_maker *m, int64_t g);
+void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from);
+/* Neighbours found for the rows of a group, kept from one pass to the next. */
+struct group_found { real family_volume[LANES]; int32_t n[LANES], nbr[]; };
+struct group_found *group_found_make(const struct row *row, int rows);
+void group_found_take(const struct group_found *found, struct row *row, int rows);
 
 /* Can a crack cut any bond of particle i? */
 bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i);

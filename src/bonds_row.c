@@ -167,21 +167,21 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     }
 }
 
-/* A row that held its whole family before is the same row now; so is one whose neighbours are what they were. */
-static void row_copy(struct row *row, const struct bonds *old, int64_t old_row, bool weigh)
+static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    int64_t group = old_row / LANES;
-    int lane = (int)(old_row % LANES);
-    const int64_t from = bond_index(old, group, 0, lane), end = bond_index(old, group + 1, 0, lane);
-    int n = 0;
-    for (int64_t q = from; q < end; q += LANES) {          /* padding is written over */
-        row->nbr[n] = old->nbr[q];
-        n += old->inverse_length[q] != 0;
+    const int64_t group = old_row / LANES, end = bond_index(old, group + 1, 0, (int)(old_row % LANES));
+    row->n = 0;
+    for (int64_t q = bond_index(old, group, 0, (int)(old_row % LANES)); q < end; q += LANES) {    /* padding is written over */
+        row->nbr[row->n] = old->nbr[q];
+        row->n += old->inverse_length[q] != 0;
     }
-    row->n = n;
-    if (!weigh) return;
-    n = 0;
-    for (int64_t q = from; q < end; q += LANES) {
+}
+
+static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
+{
+    const int64_t group = old_row / LANES, end = bond_index(old, group + 1, 0, (int)(old_row % LANES));
+    int n = 0;
+    for (int64_t q = bond_index(old, group, 0, (int)(old_row % LANES)); q < end; q += LANES) {
         row->inverse_length[n] = old->inverse_length[q];
         row->w[n] = old->w[q];
         if (old->plastic_stretch) row->plastic[n] = stored_plasticity(old, q);
@@ -192,16 +192,19 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row, 
     row->cut_volume = old->broken_volume[old_row];
 }
 
-void row_make(struct row *row, const struct bonds *old, const struct bond_source *s, const struct particles *p,
-              const struct pair_table *pairs, int32_t i, int room, bool weigh, bool fresh)
+void row_find(struct row *row, const struct row_maker *m, int32_t i)
 {
-    int64_t before = old ? old->row_of[i] : -1;
-    if (before >= 0 && ((old->whole[before] && p->kind[i] == KIND_PD) || !fresh)) {
-        row_copy(row, old, before, weigh);
+    if (row_lasts(m, i)) row_copy_neighbours(row, m->old, m->old->row_of[i]);
+    else row_search(row, m->source, m->p, i, m->room);
+}
+
+void row_finish(struct row *row, const struct row_maker *m, int32_t i)
+{
+    const int64_t before = m->old ? m->old->row_of[i] : -1;
+    if (row_lasts(m, i)) {
+        row_copy(row, m->old, before);
         return;
     }
-    row_search(row, s, p, i, room);
-    if (!weigh) return;
-    row_weigh(row, s, p, pairs, i);
-    if (before >= 0) row_inherit(row, p, old, before);
+    row_weigh(row, m->source, m->p, m->pairs, i);
+    if (before >= 0) row_inherit(row, m->p, m->old, before);
 }

@@ -167,20 +167,20 @@ real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
 
 real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 {
-    int most = bonds_room(s);
     real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
     struct pair_table pairs = pairs_make(s);
     uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);
     struct particles all = *p;
     memset(kind, KIND_PD, (size_t)p->n_all);
     all.kind = kind;
+    const struct row_maker maker = {.source = s, .p = &all, .pairs = &pairs, .room = bonds_room(s)};
     struct lattice lattice;
     lattice_make(&lattice, s, p);
 #pragma omp parallel reduction(max : largest)
     {
         struct row row = {0};
         struct lattice_bonds regular;
-        row_room_make(&row, most);
+        row_room_make(&row, maker.room);
         lattice_bonds_make(&regular, &lattice);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
@@ -189,7 +189,8 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {
-                row_make(&row, NULL, s, &all, &pairs, (int32_t)i, most, true, true);
+                row_find(&row, &maker, (int32_t)i);
+                row_finish(&row, &maker, (int32_t)i);
                 largest = real_max(largest, row_stiffness(&row, &all, (int32_t)i, stiffness) / p->mass[i]);
             }
         }
