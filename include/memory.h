@@ -9,6 +9,9 @@
  * partition). Never returns NULL; count 0 gives a valid pointer. Free with memory_free. */
 void *memory_new(const char *label, int64_t count, size_t size);
 
+/* The same without zeros, for what is written at once and whole by the threads that will own it. */
+void *memory_bare(const char *label, int64_t count, size_t size);
+
 /* Grows or shrinks an array of memory_new; the first min(old, new) elements are kept, new ones are zero.
  * `pointer` may be NULL. */
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
@@ -24,5 +27,6 @@ void memory_reuse(bool reuse);
 int64_t memory_peak(void);
 
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
+#define BARE(label, count, type) ((type *)memory_bare(label, count, sizeof(type)))
 
 #endif

@@ -3,8 +3,13 @@
 #include <math.h>
 
 #include "bond_laws.h"
+#include "bond_slot.h"
 #include "kernels.h"
 #include "state_laws.h"
+
+#define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
+
+static ALWAYS_INLINE lanes square_of(lanes a) { return a * a; }
 
 /* Stretch of stored bond q between i and j [1]. */
 static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
@@ -93,10 +98,24 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     return broken;
 }
 
+/* Which rows of a group may have a bond past its limit, as the vectors see it: a margin below it (trigger). */
+static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
+{
+    const int32_t *row = b->particle + g * LANES;
+    lanes x[DIM_MAX], largest = lanes_of(-1);
+    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
+#define VISIT(SLOT, KIND)                                                                                                    do {                                                                                                                         lanes distance2 = lanes_of(TINY);                                                                                        for (int d = 0; d < dim; d++) distance2 += square_of(slot_at(b, SLOT, KIND, p->x[d]) - x[d]);                             largest = slot_largest(b, SLOT, KIND, largest, STRETCH_OF(lanes_root(distance2), slot_inverse_length(b, SLOT, KIND)));     } while (0)
+    FOR_SLOTS(b, g, slot, VISIT);
+#undef VISIT
+    return largest > lanes_load(b->trigger + g * LANES);
+}
+
 int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
 {
+    const lanes_mask past = p->dim == 1 ? rows_past(b, p, group, 1) : p->dim == 2 ? rows_past(b, p, group, 2) : rows_past(b, p, group, 3);
     int64_t broken = 0;
-    for (int l = 0; l < LANES && group * LANES + l < b->rows; l++) broken += break_row(b, p, limit, group * LANES + l);
+    for (int l = 0; l < LANES && group * LANES + l < b->rows && lanes_any(past); l++)
+        if (past[l]) broken += break_row(b, p, limit, group * LANES + l);
     return broken;
 }
 

@@ -11,29 +11,22 @@
 
 /* ---- first sweep: what a particle knows of its family ---------------------------------------------------- */
 
-/* Rotation R of the least energy from M = sum w Y (x) xi [dim dim] into the particle's entries, as g (R - 1). */
-static ALWAYS_INLINE void turn_store(struct bonds *b, int32_t i, const real *M, real g, const int dim)
-{
-    real R[DIM_MAX * DIM_MAX];
-    polar_rotation(M, R, dim);
-    for (int c = 0; c < dim * dim; c++) b->state.turn[c][i] = g * (R[c] - (c % (dim + 1) == 0));
-}
-
 /* Sums over the families of a group; `stretch` is the largest [1], `moved` has bits where somebody is not where it was: the
  * rotation of nothing is none, to the last bit. */
 struct family_sums { lanes extension, stretch, moment[DIM_MAX * DIM_MAX]; lanes_mask moved; };
 
 /* Adds a slot: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
 static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
-                                    const enum slot_kind kind, const lanes *x, const lanes *X, const int dim,
+                                    const enum slot_kind kind, const lanes *x, const lanes *X, const bool knows, const int dim,
                                     const enum pd_model model)
 {
     struct state_bond s;
     slot_ask(b, slot, kind);
     state_bond_make(&s, b, p, slot, kind, x, X, dim, model);
     const lanes w = slot_weight(b, slot, kind), stretch = STRETCH_OF(lanes_root(s.distance2), s.inverse_length);
-    sum->extension += state_weight(b, slot, kind, w, s.inverse_length, true) * stretch;
     sum->stretch = slot_largest(b, slot, kind, sum->stretch, stretch);
+    if (!knows) return;
+    sum->extension += state_weight(b, slot, kind, w, s.inverse_length, true) * stretch;
     if (!state_turns(model)) return;
     for (int c = 0; c < dim; c++) {
         const lanes weighted = w * s.xi[c];
@@ -82,9 +75,9 @@ static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p,
     }
 }
 
-/* Rows of peridynamic particles of one group. */
-static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p, int64_t g, const int dim,
-                                      const enum pd_model model)
+/* Rows of one group; `knows`: there are peridynamic particles among them. Else only who is past its limit is looked for. */
+static ALWAYS_INLINE void know_group(struct bonds *b, const struct particles *p, int64_t g, const bool knows, const int dim,
+                                     const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
@@ -96,32 +89,69 @@ static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p
         x[d] = lanes_at(p->x[d], own, row);
         if (state_turns(model)) X[d] = lanes_at(p->X[d], own, row);
     }
-#define VISIT(SLOT, KIND) know_slot(&sum, b, p, SLOT, KIND, x, X, dim, model)
+#define VISIT(SLOT, KIND) know_slot(&sum, b, p, SLOT, KIND, x, X, knows, dim, model)
     FOR_SLOTS(b, g, slot, VISIT);
 #undef VISIT
     b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
-    know_store(b, p, g, &sum, dim, model);
+    if (knows) know_store(b, p, g, &sum, dim, model);
+}
+
+static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p, int64_t g, const int dim, const enum pd_model model)
+{
+    bool knows = false;
+    for (int l = 0; l < LANES; l++) knows |= p->kind[b->particle[g * LANES + l]] == KIND_PD;
+    if (knows) know_group(b, p, g, true, dim, model);
+    else know_group(b, p, g, false, dim, model);
+}
+
+/* Adds a slot to the mean rotation that neighbours have: sum w R. */
+static ALWAYS_INLINE void turned_slot(struct family_sums *sum, const struct bonds *b, int64_t slot, const enum slot_kind kind,
+                                      const int dim)
+{
+    const lanes w = slot_weight(b, slot, kind), zero = lanes_of(0);
+    const lanes per_spring = w / lanes_choose(w > 0.0, slot_at(b, slot, kind, b->state.spring), lanes_of(1));
+    for (int c = 0; c < dim * dim; c++) {
+        const lanes turn = lanes_choose(w > 0.0, slot_at(b, slot, kind, b->state.turn[c]), zero);
+        sum->moment[c] += turn * per_spring + (c % (dim + 1) == 0 ? w : zero);
+        sum->moved |= turn != 0.0;
+    }
+}
+
+/* R - 1 of the mean rotation that the neighbours of eight rows have; where none has turned, nothing to the last bit. */
+static ALWAYS_INLINE void turned_group(const struct bonds *b, int64_t g, lanes *R, const int dim)
+{
+    struct family_sums sum;
+    sum.moved = (lanes_mask)lanes_of(0);
+    for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_of(0);
+#define VISIT(SLOT, KIND) turned_slot(&sum, b, SLOT, KIND, dim)
+    FOR_SLOTS(b, g, slot, VISIT);
+#undef VISIT
+    polar_rotation_lanes(sum.moment, R, dim);
+    for (int c = 0; c < dim * dim; c++)
+        R[c] = lanes_choose(sum.moved != 0, R[c] - (c % (dim + 1) == 0 ? 1.0 : 0.0), lanes_of(0));
 }
 
 /* A material point has the mean strain that its stress tells, and the mean rotation of the particles it is bonded to. */
-static ALWAYS_INLINE void state_of_point(struct bonds *b, const struct particles *p, int64_t row, const int dim,
-                                         const enum pd_model model)
+static ALWAYS_INLINE void state_of_points(struct bonds *b, const struct particles *p, int64_t g, const int dim,
+                                          const enum pd_model model)
 {
-    const int32_t i = b->particle[row];
-    const struct state_modulus *m = &b->state.modulus[p->material[i]];
-    const real share = p->volume0[i] / b->state.weighted[row];
-    real trace = 0, M[DIM_MAX * DIM_MAX] = {0};
-    for (int d = 0; d < dim; d++) trace += p->stress[d][i];
-    b->state.pressure[i] = m->A * trace / (dim * dim * m->bulk) * share;
-    b->state.spring[i] = m->B * share;
-    if (!state_turns(model)) return;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        const int32_t j = b->nbr[q];
-        if (b->w[q] == 0) continue;
-        for (int c = 0; c < dim * dim; c++) M[c] += b->w[q] * (b->state.turn[c][j] / b->state.spring[j] + (c % (dim + 1) == 0));
+    const int32_t *row = b->particle + g * LANES;
+    lanes R[DIM_MAX * DIM_MAX];
+    bool points = false;
+    for (int l = 0; l < LANES; l++) points |= p->kind[row[l]] == KIND_MPM;
+    if (!points) return;
+    if (state_turns(model)) turned_group(b, g, R, dim);
+    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
+        const int32_t i = row[l];
+        const struct state_modulus *m = &b->state.modulus[p->material[i]];
+        const real share = p->volume0[i] / b->state.weighted[g * LANES + l];
+        real trace = 0;
+        if (p->kind[i] != KIND_MPM) continue;
+        for (int d = 0; d < dim; d++) trace += p->stress[d][i];
+        b->state.pressure[i] = m->A * trace / (dim * dim * m->bulk) * share;
+        b->state.spring[i] = m->B * share;
+        for (int c = 0; state_turns(model) && c < dim * dim; c++) b->state.turn[c][i] = m->B * share * R[c][l];
     }
-    turn_store(b, i, M, m->B * share, dim);
 }
 
 /* Mirror images know what their source knows; a plane of symmetry turns rotations round. */
@@ -205,8 +235,7 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
         for (int64_t k = 0; k < b->rest.awake; k++)                                                          \
             state_group(b, p, b->rest.list[k], D, PD_##M);                                                   \
         _Pragma("omp parallel for schedule(static)")                                                         \
-        for (int64_t row = 0; row < b->rows; row++)                                                          \
-            if (p->kind[b->particle[row]] == KIND_MPM) state_of_point(b, p, row, D, PD_##M);                 \
+        for (int64_t g = 0; g < b->groups; g++) state_of_points(b, p, g, D, PD_##M);                         \
         state_of_images(b, p, D, state_turns(PD_##M));                                                       \
     }                                                                                                        \
     static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit) \

@@ -317,12 +317,13 @@ static int64_t rows_pass(const struct rows_pass *pass)
     return made;
 }
 
+/* Groups write all of their slots, padding included. */
 static void slots_arrays(struct bonds *b, const struct bond_source *s)
 {
-    b->first = NEW("bonds.first", b->slots, int32_t);
-    b->nbr = NEW("bonds.nbr", b->slots * LANES, int32_t);
-    b->inverse_length = NEW("bonds.inverse_length", b->slots * LANES, real);
-    b->w = NEW("bonds.w", b->slots * LANES, real);
+    b->first = BARE("bonds.first", b->slots, int32_t);
+    b->nbr = BARE("bonds.nbr", b->slots * LANES, int32_t);
+    b->inverse_length = BARE("bonds.inverse_length", b->slots * LANES, real);
+    b->w = BARE("bonds.w", b->slots * LANES, real);
     bonds_share_make(b, s->family.spacing);
     if (!s->yield.stretch) return;
     b->yield = s->yield;

@@ -45,7 +45,7 @@ struct group_found *group_found_make(const struct row *row, int rows)
 {
     int64_t n = 0;
     for (int l = 0; l < rows; l++) n += row[l].n;
-    struct group_found *found = memory_new("bonds.group_found", 1, sizeof *found + (size_t)n * sizeof *found->nbr);
+    struct group_found *found = memory_bare("bonds.group_found", 1, sizeof *found + (size_t)n * sizeof *found->nbr);
     int32_t *to = found->nbr;
     for (int l = 0; l < rows; l++) {
         found->n[l] = row[l].n, found->family_volume[l] = row[l].family_volume;

@@ -17,7 +17,7 @@ void bonds_share_make(struct bonds *b, real spacing)
 {
     b->lattice = NEW("bonds.lattice", BOND_LATTICE, struct bond_length);
     for (int k = 1; k < BOND_LATTICE; k++) b->lattice[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
-    b->common = NEW("bonds.common", b->slots, struct bond_slot);
+    b->common = BARE("bonds.common", b->slots, struct bond_slot);
 }
 
 /* Which of the lattice's lengths the bonds of a slot have, up to the round-off of positions that `excess` takes; 0: none. */

@@ -16,7 +16,7 @@ enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_A
 enum { OWN_PAGES = 1 << 20 };
 /* Where asked, some of those that are freed wait for an array of about their size, which is mostly the same one made anew: the system takes
  * longer to give a page than it takes to write one. */
-enum { KEPT = 8, KEPT_MOST = 16 << 20 };
+enum { KEPT = 64, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
 
 /* Stands before the array. */
 struct block { void *whole; size_t mapped; };    /* what to free; its bytes if it has its own pages, else 0 */
@@ -58,6 +58,7 @@ static size_t offset(size_t length)
 #ifdef MAP_ANONYMOUS
 static struct block waiting[KEPT];
 static int waiting_longest;
+static size_t waiting_bytes;
 static bool reusing;
 
 /* Sizes come in steps of a quarter at most, so that what has grown a little finds its old place; pages beyond an array are never
@@ -69,28 +70,37 @@ static size_t room_of(size_t length)
     return (length + step - 1) / step * step;
 }
 
-/* A block that waits, of this many bytes; `whole` NULL: none does. */
+/* The smallest block that waits and holds so many bytes, at most twice of them; `whole` NULL: none does. */
 static struct block take_kept(size_t room)
 {
     struct block block = {NULL, 0};
 #pragma omp critical(memory_kept)
-    for (int k = 0; k < KEPT && !block.whole; k++)
-        if (waiting[k].mapped == room) block = waiting[k], waiting[k] = (struct block){NULL, 0};
+    {
+        int best = -1;
+        for (int k = 0; k < KEPT; k++)
+            if (waiting[k].mapped >= room && waiting[k].mapped <= 2 * room && (best < 0 || waiting[k].mapped < waiting[best].mapped))
+                best = k;
+        if (best >= 0) block = waiting[best], waiting[best] = (struct block){NULL, 0}, waiting_bytes -= block.mapped;
+    }
     return block;
 }
 
-/* Lets a block wait in place of the one that has done so longest. */
+/* Lets a block wait in place of the one that has done so longest, and of more if all are too many bytes. */
 static void keep(struct block block)
 {
-    if (reusing && block.mapped <= KEPT_MOST) {
-#pragma omp critical(memory_kept)
-        {
-            const struct block oldest = waiting[waiting_longest];
-            waiting[waiting_longest] = block, block = oldest;
-            waiting_longest = (waiting_longest + 1) % KEPT;
-        }
+    if (!reusing || block.mapped > KEPT_MOST) {
+        munmap(block.whole, block.mapped);
+        return;
     }
-    if (block.whole) munmap(block.whole, block.mapped);
+#pragma omp critical(memory_kept)
+    do {
+        const struct block oldest = waiting[waiting_longest];
+        waiting[waiting_longest] = block;
+        waiting_bytes += block.mapped - oldest.mapped;
+        if (oldest.whole) munmap(oldest.whole, oldest.mapped);
+        block = (struct block){NULL, 0};
+        waiting_longest = (waiting_longest + 1) % KEPT;
+    } while (waiting_bytes > KEPT_ALL);
 }
 
 static void keep_none(void)
@@ -101,6 +111,7 @@ static void keep_none(void)
         if (waiting[k].whole) munmap(waiting[k].whole, waiting[k].mapped);
         waiting[k] = (struct block){NULL, 0};
     }
+    waiting_bytes = 0;
 }
 #endif
 
@@ -109,7 +120,7 @@ static char *block_make(struct block *block, size_t length, size_t alignment, bo
 {
     *block = (struct block){NULL, 0}, *fresh = false;
 #ifdef MAP_ANONYMOUS
-    if (length >= OWN_PAGES) {
+    if (length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
         const size_t room = room_of(length) + (alignment > PAGE ? alignment : 0);
         *block = take_kept(room);
         if (!block->whole) {
@@ -124,7 +135,7 @@ static char *block_make(struct block *block, size_t length, size_t alignment, bo
     return block->whole;
 }
 
-void *memory_new(const char *label, int64_t count, size_t size)
+static void *array_make(const char *label, int64_t count, size_t size, bool zeroed)
 {
     size_t length;
     struct block block;
@@ -139,10 +150,13 @@ void *memory_new(const char *label, int64_t count, size_t size)
     if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
 #endif
     char *pointer = from + ahead;
-    zero(pointer, rounded, fresh);
+    if (zeroed) zero(pointer, rounded, fresh);
     memcpy(pointer - sizeof block, &block, sizeof block);
     return pointer;
 }
+
+void *memory_new(const char *label, int64_t count, size_t size) { return array_make(label, count, size, true); }
+void *memory_bare(const char *label, int64_t count, size_t size) { return array_make(label, count, size, false); }
 
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
 {

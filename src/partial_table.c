@@ -57,9 +57,9 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 {
     int64_t place = 0;
     for (int d = t->dim - 1; d >= 0; d--) {
-        const int k = (int)nearbyint((to[d] - from[d]) * t->per_spacing);
-        if (k < -t->reach || k > t->reach) return -1;
-        place = place * (2 * t->reach + 1) + k + t->reach;
+        const int k = (int)((to[d] - from[d]) * t->per_spacing + (t->reach + 1.5)) - 1;     /* rounded, and counted from the reach on */
+        if (k < 0 || k > 2 * t->reach) return -1;
+        place = place * (2 * t->reach + 1) + k;
     }
     return place;
 }
