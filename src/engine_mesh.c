@@ -142,9 +142,15 @@ void engine_mesh_look(void *engine, const int32_t *list, int64_t n)
     loads_mirror(&e->loads, &e->part);
 }
 
+/* Where nobody converts and only bonds break, the same cells are cut as before: their stiffness is made anew where it is. */
+static bool refresh(struct engine *e, int64_t converted)
+{
+    return converted == 0 && mesh_refresh(&e->mesh, &e->part, &e->mesh_source, e->partial.touched, e->partial.touches);
+}
+
 void engine_mesh_follow(struct engine *e, int64_t converted)
 {
-    if (e->mesh.points > 0 && (converted > 0 || e->partial.touches > 0)) {
+    if (e->mesh.points > 0 && (converted > 0 || e->partial.touches > 0) && !refresh(e, converted)) {
         e->damped += mesh_follow(&e->mesh, &e->part, &e->mesh_source, e->partial.touched, e->partial.touches);
         follow(e);
     }

@@ -61,8 +61,8 @@ static int waiting_longest;
 static size_t waiting_bytes;
 static bool reusing;
 
-/* Sizes come in steps of a quarter at most, so that what has grown a little finds its old place; pages beyond an array are never
- * touched. */
+/* Sizes come in steps of a quarter at most, and with half as much again where blocks wait for others, so that what has grown a
+ * little finds its old place; pages beyond an array are never touched. */
 static size_t room_of(size_t length)
 {
     size_t step = OWN_PAGES / 4;
@@ -70,15 +70,15 @@ static size_t room_of(size_t length)
     return (length + step - 1) / step * step;
 }
 
-/* The smallest block that waits and holds so many bytes, at most twice of them; `whole` NULL: none does. */
-static struct block take_kept(size_t room)
+/* The smallest block that waits and holds so many bytes, but not far too many; `whole` NULL: none does. */
+static struct block take_kept(size_t least)
 {
     struct block block = {NULL, 0};
 #pragma omp critical(memory_kept)
     {
         int best = -1;
         for (int k = 0; k < KEPT; k++)
-            if (waiting[k].mapped >= room && waiting[k].mapped <= 2 * room && (best < 0 || waiting[k].mapped < waiting[best].mapped))
+            if (waiting[k].mapped >= least && waiting[k].mapped / 4 <= least && (best < 0 || waiting[k].mapped < waiting[best].mapped))
                 best = k;
         if (best >= 0) block = waiting[best], waiting[best] = (struct block){NULL, 0}, waiting_bytes -= block.mapped;
     }
@@ -121,8 +121,8 @@ static char *block_make(struct block *block, size_t length, size_t alignment, bo
     *block = (struct block){NULL, 0}, *fresh = false;
 #ifdef MAP_ANONYMOUS
     if (length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
-        const size_t room = room_of(length) + (alignment > PAGE ? alignment : 0);
-        *block = take_kept(room);
+        const size_t beside = alignment > PAGE ? alignment : 0, room = room_of(reusing ? length + length / 2 : length) + beside;
+        *block = take_kept(length + beside);
         if (!block->whole) {
             void *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
             if (pages == MAP_FAILED) return NULL;

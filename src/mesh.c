@@ -313,6 +313,21 @@ real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_sourc
     return energy;
 }
 
+bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n)
+{
+    uint8_t *dirty = NEW("mesh.dirty", mesh->grid.n, uint8_t);
+    bool same = true;
+    for (int64_t k = 0; k < n && same; k++) {
+        const int64_t cell = mesh->place[changed[k]] >> p->dim;
+        if (mesh->place[changed[k]] < 0 || dirty[cell]) continue;
+        dirty[cell] = 1;
+        same = mesh->kind[cell] == CELL_CUT && cell_kind(mesh, p, source, cell) == CELL_CUT;
+    }
+    same = same && mesh_cuts_again(mesh, p, source, dirty);
+    memory_free(dirty);
+    return same;
+}
+
 /* Images that bonds look at move as their sources; of the bonds of a slot most have none. */
 static void images_see(uint8_t *seen, const struct particles *p, const struct image *image, const int32_t *nbr)
 {

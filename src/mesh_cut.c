@@ -296,3 +296,32 @@ void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct m
     memory_free(old->odd);
     memory_free(old->skew);
 }
+
+/* Place of a cell among the cut ones, -1: it is none. */
+static int64_t cut_find(const struct mesh *mesh, int64_t I)
+{
+    int64_t low = 0, high = mesh->cuts;
+    while (low < high) {
+        const int64_t middle = (low + high) / 2;
+        if (mesh->cut[middle] < I) low = middle + 1;
+        else high = middle;
+    }
+    return low < mesh->cuts && mesh->cut[low] == I ? low : -1;
+}
+
+bool mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+{
+    struct cell_maker c = maker_of(mesh, p, s);
+    const int half = c.modes * (c.modes + 1) / 2, skews = mesh_skews(c.dim) * c.modes;
+    bool fit = (c.rows > c.columns) == (mesh->skew != NULL);
+#pragma omp parallel for schedule(dynamic, 16) reduction(&& : fit)
+    for (int64_t I = 0; I < mesh->grid.n; I++) {
+        const int64_t k = dirty[I] && fit ? cut_find(mesh, I) : -1;
+        if (k < 0) continue;
+        const bool odd = cell_make(&c, I, lane_of(mesh->stiffness, k, half), lane_of(mesh->odd, k, half - c.modes),
+                                   lane_of(mesh->skew, k, skews));
+        fit = fit && (mesh->odd || !odd);
+    }
+    memory_free(c.whole);
+    return fit;
+}

@@ -13,6 +13,8 @@ struct mesh_cuts mesh_cuts_keep(struct mesh *mesh);
 void mesh_cuts_add(struct mesh *mesh, int64_t I);
 void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
                     struct mesh_cuts *old);
+/* The stiffness of marked cells anew, where they are; false: cells now have parts that there is no room for. */
+bool mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
 void mesh_cuts_free(struct mesh *mesh);
 
 /* Nodal values of a field that the points sample: least squares by mass, from the lumped projection. */
