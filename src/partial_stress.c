@@ -241,7 +241,7 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
     *r = (struct renewal){.list = NEW("partial.list", dirties, int32_t), .row = NEW("partial.row", rows, int32_t),
                           .own = NEW("partial.own", dirties, bool)};
     for (int64_t i = 0; i < p->n; i++) {
-        if (mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->row_of[i] >= 0) r->row[r->rows++] = b->row_of[i];
+        if (mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->row_of[i] >= 0 && b->made[b->row_of[i] / LANES] > 0) r->row[r->rows++] = b->row_of[i];
         if (!(mark[i] & DIRTY)) continue;
         r->own[r->n] = !changed || mark[i] & OWN;
         r->list[r->n++] = (int32_t)i;
@@ -330,9 +330,8 @@ static void matrices_make(real *M, bool *crossed, int whole, const struct partia
         for (int64_t row = 0; row < b->rows; row++) answer_of[row] = -1;
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->rows; k++) {
-            answer_of[r->row[k]] = (int32_t)k;
             if (strange) box[r->row[k]] = box_of(p, b, r->row[k]);
-            if (served) partial_table_row(table, p, b, s, r->row[k], answer + k * each);
+            if (served && partial_table_row(table, p, b, s, r->row[k], answer + k * each)) answer_of[r->row[k]] = (int32_t)k;
         }
 #pragma omp for schedule(dynamic, 16)
         for (int64_t k = 0; k < r->n; k++) {

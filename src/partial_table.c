@@ -210,15 +210,17 @@ bool partial_table_serves(const struct partial_table *t) { return t->vectors > 0
 bool partial_table_serves_all(const struct partial_table *t) { return t->uniform; }
 int64_t partial_table_row_size(const struct partial_table *t) { return (int64_t)t->vectors * t->parts; }
 
-void partial_table_row(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+bool partial_table_row(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        int64_t row, real *answer)
 {
     real X[DIM_MAX];
+    bool any = false;
     particle_place(p, b->particle[row], X);
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+    for (int64_t slot = b->slot[row / LANES]; slot < b->slot[row / LANES + 1]; slot++) {
+        const int64_t q = slot * LANES + row % LANES;
         real to[DIM_MAX];
-        if (b->w[q] == 0) continue;
+        if (!(b->common[slot].intact >> row % LANES & 1)) continue;
+        any = true;
         particle_place(p, b->nbr[q], to);
         const int64_t place = place_between(t, X, to);
         assert(place >= 0 && t->vector[place] >= 0);
@@ -227,6 +229,7 @@ void partial_table_row(const struct partial_table *t, const struct particles *p,
         part[0] = s->turns ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
     }
+    return any;
 }
 
 /* ---- one point --------------------------------------------------------------------------------------- */
@@ -267,12 +270,15 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
         const int64_t j = near->at[k];
         real Y[DIM_MAX];
         int signs = 0;
-        if (p->kind[j] != KIND_MPM || p->body[j] != p->body[i] || (j < p->n && b->row_of[j] < 0)) continue;
-        const struct reflection r = reflection_of(s, p, j);
-        const int32_t row = b->row_of[r.root];
+        if (p->kind[j] != KIND_MPM || p->body[j] != p->body[i]) continue;
+        int32_t row = b->row_of[j];
+        if (j >= p->n) {
+            const struct reflection r = reflection_of(s, p, j);
+            row = b->row_of[r.root];
+            for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
+        }
         if (row < 0 || answer_of[row] < 0) continue;
         particle_place(p, j, Y);
-        for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         const int64_t place = place_between(t, X, Y);
         const real *of_row = answer + answer_of[row] * partial_table_row_size(t);
         if (t->parts == 1) sum_row(t, sum, place, of_row, signs, 1);
