@@ -234,6 +234,14 @@ void state_weigh(struct bonds *b, const struct particles *p, const struct family
 /* Bond energy released by breaking so far [J]. */
 real bonds_fracture_energy(const struct bonds *b);
 
+/* Rows of a group that have an intact bond: a bit each. */
+static inline unsigned bonds_intact(const struct bonds *b, int64_t group)
+{
+    unsigned bits = 0;
+    for (int64_t slot = b->slot[group]; slot < b->slot[group + 1]; slot++) bits |= b->common[slot].intact;
+    return bits;
+}
+
 /* Place of bond k of group g, lane l: slot (b->slot[g] + k) LANES + l. */
 static inline int64_t bond_index(const struct bonds *b, int64_t group, int64_t k, int lane)
 {

@@ -55,10 +55,11 @@ static ALWAYS_INLINE void cut_add_odd(const lanes *K, const lanes *v, lanes *f, 
 static ALWAYS_INLINE void cut_law(const struct mesh *mesh, int64_t group, struct mesh_cell *s, lanes *v, const int dim)
 {
     const int n = mesh_modes(dim), half = n * (n + 1) / 2, odd = half - n;
+    const int64_t alike = mesh->alike[group];
     lanes f[MODES_MAX];
     cut_modes(s, v, dim);
-    cut_times((const lanes *)mesh->stiffness + group * half, v, f, n);
-    if (mesh->odd) cut_add_odd((const lanes *)mesh->odd + group * odd, v, f, n);
+    cut_times((const lanes *)mesh->stiffness + alike * half, v, f, n);
+    if (mesh->odd) cut_add_odd((const lanes *)mesh->odd + alike * odd, v, f, n);
     int k = symmetric_count(dim);
     for (int t = 0; t < k; t++) {
         int a, b;
@@ -73,7 +74,7 @@ static ALWAYS_INLINE void cut_law(const struct mesh *mesh, int64_t group, struct
 static ALWAYS_INLINE void cut_add_skew(const struct mesh *mesh, int64_t group, struct mesh_cell *s, const lanes *v, const int dim)
 {
     const int n = mesh_modes(dim), count = mesh_skews(dim);
-    const lanes *K = (const lanes *)mesh->skew + group * count * n;
+    const lanes *K = (const lanes *)mesh->skew + mesh->alike[group] * count * n;
     lanes f[MODES_MAX];
     int k = dim * (dim - 1) / 2;
     for (int a = 0; a < count; a++) {

@@ -3,30 +3,38 @@
 #include "mesh_run.h"
 #include "team.h"
 
-static real kinetic_term(const void *context, int64_t I)
+static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid *g = context;
-    real speed2 = 0;
-    for (int d = 0; d < g->dim; d++) speed2 += square(g->velocity[d][I]);
-    return 0.5 * g->mass[I] * speed2;
+    for (int64_t I = first; I < end; I++) {
+        real speed2 = 0;
+        for (int d = 0; d < g->dim; d++) speed2 += square(g->velocity[d][I]);
+        sum[0] += 0.5 * g->mass[I] * speed2;
+    }
 }
 
 real mesh_kinetic(const struct mesh *mesh)
 {
-    return mesh->points > 0 ? team_sum(mesh->grid.n, kinetic_term, &mesh->grid) : 0;
+    real sum = 0;
+    if (mesh->points > 0) team_sums(mesh->grid.n, 1, kinetic_block, &mesh->grid, &sum);
+    return sum;
 }
 
-static real kick_term(const void *context, int64_t I)
+static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
-    real force2 = 0;
-    for (int d = 0; d < mesh->grid.dim; d++) force2 += square(mesh->grid.force[d][I]);
-    return 0.25 * force2 * mesh->inverse_mass[I];
+    for (int64_t I = first; I < end; I++) {
+        real force2 = 0;
+        for (int d = 0; d < mesh->grid.dim; d++) force2 += square(mesh->grid.force[d][I]);
+        sum[0] += 0.25 * force2 * mesh->inverse_mass[I];
+    }
 }
 
 real mesh_kick(const struct mesh *mesh, real dt)
 {
-    return mesh->points > 0 ? dt * dt * team_sum(mesh->grid.n, kick_term, mesh) : 0;
+    real sum = 0;
+    if (mesh->points > 0) team_sums(mesh->grid.n, 1, kick_block, mesh, &sum);
+    return dt * dt * sum;
 }
 
 struct strain_sum { const struct mesh *mesh; const struct elastic *elastic; bool finite; };

@@ -358,7 +358,10 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
 {
     if (!mesh->place) return;
     uint8_t *seen = NEW("mesh.seen", p->n, uint8_t);
-    for (int64_t row = 0; row < b->rows; row++) seen[b->particle[row]] = 1;
+    for (int64_t g = 0; g < b->groups; g++) {
+        const unsigned intact = bonds_intact(b, g);
+        for (int lane = 0; lane < LANES; lane++) seen[b->particle[g * LANES + lane]] |= intact >> lane & 1;
+    }
     for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
         for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
     for (int64_t k = 0; k < b->slots && p->n_all > p->n; k++) images_see(seen, p, l->image, b->nbr + k * LANES);

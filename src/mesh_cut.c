@@ -187,10 +187,11 @@ void mesh_cuts_free(struct mesh *mesh)
     memory_free(mesh->stiffness);
     memory_free(mesh->odd);
     memory_free(mesh->skew);
+    memory_free(mesh->alike);
     memory_free(mesh->cut_force);
     memory_free(mesh->cut_stressed);
     memory_free(mesh->cut_material);
-    mesh->cut = NULL, mesh->cut_force = NULL, mesh->cut_stressed = NULL, mesh->cut_material = NULL;
+    mesh->cut = NULL, mesh->cut_force = NULL, mesh->cut_stressed = NULL, mesh->cut_material = NULL, mesh->alike = NULL;
     mesh->stiffness = mesh->odd = mesh->skew = NULL;
 }
 
@@ -263,6 +264,26 @@ static void odds_make(struct mesh *mesh, const struct cell_maker *c, struct mesh
         else cell_make(c, mesh->cut[k], lane_of(mesh->stiffness, k, half), lane_of(mesh->odd, k, odd), lane_of(mesh->skew, k, skews));
 }
 
+static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
+{
+    const size_t size = (size_t)each * LANES;
+    return !of || memcmp(of + g * (int64_t)size, of + h * (int64_t)size, size * sizeof *of) == 0;
+}
+
+/* Cells that an edge of the body cuts the same way follow each other. */
+static void alike_find(struct mesh *mesh, int modes, int skews)
+{
+    const int64_t groups = mesh_groups(mesh);
+    const int half = modes * (modes + 1) / 2;
+    mesh->alike = NEW("mesh.alike", groups, int32_t);
+    for (int64_t g = 0; g < groups; g++) {
+        const int32_t before = g > 0 ? mesh->alike[g - 1] : 0;
+        const bool same = numbers_alike(mesh->stiffness, before, g, half) && numbers_alike(mesh->odd, before, g, half - modes) &&
+                          numbers_alike(mesh->skew, before, g, skews);
+        mesh->alike[g] = same ? before : (int32_t)g;
+    }
+}
+
 void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
                     struct mesh_cuts *old)
 {
@@ -289,6 +310,7 @@ void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct m
         lane_copy(skew, lane_of(old->skew, from[k], skews), skews);      /* none before: 0 */
     }
     odds_make(mesh, &c, old, from, any);
+    alike_find(mesh, c.modes, skews);
     memory_free(from);
     memory_free(c.whole);
     memory_free(old->cut);
@@ -309,11 +331,22 @@ static int64_t cut_find(const struct mesh *mesh, int64_t I)
     return low < mesh->cuts && mesh->cut[low] == I ? low : -1;
 }
 
+/* What the numbers of a marked group were is no longer known. */
+static void alike_part(struct mesh *mesh, const uint8_t *changed)
+{
+    for (int64_t g = mesh_groups(mesh) - 1; g >= 0; g--)
+        if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
+}
+
 bool mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, skews = mesh_skews(c.dim) * c.modes;
     bool fit = (c.rows > c.columns) == (mesh->skew != NULL);
+    uint8_t *changed = NEW("mesh.changed", mesh_groups(mesh), uint8_t);
+    for (int64_t k = 0; k < mesh->cuts; k++) changed[k / LANES] |= dirty[mesh->cut[k]];
+    alike_part(mesh, changed);
+    memory_free(changed);
 #pragma omp parallel for schedule(dynamic, 16) reduction(&& : fit)
     for (int64_t I = 0; I < mesh->grid.n; I++) {
         const int64_t k = dirty[I] && fit ? cut_find(mesh, I) : -1;
