@@ -7,6 +7,7 @@
 #include "kernels.h"
 #include "state_laws.h"
 
+#define LIMIT_MARGIN 1e-9
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
 
 static ALWAYS_INLINE lanes square_of(lanes a) { return a * a; }
@@ -98,8 +99,16 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     return broken;
 }
 
-/* Which rows of a group may have a bond past its limit, as the vectors see it: a margin below it (trigger). */
-static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
+/* No bond breaks below this stretch, less a margin for the vectors' round-off. */
+static real least_limit(const struct bond_limit *limit)
+{
+    real least = limit->critical_stretch[0];
+    for (int k = 1; k < limit->materials * limit->materials; k++) least = real_min(least, limit->critical_stretch[k]);
+    return least * (1 - LIMIT_MARGIN);
+}
+
+/* Which rows of a group have a bond beyond this stretch. */
+static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, real least, const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes x[DIM_MAX], largest = lanes_of(-1);
@@ -107,12 +116,15 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
 #define VISIT(SLOT, KIND)                                                                                                    do {                                                                                                                         lanes distance2 = lanes_of(TINY);                                                                                        for (int d = 0; d < dim; d++) distance2 += square_of(slot_at(b, SLOT, KIND, p->x[d]) - x[d]);                             largest = slot_largest(b, SLOT, KIND, largest, STRETCH_OF(lanes_root(distance2), slot_inverse_length(b, SLOT, KIND)));     } while (0)
     FOR_SLOTS(b, g, slot, VISIT);
 #undef VISIT
-    return largest > lanes_load(b->trigger + g * LANES);
+    return largest > lanes_of(least);
 }
 
 int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
 {
-    const lanes_mask past = p->dim == 1 ? rows_past(b, p, group, 1) : p->dim == 2 ? rows_past(b, p, group, 2) : rows_past(b, p, group, 3);
+    const real least = least_limit(limit);
+    const lanes_mask past = p->dim == 1   ? rows_past(b, p, group, least, 1)
+                            : p->dim == 2 ? rows_past(b, p, group, least, 2)
+                                          : rows_past(b, p, group, least, 3);
     int64_t broken = 0;
     for (int l = 0; l < LANES && group * LANES + l < b->rows && lanes_any(past); l++)
         if (past[l]) broken += break_row(b, p, limit, group * LANES + l);

@@ -32,10 +32,9 @@ static void status_keeps_its_message(void **state)
     memory_free(text);
 }
 
-static void memory_is_aligned_and_zero(void **state)
+static void check_zero(void)
 {
-    (void)state;
-    const int64_t count[] = {0, 1, 63, 8192, 300001};
+    const int64_t count[] = {0, 1, 63, 8192, 300001, 250000, 100000, 20000};
     for (size_t c = 0; c < COUNT_OF(count); c++) {
         real *array = NEW("test", count[c], real);
         assert_non_null(array);
@@ -45,6 +44,16 @@ static void memory_is_aligned_and_zero(void **state)
         memory_free(array);
     }
     memory_free(NULL);
+}
+
+/* Also where an array finds a larger one that waits. */
+static void memory_is_aligned_and_zero(void **state)
+{
+    (void)state;
+    check_zero();
+    memory_reuse(true);
+    for (int k = 0; k < 3; k++) check_zero();
+    memory_reuse(false);
 }
 
 static void memory_resize_keeps_what_fits(void **state)

@@ -94,7 +94,7 @@ static void test_bar(void **state)
     assert_int_equal(s.c.bonds.rows, 0);
     assert_int_equal(conversion.returned, 20);
     for (int64_t i = 0; i < p->n; i++) {
-        const bool had = i >= 17 && i < 43;      /* a row of bonds, whose force is gone now */
+        const bool had = i >= 16 && i < 48;      /* a row of bonds, which come in eights, whose force is gone now */
         assert_near(p->stress[0][i], STRAIN * s.c.material[0].young, 3 * STRAIN * STRAIN * s.c.material[0].young);
         assert_true(p->f[0][i] == (had ? 0 : 7) && partial.index[i] < 0);
         if (i < 20 || i >= 40) continue;
