@@ -56,7 +56,7 @@ struct mesh {
                                           * (mesh_cut.h), of all the cell's volume            [Pa]    */
     real *odd;                           /* [groups][modes (modes - 1)/2][LANES] half of the rest, NULL: none [Pa] */
     real *skew;                          /* [groups][skews modes][LANES] of forces that bonds off their line leave, NULL: none [Pa] */
-    int32_t *alike;                      /* [groups] one of the same stiffness to the last bit: its numbers are still in the cache */
+    int32_t *alike;                      /* [groups] one of the same stiffness to the last bit, still in the cache */
     real *cut_force;                     /* [groups][corners dim][LANES]                      [N]     */
     int64_t seen, seen_room;
     struct mesh_seen *see;               /* [seen] by ascending cell                                  */

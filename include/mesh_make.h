@@ -27,9 +27,10 @@ void mesh_free(struct mesh *mesh);
  * have converted or leave another part of their stress to bonds. Nodal velocities stay: each particle takes its share of
  * momentum along. Returns the energy of motion inside cells that ends with that [J]. */
 real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n);
-/* The same where all points stay and only what bonds carry of their stress has changed; false, and nothing is settled, where other
- * cells are cut than before. */
-bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n);
+/* The same where all points stay and only what bonds carry of their stress has changed; false, and nothing is settled, where
+ * other cells are cut than before. */
+bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const int32_t *changed,
+                  int64_t n);
 
 /* The listed particles, material points again, become points of the mesh. Their momentum joins that of the nodes round
  * them, whose velocity becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N); displacements of these nodes are fitted anew, by least

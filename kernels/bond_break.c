@@ -7,10 +7,8 @@
 #include "kernels.h"
 #include "state_laws.h"
 
-#define LIMIT_MARGIN 1e-9
+#define LIMIT_MARGIN 1e-9                /* vectors look that much below a limit for their round-off; the scalar rule decides */
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
-
-static ALWAYS_INLINE lanes square_of(lanes a) { return a * a; }
 
 /* Stretch of stored bond q between i and j [1]. */
 static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
@@ -107,13 +105,26 @@ static real least_limit(const struct bond_limit *limit)
     return least * (1 - LIMIT_MARGIN);
 }
 
+/* The larger of each row's stretch so far and that of its bond in a slot. */
+static ALWAYS_INLINE lanes largest_of(lanes largest, const struct bonds *b, const struct particles *p, const lanes *x,
+                                      int64_t slot, const enum slot_kind kind, const int dim)
+{
+    lanes distance2 = lanes_of(TINY);
+    for (int d = 0; d < dim; d++) {
+        const lanes y = slot_at(b, slot, kind, p->x[d]) - x[d];
+        distance2 += y * y;
+    }
+    return slot_largest(b, slot, kind, largest, STRETCH_OF(lanes_root(distance2), slot_inverse_length(b, slot, kind)));
+}
+
 /* Which rows of a group have a bond beyond this stretch. */
-static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, real least, const int dim)
+static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, real least,
+                                          const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes x[DIM_MAX], largest = lanes_of(-1);
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(SLOT, KIND)                                                                                                    do {                                                                                                                         lanes distance2 = lanes_of(TINY);                                                                                        for (int d = 0; d < dim; d++) distance2 += square_of(slot_at(b, SLOT, KIND, p->x[d]) - x[d]);                             largest = slot_largest(b, SLOT, KIND, largest, STRETCH_OF(lanes_root(distance2), slot_inverse_length(b, SLOT, KIND)));     } while (0)
+#define VISIT(SLOT, KIND) largest = largest_of(largest, b, p, x, SLOT, KIND, dim)
     FOR_SLOTS(b, g, slot, VISIT);
 #undef VISIT
     return largest > lanes_of(least);

@@ -96,7 +96,8 @@ static ALWAYS_INLINE void know_group(struct bonds *b, const struct particles *p,
     if (knows) know_store(b, p, g, &sum, dim, model);
 }
 
-static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p, int64_t g, const int dim, const enum pd_model model)
+static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p, int64_t g, const int dim,
+                                      const enum pd_model model)
 {
     bool knows = false;
     for (int l = 0; l < LANES; l++) knows |= p->kind[b->particle[g * LANES + l]] == KIND_PD;

@@ -16,7 +16,8 @@ int64_t group_kept(const struct bonds *b, const struct row_maker *m, int64_t g)
 }
 
 /* Numbers of `each` bytes of the slots of a group. */
-static void slots_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old, int64_t g, int64_t of)
+static void slots_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old, int64_t g,
+                       int64_t of)
 {
     memcpy((char *)to + (size_t)b->slot[g] * each, (const char *)from + (size_t)old->slot[of] * each,
            (size_t)(b->slot[g + 1] - b->slot[g]) * each);

@@ -92,6 +92,23 @@ static inline int group_rows(const struct bonds *b, int64_t g)
     return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
 }
 
+/* A thread's room for the eight rows of a group. */
+struct group_room {
+    struct lattice_bonds regular;        /* without a search                   */
+    int room;                            /* bonds a row may have */
+    struct row row[LANES];
+    int32_t *offset;                     /* [LANES room] distinct index distances */
+};
+void group_room_make(struct group_room *g, int room, const struct lattice *lattice);
+void group_room_free(struct group_room *g);
+/* Slots the group needs, by index distance or simply packed; then fills them, and notes what is known of its rows. */
+int group_slots(struct group_room *g, const int32_t *particle, int rows, bool *by_offset);
+void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, const struct particles *p);
+void group_note(struct bonds *b, const struct group_room *room, int64_t g, int rows);
+/* Both of whole rows on a lattice. */
+void group_fill_regular(struct bonds *b, const struct lattice_bonds *bonds, int64_t g, const struct bond_source *s,
+                        const struct particles *p, const struct pair_table *pairs);
+
 /* Room for what slots have in common; bonds_share fills it. */
 void bonds_share_make(struct bonds *b, real spacing);
 
