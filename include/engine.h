@@ -84,7 +84,8 @@ struct engine {
     int optional;                        /* WITH_* arrays of the particles                            */
     int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
     int64_t bond_visits;
-    real rested;                         /* share of the body at rest, summed over the steps         */
+    real rested;                         /* share of the body at rest, summed over the steps ...      */
+    struct { real rested; int64_t step; } sampled;   /* ... and over those before the last sample, which was at this one */
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
     struct {                             /* a sample in the making (engine_report.h)                  */
         bool due;

@@ -395,6 +395,9 @@ status engine_archive(void *engine, struct archive *a)
     ARCHIVE_VALUE(a, "engine/particle_steps", e->particle_steps);
     ARCHIVE_VALUE(a, "engine/bond_visits", e->bond_visits);
     ARCHIVE_VALUE(a, "engine/rested", e->rested);
+    ARCHIVE_VALUE(a, "engine/sampled", e->sampled);
+    TRY(rest_archive(&e->bonds.rest, "bonds", a));
+    TRY(rest_archive(&e->mesh.rest, "mesh", a));
     ARCHIVE_VALUE(a, "engine/loop_seconds", e->loop_seconds);
     TRY(loads_archive(&e->loads, a));
     TRY(solver_archive(&e->solver, a));

@@ -42,13 +42,22 @@ static bool sample_due(const struct engine *e)
 
 /* ---- columns ----------------------------------------------------------------------------------------------- */
 
-enum { RECORD_FIXED = 20 };
+enum { RECORD_FIXED = 22 };
 
 static const struct column fixed_columns[RECORD_FIXED] = {
     {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
     {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
-    {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
-    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}};
+    {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"mpm_share", ""},
+    {"rest_share", ""}, {"bonds", ""}, {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}};
+
+/* Mean share of the body at rest over the steps since the last sample; 0 where there was none. */
+static real rest_since_sample(struct engine *e)
+{
+    const int64_t steps = e->step - e->sampled.step;
+    const real share = steps > 0 ? (e->rested - e->sampled.rested) / (real)steps : 0;
+    e->sampled.rested = e->rested, e->sampled.step = e->step;
+    return share;
+}
 
 static void fill_record(struct engine *e)
 {
@@ -59,7 +68,8 @@ static void fill_record(struct engine *e)
     const real fixed[RECORD_FIXED] = {
         l->time, (real)e->step, u->kinetic, u->strain, u->plastic, u->fracture, l->external_work, l->balance_error,
         l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, (real)e->part.n_of[KIND_PD],
-        (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->bonds.n, tip ? tip->growth : 0,
+        (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->part.n_of[KIND_MPM] / (real)e->part.n,
+        rest_since_sample(e), (real)e->bonds.n, tip ? tip->growth : 0,
         tip ? tip->place[0] : NAN, tip && e->part.dim > 1 ? tip->place[1] : NAN,
         tip && e->part.dim > 2 ? tip->place[2] : NAN, u->damped};
     memcpy(r, fixed, sizeof fixed);
