@@ -202,8 +202,8 @@ static status balance_checked(struct engine *e)
             const struct load *l = &e->loads.load[b];
             if (l->boundary->kind != BOUNDARY_TRACTION && l->boundary->kind != BOUNDARY_BODY_FORCE) continue;
             for (int64_t k = 0; k < l->n; k++) {
-                sum += l->share[k * e->part.dim + d] * l->boundary->value[d];
-                size += fabs(l->share[k * e->part.dim + d] * l->boundary->value[d]);
+                sum += l->share[d][k] * l->boundary->value[d];
+                size += fabs(l->share[d][k] * l->boundary->value[d]);
             }
         }
         if (fabs(sum) > 1e-9 * size && !component_held(e, d))
