@@ -12,6 +12,7 @@
 #define FEATURE 4                        /* horizons */
 #define WAVE 16                          /* spacings */
 #define REACHED 4                        /* rho c v  */
+#define PASSAGES 4                       /* of waves through the body, until those of long loads have piled up */
 
 static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; }
 
@@ -110,8 +111,8 @@ static void advise_separation(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int d = 0; d < s->dim && s->method == METHOD_MPM && e->part.n_free > 0; d++) {
-        real low = INFINITY, high = -INFINITY, least = 0, most = 0;
-        for (int64_t i = 0; i < e->part.n; i++) low = real_min(low, e->part.X[d][i]), high = real_max(high, e->part.X[d][i]);
+        real low, high, least = 0, most = 0;
+        particles_extent(&e->part, e->part.n, d, &low, &high);
         for (int b = 0; b < s->boundaries; b++) {
             const struct boundary *a = &s->boundary[b];
             if (a->kind != BOUNDARY_VELOCITY || !(a->components & 1 << d)) continue;
@@ -174,21 +175,18 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Waves of long loads pile up; those of a run no longer than a few passages do not. */
 static void advise_method(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
-    real weakest = INFINITY, from[DIM_MAX], to[DIM_MAX], longest = 0;
+    real weakest = INFINITY;
     if (s->method == METHOD_MPM || s->solver != SOLVER_EXPLICIT || has_notch(s) || s->bodies > 1) return;
-    if (!region_bounds(&s->body[0].shape, s->dim, from, to)) return;
-    for (int d = 0; d < s->dim; d++) longest = real_max(longest, to[d] - from[d]);
     for (int m = 0; m < s->materials; m++)
         weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);
     const real reached = stress_reached(e);
     if (isinf(weakest))
         fprintf(out, "unneeded: method %s: nothing breaks here (neither energy_release_rate nor critical_stretch is given), and there "
                      "is no crack: mpm would do\n", s->method == METHOD_PD ? "pd" : "adaptive");
-    else if (reached < weakest && e->wave_speed * s->duration < 4 * longest)
+    else if (reached < weakest && e->wave_speed * s->duration < PASSAGES * particles_longest(&e->part))
         fprintf(out, "unneeded: method %s: waves here reach %.3g Pa at the most, bonds break at %.3g Pa: mpm would do\n",
                 s->method == METHOD_PD ? "pd" : "adaptive", reached, weakest);
 }

@@ -167,8 +167,8 @@ static void make_grid(struct engine *e)
     bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
     for (int d = 0; d < s->dim; d++) {
         if (!bounded) {
-            from[d] = INFINITY;
-            for (int64_t i = 0; i < e->part.n; i++) from[d] = real_min(from[d], e->part.X[d][i] - 0.5 * s->spacing);
+            particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
+            from[d] -= 0.5 * s->spacing;
         }
         e->grid.anchor[d] = node_place(s, d, from[d]);
         if (engine_has_mesh(e) && e->grid.anchor[d] == from[d]) e->grid.anchor[d] = between_particles(e, d);
