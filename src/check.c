@@ -50,11 +50,12 @@ static void say_basis(const struct engine *e, const struct cost *c)
 static void say_cost(const struct engine *e, const struct cost *c, int threads)
 {
     const char *many = threads > 1 ? "s" : "";
-    if (e->scene->solver != SOLVER_EXPLICIT) printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
+    if (e->scene->solver != SOLVER_EXPLICIT)
+        printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
     else {
         printf("run time       %s %.2g s on %d thread%s, %.1g s of it to write: %.3g ns a particle and step at first",
-               c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about", c->run, threads, many, c->output,
-               1e9 * c->step / (double)e->part.n);
+               c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about", c->run, threads, many,
+               c->output, 1e9 * c->step / (double)e->part.n);
         say_basis(e, c);
     }
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);

@@ -14,6 +14,7 @@ enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15
 #define SECONDS_MOST 1.0
 #define SECONDS_WHOLE 1.5                /* of what is tried as a whole                                       */
+#define PATIENCE 3.0                     /* with it, where converting or a busy machine makes it longer       */
 #define COARSER_MOST 4.0                 /* a body of so much larger particles still breaks in the same places, about */
 #define FRAME_BYTES 72                   /* of a particle: copied for the writer, its room and its order      */
 #define OUTPUT_BYTES 2.7e6               /* of the library that writes                                        */
@@ -72,11 +73,19 @@ static status make_other(struct scene *s, struct engine *e, const struct run_arg
     return engine_make(e, s, NULL);
 }
 
+/* Seconds of all steps; NAN where they fail or take far longer than was thought. */
 static double all_steps(struct engine *e)
 {
     const double start = team_clock();
     e->quiet = true;
-    return engine_run(e) == OK && engine_baseline(e) == OK ? team_clock() - start : NAN;
+    memory_reuse(true);
+    if (engine_report_start(e) != OK) return NAN;
+    laps_start(&e->laps);
+    while (e->step < e->steps) {
+        if (engine_step(e) != OK || engine_mesh_alarm(e) != OK || engine_report(e) != OK) return NAN;
+        if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;
+    }
+    return engine_baseline(e) == OK ? team_clock() - start : NAN;
 }
 
 /* Seconds that all steps take [s] where `whole`, else a step of the first; NAN: it cannot be known. */
@@ -103,7 +112,7 @@ static double growth_of(struct cost *c, const struct engine *e, const struct run
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].file) return NAN;
     c->coarser = ceil(pow(first / SECONDS_WHOLE, 1.0 / s->dim) * 4) / 4;
-    if (c->coarser > COARSER_MOST) return NAN;
+    if (c->coarser <= 1 || c->coarser > COARSER_MOST) return NAN;
     snprintf(value, sizeof value, "%.17g", c->coarser * s->spacing);
     c->growth = try_other(a, "particles.spacing", value, true) / try_other(a, "particles.spacing", value, false);
     return c->growth;
@@ -114,9 +123,10 @@ static double growth_of(struct cost *c, const struct engine *e, const struct run
 /* Neighbours of a particle inside the body, by the volume that they fill. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
+/* Frames, the one of the start and two checkpoints among them. */
 static double output_seconds(const struct engine *e)
 {
-    const double files = (double)(e->scene->frames < e->steps ? e->scene->frames : e->steps) + 3;    /* the first, and checkpoints */
+    const double files = (double)(e->scene->frames < e->steps ? e->scene->frames : e->steps) + 3;
     return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n);
 }
 
@@ -124,10 +134,10 @@ static void cost_run(struct cost *c, const struct engine *e, const struct run_ar
 {
     const double first = c->step * (double)e->steps;
     double loop = NAN;
-    if (first < SECONDS_WHOLE) loop = try_other(a, NULL, NULL, true);
+    if (first < PATIENCE * SECONDS_WHOLE) loop = try_other(a, NULL, NULL, true);
     c->basis = COST_TRIED;
     if (isnan(loop)) {
-        const double growth = first < SECONDS_WHOLE ? NAN : growth_of(c, e, a, first);
+        const double growth = growth_of(c, e, a, first);
         c->basis = isnan(growth) ? COST_FIRST : COST_SCALED;
         loop = first * (isnan(growth) ? 1 : growth);
     }

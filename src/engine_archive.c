@@ -38,8 +38,8 @@ static status kernels_archive(struct archive *a)
     ARCHIVE_VALUE(a, "engine/kernels", then);
     then[sizeof then - 1] = 0;
     if (strcmp(then, now->name) == 0) return OK;
-    fprintf(stderr, "warning: the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, not to "
-                    "the last bit; CLEAVE_SIMD=%s keeps the bits, where the processor runs them\n", then, now->name, then);
+    fprintf(stderr, "warning: the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, "
+                    "not to the last bit; CLEAVE_SIMD=%s keeps the bits, where the processor runs them\n", then, now->name, then);
     return OK;
 }
 

@@ -130,8 +130,8 @@ static bool follow_each_other(const int32_t *particle, int64_t first, int64_t en
     return particle[end - 1] - particle[first] == end - 1 - first;
 }
 
-/* Adds `one` of a block in eight sums side by side. Particles that follow each other, as in a body loaded everywhere, are dense:
- * they need no index. */
+/* Adds `one` of a block in eight sums side by side. Particles that follow each other, as in a body loaded everywhere, are
+ * dense: they need no index. */
 static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64_t, real), const struct push *a, int64_t first,
                                     int64_t end, const real *force, const bool dense)
 {

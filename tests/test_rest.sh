@@ -48,13 +48,13 @@ for name in pd mpm adaptive; do
     holds "$name: the other columns" cmp "$work/rests" "$work/never.csv"
     # 20 mm and what the wave has passed since, in the middle of the steps between two samples, never rest
     is "$name: what the wave has reached is awake" "$(series "$work/$name" \
-        'NR > 2 { if (rest > 1 - (0.02 + 200 * (time + last) / 2) / 0.512 + 1e-8 && rest > 0) print time, rest } { last = time }')" ""
+        'NR > 2 && rest > 0 && rest > 1 - (0.02 + 200 * (time + last) / 2) / 0.512 + 1e-8 { print time, rest } { last = time }')" ""
     is "$name: falls" "$(series "$work/$name" 'NR > 3 && rest > last { print time, rest, last } { last = rest }')" ""
     between "$name: at the start" "$(column "$work/$name" rest_share 0.1e-3)" 0.6 0.96
     between "$name: on the way" "$(column "$work/$name" rest_share 1e-3)" 0.2 0.56
     between "$name: at the end" "$(column "$work/$name" rest_share 4e-3)" 0 0
-    near "$name: the mean of all steps" "$(series "$work/$name" 'NR > 1 { sum += rest * (steps - last); last = steps } END { printf "%.9g", sum / last }')" \
-        "$(figure "$work/$name" rest_share)" 1e-8                    # nine digits are shown
+    mean=$(series "$work/$name" 'NR > 1 { sum += rest * (steps - last); last = steps } END { printf "%.9g", sum / last }')
+    near "$name: the mean of all steps" "$mean" "$(figure "$work/$name" rest_share)" 1e-8      # nine digits are shown
     interrupted "$work/resumed" 12 "$work/strip.yaml" -s method=$name "$@"
     between "$name: interrupted while some rest" "$(series "$work/resumed" 'END { print rest }')" 0.01 1
     calm "$work/resumed" --resume "$work/strip.yaml" -s method=$name "$@"
