@@ -47,8 +47,9 @@ enum { RECORD_FIXED = 22 };
 static const struct column fixed_columns[RECORD_FIXED] = {
     {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
     {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
-    {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"mpm_share", ""},
-    {"rest_share", ""}, {"bonds", ""}, {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}};
+    {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
+    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}, {"mpm_share", ""},
+    {"rest_share", ""}};
 
 /* Mean share of the body at rest over the steps since the last sample; 0 where there was none. */
 static real rest_since_sample(struct engine *e)
@@ -68,10 +69,10 @@ static void fill_record(struct engine *e)
     const real fixed[RECORD_FIXED] = {
         l->time, (real)e->step, u->kinetic, u->strain, u->plastic, u->fracture, l->external_work, l->balance_error,
         l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, (real)e->part.n_of[KIND_PD],
-        (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->part.n_of[KIND_MPM] / (real)e->part.n,
-        rest_since_sample(e), (real)e->bonds.n, tip ? tip->growth : 0,
+        (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->bonds.n, tip ? tip->growth : 0,
         tip ? tip->place[0] : NAN, tip && e->part.dim > 1 ? tip->place[1] : NAN,
-        tip && e->part.dim > 2 ? tip->place[2] : NAN, u->damped};
+        tip && e->part.dim > 2 ? tip->place[2] : NAN, u->damped,
+        (real)e->part.n_of[KIND_MPM] / (real)e->part.n, rest_since_sample(e)};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probes.columns; c++) r[RECORD_FIXED + c] = e->probes.value[c];
 }

@@ -55,10 +55,13 @@ for name in pd mpm adaptive; do
     between "$name: at the end" "$(column "$work/$name" rest_share 4e-3)" 0 0
     mean=$(series "$work/$name" 'NR > 1 { sum += rest * (steps - last); last = steps } END { printf "%.9g", sum / last }')
     near "$name: the mean of all steps" "$mean" "$(figure "$work/$name" rest_share)" 1e-8      # nine digits are shown
-    interrupted "$work/resumed" 12 "$work/strip.yaml" -s method=$name "$@"
+    # a sample every step, so that even the mesh takes its time and is caught on the way
+    every="-s output.samples=2000"
+    calm "$work/every" "$work/strip.yaml" -s method=$name "$@" $every
+    interrupted "$work/resumed" 200 "$work/strip.yaml" -s method=$name "$@" $every
     between "$name: interrupted while some rest" "$(series "$work/resumed" 'END { print rest }')" 0.01 1
-    calm "$work/resumed" --resume "$work/strip.yaml" -s method=$name "$@"
-    same "$name: after a restart" "$work/$name" "$work/resumed"
-    rm -r "$work/never" "$work/resumed"
+    calm "$work/resumed" --resume "$work/strip.yaml" -s method=$name "$@" $every
+    same "$name: after a restart" "$work/every" "$work/resumed"
+    rm -r "$work/never" "$work/every" "$work/resumed"
 done
 finish
