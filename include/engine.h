@@ -84,7 +84,8 @@ struct engine {
     int optional;                        /* WITH_* arrays of the particles                            */
     int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
     int64_t bond_visits;
-    real rested;                         /* share of the body at rest, summed over the steps         */
+    real rested;                         /* share of the body at rest, summed over the steps ...      */
+    struct { real rested; int64_t step; } sampled;   /* ... and over those before the last sample, which was at this one */
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
     struct {                             /* a sample in the making (engine_report.h)                  */
         bool due;
@@ -108,6 +109,8 @@ status solver_make(struct engine *e);
 /* One step in time. */
 status engine_step(struct engine *e);
 void engine_free(struct engine *e);
+/* What material points leave to the bonds of now, and the rim beside them. */
+void engine_partial_make(struct engine *e);
 /* The time step and the number of steps (engine_time.c). */
 status engine_time_make(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
@@ -134,7 +137,8 @@ void engine_rim_make(struct engine *e);
 status engine_baseline(struct engine *e);
 /* Share of the body at rest now (rest.h). */
 real engine_rest(const struct engine *e);
-/* Saves or restores the state between two steps. */
+/* Saves or restores the state between two steps (engine_archive.c); says on standard error where a checkpoint was written
+ * with other kernels. */
 status engine_archive(void *engine, struct archive *a);
 /* Prints a line for everything about the scene that is allowed but probably not meant. */
 void engine_warn(const struct engine *e, FILE *out);

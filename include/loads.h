@@ -48,9 +48,11 @@ struct load {
     const struct boundary *boundary;     /* borrowed from the scene                                   */
     int64_t n;
     int32_t *particle;                   /* ascending                                                 */
-    real *share;                         /* [n dim] TRACTION: area [m^2], in the face's plane 3/2 of it in the outermost
-                                            layer, -1/2 in the next; BODY_FORCE: volume times profile [m^3] */
-    real *before;                        /* [n dim] TRACTION, BODY_FORCE: where they were in this step [m] */
+    real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it in the
+                                            outermost layer, -1/2 in the next; BODY_FORCE: volume times profile [m^3].
+                                            Equal ones are one array, of several components or loads  */
+    int leader;                          /* TRACTION, BODY_FORCE: first load of the same particles, which acts for it; -1 */
+    real *before[DIM_MAX];               /* [n] of a leader, components with a value: where they were in this step [m] */
     real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
                                             moves the driven particles themselves             [N]     */
     real displacement[DIM_MAX];          /* of the driven particles, accumulated              [m]     */
@@ -93,6 +95,15 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
                   real reach, int optional);
 void loads_free(struct loads *l);
 
+/* ---- applied forces (loads_applied.c) --------------------------------------------------------------- */
+
+/* The part of loads_make that joins loads of the same particles; its end. */
+void loads_join(struct loads *l, int dim);
+void loads_applied_free(struct loads *l);
+/* The parts of loads_apply and loads_hold that add forces and impulse, and book their work. */
+void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity);
+void loads_push_work(struct loads *l, struct particles *p, real t);
+
 #define LOADS_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it    */
 
 /* ---- mirrors (loads_mirror.c) ---------------------------------------------------------------------- */
@@ -104,7 +115,7 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int 
  * mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */
 void loads_mirror(const struct loads *l, struct particles *p);
 
-/* Before bonds: f = 0 on every loaded particle. After bonds: books what mirror images gave, adds applied forces; for
+/* Before bonds: f = 0 on every loaded particle (loads_applied.c). After bonds: books what mirror images gave, adds applied forces; for
  * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step, where the kick
  * ends that began dt_velocity before. */
 void loads_clear(struct loads *l, struct particles *p);

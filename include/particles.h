@@ -6,8 +6,11 @@
 #ifndef CLEAVE_PARTICLES_H
 #define CLEAVE_PARTICLES_H
 
+#include <math.h>
+
 #include "base.h"
 
+#define LATTICE_NEAR 1e-10               /* a particle of a lattice may be that far from its site [spacings] */
 enum { LANES = 8 };                      /* particles per vector: 8 doubles                      */
 
 enum kind { KIND_MPM, KIND_PD, KINDS };
@@ -95,6 +98,19 @@ void particles_free(struct particles *p);
 
 /* Sorts the body row by row: z, then y, then x, in rows of thickness `spacing`; ties by id. At set-up. */
 void particles_sort(struct particles *p, real spacing, int optional);
+
+/* Least and largest reference position along d of the first n particles [m]; INFINITY, -INFINITY of none. */
+void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high);
+/* Longest edge of the box round the body's particles [m]. */
+real particles_longest(const struct particles *p);
+
+/* Is X a whole number of spacings from `origin`, but for round-off? Then that number is in *site. */
+static inline bool lattice_site(real X, real origin, real spacing, real *site)
+{
+    const real k = (X - origin) / spacing;
+    *site = nearbyint(k);
+    return fabs(k - *site) <= LATTICE_NEAR;
+}
 
 /* Rebuilds n_of and list from kind, n_free and list_free from flag. */
 void particles_list(struct particles *p);

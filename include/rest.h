@@ -12,7 +12,7 @@
 #ifndef CLEAVE_REST_H
 #define CLEAVE_REST_H
 
-#include "base.h"
+#include "archive.h"
 
 struct particles;
 struct bonds;
@@ -24,6 +24,7 @@ struct rest {
     int64_t blocks, awake, empty;        /* in all; visited; of no body                                   */
     uint8_t *level, *moved;              /* [blocks]; scratch                                             */
     int32_t *list;                       /* [awake] ascending: what the hot loops visit                   */
+    bool resumed;                        /* all are visited, in the first step after a restart            */
 };
 
 /* All awake. */
@@ -31,6 +32,10 @@ void rest_make(struct rest *r, int64_t blocks);
 void rest_free(struct rest *r);
 /* The list of who is awake, for the levels of now. */
 void rest_list(struct rest *r);
+
+/* Who sleeps, under this name. Once restored all are visited in the next step whoever sleeps, as what a sleeper would
+ * have computed is not in the checkpoint. */
+status rest_archive(struct rest *r, const char *name, struct archive *a);
 
 /* Groups of rows of bonds, after a step in which forces of all awake have been computed: finds who sleeps in rows just made, else
  * wakes who is next to what has moved. */

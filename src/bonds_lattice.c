@@ -8,10 +8,9 @@
 
 #include "memory.h"
 
-/* Particles may be that far from their sites, and no site's distance may be as near as BAND to the cutoff [spacings]: round-off
- * then decides nothing, and horizons of whole spacings (tolerance 1e-9) still pass. */
-#define PLACED 1e-10
-#define BAND 4e-10
+/* No site's distance may be as near to the cutoff [spacings]: particles may be LATTICE_NEAR from their sites, round-off then
+ * decides nothing, and horizons of whole spacings (tolerance 1e-9) still pass. */
+#define BAND (4 * LATTICE_NEAR)
 enum { HALF_MOST = 16 };
 
 /* ---- the map of sites ------------------------------------------------------------------------------ */
@@ -21,9 +20,9 @@ static int64_t site_of(const struct lattice *l, const struct particles *p, int64
 {
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
-        const real k = (p->X[d][i] - l->low[d]) / l->spacing, whole = nearbyint(k);
-        if (!(fabs(k - whole) <= PLACED)) return -1;
-        site += l->stride[d] * (l->reach + (int64_t)whole);
+        real k;
+        if (!lattice_site(p->X[d][i], l->low[d], l->spacing, &k)) return -1;
+        site += l->stride[d] * (l->reach + (int64_t)k);
     }
     return site;
 }
@@ -33,13 +32,10 @@ static int64_t box_sites(struct lattice *l, const struct particles *p)
 {
     real sites = 1;
     for (int d = 0; d < p->dim; d++) {
-        real least = INFINITY, most = -INFINITY;
-        const real *X = p->X[d];
-#pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most)
-        for (int64_t i = 0; i < p->n_all; i++) least = real_min(least, X[i]), most = real_max(most, X[i]);
-        l->low[d] = least;
+        real high;
+        particles_extent(p, p->n_all, d, &l->low[d], &high);
         l->stride[d] = (int64_t)sites;
-        sites *= nearbyint((most - least) / l->spacing) + 1 + 2 * l->reach;
+        sites *= nearbyint((high - l->low[d]) / l->spacing) + 1 + 2 * l->reach;
         if (!(sites <= 4.0 * (real)p->n_all + 4096)) return 0;
     }
     return (int64_t)sites;

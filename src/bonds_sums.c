@@ -202,3 +202,10 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     memory_free(pairs.ratio);
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
+
+real bonds_fracture_energy(const struct bonds *b)
+{
+    real sum = 0;                        /* few rows have any; a serial sum is the same on any number of threads */
+    for (int64_t r = 0; r < b->rows; r++) sum += b->fracture_energy[r];
+    return sum;
+}

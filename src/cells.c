@@ -29,13 +29,7 @@ enum { CELLS_ACROSS = 3 };
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
     real low[DIM_MAX], high[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) {
-        real least = INFINITY, most = -INFINITY;
-        const real *X = p->X[d];
-#pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most)
-        for (int64_t i = 0; i < p->n_all; i++) least = real_min(least, X[i]), most = real_max(most, X[i]);
-        low[d] = least, high[d] = most;
-    }
+    for (int d = 0; d < p->dim; d++) particles_extent(p, p->n_all, d, &low[d], &high[d]);
     c->dim = p->dim;
     c->edge = edge;
     for (c->width = edge / CELLS_ACROSS;; c->width *= 1.5) {

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "arguments.h"
 #include "check_parts.h"
 #include "commands.h"
 #include "engine.h"
@@ -38,17 +37,28 @@ static void say_time_step(const struct engine *e)
                e->dt_critical, (long long)e->steps, e->scene->duration);
 }
 
-static void say_cost(const struct engine *e, const struct cost *c, int threads, double steps)
+/* Why the time of a run is what it is. */
+static void say_basis(const struct engine *e, const struct cost *c)
+{
+    if (c->basis == COST_SCALED)
+        printf("; steps take %.2g times the first ones, as where the spacing is %.3g times as large", c->growth, c->coarser);
+    if (c->basis == COST_FIRST)
+        printf("; steps like the first ones%s", e->scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
+    if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
+}
+
+static void say_cost(const struct engine *e, const struct cost *c, int threads)
 {
     const char *many = threads > 1 ? "s" : "";
-    const double run = steps * c->step;
-    if (e->scene->solver != SOLVER_EXPLICIT) printf("run time       about %.2g s for 1000 steps on %d thread%s\n", 1e3 * c->step, threads, many);
+    if (e->scene->solver != SOLVER_EXPLICIT)
+        printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
     else {
-        printf("run time       about %.2g s on %d thread%s: %.3g ns a particle and step", run, threads, many, 1e9 * c->step / (double)e->part.n);
-        if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", steps * c->all_peridynamic);
-        printf("\n");
+        printf("run time       %s %.2g s on %d thread%s, %.1g s of it to write: %.3g ns a particle and step at first",
+               c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about", c->run, threads, many,
+               c->output, 1e9 * c->step / (double)e->part.n);
+        say_basis(e, c);
     }
-    printf("memory         about %.0f MB\n", 1e-6 * c->bytes);
+    printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
 static void say_materials(const struct engine *e)
@@ -71,9 +81,12 @@ status command_check(int argc, char **argv)
     int threads = team_make(a.threads);
     struct scene s = {0};
     struct engine e = {0};
+    struct cost cost = {0};
+    const double start = team_clock();
     status result = scene_read(&s, a.scene, a.override, a.overrides);
     s.rest = false;                              /* what it costs once waves are everywhere */
     if (result == OK) result = engine_make(&e, &s, NULL);
+    cost.make = team_clock() - start;
     if (result == OK) {
         printf("%s is sound\n", a.scene);
         say_particles(&e);
@@ -85,10 +98,8 @@ status command_check(int argc, char **argv)
                    "cells opens\n");
         engine_warn(&e, stdout);
         advise(&e, stdout);
-        const double steps = (double)e.steps;
-        struct cost cost;
-        result = cost_measure(&cost, &e, threads);
-        if (result == OK) say_cost(&e, &cost, threads, steps);
+        result = cost_measure(&cost, &e, &a);
+        if (result == OK) say_cost(&e, &cost, threads);
     }
     engine_free(&e);
     scene_free(&s);

@@ -2,7 +2,10 @@
  *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are cut short
  *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from an
  *                interface, the group velocity of the shortest waves is off by a tenth
- *   stress       sigma = rho c v in front of what moves with v; waves of both ends meet and reflect: four times that
+ *   stress       sigma = rho c v in front of what moves with v; waves of both ends meet and reflect: four times that, as long as
+ *                they have not passed the body more than PASSAGES times: those of long loads pile up
+ *   strain       a body strained by less than LITTLE is well off in cells that keep their points
+ *   bonds        time of a bond and step by model and dimension (`cleave bench kernels`, AVX-512, one core)
  * Nothing here is an error. */
 #include <math.h>
 #include <string.h>
@@ -12,6 +15,9 @@
 #define FEATURE 4                        /* horizons */
 #define WAVE 16                          /* spacings */
 #define REACHED 4                        /* rho c v  */
+#define PASSAGES 4
+#define LITTLE 0.1
+static const real bond_ns[][3] = {[MODEL_BOND] = {0.44, 0.55}, [MODEL_OSPD] = {0.75, 0.86}, [MODEL_MOSPD] = {1.05, 2.2}};   /* 2D, 3D */
 
 static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; }
 
@@ -110,8 +116,8 @@ static void advise_separation(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int d = 0; d < s->dim && s->method == METHOD_MPM && e->part.n_free > 0; d++) {
-        real low = INFINITY, high = -INFINITY, least = 0, most = 0;
-        for (int64_t i = 0; i < e->part.n; i++) low = real_min(low, e->part.X[d][i]), high = real_max(high, e->part.X[d][i]);
+        real low, high, least = 0, most = 0;
+        particles_extent(&e->part, e->part.n, d, &low, &high);
         for (int b = 0; b < s->boundaries; b++) {
             const struct boundary *a = &s->boundary[b];
             if (a->kind != BOUNDARY_VELOCITY || !(a->components & 1 << d)) continue;
@@ -134,23 +140,17 @@ static void advise_model(const struct scene *s, FILE *out)
     if (s->model == MODEL_BOND || s->dim == 1) return;
     for (int m = 0; m < s->materials; m++)
         if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
-    fprintf(out, "unneeded: model %s: bonds alone have Poisson's ratio %.4g, and cost a third to a half\n",
-            s->model == MODEL_OSPD ? "ospd" : "mospd", wanted);
+    fprintf(out, "unneeded: model %s: bonds alone have Poisson's ratio %.4g, which is asked for, and take %.0f %% of the time\n",
+            s->model == MODEL_OSPD ? "ospd" : "mospd", wanted, 100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2]);
 }
 
-static void advise_frame(const struct engine *e, FILE *out)
-{
-    for (int b = 0; b < e->scene->bodies; b++)
-        if (!e->frame[b].reference && engine_frame_allowed(e->scene, b))
-            fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body; its material points cost a tenth to a "
-                         "thirtieth in frame auto\n", e->scene->body[b].name);
-}
-
-/* Largest relative speed that boundaries and initial states ask for, and largest stress; INFINITY where forces act on volumes. */
+/* Largest stress that the speeds and tractions of boundaries and initial states can make [Pa]; INFINITY: it cannot be said, where
+ * forces act on volumes or waves pile up. */
 static real stress_reached(const struct engine *e)
 {
     const struct scene *s = e->scene;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, speed2 = 0, density = 0, traction = 0;
+    if (e->wave_speed * s->duration > PASSAGES * particles_longest(&e->part)) return INFINITY;
     for (int64_t i = 0; i < e->part.n; i++)
         for (int d = 0; d < s->dim; d++)
             low[d] = real_min(low[d], e->part.v[d][i]), high[d] = real_max(high[d], e->part.v[d][i]);
@@ -166,6 +166,18 @@ static real stress_reached(const struct engine *e)
     return REACHED * (density * e->wave_speed * sqrt(speed2) + traction) + e->strain_stress;
 }
 
+static void advise_frame(const struct engine *e, FILE *out)
+{
+    const real reached = stress_reached(e);
+    for (int b = 0; b < e->scene->bodies; b++) {
+        const real strain = reached / e->scene->material[e->scene->body[b].material].young;
+        if (e->frame[b].reference || !engine_frame_allowed(e->scene, b)) continue;
+        fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
+        if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);
+        fprintf(out, "; its material points cost a tenth to a thirtieth in frame auto\n");
+    }
+}
+
 static bool has_notch(const struct scene *s)
 {
     bool notch = s->cracks > 0;
@@ -174,21 +186,18 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Waves of long loads pile up; those of a run no longer than a few passages do not. */
 static void advise_method(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
-    real weakest = INFINITY, from[DIM_MAX], to[DIM_MAX], longest = 0;
+    real weakest = INFINITY;
     if (s->method == METHOD_MPM || s->solver != SOLVER_EXPLICIT || has_notch(s) || s->bodies > 1) return;
-    if (!region_bounds(&s->body[0].shape, s->dim, from, to)) return;
-    for (int d = 0; d < s->dim; d++) longest = real_max(longest, to[d] - from[d]);
     for (int m = 0; m < s->materials; m++)
         weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);
     const real reached = stress_reached(e);
     if (isinf(weakest))
         fprintf(out, "unneeded: method %s: nothing breaks here (neither energy_release_rate nor critical_stretch is given), and there "
                      "is no crack: mpm would do\n", s->method == METHOD_PD ? "pd" : "adaptive");
-    else if (reached < weakest && e->wave_speed * s->duration < 4 * longest)
+    else if (reached < weakest)
         fprintf(out, "unneeded: method %s: waves here reach %.3g Pa at the most, bonds break at %.3g Pa: mpm would do\n",
                 s->method == METHOD_PD ? "pd" : "adaptive", reached, weakest);
 }
@@ -198,8 +207,9 @@ static void advise_symmetry(const struct engine *e, FILE *out)
     real at;
     for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++)
         if (scene_is_mirrored(e, axis, &at))
-            fprintf(out, "unneeded: half of it: the scene is its own mirror image at %c = %.6g m: a boundary mirror there and "
-                         "half the body take half the time\n", 'x' + axis, at);
+            fprintf(out, "unneeded: half of it: the scene is its own mirror image at %c = %.6g m, all %lld particles, what they lost and "
+                         "what loads them: a boundary mirror there and half the body take half the time\n", 'x' + axis, at,
+                    (long long)e->part.n);
 }
 
 void advise(const struct engine *e, FILE *out)

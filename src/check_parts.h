@@ -4,18 +4,29 @@
 
 #include <stdio.h>
 
+#include "arguments.h"
 #include "engine.h"
 
 /* ---- check_cost.c ----------------------------------------------------------------------------------------------- */
 
+/* What the time of a run rests on: all of its steps; its first ones, times what the others take beside those where particles are
+ * larger; its first ones, which is little where much will convert. */
+enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
+
 struct cost {
-    double step;                         /* samples included, of the body as it is at the start; with the team that runs now [s] */
-    double all_peridynamic;              /* a step if every particle were; NAN: it is, or cannot become so   [s] */
-    double bytes;                        /* high-water mark of a run in which nothing converts                  */
+    double make;                         /* from the scene to step 0; by the caller                               [s] */
+    double step;                         /* first ones, samples included, all of the body awake; static: an iteration [s] */
+    double output;                       /* frames and checkpoints, on a disk that nobody else keeps busy          [s] */
+    double run;                          /* all of it                                                              [s] */
+    enum cost_basis basis;
+    double coarser, growth;              /* SCALED: larger by this; steps take that many times the first ones          */
+    double all_peridynamic;              /* a run if every particle were; NAN: it is, cannot become so, or is too large [s] */
+    double bytes;                        /* high-water mark of a run in which nothing converts                         */
 };
 
-/* Takes some steps and times them: the engine is good for nothing afterwards. FAILED if a step fails. */
-status cost_measure(struct cost *c, struct engine *e, int threads);
+/* Takes steps and times them, with the team that runs now: the engine is good for nothing afterwards. `a` is where its scene comes
+ * from. FAILED if one of the first steps fails. */
+status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a);
 
 /* ---- check_advice.c --------------------------------------------------------------------------------------------- */
 

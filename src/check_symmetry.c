@@ -62,7 +62,7 @@ static void loads_ask(const struct engine *e, int d, real *ask, real *held)
         const bool drives = a->kind == BOUNDARY_VELOCITY;
         for (int64_t k = 0; k < l->n; k++) {
             if (drives && !(a->components & 1 << d)) continue;
-            ask[l->particle[k]] += load_mark(a) * a->value[d] * (drives ? 1 : l->share[k * e->part.dim + d]);
+            ask[l->particle[k]] += load_mark(a) * a->value[d] * (drives ? 1 : l->share[d][k]);
             if (drives) held[l->particle[k]] += load_mark(a);
         }
     }
@@ -100,10 +100,10 @@ static bool twins_find(const struct engine *e, int axis, real at, int32_t *twin)
 bool scene_is_mirrored(const struct engine *e, int axis, real *at)
 {
     const struct particles *p = &e->part;
-    real low = INFINITY, high = -INFINITY;
+    real low, high;
     for (int b = 0; b < e->loads.n; b++)
         if (e->loads.load[b].boundary->kind == BOUNDARY_MIRROR && e->loads.load[b].boundary->axis == axis) return false;
-    for (int64_t i = 0; i < p->n; i++) low = real_min(low, p->X[axis][i]), high = real_max(high, p->X[axis][i]);
+    particles_extent(p, p->n, axis, &low, &high);
     *at = 0.5 * (low + high);
     if (high - low < e->scene->spacing) return false;
     int32_t *twin = NEW("check.twin", p->n, int32_t);

@@ -11,14 +11,21 @@
 #define MARGIN 0.98                      /* the iteration ends some parts in a thousand below omega_max^2, blocks of lattice
                                           * are 1 or 2 % slower than more of it */
 
-struct body { struct bonds *b; struct particles *p; bond_force_fn *force; const struct loads *loads; real spacing; };
+struct body {
+    struct bonds *b;
+    struct particles *p;
+    bond_force_fn *force;
+    const struct loads *loads;
+    real spacing, *root;                 /* [n] of the masses                                         */
+};
 
-static real largest_motion(const struct particles *p, const real *u)
+static real largest_motion(const struct body *body, const real *u)
 {
+    const struct particles *p = body->p;
     real most = 0;
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static) reduction(max : most)
-        for (int64_t i = 0; i < p->n; i++) most = real_max(most, fabs(u[a * p->n + i]) / sqrt(p->mass[i]));
+        for (int64_t i = 0; i < p->n; i++) most = real_max(most, fabs(u[a * p->n + i]) / body->root[i]);
     return most;
 }
 
@@ -30,31 +37,33 @@ static void stiffness(void *context, const real *u, real *y)
     real never[UINT8_MAX + 1];
     for (int m = 0; m <= UINT8_MAX; m++) never[m] = INFINITY;
     const struct bond_limit limit = {never, 0, false};  /* one row for all pairs: bond by its neighbour's material */
-    const real most = largest_motion(p, u), scale = most > 0 ? STRAIN * body->spacing / most : 0;
+    const real most = largest_motion(body, u), scale = most > 0 ? STRAIN * body->spacing / most : 0;
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * u[a * p->n + i] / sqrt(p->mass[i]);
+        for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * u[a * p->n + i] / body->root[i];
     if (body->loads) loads_mirror(body->loads, p);
     body->force(body->b, p, &limit);
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
-            y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * sqrt(p->mass[i])) : 0;
+            y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
 }
 
 real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads, real spacing)
 {
-    struct body body = {b, p, force, loads, spacing};
+    struct body body = {b, p, force, loads, spacing, NEW("critical.root", p->n, real)};
     real *x[DIM_MAX];
     for (int a = 0; a < p->dim; a++) {
         x[a] = NEW("critical.x", p->n_all, real);
         memcpy(x[a], p->x[a], (size_t)p->n_all * sizeof *x[a]);
     }
+    for (int64_t i = 0; i < p->n; i++) body.root[i] = sqrt(p->mass[i]);
     const real omega2 = largest_eigenvalue(p->dim * p->n, stiffness, &body);
     for (int a = 0; a < p->dim; a++) {
         memcpy(p->x[a], x[a], (size_t)p->n_all * sizeof *x[a]);
         memory_free(x[a]);
     }
+    memory_free(body.root);
     return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
 }
 

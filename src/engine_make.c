@@ -123,7 +123,7 @@ static void make_bonds(struct engine *e)
     e->conversion.peak_bonds = e->bonds.n;
 }
 
-static void make_partial(struct engine *e)
+void engine_partial_make(struct engine *e)
 {
     e->coupling = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
     e->uses_partial = e->coupling == COUPLING_PARTIAL_STRESS;
@@ -167,8 +167,8 @@ static void make_grid(struct engine *e)
     bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
     for (int d = 0; d < s->dim; d++) {
         if (!bounded) {
-            from[d] = INFINITY;
-            for (int64_t i = 0; i < e->part.n; i++) from[d] = real_min(from[d], e->part.X[d][i] - 0.5 * s->spacing);
+            particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
+            from[d] -= 0.5 * s->spacing;
         }
         e->grid.anchor[d] = node_place(s, d, from[d]);
         if (engine_has_mesh(e) && e->grid.anchor[d] == from[d]) e->grid.anchor[d] = between_particles(e, d);
@@ -292,7 +292,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     make_bonds(e);
-    make_partial(e);
+    engine_partial_make(e);
     make_grid(e);
     TRY(named(s, engine_mesh_make(e)));
     TRY(named(s, engine_time_make(e)));
@@ -345,63 +345,4 @@ void engine_free(struct engine *e)
     memory_free(e->record);
     memory_free(e->pulse);
     memset(e, 0, sizeof *e);
-}
-
-/* ---- restart -------------------------------------------------------------------------------------------- */
-
-static status particles_archive(struct particles *p, struct archive *a, int optional)
-{
-    for (int f = 0; f < particle_fields_count; f++) {
-        const struct particle_field *field = &particle_fields[f];
-        for (int k = 0; k < field->count(p->dim, optional); k++) {
-            char name[64];
-            snprintf(name, sizeof name, "particles/%s%d", field->name, k);
-            TRY(a->exchange(a, name, particle_array(p, field, k), (size_t)p->n_all * field->size));
-        }
-    }
-    return OK;
-}
-
-/* Everything that follows from the particles is made again; the rest is read back. */
-static void rebuild(struct engine *e)
-{
-    particles_list(&e->part);
-    bonds_free(&e->bonds);
-    bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    partial_stress_free(&e->partial);
-    e->sort_needed = true;
-}
-
-status engine_archive(void *engine, struct archive *a)
-{
-    struct engine *e = engine;
-    TRY(particles_archive(&e->part, a, e->optional));
-    if (!a->saving) rebuild(e);
-    TRY(bonds_archive(&e->bonds, &e->part, a));
-    if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
-    if (!a->saving) make_partial(e);
-    if (!a->saving) {
-        mesh_free(&e->mesh);
-        memory_free(e->cell_elastic);
-        TRY(engine_mesh_make(e));
-    }
-    TRY(mesh_archive(&e->mesh, a));
-    ARCHIVE_VALUE(a, "engine/t", e->t);
-    ARCHIVE_VALUE(a, "engine/step", e->step);
-    ARCHIVE_VALUE(a, "engine/steps", e->steps);
-    ARCHIVE_VALUE(a, "engine/dt", e->dt);
-    ARCHIVE_VALUE(a, "engine/damped", e->damped);
-    ARCHIVE_VALUE(a, "engine/residual_step0", e->residual_step0);
-    ARCHIVE_VALUE(a, "engine/particle_steps", e->particle_steps);
-    ARCHIVE_VALUE(a, "engine/bond_visits", e->bond_visits);
-    ARCHIVE_VALUE(a, "engine/rested", e->rested);
-    ARCHIVE_VALUE(a, "engine/loop_seconds", e->loop_seconds);
-    TRY(loads_archive(&e->loads, a));
-    TRY(solver_archive(&e->solver, a));
-    TRY(conversion_archive(&e->conversion, a));
-    TRY(watch_archive(&e->watch, a));
-    TRY(tips_archive(&e->tips, a));
-    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->growth[k], k, a));
-    TRY(probes_archive(&e->probes, a));
-    return output_archive(e->out, a);
 }

@@ -42,13 +42,23 @@ static bool sample_due(const struct engine *e)
 
 /* ---- columns ----------------------------------------------------------------------------------------------- */
 
-enum { RECORD_FIXED = 20 };
+enum { RECORD_FIXED = 22 };
 
 static const struct column fixed_columns[RECORD_FIXED] = {
     {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
     {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
     {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
-    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}};
+    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}, {"mpm_share", ""},
+    {"rest_share", ""}};
+
+/* Mean share of the body at rest over the steps since the last sample; 0 where there was none. */
+static real rest_since_sample(struct engine *e)
+{
+    const int64_t steps = e->step - e->sampled.step;
+    const real share = steps > 0 ? (e->rested - e->sampled.rested) / (real)steps : 0;
+    e->sampled.rested = e->rested, e->sampled.step = e->step;
+    return share;
+}
 
 static void fill_record(struct engine *e)
 {
@@ -61,7 +71,8 @@ static void fill_record(struct engine *e)
         l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, (real)e->part.n_of[KIND_PD],
         (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->bonds.n, tip ? tip->growth : 0,
         tip ? tip->place[0] : NAN, tip && e->part.dim > 1 ? tip->place[1] : NAN,
-        tip && e->part.dim > 2 ? tip->place[2] : NAN, u->damped};
+        tip && e->part.dim > 2 ? tip->place[2] : NAN, u->damped,
+        (real)e->part.n_of[KIND_MPM] / (real)e->part.n, rest_since_sample(e)};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probes.columns; c++) r[RECORD_FIXED + c] = e->probes.value[c];
 }

@@ -22,16 +22,14 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     for (int b = 0; b < n; b++)
         if (l->load[b].n == 0 && (boundary[b].kind == BOUNDARY_TRACTION || boundary[b].kind == BOUNDARY_BODY_FORCE))
             return status_set(REFUSED, "boundary %s: no particle lies in its region", boundary[b].name);
+    loads_join(l, p->dim);
     return loads_mirrors_make(l, p, reach, optional);
 }
 
 void loads_free(struct loads *l)
 {
-    for (int b = 0; b < l->n; b++) {
-        memory_free(l->load[b].particle);
-        memory_free(l->load[b].share);
-        memory_free(l->load[b].before);
-    }
+    loads_applied_free(l);
+    for (int b = 0; b < l->n; b++) memory_free(l->load[b].particle);
     memory_free(l->load);
     memory_free(l->image);
     memory_free(l->share);
@@ -41,13 +39,6 @@ void loads_free(struct loads *l)
 }
 
 /* ---- forces on particles --------------------------------------------------------------------------- */
-
-void loads_clear(struct loads *l, struct particles *p)
-{
-    for (int b = 0; b < l->n; b++)
-        for (int64_t k = 0; k < l->load[b].n; k++)
-            for (int d = 0; d < p->dim; d++) p->f[d][l->load[b].particle[k]] = 0;
-}
 
 /* Driven peridynamic particles get the force that gives them their velocity; what it differs from the bonds' is the
  * reaction of the support. */
@@ -105,39 +96,14 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     }
 }
 
-/* Adds an applied force. What a step gives is summed before it joins what all steps gave: round-off then grows with the
- * number of steps, not of steps times particles. */
-static void apply(struct loads *l, struct load *load, struct particles *p, real factor, real dt_velocity)
-{
-    real given[DIM_MAX] = {0};
-    for (int64_t k = 0; k < load->n; k++)
-        for (int d = 0; d < p->dim; d++) {
-            real force = factor * load->boundary->value[d] * load->share[k * p->dim + d];
-            load->before[k * p->dim + d] = p->x[d][load->particle[k]];
-            p->f[d][load->particle[k]] += force;
-            given[d] += force;
-        }
-    for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d] * dt_velocity;
-}
-
-/* Mean over the kick that ends at t, by the trapezoidal rule: the kick lies round the instant of the forces, and the
- * value at its end alone would be half a step late, an error of first order. What switches at a whole step then gives
- * its full impulse, too: half of it in the kick that the switch divides. */
-static real kick_factor(const struct time_function *f, real t, real dt_velocity)
-{
-    return 0.5 * (time_function_at(f, t - dt_velocity) + time_function_at(f, t));
-}
-
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
-        const struct boundary *b = load->boundary;
         memset(load->reaction, 0, sizeof load->reaction);
-        if (b->kind != BOUNDARY_TRACTION && b->kind != BOUNDARY_BODY_FORCE) continue;
-        apply(l, load, p, kick_factor(&b->time, t, dt_velocity), dt_velocity);
     }
+    loads_push(l, p, t, dt_velocity);
     for (int c = 0; c < l->n; c++) {         /* after all forces: what holds a particle sees them */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
@@ -166,17 +132,6 @@ static void hold(struct loads *l, const struct load *load, struct particles *p, 
     }
 }
 
-/* Work of applied forces over the way their particles went. */
-static void applied_work(struct loads *l, const struct load *load, const struct particles *p, real factor)
-{
-    real work = 0;
-    for (int64_t k = 0; k < load->n; k++)
-        for (int d = 0; d < p->dim; d++)
-            work += factor * load->boundary->value[d] * load->share[k * p->dim + d] *
-                    (p->x[d][load->particle[k]] - load->before[k * p->dim + d]);
-    l->work += work;
-}
-
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
@@ -199,8 +154,8 @@ void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, re
         struct load *load = &l->load[c];
         real factor = time_function_at(&load->boundary->time, t);
         if (load->boundary->kind == BOUNDARY_VELOCITY) hold(l, load, p, factor);
-        else if (load->boundary->kind != BOUNDARY_MIRROR) applied_work(l, load, p, factor);
     }
+    loads_push_work(l, p, t);
 }
 
 status loads_archive(struct loads *l, struct archive *a)

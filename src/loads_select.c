@@ -106,17 +106,21 @@ static void traction_shares(struct load *l, const struct particles *p, const uin
     for (int64_t k = 0; k < l->n; k++) {
         const int64_t i = l->particle[k];
         for (int d = 0; d < p->dim; d++)
-            l->share[k * p->dim + d] = p->volume0[i] / spacing *
-                                       (d != l->boundary->face ? factor[selected[i]] : selected[i] == 1);
+            l->share[d][k] = p->volume0[i] / spacing * (d != l->boundary->face ? factor[selected[i]] : selected[i] == 1);
     }
 }
 
 static void body_shares(struct load *l, const struct particles *p)
 {
-    for (int64_t k = 0; k < l->n; k++) {
-        const int64_t i = l->particle[k];
-        for (int d = 0; d < p->dim; d++) l->share[k * p->dim + d] = p->volume0[i] * profile_at(&l->boundary->profile, p, i);
-    }
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < l->n; k++)
+        l->share[0][k] = p->volume0[l->particle[k]] * profile_at(&l->boundary->profile, p, l->particle[k]);
+}
+
+static void shares_allocate(struct load *l, int dim)
+{
+    const bool alike = l->boundary->kind == BOUNDARY_BODY_FORCE;
+    for (int d = 0; d < dim; d++) l->share[d] = d > 0 && alike ? l->share[0] : NEW("loads.share", l->n, real);
 }
 
 void load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing)
@@ -128,14 +132,13 @@ void load_select(struct load *l, const struct boundary *b, struct particles *p, 
     if (b->kind == BOUNDARY_TRACTION) select_layers(b, p, selected, spacing);
     for (int64_t i = 0; i < p->n; i++) l->n += selected[i] > 0;
     l->particle = NEW("loads.particle", l->n, int32_t);
-    l->share = NEW("loads.share", l->n * p->dim, real);
-    l->before = NEW("loads.before", l->n * p->dim, real);
     for (int64_t i = 0, k = 0; i < p->n; i++) {
         if (!selected[i]) continue;
         l->particle[k++] = (int32_t)i;
         if (b->kind == BOUNDARY_VELOCITY) p->flag[i] |= FLAG_DRIVEN;
     }
+    if (b->kind != BOUNDARY_VELOCITY) shares_allocate(l, p->dim);
     if (b->kind == BOUNDARY_TRACTION) traction_shares(l, p, selected, spacing);
-    else body_shares(l, p);
+    if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
 }

@@ -52,9 +52,9 @@ static void moment(const struct loads *l, const struct particles *p, real *turni
         const struct load *load = &l->load[c];
         if (!is_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++) {
-            const real *value = load->boundary->value, *share = &load->share[k * p->dim];
+            const real *value = load->boundary->value;
             const real x = p->X[0][load->particle[k]] - l->centre[0], y = p->X[1][load->particle[k]] - l->centre[1];
-            const real fx = value[0] * share[0], fy = value[1] * share[1];
+            const real fx = value[0] * load->share[0][k], fy = value[1] * load->share[1][k];
             *turning += x * fy - y * fx;
             *most += hypot(x, y) * hypot(fx, fy);
         }
@@ -88,7 +88,7 @@ void loads_static_force(const struct loads *l, struct particles *p)
         if (!is_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++)
-                p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[k * p->dim + d];
+                p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[d][k];
     }
 }
 
@@ -119,7 +119,7 @@ void loads_static_work(struct loads *l, const struct particles *p)
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
                 const int32_t i = load->particle[k];
-                l->work += 0.5 * b->value[d] * load->share[k * p->dim + d] * (p->x[d][i] - p->X[d][i]);
+                l->work += 0.5 * b->value[d] * load->share[d][k] * (p->x[d][i] - p->X[d][i]);
             }
     }
 }

@@ -182,11 +182,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     g->dim = p->dim, g->h = like->h;
     for (int d = 0; d < p->dim; d++) {
         g->anchor[d] = like->anchor[d];
-        from[d] = INFINITY, to[d] = -INFINITY;
-        for (int64_t i = 0; i < p->n; i++) {
-            from[d] = real_min(from[d], p->X[d][i]);
-            to[d] = real_max(to[d], p->X[d][i]);
-        }
+        particles_extent(p, p->n, d, &from[d], &to[d]);
     }
     to[0] += LANES * g->h;                       /* whole vectors may be read and added to behind the last cell of a row */
     TRY(grid_cover(g, from, to, INT32_MAX >> p->dim, &changed));

@@ -7,9 +7,7 @@
 #include "memory.h"
 #include "partial_parts.h"
 
-/* Particles may be that far from their sites [spacings], of such a volume but for round-off [cells]. */
-#define PLACED 1e-10
-#define WHOLE 1e-12
+#define WHOLE 1e-12                      /* of a cell: a particle's volume is one but for round-off */
 enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
 
 /* A bond of this vector, from the place in question, crosses the cell of the point by this share of its length. */
@@ -75,7 +73,7 @@ static void vectors_make(struct partial_table *t, real cutoff)
         real length2 = 0;
         place_to(t, k, at);
         for (int d = 0; d < t->dim; d++) length2 += square(at[d] * t->spacing);
-        t->vector[k] = k != middle && sqrt(length2) <= cutoff * (1 + PLACED) && t->vectors < VECTORS_MOST ? (int16_t)t->vectors++ : -1;
+        t->vector[k] = k != middle && sqrt(length2) <= cutoff * (1 + LATTICE_NEAR) && t->vectors < VECTORS_MOST ? (int16_t)t->vectors++ : -1;
     }
     t->directions = t->vectors / 2;      /* places k and places - 1 - k are opposite */
 }
@@ -162,8 +160,8 @@ static bool on_lattice(const struct particles *p, real spacing)
 #pragma omp parallel for schedule(static) reduction(&& : regular)
     for (int64_t i = 0; i < p->n_all; i++)
         for (int d = 0; d < p->dim; d++) {
-            const real k = (p->X[d][i] - p->X[d][first[p->body[i]]]) / spacing;
-            regular = regular && fabs(k - nearbyint(k)) <= PLACED;
+            real k;
+            regular = regular && lattice_site(p->X[d][i], p->X[d][first[p->body[i]]], spacing, &k);
         }
     return regular;
 }
@@ -180,7 +178,7 @@ struct partial_table *partial_table_make(const struct particles *p, const struct
 {
     const struct family *f = &s->family;
     struct partial_table *t = NEW("partial.table", 1, struct partial_table);
-    *t = (struct partial_table){.dim = p->dim, .reach = (int)floor(f->cutoff / f->spacing * (1 + PLACED)),
+    *t = (struct partial_table){.dim = p->dim, .reach = (int)floor(f->cutoff / f->spacing * (1 + LATTICE_NEAR)),
                                 .parts = s->modulus ? 2 : 1, .size = size, .spacing = f->spacing, .per_spacing = 1 / f->spacing};
     if (!on_lattice(p, f->spacing)) return t;
     vectors_make(t, f->cutoff);

@@ -117,19 +117,31 @@ static int compare_places(const void *left, const void *right)
     return (a->index > b->index) - (a->index < b->index);
 }
 
-static real smallest(const real *x, int64_t n)
+void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high)
 {
-    real low = INFINITY;
-    for (int64_t i = 0; i < n; i++) low = real_min(low, x[i]);
-    return low;
+    real least = INFINITY, most = -INFINITY;
+    const real *X = p->X[d];
+#pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most)
+    for (int64_t i = 0; i < n; i++) least = real_min(least, X[i]), most = real_max(most, X[i]);
+    *low = least, *high = most;
+}
+
+real particles_longest(const struct particles *p)
+{
+    real low, high, longest = 0;
+    for (int d = 0; d < p->dim; d++) {
+        particles_extent(p, p->n, d, &low, &high);
+        longest = real_max(longest, high - low);
+    }
+    return longest;
 }
 
 /* Rows start a quarter below the first particle: no row of a lattice lies near a boundary between rows, so
  * round-off cannot split it. */
 static void find_places(const struct particles *p, real spacing, struct place *place)
 {
-    real low[DIM_MAX] = {0};
-    for (int d = 1; d < p->dim; d++) low[d] = smallest(p->X[d], p->n);
+    real low[DIM_MAX] = {0}, high;
+    for (int d = 1; d < p->dim; d++) particles_extent(p, p->n, d, &low[d], &high);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         int64_t row[DIM_MAX] = {0};

@@ -1,6 +1,7 @@
 /* floor 3: who sleeps and who wakes. */
 #include "rest.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "bonds.h"
@@ -30,6 +31,28 @@ void rest_list(struct rest *r)
     r->awake = 0;
     for (int64_t k = 0; k < r->blocks; k++)
         if (r->level[k] > 0) r->list[r->awake++] = (int32_t)k;
+}
+
+static void list_all(struct rest *r)
+{
+    for (int64_t k = 0; k < r->blocks; k++) r->list[k] = (int32_t)k;
+    r->awake = r->blocks;
+}
+
+status rest_archive(struct rest *r, const char *name, struct archive *a)
+{
+    char path[48];
+    if (r->blocks == 0) return OK;
+    snprintf(path, sizeof path, "rest/%s_level", name);
+    TRY(a->exchange(a, path, r->level, (size_t)r->blocks * sizeof *r->level));
+    snprintf(path, sizeof path, "rest/%s_settled", name);
+    ARCHIVE_VALUE(a, path, r->settled);
+    snprintf(path, sizeof path, "rest/%s_empty", name);
+    ARCHIVE_VALUE(a, path, r->empty);
+    if (a->saving) return OK;
+    list_all(r);
+    r->resumed = true;
+    return OK;
 }
 
 /* ---- rows of bonds ----------------------------------------------------------------------------------------- */
@@ -113,10 +136,11 @@ static void follow(struct bonds *b, const struct particles *p, const struct load
         r->moved[r->list[k]] = has_moved(b, p, r->list[k]);
         moved += r->moved[r->list[k]];
     }
-    if (moved == 0) return;
+    if (moved == 0 && !r->resumed) return;
     for (int64_t k = 0; k < r->awake; k++)
         if (r->moved[r->list[k]]) wake(b, p, l, r->list[k], most);
     rest_list(r);
+    r->resumed = false;
 }
 
 void rest_rows(struct bonds *b, const struct particles *p, const struct loads *l)
@@ -234,5 +258,6 @@ void rest_mesh(struct mesh *mesh, const struct loads *l)
     }
     for (int64_t k = 0; k < r->awake && moved; k++)
         if (r->moved[r->list[k]]) mesh_wake(mesh, r->list[k]);
-    if (moved) rest_list(r);
+    if (moved || r->resumed) rest_list(r);
+    r->resumed = false;
 }

@@ -152,13 +152,8 @@ static void make_weights(struct engine *e)
 static int64_t supports_ramp(const struct engine *e)
 {
     const struct particles *p = &e->part;
-    real longest = 0, most = solver_largest(&e->solver.driven, p->dim, p->n);
-    for (int d = 0; d < p->dim; d++) {
-        real from = INFINITY, to = -INFINITY;
-        for (int64_t i = 0; i < p->n; i++) from = real_min(from, p->X[d][i]), to = real_max(to, p->X[d][i]);
-        longest = real_max(longest, to - from);
-    }
-    return most > 0 ? 1 + (int64_t)(longest / e->scene->spacing) : 0;
+    const real most = solver_largest(&e->solver.driven, p->dim, p->n);
+    return most > 0 ? 1 + (int64_t)(particles_longest(p) / e->scene->spacing) : 0;
 }
 
 static void make_applied(struct engine *e)
@@ -202,8 +197,8 @@ static status balance_checked(struct engine *e)
             const struct load *l = &e->loads.load[b];
             if (l->boundary->kind != BOUNDARY_TRACTION && l->boundary->kind != BOUNDARY_BODY_FORCE) continue;
             for (int64_t k = 0; k < l->n; k++) {
-                sum += l->share[k * e->part.dim + d] * l->boundary->value[d];
-                size += fabs(l->share[k * e->part.dim + d] * l->boundary->value[d]);
+                sum += l->share[d][k] * l->boundary->value[d];
+                size += fabs(l->share[d][k] * l->boundary->value[d]);
             }
         }
         if (fabs(sum) > 1e-9 * size && !component_held(e, d))

@@ -10,16 +10,9 @@
 
 void grid_relaxation_make(struct engine *e)
 {
-    const struct particles *p = &e->part;
-    real longest = 0;
     e->solver.ramp_time = 1;
     if (e->scene->method == METHOD_PD) return;
-    for (int d = 0; d < p->dim; d++) {
-        real from = INFINITY, to = -INFINITY;
-        for (int64_t i = 0; i < p->n; i++) from = real_min(from, p->X[d][i]), to = real_max(to, p->X[d][i]);
-        longest = real_max(longest, to - from);
-    }
-    e->solver.ramp_time = ceil(2 * (longest + e->scene->spacing) / (e->wave_speed * e->dt)) * e->dt;
+    e->solver.ramp_time = ceil(2 * (particles_longest(&e->part) + e->scene->spacing) / (e->wave_speed * e->dt)) * e->dt;
 }
 
 /* sum m u^2 and sum m v^2. */

@@ -163,7 +163,7 @@ void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t 
     int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
     real *part = NEW("team.sums", blocks * terms, real);
     assert(terms <= TERMS_MAX);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (blocks > 1)
     for (int64_t b = 0; b < blocks; b++) {
         int64_t first = b * SUM_BLOCK, end = first + SUM_BLOCK;
         real own[TERMS_MAX] = {0};

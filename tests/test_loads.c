@@ -2,6 +2,7 @@
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
+#include <string.h>
 #include <cmocka.h>
 
 #include "cloud.h"
@@ -49,6 +50,65 @@ static void test_sine(void **state)
     assert_true(fabs(work) > 1e-9);
     loads_free(&l);
     cloud_free(&c);
+}
+
+/* Loads of the same particles go together, with terms of equal shares as one; what they give is that of each alone, on any
+ * number of threads. Two of one profile, one of another, one of a part of the body, one whose region is every particle but in
+ * other words, and a traction. */
+static void check_together(int threads, bool together, real *impulse, real *work, real *f)
+{
+    const real length = 5 * CLOUD_SPACING, dt = 1e-6;
+    const struct profile wave = {PROFILE_SINE, length, {0}, {3, 4}};
+    const struct boundary row[] = {
+        {.name = "steady", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6}, .profile = wave},
+        {.name = "ramp", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {5e6, 1e6}, .profile = wave, .time = {.kind = TIME_RAMP, .until = 4}},
+        {.name = "other", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {0, 7e6}, .profile = {PROFILE_SINE, length, {0}, {1, -1}}},
+        {.name = "even", .kind = BOUNDARY_BODY_FORCE, .body = 0, .value = {1e6, 0}},
+        {.name = "first", .kind = BOUNDARY_BODY_FORCE, .body = 1, .value = {-4e6, 4e6}},
+        {.name = "face", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 2e6}, .face = 1, .side = 1}};
+    struct cloud c;
+    struct grid none = {0};
+    struct loads l;
+    team_make(threads);
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {71, 53}, .horizon = 3});
+    for (int64_t i = 0; i < c.p.n; i++) c.p.body[i] = i % 3 == 0;
+    impulse[0] = impulse[1] = *work = 0;
+    for (size_t k = 0; k < (together ? 1 : COUNT_OF(row)); k++) {
+        assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+        if (k == 0) loads_clear(&l, &c.p);
+        loads_apply(&l, &c.p, 1, dt, dt);
+        for (int d = 0; d < 2; d++)
+            for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
+        loads_hold(&l, &none, &c.p, 1, dt);
+        for (int d = 0; d < 2; d++) impulse[d] += l.impulse[d];
+        *work += l.work;
+        for (int d = 0; d < 2; d++)
+            for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] = c.p.X[d][i];
+        if (together) assert_ptr_equal(l.load[0].share[1], l.load[1].share[0]);
+        if (together) assert_int_equal(l.load[2].leader, 0);
+        loads_free(&l);
+    }
+    for (int d = 0; d < 2; d++) memcpy(f + d * c.p.n, c.p.f[d], (size_t)c.p.n * sizeof *f);
+    cloud_free(&c);
+}
+
+static void test_together(void **state)
+{
+    (void)state;
+    enum { N = 71 * 53 };
+    static real f[4][2 * N];
+    real impulse[4][2], work[4];
+    check_together(1, false, impulse[0], &work[0], f[0]);
+    for (int threads = 1; threads <= 3; threads++) check_together(threads, true, impulse[threads], &work[threads], f[threads]);
+    for (int i = 0; i < 2 * N; i++) assert_near(f[1][i], f[0][i], 1e-14 * 2e7 * square(CLOUD_SPACING) * 2e-3);
+    for (int d = 0; d < 2; d++) assert_close(impulse[1][d], impulse[0][d], 1e-12);
+    assert_close(work[1], work[0], 1e-10);           /* terms of both signs, 1e-3 of them left */
+    for (int threads = 2; threads <= 3; threads++) {
+        assert_memory_equal(f[threads], f[1], sizeof f[1]);
+        assert_memory_equal(impulse[threads], impulse[1], sizeof impulse[1]);
+        assert_memory_equal(&work[threads], &work[1], sizeof work[1]);
+    }
+    team_make(2);
 }
 
 /* Leap-frog: a half kick, then whole ones, each round the instant of its forces. What a force gives up to the velocities
@@ -148,7 +208,7 @@ static void test_relief(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks), cmocka_unit_test(test_together),
                                        cmocka_unit_test(test_traction), cmocka_unit_test(test_relief)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);

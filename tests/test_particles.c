@@ -93,6 +93,33 @@ static void images_are_added_behind(void **state)
     particles_free(&p);
 }
 
+/* The box round some particles, in which images do not count unless asked for; who stands on a lattice. */
+static void extent_and_sites(void **state)
+{
+    (void)state;
+    enum { N = 3000 };
+    struct particles p;
+    real low, high, site;
+    particles_make(&p, 2, N, 0);
+    for (int i = 0; i < N; i++) p.X[0][i] = (i * 7919 % N) - 100, p.X[1][i] = 0.001 * i;
+    particles_add_images(&p, 1, 0);
+    p.X[0][N] = -1e6;
+    particles_extent(&p, p.n, 0, &low, &high);
+    assert_exact(low, -100);
+    assert_exact(high, N - 101);
+    particles_extent(&p, p.n_all, 0, &low, &high);
+    assert_exact(low, -1e6);
+    assert_exact(particles_longest(&p), N - 1);
+    particles_extent(&p, 0, 1, &low, &high);
+    assert_true(isinf(low) && isinf(high) && high < low);
+    particles_free(&p);
+    for (int k = -1000; k <= 1000; k++) {            /* places as a scene computes them: round-off does not matter */
+        assert_true(lattice_site(0.3 + k * 1e-3, 0.3, 1e-3, &site));
+        assert_exact(site, k);
+        assert_false(lattice_site(0.3 + (k + 1e-9) * 1e-3, 0.3, 1e-3, &site));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -100,6 +127,7 @@ int main(void)
         cmocka_unit_test(sort_follows_rows),
         cmocka_unit_test(equal_places_sort_by_id),
         cmocka_unit_test(images_are_added_behind),
+        cmocka_unit_test(extent_and_sites),
     };
     omp_set_num_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);

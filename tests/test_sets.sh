@@ -93,4 +93,19 @@ for scene in "strip" "strip -s mpm.frame=current" "strip -s model=ospd" "strip -
         holds "$scene: $set and $first" alike "$work/$set" "$work/$first" "$(figure "$work/$first" crack.start_time)"
     done
 done
+
+# ---- a restart with another set ----------------------------------------------------------------------------------------
+
+# resumed SET LINES: the strip goes on with this set from where the first one was stopped; LINES on standard error
+resumed()
+{
+    rm -rf "$work/resumed"
+    CLEAVE_SIMD=$first interrupted "$work/resumed" 10 "$work/strip.yaml" -s output.samples=100
+    CLEAVE_SIMD=$1 "$cleave" run -q -o "$work/resumed" --resume "$work/strip.yaml" -s output.samples=100 >"$work/out" 2>"$work/err"
+    is "$first, then $1: exit status" $? 0
+    is "$first, then $1: lines said" "$(wc -l <"$work/err")" "$2"
+}
+resumed $first 0
+resumed portable $([ $first = portable ] && echo 0 || echo 1)
+[ $first = portable ] || holds "what is said: $(cat "$work/err")" grep -q "^warning: .*written with $first .*goes on with portable.*CLEAVE_SIMD=$first" "$work/err"
 finish

@@ -1,0 +1,82 @@
+/* floor 5: what of the engine survives a restart. */
+#include <stdio.h>
+#include <string.h>
+
+#include "engine.h"
+#include "memory.h"
+#include "simd.h"
+
+static status particles_archive(struct particles *p, struct archive *a, int optional)
+{
+    for (int f = 0; f < particle_fields_count; f++) {
+        const struct particle_field *field = &particle_fields[f];
+        for (int k = 0; k < field->count(p->dim, optional); k++) {
+            char name[64];
+            snprintf(name, sizeof name, "particles/%s%d", field->name, k);
+            TRY(a->exchange(a, name, particle_array(p, field, k), (size_t)p->n_all * field->size));
+        }
+    }
+    return OK;
+}
+
+/* Everything that follows from the particles is made again; the rest is read back. */
+static void rebuild(struct engine *e)
+{
+    particles_list(&e->part);
+    bonds_free(&e->bonds);
+    bonds_make(&e->bonds, NULL, &e->part, &e->source);
+    partial_stress_free(&e->partial);
+    e->sort_needed = true;
+}
+
+/* Sets of kernels agree to round-off only: whoever counts on the bits must hear of it. */
+static status kernels_archive(struct archive *a)
+{
+    const struct simd_set *now = simd_in_use();
+    char then[16] = {0};
+    snprintf(then, sizeof then, "%s", now->name);
+    ARCHIVE_VALUE(a, "engine/kernels", then);
+    then[sizeof then - 1] = 0;
+    if (strcmp(then, now->name) == 0) return OK;
+    fprintf(stderr, "warning: the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, "
+                    "not to the last bit; CLEAVE_SIMD=%s keeps the bits, where the processor runs them\n", then, now->name, then);
+    return OK;
+}
+
+status engine_archive(void *engine, struct archive *a)
+{
+    struct engine *e = engine;
+    TRY(kernels_archive(a));
+    TRY(particles_archive(&e->part, a, e->optional));
+    if (!a->saving) rebuild(e);
+    TRY(bonds_archive(&e->bonds, &e->part, a));
+    if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
+    if (!a->saving) {
+        engine_partial_make(e);
+        mesh_free(&e->mesh);
+        memory_free(e->cell_elastic);
+        TRY(engine_mesh_make(e));
+    }
+    TRY(mesh_archive(&e->mesh, a));
+    ARCHIVE_VALUE(a, "engine/t", e->t);
+    ARCHIVE_VALUE(a, "engine/step", e->step);
+    ARCHIVE_VALUE(a, "engine/steps", e->steps);
+    ARCHIVE_VALUE(a, "engine/dt", e->dt);
+    ARCHIVE_VALUE(a, "engine/damped", e->damped);
+    ARCHIVE_VALUE(a, "engine/residual_step0", e->residual_step0);
+    ARCHIVE_VALUE(a, "engine/particle_steps", e->particle_steps);
+    ARCHIVE_VALUE(a, "engine/bond_visits", e->bond_visits);
+    ARCHIVE_VALUE(a, "engine/rested", e->rested);
+    ARCHIVE_VALUE(a, "engine/sampled", e->sampled);
+    TRY(rest_archive(&e->bonds.rest, "bonds", a));
+    TRY(rest_archive(&e->mesh.rest, "mesh", a));
+    ARCHIVE_VALUE(a, "engine/loop_seconds", e->loop_seconds);
+    TRY(loads_archive(&e->loads, a));
+    TRY(solver_archive(&e->solver, a));
+    TRY(conversion_archive(&e->conversion, a));
+    TRY(watch_archive(&e->watch, a));
+    TRY(tips_archive(&e->tips, a));
+    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->growth[k], k, a));
+    TRY(probes_archive(&e->probes, a));
+    return output_archive(e->out, a);
+}
