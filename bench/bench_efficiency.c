@@ -17,6 +17,7 @@ struct mark {
 struct scene_case {
     const char *name, *path, *model;
     const char *tips;  /* conversion.tips of adaptive runs: horizons      */
+    const char *spacing; /* finer than the scene's own; NULL: that          */
     bool quick;        /* short enough for --quick, and the paper's model */
     double paper_t_r;  /* NAN: none                                       */
     int marks;
@@ -29,17 +30,21 @@ struct scene_case {
 #define PLATE_HOLE "plate_hole", "inputs/plate_hole.yaml"
 #define KALTHOFF "kalthoff_winkler", "inputs/kalthoff_winkler.yaml"
 #define KALTHOFF_3D "kalthoff_winkler_3d", "inputs/kalthoff_winkler_3d.yaml"
-#define NO_PAPER false, NAN, 0, {{0, 0}}
+#define NO_PAPER NULL, false, NAN, 0, {{0, 0}}
+#define FINER(spacing) spacing, false, NAN, 0, {{0, 0}}
 
 static const struct scene_case cases[] = {
-    {PLATE_CRACK, "bond", "0", true, 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
-    {PLATE_HOLE, "bond", "0", true, 0.342, 0, {{0, 0}}},
-    {KALTHOFF, "bond", "3", true, 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
-    {KALTHOFF_3D, "bond", "0", true, NAN, 0, {{0, 0}}},
+    {PLATE_CRACK, "bond", "0", NULL, true, 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
+    {PLATE_HOLE, "bond", "0", NULL, true, 0.342, 0, {{0, 0}}},
+    {KALTHOFF, "bond", "3", NULL, true, 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
+    {KALTHOFF_3D, "bond", "0", NULL, true, NAN, 0, {{0, 0}}},
     {PLATE_CRACK, "ospd", "0", NO_PAPER}, {PLATE_CRACK, "mospd", "0", NO_PAPER},
     {PLATE_HOLE, "ospd", "0", NO_PAPER},  {PLATE_HOLE, "mospd", "0", NO_PAPER},
     {KALTHOFF, "ospd", "3", NO_PAPER},    {KALTHOFF, "mospd", "3", NO_PAPER},
     {KALTHOFF_3D, "ospd", "0", NO_PAPER}, {KALTHOFF_3D, "mospd", "0", NO_PAPER},
+    {PLATE_CRACK, "bond", "0", FINER("0.25 mm")},      {PLATE_HOLE, "bond", "0", FINER("0.25 mm")},
+    {KALTHOFF, "bond", "3", FINER("0.5 mm")},          {KALTHOFF_3D, "bond", "0", FINER("1 mm")},
+    {KALTHOFF_3D, "ospd", "0", FINER("1 mm")},         {KALTHOFF_3D, "mospd", "0", FINER("1 mm")},
 };
 
 /* Full peridynamics first, then adaptive runs by what they may save with. */
@@ -59,6 +64,7 @@ enum { CASES = COUNT_OF(cases), REPETITIONS = 3, SAMPLES = 100, WAYS = COUNT_OF(
 /* One run of one method. Figures of the fracture are the same in every repetition. */
 struct run {
     double seconds[REPETITIONS];
+    double stepping[REPETITIONS]; /* of them without samples: the step's own work */
     struct tip tip[TIPS_MAX];
     int tips, longest; /* longest -1: none grew                        */
     double start;      /* first cut bond [s]                           */
@@ -71,6 +77,7 @@ struct result {
     double dt;
     struct run run[WAYS];
     double t[WAYS], t_r[WAYS];                                                    /* [s] [1] */
+    double t_r_stepping[WAYS];                                                    /* the same of the steps alone [1] */
     double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS];    /* [m] [degree] [s] */
     double angle[WAYS];                                                           /* of the longest crack [degree] */
 };
@@ -80,6 +87,9 @@ struct efficiency {
     struct result *result;
 };
 
+/* Finer scenes are long, and one way is enough to see what finer means. */
+static bool is_run(const struct result *x, int way) { return !x->scene->spacing || way == 0 || way == SHOWN; }
+
 static bool of_bonds(const struct result *x) { return strcmp(x->scene->model, "bond") == 0; }
 
 /* Scene and engine of a method; time step 0: its own. The correction of surfaces is for bonds alone: state-based
@@ -87,7 +97,7 @@ static bool of_bonds(const struct result *x) { return strcmp(x->scene->model, "b
 static status make(struct engine *e, struct scene *s, const struct result *x, int way)
 {
     char step[32], samples[16];
-    struct scene_override override[9] = {{"method", ways[way].method},
+    struct scene_override override[10] = {{"method", ways[way].method},
                                          {"output.samples", samples},
                                          {"model", x->scene->model},
                                          {"mpm.frame", ways[way].frame},
@@ -98,6 +108,7 @@ static status make(struct engine *e, struct scene *s, const struct result *x, in
     snprintf(samples, sizeof samples, "%d", SAMPLES);
     if (way > 0) override[n++] = (struct scene_override){"conversion.return", ways[way].back};
     if (way > 0) override[n++] = (struct scene_override){"conversion.tips", x->scene->tips};
+    if (x->scene->spacing) override[n++] = (struct scene_override){"particles.spacing", x->scene->spacing};
     if (x->dt > 0) override[n++] = (struct scene_override){"time.step", step};
     return bench_engine_make(e, s, x->scene->path, NULL, override, n);
 }
@@ -134,6 +145,7 @@ static status run_once(struct result *x, int way, int repetition)
     struct run *r = &x->run[way];
     status ran = bench_engine_run(&e, e.steps, NULL);
     r->seconds[repetition] = e.loop_seconds;
+    r->stepping[repetition] = e.loop_seconds - e.laps.spent[LAP_WATCH];
     x->particles = e.part.n, x->steps = e.steps;
     if (ran == OK) keep_figures(r, &e);
     bench_engine_free(&e, &s);
@@ -158,6 +170,7 @@ static status find_step(struct result *x)
     for (int way = 0; way < WAYS; way++) {
         struct scene s;
         struct engine e;
+        if (!is_run(x, way)) continue;
         TRY(make(&e, &s, x, way));
         least = fmin(least, e.dt);
         bench_engine_free(&e, &s);
@@ -209,11 +222,15 @@ static status scene_measure(struct result *x, int repetitions)
     scene_free(&s);
     TRY(find_step(x));
     for (int r = 0; r < repetitions; r++)
-        for (int k = 0; k < WAYS; k++) TRY(run_once(x, (r + k) % WAYS, r)); /* none is always first */
-    for (int way = 1; way < WAYS; way++) TRY(run_shares(x, way));
-    for (int way = 0; way < WAYS; way++) x->t[way] = median_of(x->run[way].seconds, repetitions);
+        for (int k = 0; k < WAYS; k++)          /* none is always first */
+            if (is_run(x, (r + k) % WAYS)) TRY(run_once(x, (r + k) % WAYS, r));
+    x->t[0] = median_of(x->run[0].seconds, repetitions);
     for (int way = 1; way < WAYS; way++) {
+        if (!is_run(x, way)) continue;
+        TRY(run_shares(x, way));
+        x->t[way] = median_of(x->run[way].seconds, repetitions);
         x->t_r[way] = 1 - x->t[way] / x->t[0];
+        x->t_r_stepping[way] = 1 - median_of(x->run[way].stepping, repetitions) / median_of(x->run[0].stepping, repetitions);
         compare_tips(x, way, dim);
     }
     return OK;
@@ -221,21 +238,28 @@ static status scene_measure(struct result *x, int repetitions)
 
 /* ---- what is said ------------------------------------------------------------------------------------------ */
 
+/* `kalthoff_winkler`, `kalthoff_winkler at 0.5 mm`. */
+static const char *title_of(const struct result *x, char *text, size_t room)
+{
+    snprintf(text, room, x->scene->spacing ? "%s at %s" : "%s", x->scene->name, x->scene->spacing);
+    return text;
+}
+
 static void print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
-    printf("  %-20s %-6s %-6s %9s %6s %10s %10s %7s %7s %8s %15s %17s %14s\n", "", "model", "levers", "particles", "steps",
-           "t_PD [s]", "t_ad [s]", "t_r", "paper", "tips", "angles", "starts", "PD share");
+    printf("  %-30s %-6s %-6s %9s %6s %10s %10s %7s %8s %7s %8s %15s %17s %14s\n", "", "model", "levers", "particles",
+           "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "paper", "tips", "angles", "starts", "PD share");
 }
 
 static void print_way(const struct result *x, int way)
 {
-    char paper[16] = "-";
+    char paper[16] = "-", title[48];
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
-    printf("  %-20s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %7s %5.2f mm", x->scene->name, x->scene->model,
-           ways[way].levers, (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way], paper,
-           1e3 * x->tip_distance[way]);
+    printf("  %-30s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7s %5.2f mm", title_of(x, title, sizeof title),
+           x->scene->model, ways[way].levers, (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way],
+           x->t_r_stepping[way], paper, 1e3 * x->tip_distance[way]);
     printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[way], 1e6 * x->run[0].start,
            1e6 * x->run[way].start, 100 * x->run[way].share[0], 100 * x->run[way].share[SAMPLES]);
     fflush(stdout);
@@ -259,7 +283,7 @@ static void print_marks(const struct efficiency *all)
             printf("    %-20s at %4.0f us  %5.2f %%   paper %4.1f %%\n", all->result[k].scene->name, 1e6 * a->time,
                    100 * share_at(&all->result[k].run[SHOWN], a->time), 100 * a->share);
         }
-    printf("  t_r below 0: the adaptive run took longer than full peridynamics\n");
+    printf("  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples\n");
 }
 
 /* Rows of one adaptive run in the tables of figures, shares and runs. */
@@ -268,14 +292,16 @@ static void add_way(struct bench_table *table, const struct result *x, int way)
     const double main[] = {x->t[way],           x->t[0], x->t_r[way], x->tip_distance[way], x->angle_difference[way],
                            x->start_difference[way]};
     const double run[] = {(double)x->particles, (double)x->steps,  x->dt,       x->scene->paper_t_r,
-                          x->run[0].start,      x->run[way].start, x->angle[0], x->angle[way]};
-    bench_text(&table[0], x->scene->name), bench_text(&table[0], x->scene->model);
+                          x->run[0].start,      x->run[way].start, x->angle[0], x->angle[way], x->t_r_stepping[way]};
+    char title[48];
+    title_of(x, title, sizeof title);
+    bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
     for (size_t c = 0; c < COUNT_OF(main); c++) bench_number(&table[0], main[c]);
     bench_text(&table[0], ways[way].levers);
-    bench_text(&table[2], x->scene->name), bench_text(&table[2], x->scene->model), bench_text(&table[2], ways[way].levers);
+    bench_text(&table[2], title), bench_text(&table[2], x->scene->model), bench_text(&table[2], ways[way].levers);
     for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[2], run[c]);
     for (int k = 0; k <= SAMPLES; k++) {
-        bench_text(&table[1], x->scene->name), bench_text(&table[1], x->scene->model);
+        bench_text(&table[1], title), bench_text(&table[1], x->scene->model);
         bench_text(&table[1], ways[way].levers);
         bench_number(&table[1], x->run[way].time[k]), bench_number(&table[1], x->run[way].share[k]);
     }
@@ -289,9 +315,10 @@ static status write_tables(const struct efficiency *all)
     bench_table_make(&table[1], "share", "scene,model,levers,time,pd_share");
     bench_table_make(&table[2], "runs",
                      "scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,"
-                     "angle_adaptive_deg");
+                     "angle_adaptive_deg,t_r_stepping");
     for (int k = 0; k < all->n; k++)
-        for (int way = 1; way < WAYS; way++) add_way(table, &all->result[k], way);
+        for (int way = 1; way < WAYS; way++)
+            if (is_run(&all->result[k], way)) add_way(table, &all->result[k], way);
     status s = bench_write("efficiency", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s;
@@ -307,9 +334,11 @@ static void draw_bars(FILE *to, const struct efficiency *all)
     fputs("$bars << EOD\n", to);
     for (int k = 0; k < all->n; k++) {
         const struct result *x = &all->result[k];
-        fprintf(to, "\"%s\\n%s\"", x->scene->name, x->scene->model);
+        fprintf(to, "\"%s\\n%s%s%s\"", x->scene->name, x->scene->model, x->scene->spacing ? "\\n" : "",
+                x->scene->spacing ? x->scene->spacing : "");
         for (int way = 1; way < WAYS; way++)
-            if (ways[way].colour) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
+            if (ways[way].colour && is_run(x, way)) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
+            else if (ways[way].colour) fputs(" NaN NaN", to);
         if (isfinite(x->scene->paper_t_r)) fprintf(to, " %.6g\n", x->scene->paper_t_r);
         else fputs(" NaN\n", to);
     }
@@ -341,7 +370,7 @@ static void draw_bars(FILE *to, const struct efficiency *all)
 static int panels(const struct efficiency *all)
 {
     int n = 0;
-    while (n < all->n && of_bonds(&all->result[n])) n++;
+    while (n < all->n && of_bonds(&all->result[n]) && !all->result[n].scene->spacing) n++;
     return n;
 }
 
@@ -389,7 +418,8 @@ static status measure_all(struct efficiency *all, bool quick)
         struct result *x = &all->result[all->n];
         x->scene = &cases[k];
         TRY(scene_measure(x, repetitions));
-        for (int way = 1; way < WAYS; way++) print_way(x, way);
+        for (int way = 1; way < WAYS; way++)
+            if (is_run(x, way)) print_way(x, way);
         all->n++;
     }
     if (all->n == 0)
