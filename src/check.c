@@ -76,6 +76,7 @@ status command_check(int argc, char **argv)
     if (result == OK) result = engine_make(&e, &s, NULL);
     if (result == OK) {
         printf("%s is sound\n", a.scene);
+        scene_choice_print(&s, stdout);
         say_particles(&e);
         say_materials(&e);
         say_frames(&e);

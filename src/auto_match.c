@@ -1,0 +1,285 @@
+/* floor 4: which problem of the chart a scene is like, by what it contains, and the feature that its spacing has to resolve. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "auto.h"
+
+enum { STEP, PULSE, WAVE_P, WAVE_S, SQUARE, CUBE, HOLE, EDGE, INCLINED, SUDDEN, MOVING, SPALL, IMPACT, PULLED };
+
+/* per_resolution, travel and slow say what bench/accuracy_*.c do: a pulse of 0.4 m at 50 particles a metre has 20 spacings, .. */
+static const struct auto_kind kinds[] = {
+    [STEP] = {"bar", "step", "a bar loaded at once", "the bar's length", 1, 0.75, 0, true},
+    [PULSE] = {"bar", "pulse", "a pulse in a bar", "the pulse's width", 0.4, 1, 0, true},
+    [WAVE_P] = {"wave", NULL, "a plane pressure wave", "the packet's width", 0.2, 1, 0, true},
+    [WAVE_S] = {"wave", NULL, "a plane shear wave", "the packet's width", 0.2, 0.577, 0, true},
+    [SQUARE] = {"square", "plane stress", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true},
+    [CUBE] = {"cube", "solid", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true},
+    [HOLE] = {"hole", "pulled", "a plate with a hole, at rest", "the hole's radius", 0.1, 0, 30, false},
+    [EDGE] = {"cracks", "edge crack", "an edge crack at rest", "the crack's length", 0.5, 0, 200, false},
+    [INCLINED] = {"cracks", "inclined crack", "a crack at rest", "half the crack's length", 0.3, 0, 200, false},
+    [SUDDEN] = {"sudden", "at rest", "a suddenly loaded crack", "the waves' way to the crack", 1, 2.735, 0, false},
+    [MOVING] = {"sudden", "at 1000 m/s", "a loaded crack that grows as told", "the waves' way to the crack", 1, 2.735, 0, false},
+    [SPALL] = {"spall", "spall", "a bar that spalls", "the pulse's length", 0.4, 3.5, 0, false},
+    [IMPACT] = {"fracture", "Kalthoff", "a struck plate that cracks", "the plate's width", 1, 2.62, 0, false},
+    [PULLED] = {"fracture", "pulled plate", "a pulled plate that cracks", "the plate's width", 1, 1.56, 0, false},
+};
+
+#define NO_MATCH "the chart of method auto has no problem like this one: "
+#define INSTEAD "; write method and particles.spacing"
+
+/* ---- what a scene contains ----------------------------------------------------------------------------------------- */
+
+real auto_extent(const struct scene *s, int body, int axis)
+{
+    const struct region *shape = &s->body[body].shape;
+    if (shape->n == 0 || shape->solid[0].kind != SOLID_BOX) return 0;
+    return shape->solid[0].to[axis] - shape->solid[0].from[axis];
+}
+
+static real narrowest(const struct scene *s)
+{
+    real least = INFINITY;
+    for (int d = 0; d < s->dim; d++) least = real_min(least, auto_extent(s, 0, d));
+    return least;
+}
+
+static bool breaks(const struct scene *s) { return isfinite(s->material[0].critical_stretch); }
+
+/* Radius of the smallest round hole; INFINITY: none. */
+static real hole_radius(const struct scene *s)
+{
+    real least = INFINITY;
+    for (int b = 0; b < s->bodies; b++)
+        for (int k = 0; k < s->body[b].shape.n; k++) {
+            const struct solid *a = &s->body[b].shape.solid[k];
+            if (a->subtract && a->kind == SOLID_BALL) least = real_min(least, a->radius);
+        }
+    return least;
+}
+
+static bool is_inside(const struct scene *s, const real *X)
+{
+    const struct solid *a = &s->body[0].shape.solid[0];
+    for (int d = 0; d < s->dim; d++)
+        if (X[d] <= a->from[d] || X[d] >= a->to[d]) return false;
+    return true;
+}
+
+/* Part of a crack inside the body: from its tip to the edge, or half of it where both ends are tips. */
+static real crack_length(const struct scene *s, const struct crack *c, bool *embedded)
+{
+    const real *a = c->corner[0], *b = c->corner[1];
+    const bool tip[2] = {is_inside(s, a), is_inside(s, b)};
+    const real length = hypot(b[0] - a[0], b[1] - a[1]);
+    *embedded = tip[0] && tip[1];
+    if (*embedded) return 0.5 * length;
+    if (!tip[0] && !tip[1]) return 0;
+    real inside = 0, part = 1;               /* bisection: where it leaves the body */
+    for (int k = 0; k < 50; k++) {
+        const real share = 0.5 * (inside + part);
+        real X[DIM_MAX];
+        for (int d = 0; d < 2; d++) X[d] = tip[0] ? a[d] + share * (b[d] - a[d]) : b[d] + share * (a[d] - b[d]);
+        if (is_inside(s, X)) inside = share;
+        else part = share;
+    }
+    return inside * length;
+}
+
+static const struct boundary *find_boundary(const struct scene *s, enum boundary_kind kind)
+{
+    for (int k = 0; k < s->boundaries; k++) {
+        const struct boundary *b = &s->boundary[k];
+        real size = 0;
+        for (int d = 0; d < s->dim; d++) size += fabs(b->value[d]);
+        if (b->kind == kind && size > 0) return b;
+    }
+    return NULL;
+}
+
+static const struct wave_pulse *first_pulse(const struct scene *s)
+{
+    const struct wave_pulse *least = NULL;
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_pulse && (!least || s->initial[k].pulse.width < least->width)) least = &s->initial[k].pulse;
+    return least;
+}
+
+static real size_of(const real *value, int dim) { return sqrt(dot(value, value, dim)); }
+
+/* ---- kinds ------------------------------------------------------------------------------------------------------------ */
+
+/* `distance`: that waves go while the scene runs. Phase errors grow with it, those of a front as sqrt: it is of order 1/2 in the
+ * spacing, and two lengths alone make it. A shorter way is no reason to expect less. */
+static void set_kind(struct auto_match *m, int kind, real feature, real distance)
+{
+    const real farther = kinds[kind].travel > 0 ? distance / feature / kinds[kind].travel : 1;
+    m->kind = &kinds[kind], m->feature = feature, m->travel = distance / feature;
+    m->growth = !m->kind->smooth ? 1 : kind == STEP ? sqrt(real_max(1, farther)) : real_max(1, farther);
+    if (m->kind->at) m->cases = 1, m->at[0] = m->kind->at;
+}
+
+/* Lattices have four axes: errors go as cos 4 angle, the cases of the chart stand at its 1, 0 and -1; between two of them the worse. */
+static void wave_cases(struct auto_match *m, const struct wave_pulse *w)
+{
+    static const char *const at[2][3] = {{"P 0 deg", "P 22.5 deg", "P 45 deg"}, {"S 0 deg", "S 22.5 deg", "S 45 deg"}};
+    const real place = 1 - cos(4 * atan2(w->direction[1], w->direction[0]));
+    const int low = place < 1 - 1e-6 ? 0 : place < 2 - 1e-6 ? 1 : 2;
+    m->cases = 0;
+    m->at[m->cases++] = at[w->transverse][low];
+    if (place > low + 1e-6) m->at[m->cases++] = at[w->transverse][low + 1];
+}
+
+static status match_pulse(struct auto_match *m, const struct scene *s, const struct wave_pulse *w)
+{
+    const struct material *a = &s->material[0];
+    const real speed = w->transverse ? a->shear_speed : a->wave_speed, distance = speed * s->duration;
+    m->strain = fabs(w->velocity) / speed;
+    if (s->dim == 1) set_kind(m, PULSE, w->width, distance);
+    else if (s->dim == 2) set_kind(m, w->transverse ? WAVE_S : WAVE_P, w->width, distance), wave_cases(m, w);
+    else {
+        /* along an axis material points are those of the plane, layer by layer; bonds are not */
+        for (int d = 0; d < 3; d++)
+            if (fabs(w->direction[d]) > 1e-9 && fabs(w->direction[d]) < 1 - 1e-9)
+                return status_set(REFUSED, NO_MATCH "a pulse in a solid, not along an axis; nearest is one that is" INSTEAD);
+        set_kind(m, w->transverse ? WAVE_S : WAVE_P, w->width, distance);
+        m->cases = 1, m->at[0] = w->transverse ? "S 0 deg" : "P 0 deg", m->points_only = true;
+    }
+    return OK;
+}
+
+static status match_bar(struct auto_match *m, const struct scene *s)
+{
+    const struct boundary *load = find_boundary(s, BOUNDARY_TRACTION);
+    const real c = s->material[0].wave_speed;
+    if (!load) return status_set(REFUSED, NO_MATCH "a bar without initial pulse and without traction; nearest is a bar with one of them" INSTEAD);
+    m->strain = fabs(load->value[0]) / s->material[0].young;
+    if (load->time.kind == TIME_CONSTANT) set_kind(m, STEP, auto_extent(s, 0, 0), c * s->duration);
+    else if (load->time.kind == TIME_PULSE) set_kind(m, PULSE, c * (load->time.until - load->time.from), c * s->duration);
+    else return status_set(REFUSED, NO_MATCH "a traction that is neither constant nor a pulse; nearest is time: {pulse: ..}" INSTEAD);
+    return OK;
+}
+
+static status match_forced(struct auto_match *m, const struct scene *s)
+{
+    real least = INFINITY;
+    for (int k = 0; k < s->boundaries; k++) {
+        const struct boundary *b = &s->boundary[k];
+        if (b->kind != BOUNDARY_BODY_FORCE || b->profile.kind != PROFILE_SINE) continue;
+        /* waves along a diagonal: L/sqrt(dim) from crest to crest, L along each axis */
+        const real *a = b->profile.direction;
+        real most = 0;
+        for (int d = 0; d < s->dim; d++) most = real_max(most, fabs(a[d]) / size_of(a, s->dim));
+        least = real_min(least, b->profile.wavelength / most);
+    }
+    if (!isfinite(least) || s->dim == 1)
+        return status_set(REFUSED, NO_MATCH "neither pulse, crack, hole nor a sine of body force in two or three dimensions" INSTEAD);
+    set_kind(m, s->dim == 2 ? SQUARE : CUBE, least, s->material[0].wave_speed * s->duration);
+    return OK;
+}
+
+static status match_static(struct auto_match *m, const struct scene *s)
+{
+    const struct boundary *load = find_boundary(s, BOUNDARY_TRACTION);
+    const real hole = hole_radius(s), strain = load ? size_of(load->value, s->dim) / s->material[0].young : 0;
+    bool embedded = false;
+    if (s->dim != 2 || (s->cracks == 0 && !isfinite(hole)))
+        return status_set(REFUSED, NO_MATCH "at rest it knows plates with a round hole or a crack" INSTEAD);
+    m->strain = 3 * strain;                  /* at a hole's ends */
+    if (s->cracks == 0) {
+        set_kind(m, HOLE, hole, hole);
+        return OK;
+    }
+    real least = INFINITY;
+    bool any = false;
+    for (int k = 0; k < s->cracks; k++) {
+        const real length = crack_length(s, &s->crack[k], &embedded);
+        if (length > 0 && length < least) least = length, any = embedded;
+    }
+    if (!isfinite(least)) return status_set(REFUSED, NO_MATCH "none of its cracks ends in the first box of its body" INSTEAD);
+    set_kind(m, any ? INCLINED : EDGE, least, least);
+    return OK;
+}
+
+/* Way of the waves from the loaded face to the crack. */
+static status match_sudden(struct auto_match *m, const struct scene *s)
+{
+    const struct boundary *load = find_boundary(s, BOUNDARY_TRACTION);
+    if (!load) return status_set(REFUSED, NO_MATCH "a crack that cannot break without traction on a face; nearest is one that waves from a face load" INSTEAD);
+    const struct solid *a = &s->body[0].shape.solid[0];
+    const real face = load->side > 0 ? a->to[load->face] : a->from[load->face];
+    real way = INFINITY;
+    for (int k = 0; k < s->cracks; k++) way = real_min(way, fabs(s->crack[k].corner[1][load->face] - face));
+    if (!(way > 0)) return status_set(REFUSED, NO_MATCH "a crack that ends on the loaded face" INSTEAD);
+    m->strain = size_of(load->value, s->dim) / s->material[0].young;
+    set_kind(m, s->growths > 0 ? MOVING : SUDDEN, way, s->material[0].wave_speed * s->duration);
+    return OK;
+}
+
+/* What flies is as long as its initial velocity's region, or a body that has one; the pulse is twice that. */
+static status match_spall(struct auto_match *m, const struct scene *s)
+{
+    real from[DIM_MAX], to[DIM_MAX], least = INFINITY;
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_velocity && s->initial[k].region.n > 0 && region_bounds(&s->initial[k].region, 1, from, to))
+            least = real_min(least, to[0] - from[0]);
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].velocity[0] != 0) least = real_min(least, auto_extent(s, b, 0));
+    if (!isfinite(least)) return status_set(REFUSED, NO_MATCH "a bar that may break and nothing that flies; nearest is a spall behind an impact" INSTEAD);
+    set_kind(m, SPALL, 2 * least, s->material[0].wave_speed * s->duration);
+    return OK;
+}
+
+/* Pulled where what drives the plate moves across its cracks, struck where along them. */
+static status match_fracture(struct auto_match *m, const struct scene *s)
+{
+    const struct boundary *drive = find_boundary(s, BOUNDARY_VELOCITY), *load = find_boundary(s, BOUNDARY_TRACTION);
+    const struct boundary *b = drive ? drive : load;
+    if (s->dim != 2 || s->cracks == 0 || !b)
+        return status_set(REFUSED, NO_MATCH "of what breaks it knows bars that spall and plates with cracks that are driven or pulled" INSTEAD);
+    const real *c0 = s->crack[0].corner[0], *c1 = s->crack[0].corner[1], way[2] = {c1[0] - c0[0], c1[1] - c0[1]};
+    const bool along = fabs(dot(way, b->value, 2)) > fabs(way[0] * b->value[1] - way[1] * b->value[0]);
+    set_kind(m, along ? IMPACT : PULLED, narrowest(s), s->material[0].wave_speed * s->duration);
+    return OK;
+}
+
+/* ---- all ----------------------------------------------------------------------------------------------------------------- */
+
+static status check_ordinary(const struct scene *s)
+{
+    if (s->materials > 1) return status_set(REFUSED, NO_MATCH "several materials" INSTEAD);
+    if (s->irregularity > 0) return status_set(REFUSED, NO_MATCH "a shaken lattice (particles.irregularity)" INSTEAD);
+    for (int b = 0; b < s->bodies; b++) {
+        const struct region *shape = &s->body[b].shape;
+        if (s->body[b].file) return status_set(REFUSED, NO_MATCH "a body from a particle list" INSTEAD);
+        if (shape->n == 0 || shape->solid[0].kind != SOLID_BOX)
+            return status_set(REFUSED, NO_MATCH "a body whose first solid is no box" INSTEAD);
+    }
+    if (material_yields(&s->material[0])) return status_set(REFUSED, NO_MATCH "a material that yields" INSTEAD);
+    return OK;
+}
+
+static status find(struct auto_match *m, const struct scene *s, bool at_rest)
+{
+    const struct wave_pulse *pulse = first_pulse(s);
+    const bool several = s->bodies > 1 && !(s->dim == 1 && breaks(s));
+    TRY(check_ordinary(s));
+    if (several) return status_set(REFUSED, NO_MATCH "several bodies; nearest is a bar struck by another" INSTEAD);
+    if (at_rest) return match_static(m, s);
+    if (s->growths == 0 && breaks(s)) return s->dim == 1 ? match_spall(m, s) : match_fracture(m, s);
+    if (s->cracks > 0) return s->dim == 2 ? match_sudden(m, s) : status_set(REFUSED, NO_MATCH "a crack that is loaded in time, not in the plane" INSTEAD);
+    if (isfinite(hole_radius(s))) return status_set(REFUSED, NO_MATCH "a hole that is loaded in time; nearest is one at rest (solver: static)" INSTEAD);
+    if (pulse) return match_pulse(m, s, pulse);
+    return s->dim == 1 ? match_bar(m, s) : match_forced(m, s);
+}
+
+status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest)
+{
+    static const bool watches_bonds[PROBES] = {[PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
+    *m = (struct auto_match){0};
+    TRY(find(m, s, at_rest));
+    if (!(m->feature > 0)) return status_set(REFUSED, NO_MATCH "%s is not longer than 0" INSTEAD, m->kind->feature);
+    m->needs_bonds = s->cracks > 0 || s->growths > 0 || (breaks(s) && !at_rest);
+    for (int k = 0; k < s->probes; k++) m->needs_bonds |= watches_bonds[s->probe[k].kind];
+    return OK;
+}
