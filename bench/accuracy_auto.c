@@ -31,6 +31,7 @@ static void make_auto(const struct accuracy_point *p, double accuracy, struct ac
     memcpy(s->text, made.text, sizeof s->text);
     for (int k = 0; k < made.set.n; k++)
         if (strcmp(made.set.at[k].key, "solver") == 0) bench_override(&s->set, "solver", "static");
+        else if (strncmp(made.set.at[k].key, "material.", 9) == 0) bench_override(&s->set, made.set.at[k].key, "%s", made.set.value[k]);
     take_away(s, "pd");
     take_away(s, "conversion");
     bench_override(&s->set, "particles.spacing", "%s", "");

@@ -281,7 +281,7 @@ static status choose(struct reader *r, struct node *root, struct ask *a, const s
 {
     const real unit = a->match.feature / a->match.kind->per_resolution;      /* resolution x spacing */
     const struct node *spacing = tree_at(a->root, "particles.spacing");
-    struct auto_wish w = {.match = &a->match, .accuracy = a->accuracy / a->match.growth * (1 + 1e-9), .allows = allows, .context = a};
+    struct auto_wish w = {.match = &a->match, .accuracy = a->accuracy / a->match.growth, .allows = allows, .context = a};
     struct auto_found f;
     real h = NAN;
     if (spacing) TRY(read_number(r, key_find("particles", "spacing"), spacing, &h));

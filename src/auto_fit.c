@@ -42,6 +42,12 @@ static void collect(struct lengths *l, const struct scene *s)
     }
 }
 
+/* Lengths of scenes have few digits: what is asked for may be missed by this share. */
+#define DIGITS 1e-6
+
+/* Least whole number of spacings <= h in a length. */
+static real count_of(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
+
 static bool divides(real unit, real length)
 {
     const real count = length / unit;
@@ -67,8 +73,8 @@ real auto_spacing_fit(const struct scene *s, real h, bool even)
     for (int k = 0; k < l.n; k++) least = real_min(least, l.of[k]);
     if (!isfinite(least)) return h;
     for (int strict = even; strict >= 0; strict--)
-        for (real n = ceil(least / h * (1 - 1e-9)); least / n > 0.75 * h; n++)
+        for (real n = count_of(least, h); least / n > 0.75 * h; n++)
             if (fits(&l, s, least / n, strict)) return least / n;
-    const real edge = auto_extent(s, 0, 0), cells = ceil(edge / h * (1 - 1e-9));
+    const real edge = auto_extent(s, 0, 0), cells = count_of(edge, h);
     return edge / (even ? 2 * ceil(cells / 2) : cells);
 }

@@ -134,7 +134,7 @@ void auto_pick(struct auto_found *f, const struct chart *c, const struct auto_wi
         make_line(&l, c, w->match, &c->point[k]);
         if (l.n == 0) continue;
         const bool there = w->resolution > 0 ? point_at(&l, w, &p) : point_for(&l, w, &p);
-        if (there && p.error <= w->accuracy) take(f, &p);
+        if (there && p.error <= w->accuracy * (1 + 1e-9)) take(f, &p);
         if (w->resolution == 0) p = l.at[l.n - 1];
         if ((there || w->resolution == 0) && (!f->finest.of || p.error < f->finest.error)) f->finest = p;
     }
