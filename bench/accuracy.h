@@ -145,6 +145,7 @@ status accuracy_store_write(const struct accuracy_plan *plan);
 void accuracy_result_clear(struct accuracy_result *r);
 status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team, struct accuracy_result *r,
                           struct scene_choice *choice);
+#define ACCURACY_AUTO BENCH_FOLDER "/accuracy_auto.csv"
 /* accuracy_auto.c: `cleave bench accuracy=auto`: method auto on every case of the chart and on other problems. */
 status accuracy_auto(struct accuracy_plan *plan, bool quick);
 /* accuracy_others.c: problems with known solutions that are not in the chart. */

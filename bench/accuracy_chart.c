@@ -23,6 +23,8 @@ static bool same_line(const struct accuracy_point *a, const struct accuracy_poin
     return a->problem == b->problem && a->method == b->method && a->horizon == b->horizon && a->step == b->step;
 }
 
+#define WORST 0.2                        /* nobody asks for more: fronts of a line that is worse do not count */
+
 /* Marks what is on the front of one family in one case. */
 static void mark_front(const struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int family, bool *kept)
 {
@@ -35,7 +37,7 @@ static void mark_front(const struct accuracy_plan *plan, const struct accuracy_p
         of[n++] = k;
     }
     const int found = accuracy_front(dot, n, front);
-    for (int k = 0; k < found; k++) kept[of[front[k]]] = true;
+    for (int k = 0; k < found; k++) kept[of[front[k]]] |= dot[front[k]].error <= WORST;
     memory_free(dot), memory_free(of), memory_free(front);
 }
 
@@ -79,7 +81,7 @@ static void put_entry(FILE *to, const struct accuracy_entry *e)
 {
     const struct accuracy_point *p = &e->point;
     const struct accuracy_result *r = &e->result;
-    fprintf(to, "%s,%s,%s,%d,%g,%g,%.4g,%.4g,%.9g,%.9g,", p->problem->name, p->problem->cases[p->at], p->method->name,
+    fprintf(to, "%s,%s,%s,%d,%g,%g,%.3g,%.3g,%.9g,%.9g,", p->problem->name, p->problem->cases[p->at], p->method->name,
             p->resolution, p->horizon, p->step, r->error, r->seconds[0], r->particles, r->steps);
     put_keys(to, p);
     fputc('\n', to);

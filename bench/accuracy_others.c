@@ -172,7 +172,7 @@ static status column_measure(const struct accuracy_point *p, struct engine *e, d
 OTHER("pulse", "steel bar, another width, twice as far", 1, pulse, "steel");
 OTHER("step", "aluminium bar, another length, half a transit", 1, step, "aluminium");
 OTHER("spall2", "aluminium bar that spalls, another impactor", 1, spall, "aluminium");
-OTHER("wave2", "plane waves at other angles", 2, wave, "P 30 deg", "S 12 deg", "P 22.5, nu 0.1", "P 0, nu 0.45");
+OTHER("wave2", "plane waves at other angles", 2, wave, "P 30 deg", "S 12 deg", "P 22.5 nu 0.1", "P 0 nu 0.45");
 OTHER("crack2", "edge crack, three times as long, nu = 0.3", 2, crack, "nu 0.3");
 OTHER("hole2", "plate with another hole, another material", 2, hole, "4 mm");
 OTHER("column", "pressure wave along a column", 3, column, "solid");

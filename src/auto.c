@@ -174,6 +174,23 @@ static status lay_slow_loads(struct reader *r, struct node *root, const struct a
     return OK;
 }
 
+/* Factors are as accurate as the chart says on rings as it takes them: for probes that do not say theirs. */
+static status lay_rings(struct reader *r, struct node *root, const struct auto_match *m)
+{
+    const struct node *list = tree_at(root, "probes"), *n = list && list->kind == NODE_LIST ? list->first : NULL;
+    char key[64], value[64], number[32];
+    number_text(number, m->kind->ring * m->feature);
+    for (int k = 0; n && m->kind->ring > 0; n = n->next, k++) {
+        const struct node *sif = n->kind == NODE_MAP ? node_find(n, "sif") : NULL;
+        const bool bare = n->kind == NODE_SCALAR && strcmp(n->text, "sif") == 0;
+        if (!bare && (!sif || sif->kind != NODE_MAP || node_find(sif, "outer") || node_find(sif, "contours"))) continue;
+        snprintf(key, sizeof key, bare ? "probes[%d]" : "probes[%d].sif.contours", k);
+        snprintf(value, sizeof value, bare ? "{sif: {contours: [%s]}}" : "[%s]", number);
+        TRY(tree_set(r, root, key, value));
+    }
+    return OK;
+}
+
 static status lay_choice(struct reader *r, struct node *root, const struct ask *a, const struct chart_point *p, real spacing)
 {
     static const char *const done[] = {"accuracy", "accuracy_chart"};
@@ -183,6 +200,7 @@ static status lay_choice(struct reader *r, struct node *root, const struct ask *
     TRY(lay_number(r, root, "particles.spacing", spacing));
     if (p->horizon > 0) TRY(lay_number(r, root, "particles.horizon", p->horizon));
     TRY(lay_number(r, root, "time.safety", p->step));
+    TRY(lay_rings(r, root, &a->match));
     return a->at_rest && says(p, "solver", "explicit") ? lay_slow_loads(r, root, a) : OK;
 }
 

@@ -17,6 +17,8 @@ struct auto_kind {
     real travel;                         /* duration x wave speed over feature, of the chart's runs; 0: at rest */
     real slow;                           /* at rest: transits of the body in which the reference frame loads it */
     bool smooth;                         /* error is a power of the spacing: lines may be interpolated        */
+    real ring;                           /* radius of the rings of sif over the feature; 0: none              */
+    real known;                          /* how well the chart knows the solution: smaller errors mean nothing */
 };
 
 /* A scene as a problem of the chart. */

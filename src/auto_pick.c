@@ -3,6 +3,7 @@
  *
  *   envelope   error at a resolution counts as the largest there and at all finer ones: what finer runs do not keep was luck
  *              of the lattice (1 of 4 lines of cracks and holes has such a dip)
+ *   alone      a run that is a line by itself is not believed, unless errors are smooth: nothing finer bears it out
  *   between    where the problem is smooth errors are powers of the spacing, and a resolution between two runs is taken such
  *              that their line through both logarithms meets MARGIN of what is asked
  *   MARGIN     lines drawn past a run of the chart, through its neighbours at half and twice its resolution, miss its error by a
@@ -32,7 +33,7 @@ static bool in_case(const struct chart_point *p, const struct auto_match *m, int
 /* Error and time at p's resolution in the worst of all cases; false: one was not run there. */
 static bool worst_case(const struct chart *c, const struct auto_match *m, const struct chart_point *p, struct auto_point *worst)
 {
-    *worst = (struct auto_point){p, p->resolution, p->error, p->seconds, p->particles, p->steps};
+    *worst = (struct auto_point){p, p->resolution, fmax(p->error, m->kind->known), p->seconds, p->particles, p->steps};
     for (int k = 1; k < m->cases; k++) {
         const struct chart_point *found = NULL;
         for (int j = 0; j < c->n && !found; j++) {
@@ -132,7 +133,7 @@ void auto_pick(struct auto_found *f, const struct chart *c, const struct auto_wi
     for (int k = 0; k < c->n; k++) {
         if (!is_first_of_line(c, w->match, k) || !w->allows(&c->point[k], w->context)) continue;
         make_line(&l, c, w->match, &c->point[k]);
-        if (l.n == 0) continue;
+        if (l.n < (w->match->kind->smooth ? 1 : 2)) continue;
         const bool there = w->resolution > 0 ? point_at(&l, w, &p) : point_for(&l, w, &p);
         if (there && p.error <= w->accuracy * (1 + 1e-9)) take(f, &p);
         if (w->resolution == 0) p = l.at[l.n - 1];

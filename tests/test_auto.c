@@ -28,9 +28,9 @@ static void put_line(FILE *to, const char *at, const char *method, double factor
     }
 }
 
-static const struct auto_kind smooth = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, true};
-static const struct auto_kind rough = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false};
-static const struct auto_kind cases = {"bar", NULL, "a pulse", "its width", 1, 1, 0, true};
+static const struct auto_kind smooth = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, true, 0, 0};
+static const struct auto_kind rough = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false, 0, 0};
+static const struct auto_kind cases = {"bar", NULL, "a pulse", "its width", 1, 1, 0, true, 0, 0};
 
 static bool all(const struct chart_point *p, const void *context)
 {
@@ -140,6 +140,22 @@ static void dips_are_not_believed(void **state)
     const struct auto_found f = picked(&c, &smooth, 1e-3, 0, all);
     assert_string_equal(f.best.of->method, "second");
     assert_true(picked(&c, &rough, 0.013, 0, not_second).best.resolution == 40);  /* as good as the next, 1/80, and no better */
+    chart_free(&c);
+}
+
+/* A run that no finer one of its method bears out, and errors below what the reference itself is known to. */
+static void what_is_alone_or_unknown(void **state)
+{
+    (void)state;
+    static const struct auto_kind vague = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false, 0, 0.05};
+    struct chart c = two_lines();
+    strcpy(c.point[0].method, "alone");
+    c.point[0].error = 1e-9, c.point[0].seconds = 1e-9;
+    assert_string_equal(picked(&c, &smooth, 0.1, 0, all).best.of->method, "alone");
+    assert_string_not_equal(picked(&c, &rough, 0.1, 0, all).best.of->method, "alone");
+    assert_null(picked(&c, &vague, 0.049, 0, all).best.of);
+    assert_true(picked(&c, &vague, 0.05, 0, all).best.resolution == 20);
+    assert_true(picked(&c, &vague, 0.05, 0, all).best.error == 0.05);
     chart_free(&c);
 }
 
@@ -295,7 +311,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cheapest_of_two_powers), cmocka_unit_test(runs_where_it_is_not_smooth), cmocka_unit_test(what_is_not_reached_is_said),
         cmocka_unit_test(at_a_given_resolution),  cmocka_unit_test(dips_are_not_believed),       cmocka_unit_test(worst_of_the_cases),
-        cmocka_unit_test(charts_that_are_none),   cmocka_unit_test(scenes_are_like),             cmocka_unit_test(spacing_fits),
+        cmocka_unit_test(what_is_alone_or_unknown), cmocka_unit_test(charts_that_are_none),   cmocka_unit_test(scenes_are_like),             cmocka_unit_test(spacing_fits),
         cmocka_unit_test(echo_says_it_without_auto), cmocka_unit_test(what_is_written_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -45,6 +45,8 @@ probes: [sif: {contours: [3.2 mm]}]
 END
 calm "$work/crack" "$work/crack.yaml"
 near "edge crack at 1 %" "$(figure "$work/crack" probes.sif.K_I)" "$(compute "3.009e6*sqrt(3.14159265*8e-3)")" 0.01
+calm "$work/ring" "$work/crack.yaml" -s 'probes=[sif]'
+near "edge crack, rings of auto" "$(figure "$work/ring" probes.sif.K_I)" "$(compute "3.009e6*sqrt(3.14159265*8e-3)")" 0.01
 is "edge crack: static" "$(figure "$work/crack" solver.name)" cg
 
 # 0.1 m of aluminium strike 0.9 m: the break is at 0.1 m from the free end when the waves have gone 1 m.
@@ -107,6 +109,7 @@ refused "shaken" "a shaken lattice" "$work/crack.yaml" -s particles.irregularity
 refused "at rest, no crack" "plates with a round hole or a crack" "$work/crack.yaml" -s cracks=
 refused "a hole in time" "nearest is one at rest (solver: static)" inputs/plate_hole.yaml -s method=auto -s material.critical_stretch=inf -s particles.spacing=
 refused "large strains" "the chart's problems are linear" "$work/pulse.yaml" -s "initial[0].pulse.velocity=500"
+refused "large strains of a spall" "the chart.s problems are linear" inputs/hopkinson_bar.yaml -s method=auto -s particles= -s mpm= -s time= -s accuracy=5%
 refused "a spacing too wide" "leave keys of pd, mpm, model and spacing to auto" "$work/pulse.yaml" -s particles.spacing=0.1
 refused "what no method is" "no method of the chart for" "$work/pulse.yaml" -s particles.horizon=7.3 -s method=auto -s mpm.frame=current -s mpm.transfer=flip -s mpm.cell=3 -s accuracy=5%
 refused "static alone" "static leaves the choice to method auto" "$work/crack.yaml" -s method=pd -s model=mospd -s particles.spacing=1mm
