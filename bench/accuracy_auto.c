@@ -1,5 +1,5 @@
-/* floor 5: `cleave bench accuracy=auto`: `method: auto` on every case of the chart, beside the cheapest run of the chart that is as
- * accurate, both timed here in turn; and on problems that are not in it. results/bench/accuracy_auto.csv. */
+/* floor 5: `cleave bench accuracy=auto`: `method: auto` on every case of the chart, beside the cheapest run of the chart
+ * that is as accurate, both timed here in turn; and on problems that are not in it. results/bench/accuracy_auto.csv. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,9 +29,11 @@ static void make_auto(const struct accuracy_point *p, double accuracy, struct ac
     memset(s, 0, sizeof *s);
     p->problem->scene(p, &made);
     memcpy(s->text, made.text, sizeof s->text);
-    for (int k = 0; k < made.set.n; k++)
-        if (strcmp(made.set.at[k].key, "solver") == 0) bench_override(&s->set, "solver", "static");
-        else if (strncmp(made.set.at[k].key, "material.", 9) == 0) bench_override(&s->set, made.set.at[k].key, "%s", made.set.value[k]);
+    for (int k = 0; k < made.set.n; k++) {
+        const char *key = made.set.at[k].key;
+        if (strcmp(key, "solver") == 0) bench_override(&s->set, key, "static");
+        if (strncmp(key, "material.", 9) == 0) bench_override(&s->set, key, "%s", made.set.value[k]);
+    }
     take_away(s, "pd");
     take_away(s, "conversion");
     bench_override(&s->set, "particles.spacing", "%s", "");
@@ -42,17 +44,13 @@ static void make_auto(const struct accuracy_point *p, double accuracy, struct ac
     bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
 
-/* The cheapest run of the chart in this case that is accurate enough; `as_written`: of those whose scene auto has before it, a
- * crack and not a gap, no region of bonds. */
-static const struct accuracy_entry *best_of(const struct accuracy_plan *plan, const struct accuracy_point *p, double accuracy, bool as_written)
+/* The cheapest run of the chart in this case that is accurate enough. */
+static const struct accuracy_entry *best_of(const struct accuracy_plan *plan, const struct accuracy_point *p, double accuracy)
 {
     const struct accuracy_entry *best = NULL;
-    const bool cracked = p->problem == &accuracy_cracks || p->problem == &accuracy_sudden;
     for (int k = 0; k < plan->n; k++) {
         const struct accuracy_entry *e = &plan->entry[k];
-        const int family = (int)e->point.method->family;
         if (e->point.problem != p->problem || e->point.at != p->at || !e->result.known || !e->result.stable) continue;
-        if (as_written && (family & ACCURACY_COUPLED || (cracked && family & ACCURACY_MPM))) continue;
         if (e->result.error <= accuracy && (!best || e->result.seconds[0] < best->result.seconds[0])) best = e;
     }
     return best;
@@ -64,7 +62,7 @@ struct trial {
     const struct accuracy_point *point;
     double accuracy;
     struct scene_choice choice;
-    struct accuracy_result automatic, best, written;
+    struct accuracy_result automatic, best;
     char best_label[96];
     bool refused;
 };
@@ -80,11 +78,10 @@ static status run_one(const struct accuracy_entry *entry, struct accuracy_result
 /* In turn, so that what else the machine does meets all of them. */
 static status run_trial(struct trial *t, const struct accuracy_plan *plan)
 {
-    const struct accuracy_entry *best = best_of(plan, t->point, t->accuracy, false);
-    const struct accuracy_entry *written = best_of(plan, t->point, t->accuracy, true);
+    const struct accuracy_entry *best = best_of(plan, t->point, t->accuracy);
     struct accuracy_scene s;
     const double start = team_clock();
-    accuracy_result_clear(&t->automatic), accuracy_result_clear(&t->best), accuracy_result_clear(&t->written);
+    accuracy_result_clear(&t->automatic), accuracy_result_clear(&t->best);
     make_auto(t->point, t->accuracy, &s);
     if (best) accuracy_label(&best->point, t->best_label, sizeof t->best_label);
     for (char *c = t->best_label; *c; c++) *c = *c == ',' ? ';' : *c;     /* a cell of the table */
@@ -94,9 +91,7 @@ static status run_trial(struct trial *t, const struct accuracy_plan *plan)
         if (t->refused) return OK;
         TRY(ran);
         TRY(run_one(best, &t->best));
-        if (written != best) TRY(run_one(written, &t->written));
     }
-    if (written == best) t->written = t->best;
     return OK;
 }
 
@@ -108,11 +103,12 @@ static void print_trial(const struct trial *t)
         const char *why = strstr(status_message(), ": ");
         printf("refused%.150s\n", why ? why : "");
     } else {
-        printf("%-26s h %-6.4g expected %5.2g %% measured %6.3g %% %s %9.3g s", t->choice.picked, t->choice.horizon, 100 * t->choice.error,
-               100 * t->automatic.error, t->automatic.error <= t->accuracy ? "ok  " : "MISS", t->automatic.seconds[0]);
+        printf("%-26s h %-6.4g expected %5.2g %% measured %6.3g %% %s %9.3g s", t->choice.picked, t->choice.horizon,
+               100 * t->choice.error, 100 * t->automatic.error, t->automatic.error <= t->accuracy ? "ok  " : "MISS",
+               t->automatic.seconds[0]);
         if (t->best.known)
-            printf(" best %9.3g s (%s) ratio %.2f as written %.2f", t->best.seconds[0], t->best_label,
-                   t->automatic.seconds[0] / t->best.seconds[0], t->automatic.seconds[0] / t->written.seconds[0]);
+            printf(" best %9.3g s (%s) ratio %.2f", t->best.seconds[0], t->best_label,
+                   t->automatic.seconds[0] / t->best.seconds[0]);
         printf("\n");
     }
     fflush(stdout);
@@ -123,22 +119,24 @@ static void put_trial(struct bench_table *table, const struct trial *t)
     const struct accuracy_point *p = t->point;
     bench_text(table, p->problem->name), bench_text(table, p->problem->cases[p->at]);
     bench_text(table, t->refused ? "refused" : t->choice.picked);
-    const double figures[] = {t->choice.horizon, t->choice.resolution, t->accuracy, t->choice.error, t->automatic.error, t->automatic.seconds[0],
-                              t->best.seconds[0], t->automatic.seconds[0] / t->best.seconds[0],
-                              t->automatic.seconds[0] / t->written.seconds[0]};
+    const double time = t->automatic.seconds[0];
+    const double figures[] = {t->choice.horizon, t->choice.resolution, t->accuracy, t->choice.error, t->automatic.error, time,
+                              t->best.seconds[0], time / t->best.seconds[0]};
     for (size_t k = 0; k < COUNT_OF(figures); k++) bench_number(table, t->refused && k != 2 ? NAN : figures[k]);
     bench_text(table, t->refused ? "-" : t->best_label[0] ? t->best_label : "-");
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------------------------ */
+/* ---- all ------------------------------------------------------------------------------------------------------ */
 
 struct tally { int asked, refused, missed, slow, timed; };
 
-static status try_problem(const struct accuracy_plan *plan, const struct accuracy_problem *q, struct bench_table *table, struct tally *sum)
+static status try_problem(const struct accuracy_plan *plan, const struct accuracy_problem *q, struct bench_table *table,
+                          struct tally *sum)
 {
+    const int usual = q->resolution[q->resolution[2] ? 2 : 0];
     for (int at = 0; at < accuracy_cases(q); at++)
         for (size_t k = 0; k < COUNT_OF(asked); k++) {
-            const struct accuracy_point p = {.problem = q, .method = accuracy_method, .at = at, .resolution = q->resolution[q->resolution[2] ? 2 : 0],
+            const struct accuracy_point p = {.problem = q, .method = accuracy_method, .at = at, .resolution = usual,
                                              .horizon = ACCURACY_HORIZON, .step = ACCURACY_STEP};
             struct trial t = {.point = &p, .accuracy = asked[k]};
             TRY(run_trial(&t, plan));
@@ -167,13 +165,14 @@ status accuracy_auto(struct accuracy_plan *plan, bool quick)
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_store_read(plan));
     TRY(accuracy_chart_write(plan));
-    bench_table_make(&table, "", "problem,case,picked,horizon,resolution,asked,expected,measured,seconds,best_seconds,ratio,ratio_as_written,best");
+    bench_table_make(&table, "", "problem,case,picked,horizon,resolution,asked,expected,measured,seconds,best_seconds,ratio,"
+                                 "best");
     status s = try_all(plan, quick, &table, &sum);
     team_make(0);
     if (s == OK) s = bench_write("accuracy_auto", &table, 1);
     bench_table_free(&table);
     if (s == OK) s = accuracy_page(plan);
-    printf("  %d asked, %d refused; of the others %d missed; of %d beside the chart's best %d took more than %.2g times its time\n", sum.asked, sum.refused,
-           sum.missed, sum.timed, sum.slow, RATIO_ASKED);
+    printf("  %d asked, %d refused; of the others %d missed; of %d beside the chart's best %d took more than %.2g times its "
+           "time\n", sum.asked, sum.refused, sum.missed, sum.timed, sum.slow, RATIO_ASKED);
     return s;
 }

@@ -1,6 +1,6 @@
-/* floor 5: results/bench/chart.csv: what `method: auto` chooses from (src/chart.h), made of what is known of the chart. Kept are
- * lines, all resolutions of a method at one horizon and step, of which a point lies on the front of its family in some case:
- * a scene may rule out all families but one. */
+/* floor 5: results/bench/chart.csv: what `method: auto` chooses from (src/chart.h), made of what is known of the chart.
+ * Kept are lines, all resolutions of a method at one horizon and step, of which a point lies on the front of its family in
+ * some case: a scene may rule out all families but one. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

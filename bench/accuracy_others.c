@@ -1,5 +1,5 @@
-/* floor 5: problems with known solutions that are not in the chart: other sizes, materials, angles, times and dimensions than its
- * own. `method: auto` has to reach on them what it is asked for. */
+/* floor 5: problems with known solutions that are not in the chart: other sizes, materials, angles, times and dimensions
+ * than its own. `method: auto` has to reach on them what it is asked for. */
 #include <math.h>
 #include <stdio.h>
 
@@ -35,7 +35,8 @@ static void step_scene(const struct accuracy_point *p, struct accuracy_scene *s)
     snprintf(s->text, sizeof s->text,
              "space: line\nduration: 29.4594 us\nmaterial: {young: 70 GPa, density: 2700 kg/m^3, critical_stretch: inf}\n"
              "body: {box: {from: [0], to: [0.3]}}\nparticles: {spacing: 0.01}\n"
-             "boundary: [{name: wall, mirror: {axis: x, at: 0}}, {name: pull, traction: [1 kPa], face: x+}]\nprobes: [exact: step bar]\n");
+             "boundary: [{name: wall, mirror: {axis: x, at: 0}}, {name: pull, traction: [1 kPa], face: x+}]\n"
+             "probes: [exact: step bar]\n");
 }
 
 static status step_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
@@ -86,7 +87,8 @@ static void crack_scene(const struct accuracy_point *p, struct accuracy_scene *s
 {
     (void)p;
     snprintf(s->text, sizeof s->text,
-             "space: plane stress\nthickness: 2 mm\nduration: 1\nmaterial: {young: 70 GPa, poisson: 0.3, density: 2700 kg/m^3}\n"
+             "space: plane stress\nthickness: 2 mm\nduration: 1\n"
+             "material: {young: 70 GPa, poisson: 0.3, density: 2700 kg/m^3}\n"
              "particles: {spacing: 0.1 mm}\nbody: {box: {from: [0, 0], to: [30 mm, 30 mm]}}\n"
              "cracks: [{from: [-1 mm, 15 mm], to: [15 mm, 15 mm]}]\nprobes: [sif: {contours: [6 mm]}]\n"
              "boundary: [{traction: [0, 10 MPa], face: y+}, {traction: [0, -10 MPa], face: y-}]\n");
@@ -107,9 +109,11 @@ static void hole_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     (void)p;
     snprintf(s->text, sizeof s->text,
-             "space: plane stress\nthickness: 1 mm\nduration: 1\nmaterial: {young: 70 GPa, poisson: 1/3, density: 2700 kg/m^3, critical_stretch: inf}\n"
-             "particles: {spacing: 0.1 mm}\nbody: [{box: {from: [-20 mm, -20 mm], to: [20 mm, 20 mm]}}, {subtract: {disc: {centre: [0, 0], "
-             "radius: 4 mm}}}]\nboundary: [{traction: [0, 1 MPa], face: y+}, {traction: [0, -1 MPa], face: y-}]\n");
+             "space: plane stress\nthickness: 1 mm\nduration: 1\n"
+             "material: {young: 70 GPa, poisson: 1/3, density: 2700 kg/m^3, critical_stretch: inf}\n"
+             "particles: {spacing: 0.1 mm}\n"
+             "body: [{box: {from: [-20 mm, -20 mm], to: [20 mm, 20 mm]}}, {subtract: {disc: {centre: [0, 0], radius: 4 mm}}}]\n"
+             "boundary: [{traction: [0, 1 MPa], face: y+}, {traction: [0, -1 MPa], face: y-}]\n");
     bench_override(&s->set, "solver", "static");
 }
 
@@ -134,7 +138,8 @@ static status hole_measure(const struct accuracy_point *p, struct engine *e, dou
 /* ---- solid -------------------------------------------------------------------------------------------------------------- */
 
 /* A pressure wave 0.4 m wide along a column between mirrors, as far as it is wide. */
-static const struct wave_pulse column_pulse = {.at = {0.6}, .direction = {1}, .width = 0.4, .velocity = 1e-4, .polarisation = {1}};
+static const struct wave_pulse column_pulse = {
+    .at = {0.6}, .direction = {1}, .width = 0.4, .velocity = 1e-4, .polarisation = {1}};
 static void column_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     (void)p;
@@ -164,7 +169,7 @@ static status column_measure(const struct accuracy_point *p, struct engine *e, d
     return OK;
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------------------------ */
+/* ---- all ------------------------------------------------------------------------------------------------------ */
 
 #define OTHER(name_, title_, dim_, what, ...)                                                                               \
     static const struct accuracy_problem other_##what = {.name = name_, .title = title_, .cases = {__VA_ARGS__}, .dim = dim_, \

@@ -80,8 +80,8 @@ static void put_auto(FILE *to)
     char *text = NULL;
     size_t length;
     if (!path_is_file(ACCURACY_AUTO) || file_get(ACCURACY_AUTO, &text, &length) != OK) return;
-    fputs("\n## What `method: auto` makes of it\n\nTimes are of one thread; the ratio is to the best run of the chart that is as accurate, "
-          "timed in turn; as written: of those whose scene is the same (a crack and not a gap).\n\n", to);
+    fputs("\n## What `method: auto` makes of it\n\nTimes are of one thread; the ratio is to the best run of the chart that is "
+          "as accurate, timed in turn.\n\n", to);
     int line = 0;
     for (char *row = strtok(text, "\n"); row; row = strtok(NULL, "\n"), line++) {
         int columns = 0;

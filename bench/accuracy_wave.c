@@ -8,7 +8,8 @@
 /* Those of the chart, and after them those of accuracy_others.c. */
 enum { WAVES = ACCURACY_CASES + 4 };
 static const struct { double angle; bool transverse; } wave_of[WAVES] = {       /* [degrees] */
-    {0, false}, {22.5, false}, {45, false}, {0, true}, {22.5, true}, {45, true}, {30, false}, {12, true}, {22.5, false}, {0, false}};
+    {0, false}, {22.5, false}, {45, false}, {0, true}, {22.5, true}, {45, true}, {30, false}, {12, true}, {22.5, false},
+    {0, false}};
 
 static const double longitudinal = 100;                  /* speed of P waves [m/s]                                */
 static const double duration = 2e-3;                     /* P waves go 0.2 m                                [s]   */

@@ -1,6 +1,6 @@
-/* floor 4: `method: auto`: reads the scene once to see what it is like (auto_match.c), picks from the chart (auto_pick.c), and lays
- * spacing, method, horizon and step over the scene as if the user had written them. What the user wrote stays and restricts
- * the choice. */
+/* floor 4: `method: auto`: reads the scene once to see what it is like (auto_match.c), picks from the chart (auto_pick.c),
+ * and lays spacing, method, horizon and step over the scene as if the user had written them. What the user wrote stays and
+ * restricts the choice. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,6 @@ struct ask {
     const struct scene *scene;
     const struct node *root;
     struct auto_match match;
-    bool at_rest;
     bool slow_loads;                     /* nothing but constant tractions loads it: they may grow slowly     */
     real accuracy;
 };
@@ -48,29 +47,26 @@ static status read_first(struct reader *r, const char *text, size_t length, stru
 
 /* ---- what a method can do ---------------------------------------------------------------------------------------- */
 
-static bool says(const struct chart_point *p, const char *key, const char *value)
+static bool has_states(const struct chart_point *p)
 {
-    char text[CHART_WORD];
-    return chart_key(p, key, text, sizeof text) && strcmp(text, value) == 0;
+    return chart_says(p, "model", "ospd") || chart_says(p, "model", "mospd");
 }
 
-static bool has_states(const struct chart_point *p) { return says(p, "model", "ospd") || says(p, "model", "mospd"); }
-
-static bool has_bonds(const struct chart_point *p) { return !says(p, "method", "mpm"); }
+static bool has_bonds(const struct chart_point *p) { return !chart_says(p, "method", "mpm"); }
 
 /* Bonds impose Poisson's ratio; one velocity field does not crack; a reference frame knows no neighbours but its own. */
 static bool can_do(const struct chart_point *p, const struct ask *a)
 {
     const struct scene *s = a->scene;
     const real bond = material_bond_poisson(s->space);
-    const bool coupled = strncmp(p->method, "coupled", 7) == 0, slow = says(p, "solver", "explicit");
+    const bool coupled = strncmp(p->method, "coupled", 7) == 0, slow = chart_says(p, "solver", "explicit");
     if (has_bonds(p) && (a->match.points_only || (s->dim > 1 && !has_states(p) && fabs(s->material[0].poisson - bond) > 1e-6)))
         return false;
-    if (!has_bonds(p) && a->match.needs_bonds) return false;
-    if (s->bodies > 1 && (says(p, "method", "pd") || says(p, "mpm.frame", "reference"))) return false;
+    if (!has_bonds(p) && a->match.needs_bonds && !(a->match.gap && chart_says(p, "mpm.frame", "reference"))) return false;
+    if (s->bodies > 1 && (chart_says(p, "method", "pd") || chart_says(p, "mpm.frame", "reference"))) return false;
     if (coupled != s->has_pd_region && !(s->has_pd_region && strncmp(p->method, "adaptive", 8) == 0)) return false;
-    if (says(p, "mpm.strain", "small") && 100 * a->match.strain > a->accuracy) return false;
-    return !a->at_rest || !slow || a->slow_loads;
+    if (chart_says(p, "mpm.strain", "small") && 100 * a->match.strain > a->accuracy) return false;
+    return !a->match.at_rest || !slow || a->slow_loads;
 }
 
 /* ---- what the user wrote ------------------------------------------------------------------------------------------- */
@@ -83,13 +79,14 @@ static bool same_value(const char *a, const char *b)
     return strcmp(a, b) == 0;
 }
 
-/* The default; where it hangs on the method as resolve_defaults has it, else the first word of what explains it: `(gimp; ..`. */
+/* The default; where it hangs on the method as resolve_defaults has it, else the first word of what explains it: `(gimp;
+ * ..`. */
 static void usual_value(const struct key *k, const struct chart_point *p, char *text, size_t room)
 {
     const char *from = k->fallback + (*k->fallback == '(');
-    if (strcmp(k->path, "pd.surface") == 0) from = says(p, "method", "pd") && !has_states(p) ? "volume" : "none";
+    if (strcmp(k->path, "pd.surface") == 0) from = chart_says(p, "method", "pd") && !has_states(p) ? "volume" : "none";
     if (strcmp(k->path, "pd.influence") == 0) from = has_states(p) ? "inverse" : "one";
-    if (strcmp(k->path, "pd.normalisation") == 0) from = says(p, "model", "mospd") ? "bulk" : "local";
+    if (strcmp(k->path, "pd.normalisation") == 0) from = chart_says(p, "model", "mospd") ? "bulk" : "local";
     snprintf(text, room, "%.*s", (int)strcspn(from, *k->fallback == '(' ? "; )" : ""), from);
 }
 
@@ -98,9 +95,9 @@ static bool concerns(const char *path, const struct chart_point *p)
 {
     if (strncmp(path, "pd.", 3) == 0 || strcmp(path, "model") == 0) return has_bonds(p);
     if (strcmp(path, "mpm.shape") == 0 || strcmp(path, "mpm.transfer") == 0)
-        return !says(p, "method", "pd") && !says(p, "mpm.frame", "reference");
-    if (strncmp(path, "mpm.", 4) == 0) return !says(p, "method", "pd") && strcmp(path, "mpm.origin") != 0;
-    if (strcmp(path, "coupling") == 0 || strncmp(path, "conversion.", 11) == 0) return says(p, "method", "adaptive");
+        return !chart_says(p, "method", "pd") && !chart_says(p, "mpm.frame", "reference");
+    if (strncmp(path, "mpm.", 4) == 0) return !chart_says(p, "method", "pd") && strcmp(path, "mpm.origin") != 0;
+    if (strcmp(path, "coupling") == 0 || strncmp(path, "conversion.", 11) == 0) return chart_says(p, "method", "adaptive");
     return false;
 }
 
@@ -127,83 +124,6 @@ static bool allows(const struct chart_point *p, const void *context)
     return can_do(p, a) && agrees(p, a->root);
 }
 
-/* ---- writing the choice ---------------------------------------------------------------------------------------------- */
-
-/* Unless the user said it. */
-static status lay(struct reader *r, struct node *root, const char *key, const char *value)
-{
-    const struct node *n = tree_at(root, key);
-    if (n && strcmp(n->text, "auto") != 0 && strcmp(n->text, "static") != 0) return OK;
-    return tree_set(r, root, key, value);
-}
-
-static status lay_number(struct reader *r, struct node *root, const char *key, real value)
-{
-    char text[32];
-    return lay(r, root, key, number_text(text, value));
-}
-
-static status lay_keys(struct reader *r, struct node *root, const struct chart_point *p)
-{
-    for (const char *at = p->keys; *at; at += strcspn(at, ";"), at += *at == ';') {
-        char key[CHART_KEYS], *value;
-        snprintf(key, sizeof key, "%.*s", (int)strcspn(at, ";"), at);
-        value = strchr(key, '=');
-        if (!value) return status_set(REFUSED, "accuracy_chart: %s is no key=value", key);
-        *value++ = '\0';
-        TRY(lay(r, root, key, value));
-    }
-    return OK;
-}
-
-/* There is no static solver for the reference frame: its loads grow by sin^2, to their full size at the end. */
-static status lay_slow_loads(struct reader *r, struct node *root, const struct ask *a)
-{
-    const struct scene *s = a->scene;
-    char key[64], value[96], number[32];
-    real longest = 0;
-    for (int d = 0; d < s->dim; d++) longest = real_max(longest, auto_extent(s, 0, d));
-    const real duration = a->match.kind->slow * longest / s->material[0].wave_speed;
-    TRY(tree_set(r, root, "duration", number_text(number, duration)));
-    for (int k = 0; k < s->boundaries; k++) {
-        if (s->boundary[k].kind != BOUNDARY_TRACTION) continue;
-        snprintf(key, sizeof key, "boundary[%d].time", k);
-        snprintf(value, sizeof value, "{pulse: {until: %s}}", number_text(number, 2 * duration));
-        TRY(tree_set(r, root, key, value));
-    }
-    return OK;
-}
-
-/* Factors are as accurate as the chart says on rings as it takes them: for probes that do not say theirs. */
-static status lay_rings(struct reader *r, struct node *root, const struct auto_match *m)
-{
-    const struct node *list = tree_at(root, "probes"), *n = list && list->kind == NODE_LIST ? list->first : NULL;
-    char key[64], value[64], number[32];
-    number_text(number, m->kind->ring * m->feature);
-    for (int k = 0; n && m->kind->ring > 0; n = n->next, k++) {
-        const struct node *sif = n->kind == NODE_MAP ? node_find(n, "sif") : NULL;
-        const bool bare = n->kind == NODE_SCALAR && strcmp(n->text, "sif") == 0;
-        if (!bare && (!sif || sif->kind != NODE_MAP || node_find(sif, "outer") || node_find(sif, "contours"))) continue;
-        snprintf(key, sizeof key, bare ? "probes[%d]" : "probes[%d].sif.contours", k);
-        snprintf(value, sizeof value, bare ? "{sif: {contours: [%s]}}" : "[%s]", number);
-        TRY(tree_set(r, root, key, value));
-    }
-    return OK;
-}
-
-static status lay_choice(struct reader *r, struct node *root, const struct ask *a, const struct chart_point *p, real spacing)
-{
-    static const char *const done[] = {"accuracy", "accuracy_chart"};
-    for (size_t k = 0; k < COUNT_OF(done); k++)
-        if (tree_at(root, done[k])) TRY(tree_set(r, root, done[k], ""));
-    TRY(lay_keys(r, root, p));
-    TRY(lay_number(r, root, "particles.spacing", spacing));
-    if (p->horizon > 0) TRY(lay_number(r, root, "particles.horizon", p->horizon));
-    TRY(lay_number(r, root, "time.safety", p->step));
-    TRY(lay_rings(r, root, &a->match));
-    return a->at_rest && says(p, "solver", "explicit") ? lay_slow_loads(r, root, a) : OK;
-}
-
 /* ---- saying it -------------------------------------------------------------------------------------------------------- */
 
 /* The chart's time, by the number of particles and of steps: steps of waves go as the way that they go. */
@@ -225,7 +145,8 @@ static void keep_choice(struct scene_choice *c, const struct ask *a, const struc
     c->made = true;
     snprintf(c->like, sizeof c->like, "%s (%s of the chart)", m->kind->title, m->kind->problem);
     snprintf(c->feature, sizeof c->feature, "%s", m->kind->feature);
-    snprintf(c->picked, sizeof c->picked, "%.60s", f->best.of->method);
+    const bool gap = m->needs_bonds && !has_bonds(f->best.of);
+    snprintf(c->picked, sizeof c->picked, "%.40s%s", f->best.of->method, gap ? ", the crack a gap of one cell" : "");
     c->size = m->feature, c->points = m->feature / spacing, c->resolution = c->points / m->kind->per_resolution;
     c->accuracy = a->accuracy, c->error = m->growth * f->best.error;
     c->horizon = f->best.of->horizon, c->step = f->best.of->step;
@@ -243,10 +164,12 @@ void scene_choice_print(const struct scene *s, FILE *out)
     fprintf(out, "auto           like %s: %s is %.4g m, %.4g spacings\n", c->like, c->feature, c->size, c->points);
     fprintf(out, "auto           %s", c->picked);
     if (c->horizon > 0) fprintf(out, ", horizon %.4g", c->horizon);
-    fprintf(out, ", spacing %.4g m, %.3g of the critical step: an error of %.2g %% is expected where %.2g %% is asked, in about %.2g s "
-            "on one thread of the chart's machine\n", s->spacing, c->step, 100 * c->error, 100 * c->accuracy, c->seconds);
-    if (c->second[0])
-        fprintf(out, "auto           next best: %s, %.2g %% in %.2f times that time\n", c->second, 100 * c->second_error, c->second_share);
+    fprintf(out, ", spacing %.4g m, %.3g of the critical step:\n", s->spacing, c->step);
+    fprintf(out, "auto           the cheapest for an error of %.2g %% where %.2g %% is asked, in about %.2g s on one thread of "
+            "the chart's machine\n", 100 * c->error, 100 * c->accuracy, c->seconds);
+    if (!c->second[0]) return;
+    fprintf(out, "auto           next best: %s, %.2g %% in %.2f times that time\n", c->second, 100 * c->second_error,
+            c->second_share);
 }
 
 /* ---- all ----------------------------------------------------------------------------------------------------------------- */
@@ -267,18 +190,18 @@ static status make_ask(struct reader *r, struct ask *a)
 {
     const struct node *solver = tree_at(a->root, "solver"), *method = tree_at(a->root, "method");
     const struct node *accuracy = tree_at(a->root, "accuracy");
-    a->at_rest = solver && strcmp(solver->text, "explicit") != 0;
+    const bool at_rest = solver && strcmp(solver->text, "explicit") != 0;
     a->slow_loads = loads_may_wait(a->scene);
     a->accuracy = usual_accuracy;
     if (accuracy) TRY(read_number(r, key_find("", "accuracy"), accuracy, &a->accuracy));
-    if (auto_match_find(&a->match, a->scene, a->at_rest) != OK) {
+    if (auto_match_find(&a->match, a->scene, at_rest) != OK) {
         char why[400];
         snprintf(why, sizeof why, "%s", status_message());
         return fault(r, method, "%s", why);
     }
     if (a->match.strain > a->accuracy)
-        return fault(r, method, "strains of about %.2g are more than the accuracy of %.2g, and the chart's problems are linear; "
-                                "write method and particles.spacing", a->match.strain, a->accuracy);
+        return fault(r, method, "strains of about %.2g are more than the accuracy of %.2g, and the chart's problems are "
+                     "linear; write method and particles.spacing", a->match.strain, a->accuracy);
     return OK;
 }
 
@@ -288,11 +211,12 @@ static status fault_unreached(struct reader *r, const struct ask *a, const struc
     const struct auto_match *m = &a->match;
     if (!at) at = tree_at(a->root, "method");
     if (!f->finest.of)
-        return fault(r, at, "no method of the chart for %s does what this scene asks and fits what it fixes; leave keys of pd, mpm, "
-                            "model and spacing to auto, or write method and particles.spacing", m->kind->title);
-    return fault(r, at, "an error of %.2g %% is not reached by the chart of %s; %.2g %% is, by %s with %.4g spacings in %s: ask for "
-                        "that, or write method and particles.spacing", 100 * a->accuracy, m->kind->title, 100 * m->growth * f->finest.error,
-                 f->finest.of->method, f->finest.resolution * m->kind->per_resolution, m->kind->feature);
+        return fault(r, at, "no method of the chart for %s does what this scene asks and fits what it fixes; leave keys of "
+                     "pd, mpm, model and spacing to auto, or write method and particles.spacing", m->kind->title);
+    return fault(r, at, "an error of %.2g %% is not reached by the chart of %s; %.2g %% is, by %s with %.4g spacings in %s: "
+                 "ask for that, or write method and particles.spacing", 100 * a->accuracy, m->kind->title,
+                 100 * m->growth * f->finest.error, f->finest.of->method, f->finest.resolution * m->kind->per_resolution,
+                 m->kind->feature);
 }
 
 static status choose(struct reader *r, struct node *root, struct ask *a, const struct chart *chart)
@@ -306,9 +230,9 @@ static status choose(struct reader *r, struct node *root, struct ask *a, const s
     if (spacing) w.resolution = unit / h;
     auto_pick(&f, chart, &w);
     if (!f.best.of) return fault_unreached(r, a, &f);
-    if (!spacing) h = auto_spacing_fit(a->scene, unit / f.best.resolution, !says(f.best.of, "method", "pd"));
+    if (!spacing) h = auto_spacing_fit(a->scene, unit / f.best.resolution, !chart_says(f.best.of, "method", "pd"));
     keep_choice(&r->scene->choice, a, &f, h);
-    return lay_choice(r, root, a, f.best.of, h);
+    return auto_lay(r, root, &a->match, a->scene, f.best.of, h);
 }
 
 /* In the scene's folder, or where the program was started. */
@@ -318,7 +242,8 @@ static status read_chart(struct reader *r, const struct node *root, struct chart
     const char *slash = strrchr(r->name, '/');
     char path[4096];
     if (!n) return chart_read(chart, NULL);
-    if (n->kind != NODE_SCALAR || !*n->text) return fault(r, n, "%s is no file name; results/bench/chart.csv is one", shown(r, n));
+    if (n->kind != NODE_SCALAR || !*n->text)
+        return fault(r, n, "%s is no file name; results/bench/chart.csv is one", shown(r, n));
     snprintf(path, sizeof path, "%.*s%s", slash && n->text[0] != '/' ? (int)(slash - r->name) + 1 : 0, r->name, n->text);
     return chart_read(chart, access(path, R_OK) == 0 ? path : n->text);
 }

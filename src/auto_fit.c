@@ -1,5 +1,6 @@
-/* floor 4: a spacing that fits the geometry: a lattice hangs on the first solid of each body and cuts its edges into whole numbers
- * of spacings (fill.c); gaps and tips of cracks along the axes are where the scene says only if they, too, lie between particles. */
+/* floor 4: a spacing that fits the geometry: a lattice hangs on the first solid of each body and cuts its edges into whole
+ * numbers of spacings (fill.c); gaps and tips of cracks along the axes are where the scene says only if they, too, lie
+ * between particles. */
 #include <math.h>
 
 #include "auto.h"

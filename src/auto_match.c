@@ -7,8 +7,8 @@
 
 enum { STEP, PULSE, WAVE_P, WAVE_S, SQUARE, CUBE, HOLE, EDGE, INCLINED, SUDDEN, MOVING, SPALL, IMPACT, PULLED };
 
-/* per_resolution, travel, slow and ring say what bench/accuracy_*.c do: a pulse of 0.4 m at 50 particles a metre has 20 spacings, ..;
- * known: bench/accuracy_reference.h. */
+/* per_resolution, travel, slow and ring say what bench/accuracy_*.c do: a pulse of 0.4 m at 50 particles a metre has 20
+ * spacings, ..; known: bench/accuracy_reference.h. */
 static const struct auto_kind kinds[] = {
     [STEP] = {"bar", "step", "a bar loaded at once", "the bar's length", 1, 0.75, 0, true, 0, 0},
     [PULSE] = {"bar", "pulse", "a pulse in a bar", "the pulse's width", 0.4, 1, 0, true, 0, 0},
@@ -19,8 +19,8 @@ static const struct auto_kind kinds[] = {
     [HOLE] = {"hole", "pulled", "a plate with a hole, at rest", "the hole's radius", 0.1, 0, 30, false, 0, 0},
     [EDGE] = {"cracks", "edge crack", "an edge crack at rest", "the crack's length", 0.5, 0, 200, false, 0.4, 0},
     [INCLINED] = {"cracks", "inclined crack", "a crack at rest", "half the crack's length", 0.3, 0, 200, false, 2.0 / 3, 0},
-    [SUDDEN] = {"sudden", "at rest", "a suddenly loaded crack", "the waves' way to the crack", 1, 2.735, 0, false, 0.4, 0},
-    [MOVING] = {"sudden", "at 1000 m/s", "a loaded crack that grows as told", "the waves' way to the crack", 1, 2.735, 0, false, 0.4, 0},
+    [SUDDEN] = {"sudden", "at rest", "a suddenly loaded crack", "the waves' way to it", 1, 2.735, 0, false, 0.4, 0},
+    [MOVING] = {"sudden", "at 1000 m/s", "a loaded crack that grows", "the waves' way to it", 1, 2.735, 0, false, 0.4, 0},
     [SPALL] = {"spall", "spall", "a bar that spalls", "the pulse's length", 0.4, 3.5, 0, false, 0, 0},
     [IMPACT] = {"fracture", "Kalthoff", "a struck plate that cracks", "the plate's width", 1, 2.62, 0, false, 0, 0.025},
     [PULLED] = {"fracture", "pulled plate", "a pulled plate that cracks", "the plate's width", 1, 1.56, 0, false, 0, 0.027},
@@ -30,12 +30,16 @@ static const struct auto_kind kinds[] = {
  * step: 1.2 times the error was measured (a column with Poisson's ratio 1/4). */
 #define SOLID_GROWTH 1.3
 
-/* All runs of the chart in more than one dimension have C12/C11 = 1/3 (bonds can have no other). With another ratio critical steps, and
- * how much of an error lies in which component, are others: up to 1.2 times the error was measured (Poisson's ratio 0.1, 0.3, 0.45). */
+/* All runs of the chart in more than one dimension have C12/C11 = 1/3 (bonds can have no other). With another ratio
+ * critical steps, and how much of an error lies in which component, are others: up to 1.2 times the error was measured
+ * (Poisson's ratio 0.1, 0.3, 0.45). */
 #define MATERIAL_GROWTH 1.2
 
-#define NO_MATCH "the chart of method auto has no problem like this one: "
-#define INSTEAD "; write method and particles.spacing"
+static status no_match(const char *what)
+{
+    return status_set(REFUSED, "the chart of method auto has no problem like this one: %s; write method and particles.spacing",
+                      what);
+}
 
 /* ---- what a scene contains ----------------------------------------------------------------------------------------- */
 
@@ -118,8 +122,9 @@ static real size_of(const real *value, int dim) { return sqrt(dot(value, value, 
 
 /* ---- kinds ------------------------------------------------------------------------------------------------------------ */
 
-/* `distance`: that waves go while the scene runs. Phase errors grow with it, those of a front (a bar's step, what makes it spall) as
- * sqrt: they are of order 1/2 in the spacing, and two lengths alone make them. A shorter way is no reason to expect less. */
+/* `distance`: that waves go while the scene runs. Phase errors grow with it, those of a front (a bar's step, what makes it
+ * spall) as sqrt: they are of order 1/2 in the spacing, and two lengths alone make them. A shorter way is no reason to
+ * expect less. */
 static void set_kind(struct auto_match *m, int kind, real feature, real distance)
 {
     const real farther = kinds[kind].travel > 0 ? distance / feature / kinds[kind].travel : 1;
@@ -129,7 +134,8 @@ static void set_kind(struct auto_match *m, int kind, real feature, real distance
     if (m->kind->at) m->cases = 1, m->at[0] = m->kind->at;
 }
 
-/* Lattices have four axes: errors go as cos 4 angle, the cases of the chart stand at its 1, 0 and -1; between two of them the worse. */
+/* Lattices have four axes: errors go as cos 4 angle, the cases of the chart stand at its 1, 0 and -1; between two of them
+ * the worse. */
 static void wave_cases(struct auto_match *m, const struct wave_pulse *w)
 {
     static const char *const at[2][3] = {{"P 0 deg", "P 22.5 deg", "P 45 deg"}, {"S 0 deg", "S 22.5 deg", "S 45 deg"}};
@@ -151,7 +157,7 @@ static status match_pulse(struct auto_match *m, const struct scene *s, const str
         /* along an axis material points are those of the plane, layer by layer; bonds are not */
         for (int d = 0; d < 3; d++)
             if (fabs(w->direction[d]) > 1e-9 && fabs(w->direction[d]) < 1 - 1e-9)
-                return status_set(REFUSED, NO_MATCH "a pulse in a solid, not along an axis; nearest is one that is" INSTEAD);
+                return no_match("a pulse in a solid, not along an axis; nearest is one that is");
         set_kind(m, w->transverse ? WAVE_S : WAVE_P, w->width, distance);
         m->cases = 1, m->at[0] = w->transverse ? "S 0 deg" : "P 0 deg", m->points_only = true, m->growth *= SOLID_GROWTH;
     }
@@ -162,11 +168,11 @@ static status match_bar(struct auto_match *m, const struct scene *s)
 {
     const struct boundary *load = find_boundary(s, BOUNDARY_TRACTION);
     const real c = s->material[0].wave_speed;
-    if (!load) return status_set(REFUSED, NO_MATCH "a bar without initial pulse and without traction; nearest is a bar with one of them" INSTEAD);
+    if (!load) return no_match("a bar without initial pulse and without traction; nearest is one with one of them");
     m->strain = fabs(load->value[0]) / s->material[0].young;
     if (load->time.kind == TIME_CONSTANT) set_kind(m, STEP, auto_extent(s, 0, 0), c * s->duration);
     else if (load->time.kind == TIME_PULSE) set_kind(m, PULSE, c * (load->time.until - load->time.from), c * s->duration);
-    else return status_set(REFUSED, NO_MATCH "a traction that is neither constant nor a pulse; nearest is time: {pulse: ..}" INSTEAD);
+    else return no_match("a traction that is neither constant nor a pulse; nearest is time: {pulse: ..}");
     return OK;
 }
 
@@ -183,7 +189,7 @@ static status match_forced(struct auto_match *m, const struct scene *s)
         least = real_min(least, b->profile.wavelength / most);
     }
     if (!isfinite(least) || s->dim == 1)
-        return status_set(REFUSED, NO_MATCH "neither pulse, crack, hole nor a sine of body force in two or three dimensions" INSTEAD);
+        return no_match("neither pulse, crack, hole nor a sine of body force in two or three dimensions");
     set_kind(m, s->dim == 2 ? SQUARE : CUBE, least, s->material[0].wave_speed * s->duration);
     return OK;
 }
@@ -194,7 +200,7 @@ static status match_static(struct auto_match *m, const struct scene *s)
     const real hole = hole_radius(s), strain = load ? size_of(load->value, s->dim) / s->material[0].young : 0;
     bool embedded = false;
     if (s->dim != 2 || (s->cracks == 0 && !isfinite(hole)))
-        return status_set(REFUSED, NO_MATCH "at rest it knows plates with a round hole or a crack" INSTEAD);
+        return no_match("at rest it knows plates with a round hole or a crack");
     m->strain = 3 * strain;                  /* at a hole's ends */
     if (s->cracks == 0) {
         set_kind(m, HOLE, hole, hole);
@@ -206,7 +212,7 @@ static status match_static(struct auto_match *m, const struct scene *s)
         const real length = crack_length(s, &s->crack[k], &embedded);
         if (length > 0 && length < least) least = length, any = embedded;
     }
-    if (!isfinite(least)) return status_set(REFUSED, NO_MATCH "none of its cracks ends in the first box of its body" INSTEAD);
+    if (!isfinite(least)) return no_match("none of its cracks ends in the first box of its body");
     set_kind(m, any ? INCLINED : EDGE, least, least);
     return OK;
 }
@@ -215,12 +221,12 @@ static status match_static(struct auto_match *m, const struct scene *s)
 static status match_sudden(struct auto_match *m, const struct scene *s)
 {
     const struct boundary *load = find_boundary(s, BOUNDARY_TRACTION);
-    if (!load) return status_set(REFUSED, NO_MATCH "a crack that cannot break without traction on a face; nearest is one that waves from a face load" INSTEAD);
+    if (!load) return no_match("a crack that cannot break and no traction; nearest is one that waves from a face load");
     const struct solid *a = &s->body[0].shape.solid[0];
     const real face = load->side > 0 ? a->to[load->face] : a->from[load->face];
     real way = INFINITY;
     for (int k = 0; k < s->cracks; k++) way = real_min(way, fabs(s->crack[k].corner[1][load->face] - face));
-    if (!(way > 0)) return status_set(REFUSED, NO_MATCH "a crack that ends on the loaded face" INSTEAD);
+    if (!(way > 0)) return no_match("a crack that ends on the loaded face");
     m->strain = size_of(load->value, s->dim) / s->material[0].young;
     set_kind(m, s->growths > 0 ? MOVING : SUDDEN, way, s->material[0].wave_speed * s->duration);
     return OK;
@@ -236,7 +242,7 @@ static status match_spall(struct auto_match *m, const struct scene *s)
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].velocity[0] != 0)
             least = real_min(least, auto_extent(s, b, 0)), fastest = real_max(fastest, fabs(s->body[b].velocity[0]));
-    if (!isfinite(least)) return status_set(REFUSED, NO_MATCH "a bar that may break and nothing that flies; nearest is a spall behind an impact" INSTEAD);
+    if (!isfinite(least)) return no_match("a bar that may break and nothing that flies; nearest is a spall by an impact");
     m->strain = 0.5 * fastest / s->material[0].wave_speed;
     set_kind(m, SPALL, 2 * least, s->material[0].wave_speed * s->duration);
     return OK;
@@ -248,26 +254,34 @@ static status match_fracture(struct auto_match *m, const struct scene *s)
     const struct boundary *drive = find_boundary(s, BOUNDARY_VELOCITY), *load = find_boundary(s, BOUNDARY_TRACTION);
     const struct boundary *b = drive ? drive : load;
     if (s->dim != 2 || s->cracks == 0 || !b)
-        return status_set(REFUSED, NO_MATCH "of what breaks it knows bars that spall and plates with cracks that are driven or pulled" INSTEAD);
+        return no_match("of what breaks it knows bars that spall and plates with cracks that are driven or pulled");
     const real *c0 = s->crack[0].corner[0], *c1 = s->crack[0].corner[1], way[2] = {c1[0] - c0[0], c1[1] - c0[1]};
     const bool along = fabs(dot(way, b->value, 2)) > fabs(way[0] * b->value[1] - way[1] * b->value[0]);
     set_kind(m, along ? IMPACT : PULLED, narrowest(s), s->material[0].wave_speed * s->duration);
     return OK;
 }
 
+/* One crack along an axis from the edge of a body that is one box. */
+static bool may_be_gap(const struct scene *s)
+{
+    if (s->dim != 2 || s->cracks != 1 || s->bodies != 1 || s->body[0].shape.n != 1 || s->has_pd_region) return false;
+    const real *a = s->crack[0].corner[0], *b = s->crack[0].corner[1];
+    return (a[0] == b[0]) != (a[1] == b[1]) && is_inside(s, a) != is_inside(s, b);
+}
+
 /* ---- all ----------------------------------------------------------------------------------------------------------------- */
 
 static status check_ordinary(const struct scene *s)
 {
-    if (s->materials > 1) return status_set(REFUSED, NO_MATCH "several materials" INSTEAD);
-    if (s->irregularity > 0) return status_set(REFUSED, NO_MATCH "a shaken lattice (particles.irregularity)" INSTEAD);
+    if (s->materials > 1) return no_match("several materials");
+    if (s->irregularity > 0) return no_match("a shaken lattice (particles.irregularity)");
     for (int b = 0; b < s->bodies; b++) {
         const struct region *shape = &s->body[b].shape;
-        if (s->body[b].file) return status_set(REFUSED, NO_MATCH "a body from a particle list" INSTEAD);
+        if (s->body[b].file) return no_match("a body from a particle list");
         if (shape->n == 0 || shape->solid[0].kind != SOLID_BOX)
-            return status_set(REFUSED, NO_MATCH "a body whose first solid is no box" INSTEAD);
+            return no_match("a body whose first solid is no box");
     }
-    if (material_yields(&s->material[0])) return status_set(REFUSED, NO_MATCH "a material that yields" INSTEAD);
+    if (material_yields(&s->material[0])) return no_match("a material that yields");
     return OK;
 }
 
@@ -276,24 +290,29 @@ static status find(struct auto_match *m, const struct scene *s, bool at_rest)
     const struct wave_pulse *pulse = first_pulse(s);
     const bool several = s->bodies > 1 && !(s->dim == 1 && breaks(s));
     TRY(check_ordinary(s));
-    if (several) return status_set(REFUSED, NO_MATCH "several bodies; nearest is a bar struck by another" INSTEAD);
+    if (several) return no_match("several bodies; nearest is a bar struck by another");
     if (at_rest) return match_static(m, s);
     if (s->growths == 0 && breaks(s)) return s->dim == 1 ? match_spall(m, s) : match_fracture(m, s);
-    if (s->cracks > 0) return s->dim == 2 ? match_sudden(m, s) : status_set(REFUSED, NO_MATCH "a crack that is loaded in time, not in the plane" INSTEAD);
-    if (isfinite(hole_radius(s))) return status_set(REFUSED, NO_MATCH "a hole that is loaded in time; nearest is one at rest (solver: static)" INSTEAD);
+    if (s->cracks > 0 && s->dim != 2) return no_match("a crack that is loaded in time, not in the plane");
+    if (s->cracks > 0) return match_sudden(m, s);
+    if (isfinite(hole_radius(s))) return no_match("a hole that is loaded in time; nearest is one at rest (solver: static)");
     if (pulse) return match_pulse(m, s, pulse);
     return s->dim == 1 ? match_bar(m, s) : match_forced(m, s);
 }
 
 status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest)
 {
-    static const bool watches_bonds[PROBES] = {[PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
+    static const bool watches_bonds[PROBES] = {
+        [PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
     *m = (struct auto_match){0};
     TRY(find(m, s, at_rest));
-    if (!(m->feature > 0)) return status_set(REFUSED, NO_MATCH "%s is not longer than 0" INSTEAD, m->kind->feature);
+    if (!(m->feature > 0)) return no_match("what its spacing would resolve has no length");
     const struct material *a = &s->material[0];
     if (s->dim > 1 && fabs(a->c12 / a->c11 - 1.0 / 3) > 1e-3) m->growth *= MATERIAL_GROWTH;
-    m->needs_bonds = s->cracks > 0 || s->growths > 0 || (breaks(s) && !at_rest);
-    for (int k = 0; k < s->probes; k++) m->needs_bonds |= watches_bonds[s->probe[k].kind];
+    bool bonds = s->growths > 0 || (breaks(s) && !at_rest);
+    for (int k = 0; k < s->probes; k++) bonds |= watches_bonds[s->probe[k].kind];
+    m->at_rest = at_rest;
+    m->gap = !bonds && may_be_gap(s);
+    m->needs_bonds = bonds || s->cracks > 0;
     return OK;
 }

@@ -1,13 +1,14 @@
-/* floor 4: the cheapest point of the chart's lines that is accurate enough. A line is all runs of a method at one horizon and step,
- * over the resolution; where a scene may be any of some cases, the worst of them.
+/* floor 4: the cheapest point of the chart's lines that is accurate enough. A line is all runs of a method at one horizon and
+ * step, over the resolution; where a scene may be any of some cases, the worst of them.
  *
  *   envelope   error at a resolution counts as the largest there and at all finer ones: what finer runs do not keep was luck
- *              of the lattice (1 of 4 lines of cracks and holes has such a dip)
+ *              of the lattice (41 of 101 lines of holes and cracks have such a dip, 9 of 135 of smooth problems)
  *   alone      a run that is a line by itself is not believed, unless errors are smooth: nothing finer bears it out
  *   between    where the problem is smooth errors are powers of the spacing, and a resolution between two runs is taken such
  *              that their line through both logarithms meets MARGIN of what is asked
- *   MARGIN     lines drawn past a run of the chart, through its neighbours at half and twice its resolution, miss its error by a
- *              factor of 0.82 to 1.35 in 9 of 10 cases; between neighbours the curvature that this is counts a quarter: 0.95 to 1.08 */
+ *   MARGIN     a power through the neighbours of a run, at half and twice its resolution, misses the run's error by 6 % or
+ *              less in 95 of 100 cases (268 in bar, wave, square and cube) and by 13 % at the most; between neighbours, where
+ *              it is used, it is drawn over half that distance */
 #include <math.h>
 #include <string.h>
 

@@ -73,7 +73,8 @@ status chart_read(struct chart *c, const char *path)
     size_t length;
     *c = (struct chart){0};
     if (!path) return chart_read_text(c, built_in, "src/chart.csv");
-    if (!path_is_file(path)) return status_set(REFUSED, "%s: no such file; a chart as `cleave bench accuracy` writes it is expected", path);
+    if (!path_is_file(path))
+        return status_set(REFUSED, "%s: no such file; a chart as `cleave bench accuracy` writes it is expected", path);
     TRY(file_get(path, &text, &length));
     status s = strlen(text) == length && (length == 0 || text[length - 1] == '\n')
                    ? chart_read_text(c, text, path)
@@ -99,4 +100,10 @@ bool chart_key(const struct chart_point *p, const char *key, char *text, size_t 
         return true;
     }
     return false;
+}
+
+bool chart_says(const struct chart_point *p, const char *key, const char *value)
+{
+    char text[CHART_WORD];
+    return chart_key(p, key, text, sizeof text) && strcmp(text, value) == 0;
 }

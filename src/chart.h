@@ -29,5 +29,7 @@ void chart_free(struct chart *c);
 
 /* Value of a key in `keys`, copied into text; false: it is not there. */
 bool chart_key(const struct chart_point *p, const char *key, char *text, size_t room);
+/* Is that its value? */
+bool chart_says(const struct chart_point *p, const char *key, const char *value);
 
 #endif
