@@ -19,6 +19,7 @@ struct auto_kind {
     bool smooth;                         /* error is a power of the spacing: lines may be interpolated        */
     real ring;                           /* radius of the rings of sif over the feature; 0: none              */
     real known;                          /* how well the chart knows the solution: smaller errors mean nothing */
+    unsigned loads;                      /* kinds of boundaries that move it, as bits                         */
 };
 
 /* A scene as a problem of the chart. */

@@ -7,23 +7,29 @@
 
 enum { STEP, PULSE, WAVE_P, WAVE_S, SQUARE, CUBE, HOLE, EDGE, INCLINED, SUDDEN, MOVING, SPALL, IMPACT, PULLED };
 
+enum { TRACTION = 1 << BOUNDARY_TRACTION, DRIVE = 1 << BOUNDARY_VELOCITY, FORCE = 1 << BOUNDARY_BODY_FORCE };
+
 /* per_resolution, travel, slow and ring say what bench/accuracy_*.c do: a pulse of 0.4 m at 50 particles a metre has 20
  * spacings, ..; known: bench/accuracy_reference.h. */
 static const struct auto_kind kinds[] = {
-    [STEP] = {"bar", "step", "a bar loaded at once", "the bar's length", 1, 0.75, 0, true, 0, 0},
-    [PULSE] = {"bar", "pulse", "a pulse in a bar", "the pulse's width", 0.4, 1, 0, true, 0, 0},
-    [WAVE_P] = {"wave", NULL, "a plane pressure wave", "the packet's width", 0.2, 1, 0, true, 0, 0},
-    [WAVE_S] = {"wave", NULL, "a plane shear wave", "the packet's width", 0.2, 0.577, 0, true, 0, 0},
-    [SQUARE] = {"square", "plane stress", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true, 0, 0},
-    [CUBE] = {"cube", "solid", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true, 0, 0},
-    [HOLE] = {"hole", "pulled", "a plate with a hole, at rest", "the hole's radius", 0.1, 0, 30, false, 0, 0},
-    [EDGE] = {"cracks", "edge crack", "an edge crack at rest", "the crack's length", 0.5, 0, 200, false, 0.4, 0},
-    [INCLINED] = {"cracks", "inclined crack", "a crack at rest", "half the crack's length", 0.3, 0, 200, false, 2.0 / 3, 0},
-    [SUDDEN] = {"sudden", "at rest", "a suddenly loaded crack", "the waves' way to it", 1, 2.735, 0, false, 0.4, 0},
-    [MOVING] = {"sudden", "at 1000 m/s", "a loaded crack that grows", "the waves' way to it", 1, 2.735, 0, false, 0.4, 0},
-    [SPALL] = {"spall", "spall", "a bar that spalls", "the pulse's length", 0.4, 3.5, 0, false, 0, 0},
-    [IMPACT] = {"fracture", "Kalthoff", "a struck plate that cracks", "the plate's width", 1, 2.62, 0, false, 0, 0.025},
-    [PULLED] = {"fracture", "pulled plate", "a pulled plate that cracks", "the plate's width", 1, 1.56, 0, false, 0, 0.027},
+    [STEP] = {"bar", "step", "a bar loaded at once", "the bar's length", 1, 0.75, 0, true, 0, 0, TRACTION},
+    [PULSE] = {"bar", "pulse", "a pulse in a bar", "the pulse's width", 0.4, 1, 0, true, 0, 0, TRACTION},
+    [WAVE_P] = {"wave", NULL, "a plane pressure wave", "the packet's width", 0.2, 1, 0, true, 0, 0, 0},
+    [WAVE_S] = {"wave", NULL, "a plane shear wave", "the packet's width", 0.2, 0.577, 0, true, 0, 0, 0},
+    [SQUARE] = {"square", "plane stress", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true, 0, 0, FORCE},
+    [CUBE] = {"cube", "solid", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true, 0, 0, FORCE},
+    [HOLE] = {"hole", "pulled", "a plate with a hole, at rest", "the hole's radius", 0.1, 0, 30, false, 0, 0, TRACTION},
+    [EDGE] = {"cracks", "edge crack", "an edge crack at rest", "the crack's length", 0.5, 0, 200, false, 0.4, 0, TRACTION},
+    [INCLINED] = {"cracks", "inclined crack", "a crack at rest", "half the crack's length", 0.3, 0, 200,
+        false, 2.0 / 3, 0, TRACTION},
+    [SUDDEN] = {"sudden", "at rest", "a suddenly loaded crack", "the waves' way to it", 1, 2.735, 0, false, 0.4, 0, TRACTION},
+    [MOVING] = {"sudden", "at 1000 m/s", "a loaded crack that grows", "the waves' way to it", 1, 2.735, 0,
+        false, 0.4, 0, TRACTION},
+    [SPALL] = {"spall", "spall", "a bar that spalls", "the pulse's length", 0.4, 3.5, 0, false, 0, 0, 0},
+    [IMPACT] = {"fracture", "Kalthoff", "a struck plate that cracks", "the plate's width", 1, 2.62, 0, false,
+        0, 0.025, TRACTION | DRIVE},
+    [PULLED] = {"fracture", "pulled plate", "a pulled plate that cracks", "the plate's width", 1, 1.56, 0,
+        false, 0, 0.027, TRACTION | DRIVE},
 };
 
 /* The critical step of cells in space is shorter than in the plane, so that less of what the grid slows waves is made up by the
@@ -99,14 +105,16 @@ static real crack_length(const struct scene *s, const struct crack *c, bool *emb
     return inside * length;
 }
 
+/* Supports have no value. */
+static bool is_load(const struct boundary *b, int dim)
+{
+    return b->kind != BOUNDARY_MIRROR && dot(b->value, b->value, dim) > 0;
+}
+
 static const struct boundary *find_boundary(const struct scene *s, enum boundary_kind kind)
 {
-    for (int k = 0; k < s->boundaries; k++) {
-        const struct boundary *b = &s->boundary[k];
-        real size = 0;
-        for (int d = 0; d < s->dim; d++) size += fabs(b->value[d]);
-        if (b->kind == kind && size > 0) return b;
-    }
+    for (int k = 0; k < s->boundaries; k++)
+        if (s->boundary[k].kind == kind && is_load(&s->boundary[k], s->dim)) return &s->boundary[k];
     return NULL;
 }
 
@@ -300,12 +308,26 @@ static status find(struct auto_match *m, const struct scene *s, bool at_rest)
     return s->dim == 1 ? match_bar(m, s) : match_forced(m, s);
 }
 
+/* Nothing else moves it than what moves the chart's. */
+static status check_loads(const struct auto_match *m, const struct scene *s)
+{
+    bool moves = false;
+    for (int k = 0; k < s->boundaries; k++)
+        if (is_load(&s->boundary[k], s->dim) && !(m->kind->loads >> s->boundary[k].kind & 1))
+            return no_match("a load that its nearest problem does not have (bar and plate waves: initial pulses alone)");
+    for (int k = 0; k < s->initials; k++) moves |= s->initial[k].sets_velocity || s->initial[k].sets_strain;
+    for (int b = 0; b < s->bodies; b++) moves |= dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0;
+    if (moves && m->kind != &kinds[SPALL]) return no_match("an initial velocity or strain; nearest is a bar that spalls");
+    return OK;
+}
+
 status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest)
 {
     static const bool watches_bonds[PROBES] = {
         [PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
     *m = (struct auto_match){0};
     TRY(find(m, s, at_rest));
+    TRY(check_loads(m, s));
     if (!(m->feature > 0)) return no_match("what its spacing would resolve has no length");
     const struct material *a = &s->material[0];
     if (s->dim > 1 && fabs(a->c12 / a->c11 - 1.0 / 3) > 1e-3) m->growth *= MATERIAL_GROWTH;

@@ -29,9 +29,9 @@ static void put_line(FILE *to, const char *at, const char *method, double factor
     }
 }
 
-static const struct auto_kind smooth = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, true, 0, 0};
-static const struct auto_kind rough = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false, 0, 0};
-static const struct auto_kind cases = {"bar", NULL, "a pulse", "its width", 1, 1, 0, true, 0, 0};
+static const struct auto_kind smooth = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, true, 0, 0, 0};
+static const struct auto_kind rough = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false, 0, 0, 0};
+static const struct auto_kind cases = {"bar", NULL, "a pulse", "its width", 1, 1, 0, true, 0, 0, 0};
 
 static bool all(const struct chart_point *p, const void *context)
 {
@@ -148,7 +148,7 @@ static void dips_are_not_believed(void **state)
 static void what_is_alone_or_unknown(void **state)
 {
     (void)state;
-    static const struct auto_kind vague = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false, 0, 0.05};
+    static const struct auto_kind vague = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false, 0, 0.05, 0};
     struct chart c = two_lines();
     strcpy(c.point[0].method, "alone");
     c.point[0].error = 1e-9, c.point[0].seconds = 1e-9;
@@ -236,7 +236,8 @@ static void scenes_are_like(void **state)
         {"space: plane stress\nthickness: 1\nduration: 1\nmaterial: {young: 1, density: 1}\nbody: [{box: "
          "{from: [0, 0], to: [4, 4]}}, {subtract: {disc: {centre: [2, 2], radius: 0.3}}}]\n", "hole", {"pulled"}, 0.3, 1, true},
         {"space: line\nduration: 1 ms\nmaterial: {young: 1e4, density: 1, critical_stretch: 1e-4}\nbody: "
-         "{box: {from: [0], to: [1]}}\ninitial: [{velocity: [-1e-3], region: {box: {from: [0.9], to: [1]}}}]\n", "spall", {"spall"},
+         "{box: {from: [0], to: [1]}}\n"
+         "initial: [{velocity: [-1e-3], region: {box: {from: [0.9], to: [1]}}}]\n", "spall", {"spall"},
          0.2, 1, false},
     };
     for (size_t k = 0; k < COUNT_OF(like); k++) {

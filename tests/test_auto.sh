@@ -103,6 +103,10 @@ refused()
 refused "too accurate" "is not reached by the chart of a pulse in a bar; .* % is, by .*: ask for that" "$work/pulse.yaml" -s accuracy=1e-6
 refused "no accuracy" "accuracy: 0 is out of range" "$work/pulse.yaml" -s accuracy=0
 refused "no pulse" "a bar without initial pulse and without traction" "$work/pulse.yaml" -s initial=
+refused "a pulse and a moving end" "a load that its nearest problem does not have" "$work/pulse.yaml" \
+    -s "boundary=[{velocity: [1], region: {box: {from: 1.1, to: 1.2}}}]"
+refused "a strained bar" "an initial velocity or strain" "$work/pulse.yaml" \
+    -s "initial=[{pulse: {at: [0.4], direction: [1], width: 0.1, velocity: 1e-3}}, {displacement_gradient: [1e-6]}]"
 refused "several bodies" "several bodies" inputs/hopkinson_bar.yaml -s method=auto -s material.critical_stretch=inf
 refused "yields" "a material that yields" "$work/pulse.yaml" -s material.yield_stress=1MPa
 refused "shaken" "a shaken lattice" "$work/crack.yaml" -s particles.irregularity=0.3
