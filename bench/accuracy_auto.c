@@ -21,8 +21,17 @@ static void take_away(struct accuracy_scene *s, const char *key)
     if (strstr(s->text, begin)) bench_override(&s->set, key, "%s", "");
 }
 
-/* The problem without a method: what its scene says of one is left out; whatever finds rest may do so. */
-static void make_auto(const struct accuracy_point *p, double accuracy, struct accuracy_scene *s)
+static bool any_known(const struct accuracy_plan *plan)
+{
+    bool any = false;
+    for (int k = 0; k < plan->n; k++) any |= plan->entry[k].result.known;
+    return any;
+}
+
+/* The problem without a method: what its scene says of one is left out; whatever finds rest may do so. By what was
+ * measured here, or where nothing was by the chart of the program. */
+static void make_auto(const struct accuracy_plan *plan, const struct accuracy_point *p, double accuracy,
+                      struct accuracy_scene *s)
 {
     struct accuracy_scene made;
     memset(&made, 0, sizeof made);
@@ -39,7 +48,7 @@ static void make_auto(const struct accuracy_point *p, double accuracy, struct ac
     bench_override(&s->set, "particles.spacing", "%s", "");
     bench_override(&s->set, "method", "auto");
     bench_override(&s->set, "accuracy", "%.9g", accuracy);
-    bench_override(&s->set, "accuracy_chart", "%s", BENCH_FOLDER "/chart.csv");
+    if (any_known(plan)) bench_override(&s->set, "accuracy_chart", "%s", BENCH_FOLDER "/chart.csv");
     bench_override(&s->set, "output.frames", "0");
     bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
@@ -82,7 +91,7 @@ static status run_trial(struct trial *t, const struct accuracy_plan *plan)
     struct accuracy_scene s;
     const double start = team_clock();
     accuracy_result_clear(&t->automatic), accuracy_result_clear(&t->best);
-    make_auto(t->point, t->accuracy, &s);
+    make_auto(plan, t->point, t->accuracy, &s);
     if (best) accuracy_label(&best->point, t->best_label, sizeof t->best_label);
     for (char *c = t->best_label; *c; c++) *c = *c == ',' ? ';' : *c;     /* a cell of the table */
     for (int turn = 0; turn < TURNS_MOST && (turn < TURNS_LEAST || team_clock() - start < TURNS_SECONDS); turn++) {
@@ -164,7 +173,7 @@ status accuracy_auto(struct accuracy_plan *plan, bool quick)
     struct tally sum = {0};
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_store_read(plan));
-    TRY(accuracy_chart_write(plan));
+    if (any_known(plan)) TRY(accuracy_chart_write(plan));
     bench_table_make(&table, "", "problem,case,picked,horizon,resolution,asked,expected,measured,seconds,best_seconds,ratio,"
                                  "best");
     status s = try_all(plan, quick, &table, &sum);

@@ -154,10 +154,23 @@ static void wave_cases(struct auto_match *m, const struct wave_pulse *w)
     if (place > low + 1e-6) m->at[m->cases++] = at[w->transverse][low + 1];
 }
 
+/* Several pulses go the same way or back, and are of one type: the chart's problem is that of one. */
+static bool pulses_differ(const struct scene *s, const struct wave_pulse *w)
+{
+    bool differ = false;
+    for (int k = 0; k < s->initials; k++) {
+        const struct wave_pulse *other = &s->initial[k].pulse;
+        if (!s->initial[k].sets_pulse) continue;
+        differ |= other->transverse != w->transverse || fabs(dot(other->direction, w->direction, s->dim)) < 1 - 1e-6;
+    }
+    return differ;
+}
+
 static status match_pulse(struct auto_match *m, const struct scene *s, const struct wave_pulse *w)
 {
     const struct material *a = &s->material[0];
     const real speed = w->transverse ? a->shear_speed : a->wave_speed, distance = speed * s->duration;
+    if (pulses_differ(s, w)) return no_match("pulses of several directions or kinds");
     m->strain = fabs(w->velocity) / speed;
     if (s->dim == 1) set_kind(m, PULSE, w->width, distance);
     else if (s->dim == 2) set_kind(m, w->transverse ? WAVE_S : WAVE_P, w->width, distance), wave_cases(m, w);

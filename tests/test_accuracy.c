@@ -272,8 +272,8 @@ static void the_chart_is_of_these_methods(void **state)
         assert_non_null(q);
         assert_non_null(m);
         assert_true(m->family & q->families);
-        const struct accuracy_point at = {.problem = q, .method = m, .at = case_named(q, p->at), .resolution = (int)p->resolution,
-                                          .horizon = p->horizon, .step = p->step};
+        const struct accuracy_point at = {.problem = q, .method = m, .at = case_named(q, p->at),
+                                          .resolution = (int)p->resolution, .horizon = p->horizon, .step = p->step};
         assert_true(at.at >= 0 && (!q->applies || q->applies(&at)));
         struct accuracy_scene s;
         accuracy_scene_make(&at, &s);

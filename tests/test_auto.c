@@ -256,6 +256,30 @@ static void scenes_are_like(void **state)
     }
 }
 
+/* What the chart has nothing like is no problem of it. */
+static void scenes_that_are_like_nothing(void **state)
+{
+    (void)state;
+    static const char *const odd[] = {
+        PLATE "duration: 2 ms\ninitial: [{pulse: {at: [0, 0], direction: [1, 0], width: 0.1, velocity: 1e-4}}, "
+              "{pulse: {at: [0, 0], direction: [0, 1], width: 0.2, velocity: 1e-4}}]\n",
+        PLATE PULSE("[1, 0]", "[1, 0]") PULLED,
+        PLATE "duration: 1 ms\n",
+        PLATE "duration: 1 ms\n" PULLED,
+        BAR "boundary: [{traction: [1], face: x+, time: {ramp: {until: 1 ms}}}]\n",
+    };
+    for (size_t k = 0; k < COUNT_OF(odd); k++) {
+        struct scene s;
+        struct auto_match m;
+        char full[2048];
+        snprintf(full, sizeof full, "%sparticles: {spacing: 0.02}\n", odd[k]);
+        assert_int_equal(read_text(&s, full), OK);
+        assert_int_equal(auto_match_find(&m, &s, false), REFUSED);
+        assert_non_null(strstr(status_message(), "no problem like this one"));
+        scene_free(&s);
+    }
+}
+
 /* A crack's ends, gaps and edges lie between particles; cells of two spacings end with the body. */
 static void spacing_fits(void **state)
 {
@@ -362,6 +386,7 @@ int main(void)
         cmocka_unit_test(what_is_alone_or_unknown),
         cmocka_unit_test(charts_that_are_none),
         cmocka_unit_test(scenes_are_like),
+        cmocka_unit_test(scenes_that_are_like_nothing),
         cmocka_unit_test(spacing_fits),
         cmocka_unit_test(echo_says_it_without_auto),
         cmocka_unit_test(crack_becomes_a_gap),
