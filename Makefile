@@ -9,7 +9,7 @@ VERSION  := 0.1.0
 WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas -Wno-psabi
 LIBRARIES := hdf5 hwloc yaml-0.1
 
-CPPFLAGS += -Iinclude -Ikernels -Isrc -Ibench -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
+CPPFLAGS += -Iinclude -Ikernels -Isrc -Ibench -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
 CFLAGS   += -std=c11 $(OPTIMISE) -g -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
 LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
 LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
@@ -46,6 +46,12 @@ $(BUILD)/cleave: $(OBJECTS)
 $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(rest) $(LIBFLAGS) -MMD -MP -c -o $@ $<
+
+# The chart that `method: auto` chooses from, as strings of C.
+$(BUILD)/chart_text.h: src/chart.csv Makefile
+	@mkdir -p $(@D)
+	@awk '{gsub(/"/, "\\\""); printf "\"%s\\n\"\n", $$0}' $< > $@
+$(BUILD)/src/chart.o: $(BUILD)/chart_text.h
 
 # One rule a set: build/kernels/bond_force.avx2.o from kernels/bond_force.c.
 define SET

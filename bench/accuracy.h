@@ -104,6 +104,8 @@ void accuracy_hole_exact(const double X[2], double u[2], double stress[3]);
 /* Material points of its method keep to the reference frame; it can relax to rest (solver: relaxation). */
 bool accuracy_is_reference(const struct accuracy_point *p);
 bool accuracy_relaxes(const struct accuracy_point *p);
+/* How its method finds rest: by a static solver, or in the reference frame under a load that grows slowly. */
+const char *accuracy_solver(const struct accuracy_point *p);
 
 /* Helps for `measure`: a figure of a probe (NAN: none), in memory. */
 double accuracy_figure(const struct engine *e, const char *probe, const char *quantity);
@@ -137,6 +139,21 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
 status accuracy_store_read(struct accuracy_plan *plan);
 status accuracy_store_append(const struct accuracy_entry *entry);
 status accuracy_store_write(const struct accuracy_plan *plan);
+
+/* bench_accuracy.c: one run on `team` + 1 threads: least time so far; the error where r is not yet known. A run that the program
+ * stops as unstable is a result, too. With `choice` it is a scene of method auto. */
+void accuracy_result_clear(struct accuracy_result *r);
+status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team, struct accuracy_result *r,
+                          struct scene_choice *choice);
+#define ACCURACY_AUTO BENCH_FOLDER "/accuracy_auto.csv"
+/* accuracy_auto.c: `cleave bench accuracy=auto`: method auto on every case of the chart and on other problems. */
+status accuracy_auto(struct accuracy_plan *plan, bool quick);
+/* accuracy_others.c: problems with known solutions that are not in the chart. */
+extern const struct accuracy_problem *const accuracy_other[];
+extern const int accuracy_others;
+
+/* accuracy_chart.c: results/bench/chart.csv, from which `method: auto` chooses. */
+status accuracy_chart_write(const struct accuracy_plan *plan);
 
 /* ---- accuracy_front.c: what a cloud of points says ------------------------------------------------------------- */
 

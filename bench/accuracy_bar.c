@@ -21,7 +21,7 @@ static const char step_text[] =
 static const char pulse_text[] =
     "space: line\nduration: 4 ms\nmaterial: {young: 1e4, density: 1, critical_stretch: inf}\n"
     "body: {box: {from: [0], to: [1.6]}}\nparticles: {spacing: 0.01}\n"
-    "pd: {surface: none, region: {box: {from: 0.8, to: inf}}}\nconversion: {criteria: none}\n"
+    "pd: {region: {box: {from: 0.8, to: inf}}}\nconversion: {criteria: none}\n"
     "initial: [{pulse: {at: [0.6], direction: [1], width: 0.4, velocity: 1e-5}}]\n"
     "probes: [exact: pulse]\n";
 
@@ -29,6 +29,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     snprintf(s->text, sizeof s->text, "%s", p->at == STEP ? step_text : pulse_text);
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
+    if (p->at == PULSE) bench_override(&s->set, "pd.surface", "none");
 }
 
 /* Root mean square of v exp(-(x/r)^2), r = 0.1 m, over 1.6 m; of the stress rho c v as well. */

@@ -28,7 +28,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
                  "space: plane stress\nthickness: 10 mm\nduration: 50 us\n"
                  "material: {young: 190 GPa, poisson: 1/3, density: 7800 kg/m^3, energy_release_rate: 69 kJ/m^2}\n"
                  "body: [{box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}, {add: {box: {from: [-%g mm, -25 mm], to: [0, "
-                 "25 mm]}}}]\nparticles: {spacing: 1 mm}\npd: {influence: one}\n"
+                 "25 mm]}}}]\nparticles: {spacing: 1 mm}\n"
                  "cracks: [{from: [-%g mm, -25 mm], to: [50 mm, -25 mm]}, {from: [-%g mm, 25 mm], to: [50 mm, 25 mm]}]\n"
                  "boundary: [{velocity: [22 m/s, free], region: {box: {from: [-%g mm, -25 mm], to: [0, 25 mm]}}}]\n",
                  layer, layer + 1, layer + 1, layer);
@@ -45,6 +45,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
                  "{until: 4.5 us}}}\n", edge, edge);
     }
     bench_override(&s->set, "particles.spacing", "%d/%d mm", p->at == KALTHOFF ? 100 : 50, p->resolution);
+    if (p->at == KALTHOFF) bench_override(&s->set, "pd.influence", "one");
     if (p->method->family & ACCURACY_STATES) bench_override(&s->set, "pd.normalisation", "bulk");
     if (p->at == KALTHOFF && accuracy_relaxes(p)) bench_override(&s->set, "mpm.transfer", "apic");
 }

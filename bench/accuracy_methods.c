@@ -55,6 +55,11 @@ static bool sets(const struct accuracy_method *m, const char *key, const char *v
 
 bool accuracy_is_reference(const struct accuracy_point *p) { return sets(p->method, "mpm.frame", "reference"); }
 
+const char *accuracy_solver(const struct accuracy_point *p)
+{
+    return accuracy_is_reference(p) ? "explicit" : p->method->family & ACCURACY_PD ? "cg" : "relaxation";
+}
+
 /* With flip they creep, and linear shapes, which couplings pm and pmg take, know no apic. */
 bool accuracy_relaxes(const struct accuracy_point *p)
 {

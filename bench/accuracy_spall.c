@@ -23,10 +23,11 @@ static const char text[] =
 
 static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
+    const bool adaptive = p->method->family & ACCURACY_ADAPTIVE;
     snprintf(s->text, sizeof s->text, "%s%s", text,
-             p->method->family & ACCURACY_ADAPTIVE ? "conversion: {alpha: 0.5}\n"
-                                                    : "pd: {region: {box: {from: [0], to: [0.5]}}}\nconversion: {criteria: none}\n");
+             adaptive ? "" : "pd: {region: {box: {from: [0], to: [0.5]}}}\nconversion: {criteria: none}\n");
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
+    if (adaptive) bench_override(&s->set, "conversion.alpha", "0.5");
 }
 
 /* A bar that does not break is off by all there is. */

@@ -17,7 +17,7 @@ static const struct bench benches[] = {
     {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability}};
 enum { BENCHES = COUNT_OF(benches) };
 
-/* `accuracy=NAME`: that problem alone. */
+/* `accuracy=NAME`: that problem alone, or another thing that bench_accuracy_of knows. */
 static const char accuracy_of[] = "accuracy=";
 
 static status mark(const char *word, bool *asked)
@@ -27,8 +27,8 @@ static status mark(const char *word, bool *asked)
             asked[k] = true;
             return OK;
         }
-    return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [threads] [scale] "
-                               "[peers] [accuracy[=PROBLEM]] [stability] [--quick]", word);
+    return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [threads] "
+                               "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability] [--quick]", word);
 }
 
 status command_bench(int argc, char **argv)

@@ -124,7 +124,8 @@ void bench_floor_table(const struct floor *f, struct bench_table *t);
 status bench_coupling(bool quick);
 
 /* bench_accuracy.c: error against loop time of every method on problems with known solutions; goes on where it was
- * broken off. Of one problem alone: NULL or its name. */
+ * broken off. Of one problem alone: NULL or its name; `chart`: writes what method auto chooses from, `auto`: tries method auto,
+ * `reference`: finds the cracks of accuracy_reference.h anew. */
 status bench_accuracy(bool quick);
 status bench_accuracy_of(const char *only, bool quick);
 

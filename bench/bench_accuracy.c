@@ -30,35 +30,47 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* One run on `team` + 1 threads. A run that the program stops as unstable is a result, too. */
-static status run_once(struct accuracy_entry *entry, int team)
+void accuracy_result_clear(struct accuracy_result *r)
 {
-    struct accuracy_scene from;
-    struct accuracy_result *r = &entry->result;
+    *r = (struct accuracy_result){.error = NAN, .part = {NAN, NAN, NAN}, .seconds = {INFINITY, INFINITY}};
+}
+
+status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team, struct accuracy_result *r,
+                          struct scene_choice *choice)
+{
     struct engine e;
     struct scene s;
-    accuracy_scene_make(&entry->point, &from);
+    struct accuracy_point at = *p;
     team_make(team + 1);
-    TRY(bench_engine_make(&e, &s, from.path[0] ? from.path : entry->point.problem->name, from.path[0] ? NULL : from.text,
-                          bench_overrides_ready(&from.set), from.set.n));
+    TRY(bench_engine_make(&e, &s, from->path[0] ? from->path : p->problem->name, from->path[0] ? NULL : from->text,
+                          bench_overrides_ready(&from->set), from->set.n));
+    if (choice) *choice = s.choice, at.resolution = (int)round(s.choice.resolution);
     const double before = processor_seconds();
-    status ran = entry->point.problem->run ? entry->point.problem->run(&entry->point, &e) : engine_run(&e);
+    status ran = p->problem->run ? p->problem->run(&at, &e) : engine_run(&e);
     const double busy = team == 0 ? processor_seconds() - before : INFINITY;
     r->seconds[team] = fmin(r->seconds[team], fmin(e.loop_seconds, busy));
     r->particles = (double)e.part.n, r->steps = (double)e.step, r->stable = ran == OK;
-    if (ran == OK && !r->known) ran = entry->point.problem->measure(&entry->point, &e, &r->error, r->part);
+    if (ran == OK && !r->known) ran = p->problem->measure(&at, &e, &r->error, r->part);
     bench_engine_free(&e, &s);
     r->known = true;
     return ran == FAILED ? OK : ran;
+}
+
+static status run_once(struct accuracy_entry *entry, int team)
+{
+    struct accuracy_scene from;
+    accuracy_scene_make(&entry->point, &from);
+    return accuracy_run_scene(&entry->point, &from, team, &entry->result, NULL);
 }
 
 /* The error hangs on no number of threads, so it is measured once. A bar is too short to be shared. */
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
-    r->error = NAN;
-    for (int k = 0; k < ACCURACY_PARTS; k++) r->part[k] = NAN;
-    r->seconds[0] = r->seconds[1] = INFINITY;
+    char settings[sizeof r->settings];
+    memcpy(settings, r->settings, sizeof settings);
+    accuracy_result_clear(r);
+    memcpy(r->settings, settings, sizeof settings);
     double spent = 0;
     for (int run = 0; run < RUNS_MOST && spent < RUNS_SECONDS; run++)
         for (int team = 0; team < (entry->point.problem->dim > 1 ? 2 : 1); team++) {
@@ -144,6 +156,14 @@ static status run_all(struct accuracy_plan *plan, const char *only, bool quick)
     return OK;
 }
 
+/* What goes with what is known, without a run. */
+static status write_known(struct accuracy_plan *plan)
+{
+    TRY(accuracy_plan_make(plan));
+    TRY(accuracy_store_read(plan));
+    return accuracy_chart_write(plan);
+}
+
 static status measure_all(struct accuracy_plan *plan, const char *only, bool quick)
 {
     TRY(accuracy_plan_make(plan));
@@ -151,6 +171,7 @@ static status measure_all(struct accuracy_plan *plan, const char *only, bool qui
     TRY(run_all(plan, only, quick));
     team_make(0);
     TRY(accuracy_store_write(plan));
+    TRY(accuracy_chart_write(plan));
     TRY(accuracy_page(plan));
     return accuracy_draw(plan);
 }
@@ -165,11 +186,12 @@ static bool is_problem(const char *name)
 status bench_accuracy_of(const char *only, bool quick)
 {
     struct accuracy_plan plan = {0};
+    const bool chart = only && strcmp(only, "chart") == 0, automatic = only && strcmp(only, "auto") == 0;
     if (only && strcmp(only, "reference") == 0) return accuracy_reference(quick);
-    if (only && !is_problem(only)) return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
+    if (only && !chart && !automatic && !is_problem(only)) return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
     printf("accuracy\n");
     bench_print_machine(team_make(0));
-    status s = measure_all(&plan, only, quick);
+    status s = automatic ? accuracy_auto(&plan, quick) : chart ? write_known(&plan) : measure_all(&plan, only, quick);
     accuracy_plan_free(&plan);
     return s;
 }

@@ -15,11 +15,12 @@
 #include "probes.h"
 #include "region.h"
 
-enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE };
+/* AUTO and STATIC stand for one of the others, which a scene that was read has. */
+enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
 enum grid_frame { FRAME_CURRENT, FRAME_REFERENCE, FRAME_AUTO };
 enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
-enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG };
+enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
 
 struct scene_body {
     char name[NAME_MAX_LENGTH];
@@ -43,6 +44,20 @@ struct scene_initial {
     struct wave_pulse pulse;
 };
 
+/* What `method: auto` chose, and why: from the chart's problem that the scene is like. */
+struct scene_choice {
+    bool made;
+    char like[80], feature[40];          /* that problem; what the spacing resolves                   */
+    real size, points;                   /* of the feature [m], in spacings                           */
+    real resolution;                     /* as that problem counts                                    */
+    real accuracy, error;                /* asked, expected [1]                                       */
+    real seconds;                        /* of the loop on one thread of the chart's machine, about   */
+    char picked[80];                     /* the chart's method                                        */
+    real horizon, step;                  /* [spacings], 0 without bonds; share of the critical step   */
+    char second[80];                     /* the next best method and how much longer it takes; "": none */
+    real second_error, second_share;     /* [1], its time over that of the choice                     */
+};
+
 struct scene {
     char *path;                          /* file it came from, as given on the command line           */
     char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending        */
@@ -59,6 +74,9 @@ struct scene {
 
     int materials;  struct material *material;
     int bodies;     struct scene_body *body;
+
+    bool has_accuracy; real accuracy;    /* asked of method auto                              [1]     */
+    struct scene_choice choice;
 
     real spacing, horizon, irregularity; /* [m], in spacings, [1]                                     */
     uint64_t seed;
@@ -113,6 +131,8 @@ status scene_read(struct scene *s, const char *path, const struct scene_override
 status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
                        const struct scene_override *override, int overrides);
 void scene_free(struct scene *s);
+/* What was chosen and why, in a few lines; nothing where the scene says itself (auto.c). */
+void scene_choice_print(const struct scene *s, FILE *out);
 
 /* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
 status scene_help(FILE *out, const char *key);

@@ -89,6 +89,7 @@ status command_check(int argc, char **argv)
     cost.make = team_clock() - start;
     if (result == OK) {
         printf("%s is sound\n", a.scene);
+        scene_choice_print(&s, stdout);
         say_particles(&e);
         say_materials(&e);
         say_frames(&e);

@@ -36,7 +36,7 @@ static status read_space(struct reader *r, const struct node *root)
     return OK;
 }
 
-static status read_nodes(struct reader *r, const struct node *root)
+status scene_from_tree(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     TRY(expect(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
@@ -57,14 +57,20 @@ static status read_nodes(struct reader *r, const struct node *root)
     return check_solver(r, root);
 }
 
+status scene_tree(struct reader *r, const char *text, size_t length, struct node **root)
+{
+    TRY(tree_read(r, text, length, -1, root));
+    if (!*root) return fault_mark(r, -1, 1, 1, "empty; a scene begins with keys such as space and duration");
+    return tree_override(r, *root);
+}
+
 static status read_all(struct reader *r, const char *text, size_t length)
 {
     struct scene *s = r->scene;
     struct node *root;
-    TRY(tree_read(r, text, length, -1, &root));
-    if (!root) return fault_mark(r, -1, 1, 1, "empty; a scene begins with keys such as space and duration");
-    TRY(tree_override(r, root));
-    TRY(read_nodes(r, root));
+    TRY(scene_tree(r, text, length, &root));
+    TRY(auto_resolve(r, root, text, length));
+    TRY(scene_from_tree(r, root));
     s->text = scene_echo(s);
     return s->text ? OK : status_set(FAILED, "%s: no memory to write it out", r->name);
 }

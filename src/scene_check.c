@@ -92,6 +92,17 @@ static status check_times(struct reader *r, const struct node *root)
     return OK;
 }
 
+/* Both rule what method auto chooses, which has taken them away. */
+static status check_accuracy(struct reader *r, const struct node *root)
+{
+    const char *const keys_of_auto[] = {"accuracy", "accuracy_chart"};
+    for (size_t k = 0; k < COUNT_OF(keys_of_auto); k++) {
+        const struct node *n = node_find(root, keys_of_auto[k]);
+        if (n) return fault(r, n, "has no meaning without method: auto");
+    }
+    return OK;
+}
+
 /* State-based models have families in the plane and in space, and constants that correct surfaces by themselves. */
 static status check_model(struct reader *r, const struct node *root)
 {
@@ -111,6 +122,8 @@ status check_solver(struct reader *r, const struct node *root)
     const struct scene *s = r->scene;
     const struct node *solver = node_find(root, "solver");
     if (!solver || s->solver == SOLVER_EXPLICIT) return OK;
+    if (s->solver == SOLVER_STATIC)
+        return fault(r, solver, "static leaves the choice to method auto; %s is expected", s->method == METHOD_PD ? "cg" : "relaxation");
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
         return fault(r, solver, "cg is for method pd; relaxation is expected with material points");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
@@ -133,6 +146,7 @@ status check_scene(struct reader *r, const struct node *root)
     TRY(check_measure(r, root));
     TRY(check_transfer(r, root));
     TRY(check_model(r, root));
+    TRY(check_accuracy(r, root));
     TRY(check_times(r, root));
     return check_steps(r, root);
 }

@@ -27,7 +27,6 @@ static const char *type_text(const struct key *k)
     case KEY_PART: return "keys";
     case KEY_LIST: return "list";
     case KEY_GROUP: return "keys of solids";
-    case KEY_LATER: return "not in this version";
     default: return k->words;
     }
 }
@@ -125,7 +124,7 @@ status scene_help(FILE *out, const char *key)
                            "Units are written behind it: 0.5 mm, 190 GPa, 7800 kg/m^3.\n\n");
     for (int k = 0; k < keys_count; k++) {
         if (!is_below(&keys[k], path)) continue;
-        bool top = !strchr(keys[k].path, '.'), has_keys = keys[k].type >= KEY_MAP && keys[k].type != KEY_LATER;
+        bool top = !strchr(keys[k].path, '.'), has_keys = keys[k].type >= KEY_MAP;
         if (top && has_keys && !key) fputc('\n', out);
         facts_text(&keys[k], facts, sizeof facts);
         fprintf(out, "%-30s %s\n%-30s   %s\n", keys[k].path, facts, "", keys[k].help);

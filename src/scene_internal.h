@@ -42,6 +42,15 @@ void node_append(struct node *parent, struct node *child);
 struct node *node_find(const struct node *map, const char *key);
 /* Lays the overrides over the tree (scene_override.c). */
 status tree_override(struct reader *r, struct node *root);
+/* One more, as if it came from the command line; an empty value takes the key away, which must be there. */
+status tree_set(struct reader *r, struct node *root, const char *key, const char *value);
+/* The node of a path of keys without lists; NULL: the scene does not say it. */
+const struct node *tree_at(const struct node *root, const char *path);
+/* The tree of r->scene from the text and the overrides; from it the scene (scene.c). */
+status scene_tree(struct reader *r, const char *text, size_t length, struct node **root);
+status scene_from_tree(struct reader *r, const struct node *root);
+/* `method: auto`: lays what it chooses over the tree; nothing without (auto.c). */
+status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length);
 
 /* ---- numbers and units (scene_units.c) ------------------------------------------------------------------ */
 
@@ -66,8 +75,7 @@ enum key_type {
     KEY_MAP,                             /* its keys are read into the same struct                    */
     KEY_PART, KEY_LIST,                  /* a mapping, a list of mappings: read by a function         */
     KEY_HAND,                            /* any other value read by a function; `words` says its form */
-    KEY_GROUP,                           /* not a key: heads the keys of solids                       */
-    KEY_LATER                            /* known, refused in this version                            */
+    KEY_GROUP                            /* not a key: heads the keys of solids                       */
 };
 
 struct range { real least, most; bool open, given; };   /* open: least itself is outside */
@@ -81,7 +89,6 @@ struct key {
     const char *fallback;                /* as text; "required"; "-": none; "(..)": explained, set by code */
     const char *help;
     const char *words;                   /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; HAND: form */
-    const char *later;                   /* words of later versions; LATER: what it belongs to        */
     const char *low;                     /* complaint about a value below the range                   */
     size_t has;                          /* 1 + offset of the bool that says that the key was given   */
     real word_value;                     /* REAL: what the word stands for                            */

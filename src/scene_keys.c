@@ -29,20 +29,27 @@ const struct key keys[] = {
     KEY("section", KEY_REAL, UNIT_AREA, AT(scene, section), ABOVE(0), "1 m^2", "cross-section of a bar; line only"),
     KEY("duration", KEY_REAL, UNIT_TIME, AT(scene, duration), ABOVE(0), REQUIRED, "simulated time"),
     KEY("method", KEY_CHOICE, UNIT_NONE, AT(scene, method), ANY, "adaptive",
-        "peridynamics, material points, or material points that become peridynamic where the material breaks",
-        .words = "pd|mpm|adaptive", .later = "auto"),
+        "peridynamics, material points, or material points that become peridynamic where the material breaks; auto: "
+        "these and spacing, horizon, shape, coupling and step from the measured chart, by accuracy",
+        .words = "pd|mpm|adaptive|auto"),
     KEY("model", KEY_CHOICE, UNIT_NONE, AT(scene, model), ANY, "bond",
         "peridynamic law: bond-based; ordinary state-based; state-based with rotations (both: any Poisson's ratio)",
         .words = "bond|ospd|mospd"),
     KEY("solver", KEY_CHOICE, UNIT_NONE, AT(scene, solver), ANY, "explicit",
         "explicit: steps in time; relaxation, cg: the static equilibrium under the loads at the end of the duration, "
         "with supports where they have then moved to, by adaptive dynamic relaxation or (method pd, small strains) "
-        "conjugate gradients; bonds do not break in it", .words = "explicit|relaxation|cg"),
+        "conjugate gradients; bonds do not break in it; static (method auto): one of these, whichever is cheapest",
+        .words = "explicit|relaxation|cg|static"),
     KEY("solver_tolerance", KEY_REAL, UNIT_NONE, AT(scene, solver_tolerance), BETWEEN(1e-12, 0.1), "1e-5",
         "largest residual force over the applied force or the reactions (relaxation, cg)"),
     KEY("solver_steps", KEY_INT, UNIT_NONE, AT(scene, solver_steps), BETWEEN(1, 1000000000), "200000",
         "most steps (relaxation, cg); a run that needs more fails"),
-    KEY("accuracy", KEY_LATER, UNIT_NONE, NOWHERE, ANY, NONE, "wanted accuracy", .later = "method auto"),
+    KEY("accuracy", KEY_REAL, UNIT_NONE, AT(scene, accuracy), INSIDE(0, 0.5), "(1 % with method auto)",
+        "method auto: largest error that the chart may expect, as it measures the problem that the scene is like",
+        .has = FLAG(scene, has_accuracy)),
+    KEY("accuracy_chart", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(that of the program)",
+        "method auto: a chart measured elsewhere, as `cleave bench accuracy` writes it (results/bench/chart.csv); "
+        "sought in the scene's folder, then in the current one", .words = "file name, .csv"),
 
     KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "the one material; its keys follow"),
     KEY("materials", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or material)",
@@ -429,19 +436,10 @@ bool key_in(const struct key *k, const char *group)
     return strncmp(k->path, group, length) == 0 && k->path[length] == '.' && !strchr(k->path + length + 1, '.');
 }
 
-/* A key of a later version also answers for names that it begins (`yield` for `yield_stress`). */
-static bool leaf_matches(const struct key *k, const char *leaf)
-{
-    const char *own = key_leaf(k);
-    size_t length = strlen(own);
-    if (strcmp(own, leaf) == 0) return true;
-    return k->type == KEY_LATER && strncmp(own, leaf, length) == 0 && leaf[length] == '_';
-}
-
 const struct key *key_find(const char *group, const char *leaf)
 {
     for (int k = 0; k < keys_count; k++)
-        if (key_in(&keys[k], group) && leaf_matches(&keys[k], leaf)) return &keys[k];
+        if (key_in(&keys[k], group) && strcmp(key_leaf(&keys[k]), leaf) == 0) return &keys[k];
     return NULL;
 }
 
@@ -473,7 +471,7 @@ const struct key *key_nearest(const char *group, const char *leaf)
     const struct key *nearest = NULL;
     int least = 1000;
     for (int k = 0; k < keys_count; k++) {
-        if (!key_in(&keys[k], group) || keys[k].type == KEY_LATER) continue;
+        if (!key_in(&keys[k], group)) continue;
         int distance = edit_distance(key_leaf(&keys[k]), leaf);
         if (distance < least) nearest = &keys[k], least = distance;
     }

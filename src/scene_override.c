@@ -1,6 +1,7 @@
 /* floor 4: `-s key=value` laid over the tree before anything is read: dotted keys, items of lists by number. */
 #include "scene_internal.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,4 +108,28 @@ status tree_override(struct reader *r, struct node *root)
 {
     for (int k = 0; k < r->overrides; k++) TRY(override_one(r, root, k));
     return OK;
+}
+
+status tree_set(struct reader *r, struct node *root, const char *key, const char *value)
+{
+    const int n = r->overrides;
+    struct scene_override *more = arena_new(r, (size_t)(n + 1) * sizeof *more);
+    if (n > 0) memcpy(more, r->override, (size_t)n * sizeof *more);
+    more[n].key = arena_text(r, key, strlen(key));
+    more[n].value = arena_text(r, value, strlen(value));
+    r->override = more;
+    return override_one(r, root, r->overrides++);
+}
+
+const struct node *tree_at(const struct node *root, const char *path)
+{
+    char leaf[64];
+    const struct node *n = root;
+    while (n && *path) {
+        const size_t length = strcspn(path, ".");
+        snprintf(leaf, sizeof leaf, "%.*s", (int)length, path);
+        n = n->kind == NODE_MAP ? node_find(n, leaf) : NULL;
+        path += length + (path[length] == '.');
+    }
+    return n;
 }

@@ -164,8 +164,6 @@ status check_keys(struct reader *r, const struct node *map, const char *group)
     for (const struct node *n = map->first; n; n = n->next) {
         const struct key *k = key_find(group, n->key);
         if (!k) return fault_unknown(r, n, group);
-        if (k->type == KEY_LATER)
-            return fault(r, n, "not in this version (%s); leave it out", k->later);
         for (const struct node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", twin->line);
@@ -256,8 +254,6 @@ static status read_choice(struct reader *r, const struct key *k, const struct no
 {
     const char *words = word_list(r, k->words);
     int word = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
-    if (word < 0 && n->kind == NODE_SCALAR && k->later && word_index(k->later, n->text) >= 0)
-        return fault(r, n, "%s is not in this version; %s is expected", shown(r, n), words);
     if (word < 0) return fault(r, n, "%s is unknown; %s is expected", shown(r, n), words);
     if (k->size == sizeof(int)) memcpy(place, &word, sizeof word);
     if (k->size == 1) *(bool *)place = word == 1;

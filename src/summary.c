@@ -116,6 +116,27 @@ static void put_solver(struct json *j, const struct engine *e)
     json_close(j, '}');
 }
 
+/* What `method: auto` chose, and what it expected. */
+static void put_choice(struct json *j, const struct scene_choice *c)
+{
+    if (!c->made) return;
+    json_open(j, "auto", '{');
+    json_text(j, "like", c->like);
+    json_text(j, "feature", c->feature);
+    json_real(j, "feature_size", c->size);
+    json_real(j, "feature_spacings", c->points);
+    json_real(j, "accuracy", c->accuracy);
+    json_real(j, "expected_error", c->error);
+    json_real(j, "expected_seconds", c->seconds);
+    json_text(j, "picked", c->picked);
+    if (c->second[0]) {
+        json_text(j, "next_best", c->second);
+        json_real(j, "next_best_error", c->second_error);
+        json_real(j, "next_best_time_share", c->second_share);
+    }
+    json_close(j, '}');
+}
+
 static void put_ledger(struct json *j, const struct ledger *l)
 {
     json_open(j, "energy", '{');
@@ -243,6 +264,7 @@ static void summary_print(FILE *file, const struct engine *e, status s, const ch
     fputc('{', file);
     put_run(&j, e, s, message);
     put_solver(&j, e);
+    put_choice(&j, &e->scene->choice);
     put_ledger(&j, &e->watch.now);
     put_crack(&j, e);
     put_conversion(&j, e);

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "accuracy.h"
+#include "chart.h"
 #include "manufactured.h"
 
 /* A staircase with points above it, two alike, one unstable and one that was not timed. */
@@ -234,6 +235,61 @@ static void particles_start_in_a_transverse_wave(void **state)
     scene_free(&s);
 }
 
+/* ---- the chart of the program --------------------------------------------------------------------------------------- */
+
+static const struct accuracy_problem *problem_named(const char *name)
+{
+    for (int k = 0; k < accuracy_problems; k++)
+        if (strcmp(accuracy_problem[k]->name, name) == 0) return accuracy_problem[k];
+    return NULL;
+}
+
+static int case_named(const struct accuracy_problem *q, const char *name)
+{
+    for (int k = 0; k < accuracy_cases(q); k++)
+        if (strcmp(q->cases[k], name) == 0) return k;
+    return -1;
+}
+
+static const struct accuracy_method *method_named(const char *name)
+{
+    for (int k = 0; k < accuracy_methods; k++)
+        if (strcmp(accuracy_method[k].name, name) == 0) return &accuracy_method[k];
+    return NULL;
+}
+
+/* Every line of src/chart.csv is a run that the plan knows, of a method whose scene keys are still those of the line: otherwise
+ * method auto would set keys that no one measured. */
+static void the_chart_is_of_these_methods(void **state)
+{
+    (void)state;
+    struct chart c;
+    assert_int_equal(chart_read(&c, NULL), OK);
+    for (int k = 0; k < c.n; k++) {
+        const struct chart_point *p = &c.point[k];
+        const struct accuracy_problem *q = problem_named(p->problem);
+        const struct accuracy_method *m = method_named(p->method);
+        assert_non_null(q);
+        assert_non_null(m);
+        assert_true(m->family & q->families);
+        const struct accuracy_point at = {.problem = q, .method = m, .at = case_named(q, p->at),
+                                          .resolution = (int)p->resolution, .horizon = p->horizon, .step = p->step};
+        assert_true(at.at >= 0 && (!q->applies || q->applies(&at)));
+        struct accuracy_scene s;
+        accuracy_scene_make(&at, &s);
+        bench_overrides_ready(&s.set);
+        for (int j = 0; j < s.set.n; j++) {
+            const char *key = s.set.at[j].key;
+            bool column = false, later = false;
+            const char *const apart[] = {"particles.", "time.", "output."};
+            for (size_t a = 0; a < COUNT_OF(apart); a++) column |= strncmp(key, apart[a], strlen(apart[a])) == 0;
+            for (int i = j + 1; i < s.set.n; i++) later |= strcmp(s.set.at[i].key, key) == 0;
+            if (!column && !later) assert_true(chart_says(p, key, s.set.at[j].value));
+        }
+    }
+    chart_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -243,6 +299,7 @@ int main(void)
         cmocka_unit_test(manufactured_is_a_solution),
         cmocka_unit_test(pulses_are_solutions),
         cmocka_unit_test(particles_start_in_a_transverse_wave),
+        cmocka_unit_test(the_chart_is_of_these_methods),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

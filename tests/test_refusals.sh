@@ -97,8 +97,9 @@ done <<'END'
 4|duration: 0x10 us|4:1|hexadecimal
 4|duration: 1/0 us|4:1|divides by 0
 4|duration: [1 us]|4:1|a list is not a number
-5|method: magic|5:1|pd, mpm or adaptive
-5|method: auto|5:1|not in this version
+5|method: magic|5:1|pd, mpm, adaptive or auto
+5|method: auto|5:1|leave keys of pd, mpm, model and spacing to auto
+5|method: adaptive^accuracy: 1 %|6:1|no meaning without method: auto
 5|model: lps|5:1|bond, ospd or mospd
 5|solver: cg|5:1|cg is for method pd
 5|coupling: glue|5:1|partial stress, handshake, pm, pg, pmg or pgg
