@@ -11,8 +11,6 @@
 #define MARGIN 0.98                      /* the iteration ends some parts in a thousand below omega_max^2, blocks of lattice
                                           * are 1 or 2 % slower than more of it */
 
-struct body { struct bonds *b; struct particles *p; bond_force_fn *force; const struct loads *loads; real spacing; };
-
 static real largest_motion(const struct particles *p, const real *u)
 {
     real most = 0;
@@ -22,10 +20,9 @@ static real largest_motion(const struct particles *p, const real *u)
     return most;
 }
 
-/* y = M^-1/2 K M^-1/2 u. */
-static void stiffness(void *context, const real *u, real *y)
+void bond_body_stiffness(void *context, const real *u, real *y)
 {
-    const struct body *body = context;
+    const struct bond_body *body = context;
     struct particles *p = body->p;
     real never[UINT8_MAX + 1];
     for (int m = 0; m <= UINT8_MAX; m++) never[m] = INFINITY;
@@ -44,13 +41,13 @@ static void stiffness(void *context, const real *u, real *y)
 
 real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads, real spacing)
 {
-    struct body body = {b, p, force, loads, spacing};
+    struct bond_body body = {b, p, force, loads, spacing};
     real *x[DIM_MAX];
     for (int a = 0; a < p->dim; a++) {
         x[a] = NEW("critical.x", p->n_all, real);
         memcpy(x[a], p->x[a], (size_t)p->n_all * sizeof *x[a]);
     }
-    const real omega2 = largest_eigenvalue(p->dim * p->n, stiffness, &body);
+    const real omega2 = largest_eigenvalue(p->dim * p->n, bond_body_stiffness, &body);
     for (int a = 0; a < p->dim; a++) {
         memcpy(p->x[a], x[a], (size_t)p->n_all * sizeof *x[a]);
         memory_free(x[a]);
