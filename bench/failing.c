@@ -10,6 +10,12 @@ const struct failing_scene *const failing_scene[FAILING_SCENES] = {
     &failing_single,   &failing_inversion,  &failing_closing,    &failing_beyond, &failing_twins,   &failing_renumbered,
 };
 
+void failing_label(const struct failing_scene *s, const struct failing_row *r, char *text, size_t size)
+{
+    if (s->given) snprintf(text, size, "%s, %s %.3g", r->method, s->given, r->given);
+    else snprintf(text, size, "%s", r->method);
+}
+
 int failing_figures(const struct failing_scene *s)
 {
     int n = 0;

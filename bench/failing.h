@@ -20,7 +20,7 @@ struct failing_row {
 };
 
 struct failing_scene {
-    const char *name;
+    const char *name, *given;            /* of what a row gives; NULL: the method says it            */
     struct failing_figure figure[FAILING_FIGURES];  /* quantity NULL: no more                        */
     const struct failing_row *row;
     int rows;
@@ -30,6 +30,8 @@ struct failing_scene {
 
 enum { FAILING_SCENES = 18 };
 extern const struct failing_scene *const failing_scene[FAILING_SCENES];
+/* Method and what is given. */
+void failing_label(const struct failing_scene *s, const struct failing_row *r, char *text, size_t size);
 int failing_figures(const struct failing_scene *s);
 bool failing_holds(const struct failing_scene *s, const double *figure);
 

@@ -53,4 +53,4 @@ static const struct failing_row steps[] = {
     BEYOND("bonds", 0), BEYOND("mospd", 1), BEYOND("gimp flip", 2), BEYOND("gimp apic", 3), BEYOND("partial stress, gimp flip", 4),
     BEYOND("reference frame", 5),
 };
-const struct failing_scene failing_beyond = {"1.2 times the critical step", {{"steps until it is stopped", 1000}}, ROWS(steps), caught};
+const struct failing_scene failing_beyond = {"1.2 times the critical step", NULL, {{"steps until it is stopped", 1000}}, ROWS(steps), caught};

@@ -175,7 +175,7 @@ static status twins(const struct failing_row *r, double *to) { return compare(&p
                     TWIN(kind, "renumbered", SHUFFLED)
 static const struct failing_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adaptive")};
 const struct failing_scene failing_twins = {
-    "twins of a plate", {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
+    "twins of a plate", NULL, {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
 
 /* Particles are sorted by place: the same bits. */
 static status renumbered(const struct failing_row *r, double *to) { return compare(&plate[LISTED], &plate[SHUFFLED], r->set[1], to); }
@@ -183,4 +183,4 @@ static status renumbered(const struct failing_row *r, double *to) { return compa
 #define SHUFFLE(kind) {.method = kind, .set = {"method", kind}, .known = {{0, 0}}}
 static const struct failing_row shuffled[] = {SHUFFLE("pd"), SHUFFLE("mpm"), SHUFFLE("adaptive")};
 const struct failing_scene failing_renumbered = {
-    "a list of particles in another order", {{"difference", 0}}, ROWS(shuffled), renumbered};
+    "a list of particles in another order", NULL, {{"difference", 0}}, ROWS(shuffled), renumbered};
