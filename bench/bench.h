@@ -25,7 +25,7 @@ struct bench_table {
 };
 
 void bench_table_make(struct bench_table *t, const char *name, const char *header);
-/* Fill cell after cell, row after row. A number that is not finite is left out of the files. */
+/* Fill cell after cell, row after row. In files commas and quotation marks of a text become semicolons. A number that is not finite is left out of the files. */
 void bench_text(struct bench_table *t, const char *text);
 void bench_number(struct bench_table *t, double number);
 void bench_table_free(struct bench_table *t);

@@ -1,6 +1,8 @@
 /* floor 5: the table of failing scenes, and how they are made. */
 #include "failing_scenes.h"
 
+#include <math.h>
+#include <omp.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -10,10 +12,21 @@ const struct failing_scene *const failing_scene[FAILING_SCENES] = {
     &failing_single,   &failing_inversion,  &failing_closing,    &failing_beyond, &failing_twins,   &failing_renumbered,
 };
 
+status failing_measure(const struct failing_scene *s, const struct failing_row *r, double figure[FAILING_FIGURES])
+{
+    const int team = omp_get_max_threads();
+    for (int k = 0; k < FAILING_FIGURES; k++) figure[k] = NAN;
+    omp_set_num_threads(1);
+    const status done = s->measure(r, figure);
+    omp_set_num_threads(team);
+    return done;
+}
+
 void failing_label(const struct failing_scene *s, const struct failing_row *r, char *text, size_t size)
 {
-    if (s->given) snprintf(text, size, "%s, %s %.3g", r->method, s->given, r->given);
-    else snprintf(text, size, "%s", r->method);
+    char given[64];
+    snprintf(given, sizeof given, s->given ? s->given : "", r->given);
+    snprintf(text, size, "%s%s%s", r->method, s->given ? ", " : "", given);
 }
 
 int failing_figures(const struct failing_scene *s)

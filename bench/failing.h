@@ -20,16 +20,17 @@ struct failing_row {
 };
 
 struct failing_scene {
-    const char *name, *given;            /* of what a row gives; NULL: the method says it            */
+    const char *name, *given;            /* how to print what a row gives; NULL: the method says it  */
     struct failing_figure figure[FAILING_FIGURES];  /* quantity NULL: no more                        */
     const struct failing_row *row;
     int rows;
-    /* `to`: its figures. */
     status (*measure)(const struct failing_row *r, double *to);
 };
 
 enum { FAILING_SCENES = 18 };
 extern const struct failing_scene *const failing_scene[FAILING_SCENES];
+/* The figures of a row, on one thread: bodies are small; NAN where it fails. */
+status failing_measure(const struct failing_scene *s, const struct failing_row *r, double figure[FAILING_FIGURES]);
 /* Method and what is given. */
 void failing_label(const struct failing_scene *s, const struct failing_row *r, char *text, size_t size);
 int failing_figures(const struct failing_scene *s);

@@ -75,7 +75,7 @@ static const struct failing_row inversions[] = {
     {.method = "reference frame", .set = {"method", "mpm", "mpm.frame", "reference"}, .given = 0.6, .known = {{0, 0}, {0, 0.01}}},
 };
 const struct failing_scene failing_inversion = {
-    "compression past inversion", "of the wave speed", {{"pairs that changed sides", 0}, {"error of energy", 0.05}}, ROWS(inversions), inversion};
+    "compression past inversion", "at %g of the wave speed", {{"pairs that changed sides", 0}, {"error of energy", 0.05}}, ROWS(inversions), inversion};
 
 /* ---- faces of a crack that close ---------------------------------------------------------------------------------------------- */
 

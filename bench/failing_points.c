@@ -71,7 +71,7 @@ static const struct failing_row crossings[] = {
     {SHAPE("cpgimp"), .given = 6, .known = {{0.1, 3.1}}, .cure = "frame: reference, or bonds"},
 };
 const struct failing_scene failing_crossing = {
-    "uniform stress, stretched", "stretch", {{"force on an inner node [stress x section]", 0.1}}, ROWS(crossings), crossing};
+    "uniform stress, stretched", "stretch %g", {{"force on an inner node [stress x section]", 0.1}}, ROWS(crossings), crossing};
 
 /* ---- homologous stretch ---------------------------------------------------------------------------------------------- */
 
@@ -104,7 +104,7 @@ static const struct failing_row stretches[] = {
     {SHAPE("cpgimp"), .given = 0.2, .known = {{0, 0.002}}},
 };
 const struct failing_scene failing_homologous = {
-    "homologous stretch", "strain", {{"error of the stress", 0.065}}, ROWS(stretches), homologous};
+    "homologous stretch", "strain %g", {{"error of the stress", 0.065}}, ROWS(stretches), homologous};
 
 /* ---- what the grid cannot see ---------------------------------------------------------------------------------------- */
 
@@ -128,7 +128,7 @@ static const struct failing_row null_modes[] = {
     {.method = "apic", .set = {"mpm.transfer", "apic"}, .given = 1, .known = {{0, 0.01}}},
 };
 const struct failing_scene failing_null_mode = {
-    "null mode +-v", "steps", {{"energy left of what the grid cannot see", 0.01}}, ROWS(null_modes), null_mode};
+    "null mode +-v", "after %g steps", {{"energy left of what the grid cannot see", 0.01}}, ROWS(null_modes), null_mode};
 
 /* ---- places in the cells ------------------------------------------------------------------------------------------------ */
 
@@ -159,4 +159,4 @@ static const struct failing_row faces[] = {
     ON_AND_BESIDE("quadratic", "apic"), ON_AND_BESIDE("cubic", "flip"), ON_AND_BESIDE("cubic", "apic"),
 };
 const struct failing_scene failing_faces = {
-    "points on faces of cells, tiny nodal masses", "place", {{"stress of rigid motion [rho c v]", 1e-12}}, ROWS(faces), on_faces};
+    "points on faces of cells, tiny nodal masses", "nodes at %.10g", {{"stress of rigid motion [rho c v]", 1e-12}}, ROWS(faces), on_faces};

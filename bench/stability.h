@@ -69,4 +69,8 @@ struct stability_map { int n; struct stability_row row[STABILITY_ROWS_MAX]; };
 /* Its picture (stability_draw.c). */
 void stability_draw(FILE *to, const void *map);
 
+/* Scenes in which methods fail (failing.h), measured, printed and put into a table; its picture (stability_scenes.c). */
+status stability_scenes(struct bench_table *t);
+status stability_scenes_draw(const struct bench_table *t);
+
 #endif

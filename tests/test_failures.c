@@ -4,7 +4,6 @@
 #include <setjmp.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <cmocka.h>
 
 #include "../bench/failing.h"
@@ -12,15 +11,15 @@
 
 static bool row_is_as_known(const struct failing_scene *s, const struct failing_row *r)
 {
-    double figure[FAILING_FIGURES] = {NAN, NAN, NAN};
+    double figure[FAILING_FIGURES];
     char label[128];
     bool known = true;
     failing_label(s, r, label, sizeof label);
-    const status done = s->measure(r, figure);
+    const status done = failing_measure(s, r, figure);
     if (done != OK) print_message("%s: %s\n", label, status_message());
     for (int k = 0; k < failing_figures(s); k++) {
         const bool good = figure[k] >= r->known[k].low && figure[k] <= r->known[k].high;
-        if (!good || getenv("FAILING_SHOW"))
+        if (!good)
             print_message("%s: %s %.4g, known %g to %g\n", label, s->figure[k].quantity, figure[k], r->known[k].low, r->known[k].high);
         known = known && good;
     }
@@ -43,6 +42,5 @@ int main(void)
     for (int k = 0; k < FAILING_SCENES; k++)
         tests[k] = (struct CMUnitTest){.name = failing_scene[k]->name, .test_func = figures_are_as_known,
                                        .initial_state = (void *)failing_scene[k]};
-    if (getenv("FAILING_ONLY")) cmocka_set_test_filter(getenv("FAILING_ONLY"));
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
