@@ -7,7 +7,8 @@
 
 static bool says_all(const char *message)
 {
-    static const char *const part[] = {"unstable at step ", ": particle ", "choose a smaller time.step (now dt = ", " of the critical "};
+    static const char *const part[] = {"unstable at step ", ": particle ",
+                                       "choose a smaller time.step (now dt = ", " of the critical "};
     for (size_t k = 0; k < COUNT_OF(part); k++)
         if (!strstr(message, part[k])) return false;
     return true;
@@ -34,7 +35,7 @@ status stability_caught(const struct stability_case *c, double times, double *st
     return OK;
 }
 
-/* ---- on the map ------------------------------------------------------------------------------------------------------- */
+/* ---- on the map ------------------------------------------------------------------------------------------------- */
 
 static const struct stability_case beyond[] = {
     {.dim = 2, .method = "pd"},
@@ -50,7 +51,9 @@ static status caught(const struct failing_row *r, double *to) { return stability
 
 #define BEYOND(name, k) {.method = name, .given = k, .known = {{1, 1000}}}
 static const struct failing_row steps[] = {
-    BEYOND("bonds", 0), BEYOND("mospd", 1), BEYOND("gimp flip", 2), BEYOND("gimp apic", 3), BEYOND("partial stress, gimp flip", 4),
+    BEYOND("bonds", 0), BEYOND("mospd", 1), BEYOND("gimp flip", 2), BEYOND("gimp apic", 3),
+    BEYOND("partial stress, gimp flip", 4),
     BEYOND("reference frame", 5),
 };
-const struct failing_scene failing_beyond = {"1.2 times the critical step", NULL, {{"steps until it is stopped", 1000}}, ROWS(steps), caught};
+const struct failing_scene failing_beyond = {
+    "1.2 times the critical step", NULL, {{"steps until it is stopped", 1000}}, ROWS(steps), caught};

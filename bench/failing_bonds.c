@@ -3,16 +3,17 @@
 
 #include "failing_scenes.h"
 
-/* ---- particles that come off ---------------------------------------------------------------------------------------- */
+/* ---- particles that come off ------------------------------------------------------------------------------------ */
 
-/* A corner torn off: every family it was in has lost it, and its own is empty. Breaking is second order in the step: at a fifth of the
- * critical one bonds leave some percent of this energy too much or too little. */
+/* A corner torn off: every family it was in has lost it, and its own is empty. Breaking is second order in the step: at a
+ * fifth of the critical one bonds leave some percent of this energy too much or too little. */
 static status single(const struct failing_row *r, double *to)
 {
     struct engine e;
     struct scene s;
-    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\nmaterial: {young: 72e9, "
-                     "density: 2440, critical_stretch: 0.01, poisson: 1/3}\nbody: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
+    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
+                     "material: {young: 72e9, density: 2440, critical_stretch: 0.01, poisson: 1/3}\n"
+                     "body: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
                      "particles: {spacing: 1e-3}\n"
                      "initial:\n  - {velocity: [400, 300], region: {box: {from: [11e-3, 11e-3], to: [inf, inf]}}}\n"
                      "output: {frames: 0, samples: 20}\n"));
@@ -32,9 +33,10 @@ static const struct failing_row singles[] = {
     SINGLE("bond", "adaptive"), SINGLE("ospd", "adaptive"), SINGLE("mospd", "adaptive"),
 };
 const struct failing_scene failing_single = {
-    "a single particle comes off", NULL, {{"particles lost", 0}, {"error of momentum", 1e-12}, {"error of energy", 0.05}}, ROWS(singles), single};
+    "a single particle comes off", NULL, {{"particles lost", 0}, {"error of momentum", 1e-12}, {"error of energy", 0.05}},
+    ROWS(singles), single};
 
-/* ---- compression past inversion -------------------------------------------------------------------------------------------- */
+/* ---- compression past inversion --------------------------------------------------------------------------------- */
 
 /* Neighbours in a row that have changed sides. */
 static int inverted(const struct particles *p)
@@ -62,8 +64,8 @@ static status inversion(const struct failing_row *r, double *to)
     return ran;
 }
 
-/* A bond of no length has a finite force: at 0.2 c, a compression of 45 %, neighbours stay in their order, at 0.6 c, they have passed
- * through each other and nothing is said. Energies balance all the same. */
+/* A bond of no length has a finite force: at 0.2 c, a compression of 45 %, neighbours stay in their order, at 0.6 c, they
+ * have passed through each other and nothing is said. Energies balance all the same. */
 #define NO_INVERSION "none in bonds yet; frame: reference"
 #define INVERSION(law) \
     {LAW(law, "pd", NULL), .given = 0.2, .known = {{0, 0}, {0, 0.05}}}, \
@@ -72,12 +74,14 @@ static const struct failing_row inversions[] = {
     INVERSION("bond"), INVERSION("ospd"), INVERSION("mospd"),
     {.method = "gimp apic", .set = {"method", "mpm", "mpm.transfer", "apic"}, .given = 0.6, .known = {{0, 0}, {0.1, 0.25}},
      .cure = "frame: reference"},
-    {.method = "reference frame", .set = {"method", "mpm", "mpm.frame", "reference"}, .given = 0.6, .known = {{0, 0}, {0, 0.01}}},
+    {.method = "reference frame", .set = {"method", "mpm", "mpm.frame", "reference"}, .given = 0.6,
+     .known = {{0, 0}, {0, 0.01}}},
 };
 const struct failing_scene failing_inversion = {
-    "compression past inversion", "at %g of the wave speed", {{"pairs that changed sides", 0}, {"error of energy", 0.05}}, ROWS(inversions), inversion};
+    "compression past inversion", "at %g of the wave speed", {{"pairs that changed sides", 0}, {"error of energy", 0.05}},
+    ROWS(inversions), inversion};
 
-/* ---- faces of a crack that close ---------------------------------------------------------------------------------------------- */
+/* ---- faces of a crack that close -------------------------------------------------------------------------------- */
 
 /* How far the columns beside the crack have gone into each other, in spacings. */
 static double overlap(const struct engine *e)
@@ -93,7 +97,8 @@ static double overlap(const struct engine *e)
 }
 
 /* Halves of a plate that is cut through meet at +-0.04 c, c = 106: two bars of 12 spacings that throw each other back until
- * 0.226, or two spacings deep in each other at 0.25. Most overlap of the faces, and the share of their momentum that they keep. */
+ * 0.226, or two spacings deep in each other at 0.25. Most overlap of the faces, and the share of their momentum that they
+ * keep. */
 static status closing(const struct failing_row *r, double *to)
 {
     struct engine e;
@@ -114,8 +119,8 @@ static status closing(const struct failing_row *r, double *to)
     return ran;
 }
 
-/* A spring that is gone pushes no more: faces pass through each other. On the grid bodies meet before they touch, and points beside
- * a crack stay on it. */
+/* A spring that is gone pushes no more: faces pass through each other. On the grid bodies meet before they touch, and points
+ * beside a crack stay on it. */
 #define CRACK "cracks", "[{from: [12, -1], to: [12, 7]}]"
 #define BONDS_BESIDE "pd.region", "[{box: {from: [6, 0], to: [18, 6]}}]"
 #define NO_CONTACT "none in bonds yet; material points meet on the grid"

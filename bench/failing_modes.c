@@ -73,12 +73,13 @@ enum { RIGID = 3 };
 
 static status square_make(struct engine *e, struct scene *s, const struct failing_row *r, double poisson)
 {
-    return failing_make(e, s, r, "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\nmaterial: {young: 72e9, density: "
-                        "2440, poisson: %.17g}\nbody: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"
+    return failing_make(e, s, r, "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
+                        "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
+                        "body: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"
                         "output: {frames: 0, samples: 1}\n", poisson, SIDE, SIDE);
 }
 
-/* ---- motions that cost nothing -------------------------------------------------------------------------------------------- */
+/* ---- motions that cost nothing ---------------------------------------------------------------------------------- */
 
 static status modes(const struct failing_row *r, double *to)
 {
@@ -92,8 +93,8 @@ static status modes(const struct failing_row *r, double *to)
     return OK;
 }
 
-/* Springs between nearest neighbours of a square lattice hold no angle: 2 n^2 coordinates, 2 n (n - 1) springs in straight rows that
- * depend on nothing else leave 2 n motions, three of them rigid. */
+/* Springs between nearest neighbours of a square lattice hold no angle: 2 n^2 coordinates, 2 n (n - 1) springs in straight
+ * rows that depend on nothing else leave 2 n motions, three of them rigid. */
 #define LATTICE(law, reach) .method = law ", horizon " reach, .set = {"model", law, "particles.horizon", reach}
 #define CLOUD(law, reach) .method = law ", horizon " reach ", irregular 0.5", \
                           .set = {"model", law, "particles.horizon", reach, "particles.irregularity", "0.5"}
@@ -103,17 +104,20 @@ static const struct failing_row costless[] = {
     {LATTICE("bond", "1"), .known = {{LOOSE, LOOSE}}, .cure = LONGER},
     {LATTICE("ospd", "1"), .known = {{LOOSE, LOOSE}}, .cure = LONGER},
     {LATTICE("mospd", "1"), .known = {{0, 0}}},
-    {LATTICE("bond", "1.5"), .known = {{0, 0}}}, {LATTICE("ospd", "1.5"), .known = {{0, 0}}}, {LATTICE("mospd", "1.5"), .known = {{0, 0}}},
-    {CLOUD("bond", "1.5"), .known = {{0, 0}}}, {CLOUD("ospd", "1.5"), .known = {{0, 0}}}, {CLOUD("mospd", "1.5"), .known = {{0, 0}}},
-    {CLOUD("bond", "3.015"), .known = {{0, 0}}}, {CLOUD("ospd", "3.015"), .known = {{0, 0}}}, {CLOUD("mospd", "3.015"), .known = {{0, 0}}},
+    {LATTICE("bond", "1.5"), .known = {{0, 0}}}, {LATTICE("ospd", "1.5"), .known = {{0, 0}}}, {LATTICE("mospd", "1.5"),
+     .known = {{0, 0}}},
+    {CLOUD("bond", "1.5"), .known = {{0, 0}}}, {CLOUD("ospd", "1.5"), .known = {{0, 0}}}, {CLOUD("mospd", "1.5"),
+     .known = {{0, 0}}},
+    {CLOUD("bond", "3.015"), .known = {{0, 0}}}, {CLOUD("ospd", "3.015"), .known = {{0, 0}}}, {CLOUD("mospd", "3.015"),
+     .known = {{0, 0}}},
 };
 const struct failing_scene failing_modes = {
     "motions that cost nothing", NULL, {{"zero-energy modes that are not rigid", 0}}, ROWS(costless), modes};
 
-/* ---- the softest elastic motion ------------------------------------------------------------------------------------------- */
+/* ---- the softest elastic motion --------------------------------------------------------------------------------- */
 
-/* omega L/c_p of the lowest motion in the plane of a free square, nu = 0.3 (Bardell, Langley & Dunsdon 1996, table 2); families that
- * surfaces cut short make it softer or stiffer. */
+/* omega L/c_p of the lowest motion in the plane of a free square, nu = 0.3 (Bardell, Langley & Dunsdon 1996, table 2);
+ * families that surfaces cut short make it softer or stiffer. */
 #define LOWEST 2.321
 
 static status softest(const struct failing_row *r, double *to)

@@ -4,7 +4,7 @@
 #include "engine_report.h"
 #include "failing_scenes.h"
 
-/* ---- rigid rotation -------------------------------------------------------------------------------------------------- */
+/* ---- rigid rotation --------------------------------------------------------------------------------------------- */
 
 struct turning { double momentum, kinetic; };
 
@@ -18,8 +18,8 @@ static struct turning turning_of(const struct particles *p)
     return t;
 }
 
-/* To the end of the scene: shear [MPa], of material points where there are some, and what angular momentum and kinetic energy have
- * changed by. */
+/* To the end of the scene: shear [MPa], of material points where there are some, and what angular momentum and kinetic
+ * energy have changed by. */
 static status turn(struct engine *e, double *to)
 {
     const struct particles *p = &e->part;
@@ -34,7 +34,8 @@ static status turn(struct engine *e, double *to)
     return OK;
 }
 
-#define TURNING(threshold) {{"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, {"change of kinetic energy", threshold}}
+#define TURNING(threshold) \
+    {{"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, {"change of kinetic energy", threshold}}
 
 /* Corners at `given` m/s, a tenth of a turn at 10 m/s, a whole one at 100 m/s. */
 static status spin(const struct failing_row *r, double *to)
@@ -42,22 +43,26 @@ static status spin(const struct failing_row *r, double *to)
     struct engine e;
     struct scene s;
     const double rate = r->given / 14.1421356237e-3;
-    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\nmaterial: {young: 192 GPa, density: "
-                     "8000}\nbody: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\nparticles: {spacing: 0.5 mm}\n"
-                     "initial: [{velocity_gradient: [[0, %.12g], [%.12g, 0]]}]\noutput: {frames: 0, samples: 2}\n", -rate, rate));
+    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\n"
+                     "material: {young: 192 GPa, density: 8000}\n"
+                     "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\nparticles: {spacing: 0.5 mm}\n"
+                     "initial: [{velocity_gradient: [[0, %.12g], [%.12g, 0]]}]\n"
+                     "output: {frames: 0, samples: 2}\n", -rate, rate));
     const status ran = turn(&e, to);
     bench_engine_free(&e, &s);
     return ran;
 }
 
-/* The sheet: FLIP 110 MPa, 1.5 and 1.4 % at 10 m/s, 1 GPa, 3.8 and 5 % at 100 m/s, GIMP no cure; APIC 0.1 MPa, 1e-6 and 2e-5; 10 MPa,
- * 3e-5 and 0.25 %; bonds 1e-15 and 2e-4. In the reference frame the body grows with its centrifugal stress. */
+/* The sheet: FLIP 110 MPa, 1.5 and 1.4 % at 10 m/s, 1 GPa, 3.8 and 5 % at 100 m/s, GIMP no cure; APIC 0.1 MPa, 1e-6 and
+ * 2e-5; 10 MPa, 3e-5 and 0.25 %; bonds 1e-15 and 2e-4. In the reference frame the body grows with its centrifugal stress. */
 #define POINTS(shape, transfer) .set = {"method", "mpm", "mpm.shape", shape, "mpm.transfer", transfer}
 #define REFERENCE .set = {"method", "mpm", "mpm.frame", "reference"}
 #define NO_BIAS "apic with gimp, or frame: reference"
 static const struct failing_row spins[] = {
-    {.method = "linear flip", POINTS("linear", "flip"), .given = 10, .known = {{50, 200}, {5e-3, 0.05}, {5e-3, 0.05}}, .cure = NO_BIAS},
-    {.method = "linear flip", POINTS("linear", "flip"), .given = 100, .known = {{200, 2000}, {5e-3, 0.2}, {5e-3, 0.2}}, .cure = NO_BIAS},
+    {.method = "linear flip", POINTS("linear", "flip"), .given = 10, .known = {{50, 200}, {5e-3, 0.05}, {5e-3, 0.05}},
+     .cure = NO_BIAS},
+    {.method = "linear flip", POINTS("linear", "flip"), .given = 100, .known = {{200, 2000}, {5e-3, 0.2}, {5e-3, 0.2}},
+     .cure = NO_BIAS},
     {.method = "gimp flip", POINTS("gimp", "flip"), .given = 10, .known = {{50, 200}, {0, 0.05}, {0, 0.05}}, .cure = NO_BIAS},
     {.method = "gimp apic", POINTS("gimp", "apic"), .given = 10, .known = {{0, 1}, {0, 1e-5}, {0, 1e-4}}},
     {.method = "gimp apic", POINTS("gimp", "apic"), .given = 100, .known = {{0, 15}, {0, 1e-4}, {0, 5e-3}}},
@@ -90,10 +95,10 @@ static const struct failing_row discs[] = {
 };
 const struct failing_scene failing_disc = {"a coupled disc turns", NULL, TURNING(6e-3), ROWS(discs), disc};
 
-/* ---- shear at constant volume -------------------------------------------------------------------------------------------- */
+/* ---- shear at constant volume ----------------------------------------------------------------------------------- */
 
-/* Lame's mode of a free square of edge L: v = (cos kx sin ky, -sin kx cos ky), k = pi/L, free of dilatation and of traction, with
- * omega = sqrt(2) k c_s whatever Poisson's ratio (Lame 1852). A method that locks is too fast. */
+/* Lame's mode of a free square of edge L: v = (cos kx sin ky, -sin kx cos ky), k = pi/L, free of dilatation and of traction,
+ * with omega = sqrt(2) k c_s whatever Poisson's ratio (Lame 1852). A method that locks is too fast. */
 #define EDGE 32e-3
 
 static void lame(const void *context, const real *X, real *v)
@@ -154,8 +159,9 @@ static status shear(const struct failing_row *r, double *to)
     return ran;
 }
 
-/* 32 spacings a side. Linear cells, and shapes with one strain a cell, lock near 1/2, smooth shapes and bonds do not. On its lattice a
- * horizon of 1 has C12 = 0 and C11 = E/(1 - nu): sqrt(2) too fast; of 1.5 and 2.015 it is as anisotropic as its few bonds. */
+/* 32 spacings a side. Linear cells, and shapes with one strain a cell, lock near 1/2, smooth shapes and bonds do not. On its
+ * lattice a horizon of 1 has C12 = 0 and C11 = E/(1 - nu): sqrt(2) too fast; of 1.5 and 2.015 it is as anisotropic as its
+ * few bonds. */
 #define STATE(model) .method = model, .set = {"method", "pd", "model", model}
 #define BOND(horizon, more, ...) .method = "bonds, horizon " horizon more, .given = 1.0 / 3, \
                            .set = {"method", "pd", "space", "plane stress", "particles.horizon", horizon, __VA_ARGS__}
@@ -186,13 +192,14 @@ static const struct failing_row shears[] = {
     {BOND("2.015", "", NULL), .known = {{0.16, 0.17}}, .cure = "pd.weights: isotropic"},
     {BOND("1.5", ", isotropic", ISOTROPIC), .known = {{0, 0.002}}},
     {BOND("2.015", ", isotropic", ISOTROPIC), .known = {{0, 0.002}}},
-    {BOND("3.015", "", NULL), .known = {{0, 0.03}}}, {BOND("4.015", "", NULL), .known = {{0, 0.03}}}, {BOND("5.015", "", NULL), .known = {{0, 0.045}}},
+    {BOND("3.015", "", NULL), .known = {{0, 0.03}}}, {BOND("4.015", "", NULL), .known = {{0, 0.03}}}, {BOND("5.015", "", NULL),
+     .known = {{0, 0.045}}},
     {BOND("6.015", "", NULL), .known = {{0, 0.03}}},
 };
 const struct failing_scene failing_shear = {"shear at constant volume", "nu %.4g",
                                             {{"error of the frequency", 0.05}}, ROWS(shears), shear};
 
-/* ---- long runs ---------------------------------------------------------------------------------------------------------- */
+/* ---- long runs -------------------------------------------------------------------------------------------------- */
 
 static double energy_of(struct engine *e)
 {
@@ -235,7 +242,8 @@ static const struct failing_row millions[] = {
     {.method = "gimp apic", POINTS("gimp", "apic"), .known = {{0.3, 0.7}}, .cure = "bonds, or frame: reference"},
     {.method = "reference frame", REFERENCE, .known = {{0, 1e-4}}},
 };
-const struct failing_scene failing_million = {"a million steps of a free plate", NULL, {{"change of energy", 1e-3}}, ROWS(millions), million};
+const struct failing_scene failing_million = {
+    "a million steps of a free plate", NULL, {{"change of energy", 1e-3}}, ROWS(millions), million};
 
 /* A bar of 64 spacings in its first free mode. */
 static void first_mode(const void *context, const real *X, real *v)
@@ -274,4 +282,5 @@ static const struct failing_row vibrations[] = {
     {.method = "gimp apic", POINTS("gimp", "apic"), .known = {{0.5e-3, 1.5e-3}}},
     {.method = "quadratic apic", POINTS("quadratic", "apic"), .known = {{2e-3, 4e-3}}, .cure = "gimp, or frame: reference"},
 };
-const struct failing_scene failing_vibration = {"ten periods of a bar", NULL, {{"energy lost", 1.5e-3}}, ROWS(vibrations), vibration};
+const struct failing_scene failing_vibration = {
+    "ten periods of a bar", NULL, {{"energy lost", 1.5e-3}}, ROWS(vibrations), vibration};

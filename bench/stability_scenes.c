@@ -8,7 +8,7 @@
 #include "gnuplot.h"
 #include "stability.h"
 
-/* ---- measuring ------------------------------------------------------------------------------------------------- */
+/* ---- measuring -------------------------------------------------------------------------------------------------- */
 
 /* Columns of the table, in the order of its header. */
 enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, CURE, COLUMNS };
@@ -58,8 +58,9 @@ status stability_scenes(struct bench_table *t)
 #define MOST 1e4
 enum { LINE_HEIGHT = 19, WIDTH = 1900 };
 
-static const char *text_of(const struct bench_table *t, int64_t row, int column) { return t->cell[row * COLUMNS + column].text; }
-static double number_of(const struct bench_table *t, int64_t row, int column) { return t->cell[row * COLUMNS + column].number; }
+static const struct bench_cell *cell_of(const struct bench_table *t, int64_t row, int k) { return &t->cell[row * COLUMNS + k]; }
+static const char *text_of(const struct bench_table *t, int64_t row, int k) { return cell_of(t, row, k)->text; }
+static double number_of(const struct bench_table *t, int64_t row, int k) { return cell_of(t, row, k)->number; }
 static int64_t rows_of(const struct bench_table *t) { return t->cells / COLUMNS; }
 static bool fails(const struct bench_table *t, int64_t row) { return !strcmp(text_of(t, row, VERDICT), "fails"); }
 
@@ -139,7 +140,8 @@ static void draw(FILE *to, const void *table)
     fprintf(to, "set title 'scenes in which methods fail: figures over their thresholds, and what cures them'\n"
                 "set lmargin at screen 0.345\nset rmargin at screen 0.59\nset tmargin at screen %g\nset bmargin at screen %g\n"
                 "set logscale x\nset xrange [%g:%g]\nset yrange [%g:0.8]\nunset ytics\nset format x '10^{%%T}'\n"
-                "set xtics (\"0\" %g, \"0.001\" 0.001, \"0.01\" 0.01, \"0.1\" 0.1, \"1\" 1, \"10\" 10, \"100\" 100, \"1000\" 1000)\n"
+                "set xtics (\"0\" %g, \"0.001\" 0.001, \"0.01\" 0.01, "
+                "\"0.1\" 0.1, \"1\" 1, \"10\" 10, \"100\" 100, \"1000\" 1000)\n"
                 "set xlabel 'measured/threshold'\nunset key\nset grid x\n"
                 "set object 1 rectangle from %g, graph 0 to 1, graph 1 fc rgb '#e8f3ea' fs solid noborder behind\n"
                 "set object 2 rectangle from 1, graph 0 to %g, graph 1 fc rgb '#f9e4dc' fs solid noborder behind\n"

@@ -20,7 +20,8 @@ static bool row_is_as_known(const struct failing_scene *s, const struct failing_
     for (int k = 0; k < failing_figures(s); k++) {
         const bool good = figure[k] >= r->known[k].low && figure[k] <= r->known[k].high;
         if (!good)
-            print_message("%s: %s %.4g, known %g to %g\n", label, s->figure[k].quantity, figure[k], r->known[k].low, r->known[k].high);
+            print_message("%s: %s %.4g, known %g to %g\n", label, s->figure[k].quantity, figure[k], r->known[k].low,
+                          r->known[k].high);
         known = known && good;
     }
     if (failing_holds(s, figure) == !r->cure) return done == OK && known;

@@ -44,7 +44,7 @@ await()
     while kill -0 "$3" 2>/dev/null && [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -lt "$2" ]; do sleep 0.01; done
 }
 
-# interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that gets the signal when history.csv has that many lines; its status is in $result.
+# interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that gets the signal when history.csv has that many lines; $result: its status.
 # A busy machine lets it come to its end before anyone looks: it is held while its lines are counted, and begun again from where
 # it was if all of them were there, but for the last, before which nobody listens any more. A run that had more to do and did
 # not heed the signal shows a status of 0.
