@@ -140,7 +140,8 @@ status bench_scale(bool quick);
 /* bench_peers.c: a block and a plate by this program and by LAMMPS, where `lmp` is installed. */
 status bench_peers(bool quick);
 
-/* bench_stability.c: the critical time step observed beside the predicted one, for every method. */
+/* bench_stability.c: the critical time step observed beside the predicted one, for every method; scenes in which methods fail,
+ * with their thresholds and cures. */
 status bench_stability(bool quick);
 
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */

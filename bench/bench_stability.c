@@ -1,4 +1,5 @@
-/* floor 5: `cleave bench stability`: the critical time step observed beside the predicted one, for every method. */
+/* floor 5: `cleave bench stability`: the critical time step observed beside the predicted one, for every method; then the scenes
+ * in which methods fail (stability_scenes.c). */
 #include <math.h>
 #include <string.h>
 
