@@ -117,7 +117,7 @@ status bench_stability(bool quick)
 {
     struct stability_map *map = NEW("bench.stability", 1, struct stability_map);
     struct measuring m = {map, quick ? 300 : 1500, quick ? 0 : 10000};
-    struct bench_table t[2];
+    struct bench_table t[2] = {0};
     map->n = 0;
     printf("stability: growth of the largest mode in %d steps%s\n", m.steps, quick ? "" : ", runs of 1e4 steps beside the limit");
     bench_print_machine(1);
