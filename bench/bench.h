@@ -25,7 +25,7 @@ struct bench_table {
 };
 
 void bench_table_make(struct bench_table *t, const char *name, const char *header);
-/* Fill cell after cell, row after row. A number that is not finite is left out of the files. */
+/* Fill cell after cell, row after row. In files commas and quotation marks of a text become semicolons. A number that is not finite is left out of the files. */
 void bench_text(struct bench_table *t, const char *text);
 void bench_number(struct bench_table *t, double number);
 void bench_table_free(struct bench_table *t);
@@ -141,7 +141,8 @@ status bench_scale(bool quick);
 /* bench_peers.c: a block and a plate by this program and by LAMMPS, where `lmp` is installed. */
 status bench_peers(bool quick);
 
-/* bench_stability.c: the critical time step observed beside the predicted one, for every method. */
+/* bench_stability.c: the critical time step observed beside the predicted one, for every method; scenes in which methods fail,
+ * with their thresholds and cures. */
 status bench_stability(bool quick);
 
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */

@@ -45,13 +45,19 @@ void bench_table_free(struct bench_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------- */
 
+/* Without what would end a cell. */
+static void put_text(FILE *to, const char *text)
+{
+    for (; *text; text++) fputc(*text == ',' || *text == '"' ? ';' : *text, to);
+}
+
 static void put_csv(FILE *to, const struct bench_table *t)
 {
     fprintf(to, "%s\n", t->header);
     for (int64_t k = 0; k < t->cells; k++) {
         const struct bench_cell *c = &t->cell[k];
         if (c->text[0])
-            fputs(c->text, to);
+            put_text(to, c->text);
         else if (isfinite(c->number))
             fprintf(to, "%.9g", c->number);
         fputc((k + 1) % t->columns ? ',' : '\n', to);
@@ -76,9 +82,11 @@ static void put_rows(FILE *to, const struct bench_table *t)
             fprintf(to, "%s\n    {", k ? "}," : "");
         else
             fputs(", ", to);
-        if (c->text[0])
-            fprintf(to, "\"%s\": \"%s\"", name, c->text);
-        else if (isfinite(c->number))
+        if (c->text[0]) {
+            fprintf(to, "\"%s\": \"", name);
+            put_text(to, c->text);
+            fputc('"', to);
+        } else if (isfinite(c->number))
             fprintf(to, "\"%s\": %.9g", name, c->number);
         else
             fprintf(to, "\"%s\": null", name);

@@ -1,4 +1,5 @@
-/* floor 5: `cleave bench stability`: the critical time step observed beside the predicted one, for every method. */
+/* floor 5: `cleave bench stability`: the critical time step observed beside the predicted one, for every method; then the scenes
+ * in which methods fail (stability_scenes.c). */
 #include <math.h>
 #include <string.h>
 
@@ -55,7 +56,6 @@ static status measure(void *context, const struct stability_case *c)
         const char *why = strstr(status_message(), "was measured unstable") ? "strains are not mapped again: the limit tends to 0"
                                                                               : status_message();
         snprintf(r->refusal, sizeof r->refusal, "%s", why);
-        for (char *k = r->refusal; *k; k++) *k = *k == ',' || *k == '"' ? ';' : *k;
     }
     print_row(r);
     return OK;
@@ -71,11 +71,8 @@ static void put_table(struct bench_table *t, const struct stability_map *map)
         const struct stability_case *c = &r->c;
         const struct stability_limits *l = &r->l;
         const bool there = !r->refusal[0];
-        char label[128];
-        snprintf(label, sizeof label, "%s", r->label);
-        for (char *a = label; *a; a++) *a = *a == ',' ? ';' : *a;
         bench_text(t, stability_group_name[c->group]);
-        bench_text(t, label);
+        bench_text(t, r->label);
         bench_number(t, c->dim);
         bench_text(t, c->method);
         bench_text(t, c->model ? c->model : "bond");
@@ -120,24 +117,29 @@ status bench_stability(bool quick)
 {
     struct stability_map *map = NEW("bench.stability", 1, struct stability_map);
     struct measuring m = {map, quick ? 300 : 1500, quick ? 0 : 10000};
-    struct bench_table t;
+    struct bench_table t[2] = {0};
     map->n = 0;
     printf("stability: growth of the largest mode in %d steps%s\n", m.steps, quick ? "" : ", runs of 1e4 steps beside the limit");
     bench_print_machine(1);
-    bench_table_make(&t, "",
+    bench_table_make(&t[0], "",
                      "group,case,dimension,method,model,coupling,shape,transfer,points_per_cell,horizon,unit,observed,"
                      "observed_at_offset,observed_largest,predicted,automatic,automatic_over_observed,sheet_low,sheet_high,"
                      "silling_askari_over_observed,gershgorin_over_observed,run_automatic,run_below,run_above,verdict");
     status s = stability_cases(quick, measure, &m);
     if (s == OK) {
         print_verdict(map);
-        put_table(&t, map);
-        s = bench_write("stability", &t, 1);
+        put_table(&t[0], map);
+        s = stability_scenes(&t[1]);
+    }
+    if (s == OK) {
+        s = bench_write("stability", t, 2);
         if (!quick)
             puts("  a run of APIC that stays above the limit: growth moves points at an edge to where the limit is another");
     }
     if (s == OK) s = bench_draw("stability", 1800, 1150, stability_draw, map);
-    bench_table_free(&t);
+    if (s == OK) s = stability_scenes_draw(&t[1]);
+    bench_table_free(&t[0]);
+    bench_table_free(&t[1]);
     memory_free(map);
     return s;
 }

@@ -42,6 +42,9 @@ status stability_observe(const struct stability_case *c, int steps, int long_ste
  * [s]? 0: the automatic step. */
 struct stability_shake { double speed, drift; int steps; };
 status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays);
+/* Steps until a run at so many times the observed limit was stopped with place, step and cure; infinite if it went on for 1000
+ * or said less (failing_beyond.c). */
+status stability_caught(const struct stability_case *c, double times, double *step);
 /* Text of the case's scene (stability_scene.c). */
 void stability_text(const struct stability_case *c, char *text, size_t size);
 /* Line that names it. */
@@ -65,5 +68,9 @@ struct stability_map { int n; struct stability_row row[STABILITY_ROWS_MAX]; };
 
 /* Its picture (stability_draw.c). */
 void stability_draw(FILE *to, const void *map);
+
+/* Scenes in which methods fail (failing.h), measured, printed and put into a table; its picture (stability_scenes.c). */
+status stability_scenes(struct bench_table *t);
+status stability_scenes_draw(const struct bench_table *t);
 
 #endif

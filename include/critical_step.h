@@ -5,6 +5,22 @@
 #include "kernels.h"
 #include "loads.h"
 
+/* A body of bonds as an operator on vectors of n numbers along x, then y, then z. */
+struct bond_body {
+    struct bonds *b;                     /* of the whole body                                        */
+    struct particles *p;
+    bond_force_fn *force;
+    const struct loads *loads;           /* NULL: no mirror images follow                            */
+    real spacing, *root;                 /* [m]; [n] of the masses [kg^1/2]                          */
+};
+
+struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
+                                real spacing);
+void bond_body_free(struct bond_body *body);
+
+/* y = M^-1/2 K M^-1/2 u [1/s^2], K d the force at X + s d over s for strains of 1e-7; moves p->x. */
+void bond_body_stiffness(void *bond_body, const real *u, real *y);
+
 /* 2/omega_max [s] of all rows of b, which must be of the whole body: the largest eigenvalue of M^-1 K, where K d is the
  * force at X + s d over s for strains of 1e-7, lowered by 2 % since the iteration comes from below. Mirror images of
  * `loads` (NULL: none) follow. Particles are left as they were but for p->f. */

@@ -137,7 +137,7 @@ static ALWAYS_INLINE void point_stress(struct particles *p, const struct elastic
         for (int c = 0; c < dim; c++)
             for (int d = 0; d < dim; d++)
                 sum += R[a * dim + c] * 0.5 * (T[c * dim + d] + T[d * dim + c]) * R[b * dim + d];
-        p->stress[k][i] = sum / (dim == 1 ? 1 : det);
+        p->stress[k][i] = sum / det;
     }
     p->volume[i] = p->volume0[i] * det;
 }

@@ -11,15 +11,17 @@
 #define MARGIN 0.98                      /* the iteration ends some parts in a thousand below omega_max^2, blocks of lattice
                                           * are 1 or 2 % slower than more of it */
 
-struct body {
-    struct bonds *b;
-    struct particles *p;
-    bond_force_fn *force;
-    const struct loads *loads;
-    real spacing, *root;                 /* [n] of the masses                                         */
-};
+struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
+                                real spacing)
+{
+    struct bond_body body = {b, p, force, loads, spacing, NEW("critical.root", p->n, real)};
+    for (int64_t i = 0; i < p->n; i++) body.root[i] = sqrt(p->mass[i]);
+    return body;
+}
 
-static real largest_motion(const struct body *body, const real *u)
+void bond_body_free(struct bond_body *body) { memory_free(body->root); }
+
+static real largest_motion(const struct bond_body *body, const real *u)
 {
     const struct particles *p = body->p;
     real most = 0;
@@ -29,10 +31,9 @@ static real largest_motion(const struct body *body, const real *u)
     return most;
 }
 
-/* y = M^-1/2 K M^-1/2 u. */
-static void stiffness(void *context, const real *u, real *y)
+void bond_body_stiffness(void *context, const real *u, real *y)
 {
-    const struct body *body = context;
+    const struct bond_body *body = context;
     struct particles *p = body->p;
     real never[UINT8_MAX + 1];
     for (int m = 0; m <= UINT8_MAX; m++) never[m] = INFINITY;
@@ -51,19 +52,18 @@ static void stiffness(void *context, const real *u, real *y)
 
 real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads, real spacing)
 {
-    struct body body = {b, p, force, loads, spacing, NEW("critical.root", p->n, real)};
+    struct bond_body body = bond_body_make(b, p, force, loads, spacing);
     real *x[DIM_MAX];
     for (int a = 0; a < p->dim; a++) {
         x[a] = NEW("critical.x", p->n_all, real);
         memcpy(x[a], p->x[a], (size_t)p->n_all * sizeof *x[a]);
     }
-    for (int64_t i = 0; i < p->n; i++) body.root[i] = sqrt(p->mass[i]);
-    const real omega2 = largest_eigenvalue(p->dim * p->n, stiffness, &body);
+    const real omega2 = largest_eigenvalue(p->dim * p->n, bond_body_stiffness, &body);
     for (int a = 0; a < p->dim; a++) {
         memcpy(p->x[a], x[a], (size_t)p->n_all * sizeof *x[a]);
         memory_free(x[a]);
     }
-    memory_free(body.root);
+    bond_body_free(&body);
     return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
 }
 

@@ -24,12 +24,8 @@ done
 rm -rf "$work/stopped"
 lines=15
 for signal in INT TERM HUP; do
-    "$cleave" run -q -o "$work/stopped" -t 2 --resume $flat 2>"$work/err" &
-    process=$!
-    await "$work/stopped" $lines $process
-    kill -$signal $process
-    wait $process
-    is "SIG$signal: exit status" $? 130
+    interrupt "$work/stopped" $signal $lines --resume $flat
+    is "SIG$signal: exit status" $result 130
     is "SIG$signal: lines on standard error" "$(wc -l <"$work/err")" 1
     holds "SIG$signal: the message" grep -q 'interrupted at step .*--resume' "$work/err"
     is "SIG$signal: summary" "$(figure "$work/stopped" status)" interrupted

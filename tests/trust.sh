@@ -44,16 +44,39 @@ await()
     while kill -0 "$3" 2>/dev/null && [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -lt "$2" ]; do sleep 0.01; done
 }
 
+# interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that gets the signal when history.csv has that many lines; $result: its status.
+# A busy machine lets it come to its end before anyone looks: it is held while its lines are counted, and begun again from where
+# it was if all of them were there, but for the last, before which nobody listens any more. A run that had more to do and did
+# not heed the signal shows a status of 0.
+interrupt()
+{
+    to=$1 signal=$2 length=$3 tries=0; shift 3
+    rm -rf "$work/before"
+    [ ! -e "$to" ] || cp -r "$to" "$work/before"
+    while [ $tries -lt 10 ]; do
+        tries=$((tries + 1))
+        "$cleave" run -q -o "$to" -t 2 "$@" 2>"$work/err" &
+        process=$!
+        await "$to" "$length" $process
+        kill -STOP $process 2>/dev/null
+        held=$(wc -l <"$to/history.csv")
+        kill -"$signal" $process 2>/dev/null
+        kill -CONT $process 2>/dev/null
+        wait $process
+        result=$?
+        [ $result -eq 0 ] && [ "$held" -ge $(($(wc -l <"$to/history.csv") - 1)) ] || return
+        rm -rf "$to"
+        [ ! -e "$work/before" ] || cp -r "$work/before" "$to"
+    done
+}
+
 # interrupted FOLDER LINES ARGUMENTS: a fresh run, stopped by SIGINT when history.csv has that many lines.
 interrupted()
 {
+    rm -rf "$1"
     to=$1 length=$2; shift 2
-    "$cleave" run -q -o "$to" -t 2 "$@" 2>"$work/err" &
-    process=$!
-    await "$to" "$length" $process
-    kill -INT $process
-    wait $process
-    is "$to: interrupted" $? 130
+    interrupt "$to" INT "$length" "$@"
+    is "$to: interrupted" $result 130
 }
 
 # kills HOW MANY REFERENCE ARGUMENTS: kills at random moments, on a random number of threads, each followed by --resume; every
