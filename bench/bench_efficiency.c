@@ -329,13 +329,20 @@ static status write_tables(const struct efficiency *all)
 /* Bars as wide as a shelf: losses far below -1 would hide the rest. */
 #define T_R_LEAST -1.0
 
+/* Below a bar: a word of the scene's name a line, model, spacing. */
+static void print_tic(FILE *to, const struct scene_case *scene)
+{
+    fputc('"', to);
+    for (const char *c = scene->name; *c; c++) fputs(*c == '_' ? "\\n" : (char[]){*c, '\0'}, to);
+    fprintf(to, "\\n%s\\n%s\"", scene->model, scene->spacing ? scene->spacing : "");
+}
+
 static void draw_bars(FILE *to, const struct efficiency *all)
 {
     fputs("$bars << EOD\n", to);
     for (int k = 0; k < all->n; k++) {
         const struct result *x = &all->result[k];
-        fprintf(to, "\"%s\\n%s%s%s\"", x->scene->name, x->scene->model, x->scene->spacing ? "\\n" : "",
-                x->scene->spacing ? x->scene->spacing : "");
+        print_tic(to, x->scene);
         for (int way = 1; way < WAYS; way++)
             if (ways[way].colour && is_run(x, way)) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
             else if (ways[way].colour) fputs(" NaN NaN", to);
@@ -343,7 +350,7 @@ static void draw_bars(FILE *to, const struct efficiency *all)
         else fputs(" NaN\n", to);
     }
     fprintf(to,
-            "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.58\nset tmargin at "
+            "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.60\nset tmargin at "
             "screen 0.93\n"
             "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step (bars end at "
             "-1)'\n"

@@ -157,11 +157,13 @@ int team_make(int threads)
 
 /* ---- sums ------------------------------------------------------------------------------------------ */
 
+enum { FEW_BLOCKS = 16 };                /* sums that need no memory of their own: steps ask for short ones several times */
+
 void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                const void *context, real *sum)
 {
     int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
-    real *part = NEW("team.sums", blocks * terms, real);
+    real few[FEW_BLOCKS * TERMS_MAX], *part = blocks <= FEW_BLOCKS ? few : NEW("team.sums", blocks * terms, real);
     assert(terms <= TERMS_MAX);
 #pragma omp parallel for schedule(static) if (blocks > 1)
     for (int64_t b = 0; b < blocks; b++) {
@@ -173,7 +175,7 @@ void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t 
     for (int k = 0; k < terms; k++) sum[k] = 0;
     for (int64_t b = 0; b < blocks; b++)
         for (int k = 0; k < terms; k++) sum[k] += part[b * terms + k];
-    memory_free(part);
+    if (part != few) memory_free(part);
 }
 
 struct single { real (*term)(const void *context, int64_t i); const void *context; };
