@@ -119,7 +119,7 @@ const struct accuracy_problem accuracy_hole = {
     .horizon = {1.5, 2.015, 5.015},
     .varied = 3,
     .remark = {"The hole is a staircase: which particles are in it makes 2 to 3 % at 40 and 80 particles, whatever the method, and "
-               "0.7 % at 160 with material points. The reference frame comes there in 0.15 s.",
+               "0.7 % at 160 with material points. The reference frame comes there in 0.1 s.",
                "Bonds and states are soft at the hole's edge: the strain there is 16 % too large at 80 particles, 9 % at 160, 6 % at "
                "320; material points have no such edge.",
                "The field of bonds stays 2.3 % off, as their lattice is stiffer along its axes; with isotropic weights it comes to "

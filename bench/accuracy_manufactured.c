@@ -88,8 +88,7 @@ const struct accuracy_problem accuracy_square = {
     .remark = {"Bonds of uniform weights and ospd stop at 2.7 %, the lattice's anisotropy, and at 27 % with a horizon of "
                "2.015; with isotropic weights, and mospd, they are of second order and best at the short horizon.",
                "Stress of linear shapes, GIMP and the reference frame is of first order (1.2 % of 192 particles), "
-               "velocities are of second (0.02 to 0.03 %).",
-               "Four body forces cost 28 ns a particle and step and hide how fast the reference frame is (2 ns)."},
+               "velocities are of second (0.02 to 0.03 %)."},
     .seconds = 60,
     .quick_seconds = 6,
     COMMON,
@@ -108,8 +107,7 @@ const struct accuracy_problem accuracy_cube = {
     .varied = 3,
     .remark = {"Bonds of uniform weights and ospd stop at 7 to 8 %, the lattice's anisotropy (C11 - 5.7 %); with isotropic "
                "weights, and mospd, they are of second order and best at the short horizon.",
-               "vmpd with a horizon of 2.015 is 34 % off: its calibration is that of a continuum.",
-               "Eight body forces cost 100 ns a particle and step and hide how fast the reference frame is (3 ns)."},
+               "vmpd with a horizon of 2.015 is 33 % off: its calibration is that of a continuum."},
     .seconds = 150,
     .quick_seconds = 15,
     COMMON,

@@ -56,8 +56,8 @@ const struct accuracy_problem accuracy_spall = {
     .horizon = {2.015, 5.015},
     .step = {0.4, 0.2},
     .varied = 3,
-    .remark = {"Adaptive runs in the reference frame are on the front from 800 particles on: 0.61, 0.38 and 0.24 % "
-               "with 800, 1600 and 3200; bonds need 45 ms for 0.29 %, they 22 ms for 0.24 %. Coarser bars are so short "
+    .remark = {"Adaptive runs in the reference frame are on the front from 800 particles on: 0.59, 0.35 and 0.21 % "
+               "with 800, 1600 and 3200; bonds need 36 ms for 0.20 %, they 20 ms for 0.21 %. Coarser bars are so short "
                "that nothing is saved.",
                "They convert at half the strength. At 0.95 of it, the default, the bar comes apart late (1.7 % in "
                "place of 0.6 with 800 particles): a particle then converts in the middle of the steep front.",
