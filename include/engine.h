@@ -17,6 +17,7 @@
 #include "output.h"
 #include "particles.h"
 #include "probes.h"
+#include "rest_points.h"
 #include "rim.h"
 #include "scene.h"
 #include "solver.h"
@@ -42,6 +43,7 @@ struct engine {
     struct elastic *elastic;             /* [materials]                                               */
     struct grid grid;
     struct transfer_order order;         /* of the material points                                    */
+    struct rest_points rest_points;      /* which of them the maps leave out                         */
     struct carried carried;              /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct partial_stress partial;
     struct transfer_data transfer;

@@ -38,8 +38,17 @@ static status points_sort(struct engine *e)
     int64_t most = 64 * p->n + 1000000;          /* far more than any sound run needs; an index is 32 bits */
     TRY(grid_cover(&e->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
     transfer_order_sort(&e->order, p, p->list_free, p->n_free, &e->grid);
+    e->transfer.order = &e->order;
     e->sort_needed = false;
     return OK;
+}
+
+/* Cells that nothing has reached are left out of the maps. */
+static void points_rest(struct engine *e)
+{
+    if (!e->scene->rest || e->rest_points.over || coupling_carries(e->coupling) || e->scene->solver != SOLVER_EXPLICIT) return;
+    e->transfer.order = rest_points_look(&e->rest_points, &e->order, &e->part, &e->grid, &e->bonds, &e->loads, e->scene->shape,
+                                         e->scene->transfer);
 }
 
 /* Who is on the grid in this step, and where. */
@@ -49,6 +58,7 @@ static status grid_sort(struct engine *e)
         carry_none(&e->carried, &e->part);
         return OK;
     }
+    if (!e->sort_needed && e->step % REST_LOOKS == 0) points_rest(e);
     TRY(points_sort(e));
     if (coupling_carries(e->coupling)) carry(&e->carried, e->coupling, &e->part, &e->grid);
     return OK;

@@ -322,6 +322,7 @@ void engine_free(struct engine *e)
     partial_stress_free(&e->partial);
     rim_free(&e->rim);
     transfer_order_free(&e->order);
+    rest_points_free(&e->rest_points);
     carry_free(&e->carried);
     grid_free(&e->grid);
     bonds_free(&e->bonds);
