@@ -23,7 +23,10 @@ done
 # once by each signal that asks to stop, on another number of threads each time
 rm -rf "$work/stopped"
 lines=15
-for signal in INT TERM HUP; do
+# (a shell that runs under nohup hands its deafness on: then the run rightly goes on at SIGHUP, and TERM takes its place)
+hangup=HUP
+[ -z "$(sh -c 'kill -HUP $$; echo deaf' 2>/dev/null)" ] || hangup=TERM
+for signal in INT TERM $hangup; do
     interrupt "$work/stopped" $signal $lines --resume $flat
     is "SIG$signal: exit status" $result 130
     is "SIG$signal: lines on standard error" "$(wc -l <"$work/err")" 1
