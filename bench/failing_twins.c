@@ -44,7 +44,8 @@ static void put_list(FILE *to, const struct twin *t)
 
 static status list_write(const struct twin *t, char *path)
 {
-    strcpy(path, "/tmp/cleave-XXXXXX.csv");
+    TRY(bench_folder_make());
+    strcpy(path, BENCH_FOLDER "/twin-XXXXXX.csv");
     const int file = mkstemps(path, 4);
     FILE *to = file >= 0 ? fdopen(file, "w") : NULL;
     if (!to) return status_set(FAILED, "cannot write %s", path);

@@ -12,6 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 typedef double real;
 
@@ -49,6 +50,8 @@ double median_of(double *value, int64_t n);
 
 static inline real real_min(real a, real b) { return a < b ? a : b; }
 static inline real real_max(real a, real b) { return a > b ? a : b; }
+/* To the last bit: 0 and -0 differ. */
+static inline bool bits_equal(real a, real b) { return memcmp(&a, &b, sizeof a) == 0; }
 static inline real square(real a) { return a * a; }
 static inline real dot(const real *a, const real *b, int dim)
 {

@@ -56,7 +56,7 @@ static inline int64_t block_of(int64_t k, int d)
 }
 
 struct transfer_order {
-    int64_t n;                           /* particles on the grid                                    */
+    int64_t n, room;                     /* particles on the grid; at most without new arrays        */
     int32_t *particle;                   /* by colour, then block, then cell, then index             */
     int blocks_of[COLOURS_MAX + 1];      /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1     */
     int blocks, blocks_room;
@@ -70,6 +70,8 @@ struct grid;
 /* Sorts the `n` listed particles by the grid cell they are in; a function of positions alone. */
 void transfer_order_sort(struct transfer_order *o, const struct particles *p, const int32_t *list, int64_t n,
                          const struct grid *g);
+/* Room for so many; more than there was: what was there is gone. Leaves n, blocks and cells as they were. */
+void transfer_order_room(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells);
 void transfer_order_free(struct transfer_order *o);
 
 #endif

@@ -115,6 +115,8 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int 
  * mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */
 void loads_mirror(const struct loads *l, struct particles *p);
 
+/* 1 at every particle [n] that a load lists: something else than bonds and the grid may move it. */
+void loads_mark(const struct loads *l, uint8_t *loaded);
 /* Before bonds: f = 0 on every loaded particle (loads_applied.c). After bonds: books what mirror images gave, adds applied forces; for
  * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step, where the kick
  * ends that began dt_velocity before. */

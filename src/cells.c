@@ -265,18 +265,27 @@ static int block_colour(const struct block_shape *s, int dim, int64_t block)
     return colour;
 }
 
-static void order_room(struct transfer_order *o, int64_t n, int64_t blocks)
+/* Cells are known last, and grow little from time to time. */
+static void cells_room(struct transfer_order *o, int32_t cells)
 {
-    if (o->blocks_room < blocks + 1 || o->n != n) {
+    if (o->cells_room >= cells + 1) return;
+    memory_free(o->cell_start);
+    o->cells_room = cells + cells / 8 + 1;
+    o->cell_start = NEW("transfer.cell_start", o->cells_room, int32_t);
+}
+
+void transfer_order_room(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells)
+{
+    if (o->blocks_room < blocks + 1 || o->room < n) {
         memory_free(o->particle);
         memory_free(o->block_start);
         memory_free(o->block_cell);
         o->particle = NEW("transfer.particle", n + ORDER_AHEAD, int32_t);
         o->block_start = NEW("transfer.block_start", blocks + 1, int32_t);
         o->block_cell = NEW("transfer.block_cell", blocks + 1, int32_t);
-        o->blocks_room = (int)blocks + 1;
+        o->blocks_room = (int)blocks + 1, o->room = n;
     }
-    o->n = n;
+    cells_room(o, cells);
 }
 
 enum { CELLS_IN_BLOCK_MOST = BLOCK_LENGTH * BLOCK_EDGE * BLOCK_EDGE };
@@ -308,11 +317,7 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
     o->block_cell[0] = 0;
     for (int b = 0; b < o->blocks; b++) o->block_cell[b + 1] += o->block_cell[b];
     o->cells = o->block_cell[o->blocks];
-    if (o->cells_room < o->cells + 1) {
-        memory_free(o->cell_start);
-        o->cells_room = o->cells + o->cells / 8 + 1;
-        o->cell_start = NEW("transfer.cell_start", o->cells_room, int32_t);
-    }
+    cells_room(o, o->cells);
 #pragma omp parallel for schedule(static)
     for (int b = 0; b < o->blocks; b++) {
         int32_t cell = o->block_cell[b];
@@ -327,7 +332,8 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
                          const struct grid *g)
 {
     struct block_shape s = block_shape_of(g);
-    order_room(o, n, s.n);
+    transfer_order_room(o, n, s.n, 0);
+    o->n = n;
 
     /* rank of a block: its place in the list of all blocks, colour by colour */
     int32_t *rank = NEW("transfer.rank", s.n, int32_t);

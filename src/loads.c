@@ -38,6 +38,12 @@ void loads_free(struct loads *l)
     memset(l, 0, sizeof *l);
 }
 
+void loads_mark(const struct loads *l, uint8_t *loaded)
+{
+    for (int c = 0; c < l->n; c++)
+        for (int64_t k = 0; k < l->load[c].n; k++) loaded[l->load[c].particle[k]] = 1;
+}
+
 /* ---- forces on particles --------------------------------------------------------------------------- */
 
 /* Driven peridynamic particles get the force that gives them their velocity; what it differs from the bonds' is the

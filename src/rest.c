@@ -60,13 +60,11 @@ status rest_archive(struct rest *r, const char *name, struct archive *a)
 /* What knows its family by places and tells it to its bonds is felt at two horizons. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
-static bool same(real a, real b) { return memcmp(&a, &b, sizeof a) == 0; }
-
 static bool has_moved(const struct bonds *b, const struct particles *p, int64_t group)
 {
     for (int64_t row = group * LANES; row < b->rows && row < (group + 1) * LANES; row++)
         for (int d = 0; d < p->dim; d++)
-            if (!same(p->x[d][b->particle[row]], p->X[d][b->particle[row]])) return true;
+            if (!bits_equal(p->x[d][b->particle[row]], p->X[d][b->particle[row]])) return true;
     return false;
 }
 
@@ -77,7 +75,7 @@ static bool is_quiet(const struct bonds *b, const struct particles *p, const uin
         const int32_t i = b->particle[row];
         if (loaded[i] || particle_on_grid(p, i)) return false;
         for (int d = 0; d < p->dim; d++)
-            if (!same(p->v[d][i], 0) || p->f[d][i] != 0) return false;
+            if (!bits_equal(p->v[d][i], 0) || p->f[d][i] != 0) return false;
     }
     return !has_moved(b, p, group);
 }
@@ -109,8 +107,7 @@ static void settle(struct bonds *b, const struct particles *p, const struct load
 {
     struct rest *r = &b->rest;
     uint8_t *loaded = NEW("rest.loaded", p->n, uint8_t);
-    for (int c = 0; c < l->n; c++)
-        for (int64_t k = 0; k < l->load[c].n; k++) loaded[l->load[c].particle[k]] = 1;
+    loads_mark(l, loaded);
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < r->blocks; k++) r->level[k] = is_quiet(b, p, loaded, k) ? 0 : (uint8_t)most_of(b);
     memory_free(loaded);
@@ -202,7 +199,7 @@ static bool nodes_quiet(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)
         for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
-            if (!same(mesh->grid.velocity[d][I], 0) || mesh->grid.force[d][I] != 0) return false;
+            if (!bits_equal(mesh->grid.velocity[d][I], 0) || mesh->grid.force[d][I] != 0) return false;
     return !nodes_moved(mesh, block);
 }
 

@@ -6,12 +6,6 @@
 
 #include "memory.h"
 
-static bool is_zero(real a)
-{
-    const real zero = 0;
-    return memcmp(&a, &zero, sizeof a) == 0;
-}
-
 /* A plane of symmetry moves nobody who is at rest. */
 static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
 
@@ -20,9 +14,9 @@ static bool is_quiet(const struct rest_points *r, const struct particles *p, con
 {
     const int dim = p->dim;
     bool quiet = !r->loaded[i] && (!b->row_of || b->row_of[i] < 0);
-    for (int d = 0; d < dim && quiet; d++) quiet = is_zero(p->v[d][i]) && p->f[d][i] == 0;
-    for (int c = 0; c < dim * (dim + 1) / 2 && quiet; c++) quiet = is_zero(p->stress[c][i]);
-    for (int c = 0; has_gradient && c < dim * dim && quiet; c++) quiet = is_zero(p->gradient[c][i]);
+    for (int d = 0; d < dim && quiet; d++) quiet = bits_equal(p->v[d][i], 0) && p->f[d][i] == 0;
+    for (int c = 0; c < dim * (dim + 1) / 2 && quiet; c++) quiet = bits_equal(p->stress[c][i], 0);
+    for (int c = 0; has_gradient && c < dim * dim && quiet; c++) quiet = bits_equal(p->gradient[c][i], 0);
     return quiet;
 }
 
@@ -77,27 +71,21 @@ static void mark(struct rest_points *r, const struct transfer_order *all, const 
         if (moves(l, g->wall[k].load)) r->busy[g->wall[k].node] = 1;
 }
 
-static void make_room(struct rest_points *r, const struct transfer_order *all, const struct grid *g)
+static void make_room(struct rest_points *r, const struct grid *g)
 {
-    struct transfer_order *a = &r->awake;
-    if (r->nodes < g->n) {
-        memory_free(r->busy), memory_free(r->near);
-        r->nodes = g->n;
-        r->busy = NEW("rest.busy", g->n, uint8_t), r->near = NEW("rest.near", g->n, uint8_t);
-    }
-    transfer_order_free(a);
-    a->particle = NEW("rest.particle", all->n + ORDER_AHEAD, int32_t);
-    a->block_start = NEW("rest.block_start", all->blocks + 1, int32_t);
-    a->block_cell = NEW("rest.block_cell", all->blocks + 1, int32_t);
-    a->cell_start = NEW("rest.cell_start", all->cells + 1, int32_t);
-    a->blocks = all->blocks;
-    memcpy(a->blocks_of, all->blocks_of, sizeof a->blocks_of);
+    if (r->nodes >= g->n) return;
+    memory_free(r->busy), memory_free(r->near);
+    r->nodes = g->n;
+    r->busy = NEW("rest.busy", g->n, uint8_t), r->near = NEW("rest.near", g->n, uint8_t);
 }
 
 /* The cells of `all` that are marked, in their order. */
 static void take(struct rest_points *r, const struct transfer_order *all, const struct particles *p, const struct grid *g)
 {
     struct transfer_order *a = &r->awake;
+    transfer_order_room(a, all->n, all->blocks, all->cells);
+    memcpy(a->blocks_of, all->blocks_of, sizeof a->blocks_of);
+    a->blocks = all->blocks, a->cells = 0, a->n = 0;
     for (int block = 0; block < all->blocks; block++) {
         a->block_start[block] = (int32_t)a->n, a->block_cell[block] = a->cells;
         for (int32_t c = all->block_cell[block]; c < all->block_cell[block + 1]; c++) {
@@ -112,20 +100,13 @@ static void take(struct rest_points *r, const struct transfer_order *all, const 
     a->cell_start[a->cells] = (int32_t)a->n;
 }
 
-static void note_loads(struct rest_points *r, const struct particles *p, const struct loads *l)
-{
-    r->loaded = NEW("rest.loaded", p->n, uint8_t);
-    for (int c = 0; c < l->n; c++)
-        for (int64_t k = 0; k < l->load[c].n && moves(l, c); k++) r->loaded[l->load[c].particle[k]] = 1;
-}
-
 const struct transfer_order *rest_points_look(struct rest_points *r, const struct transfer_order *all,
                                               const struct particles *p, const struct grid *grid, const struct bonds *b, const struct loads *l,
                                               enum shape shape, enum transfer transfer)
 {
     const int64_t reach = reach_of(grid, shape, transfer);
-    if (!r->loaded) note_loads(r, p, l);
-    make_room(r, all, grid);
+    if (!r->loaded) loads_mark(l, r->loaded = NEW("rest.loaded", p->n, uint8_t));
+    make_room(r, grid);
     mark(r, all, p, grid, b, l, transfer == TRANSFER_APIC);
     for (int d = 0; d < grid->dim; d++) {
         uint8_t *from = r->busy;
