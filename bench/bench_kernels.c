@@ -63,10 +63,11 @@ static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND
                                           SHAPE_VARIANTS(TRANSFER_JOBS)};
 enum { JOBS = COUNT_OF(all_jobs) };
 
-/* What is timed on: for each dimension a peridynamic body, and one of material points. */
+/* What is timed on, for each dimension; state-based particles not in 1D. */
+enum { BONDS, POINTS, STATES, MESH, YIELDING, GROUNDS };
 struct ground {
-    struct scene scene[4];
-    struct engine engine[4]; /* [0] bonds, [1] points, [2] bonds of state-based particles (not in 1D), [3] a mesh */
+    struct scene scene[GROUNDS];
+    struct engine engine[GROUNDS];
     int32_t *list;
     real *value, *field; /* of spread */
 };
@@ -85,7 +86,8 @@ struct bench {
 /* ---- ground -------------------------------------------------------------------------------------------- */
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
-static status body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model, const char *mpm)
+static status body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model, const char *mpm,
+                        bool yields)
 {
     static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
                                                    "solid"};
@@ -99,7 +101,7 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
         "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
         "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {rest: false}\n",
         space[dim], method, model, poisson[dim],
-        strcmp(method, "pd") || strcmp(model, "bond") ? "" : ", yield_stress: 1 GPa", corner[dim], size[dim], mpm);
+        yields ? ", yield_stress: 1 GPa" : "", corner[dim], size[dim], mpm);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < e->part.n; i++) {
@@ -112,11 +114,12 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
 static status ground_make(struct ground *g, int dim)
 {
     static const char points_of[] = "shape: cpgimp, transfer: apic", mesh[] = "frame: reference";
-    TRY(body_make(&g->engine[0], &g->scene[0], dim, "pd", "bond", points_of));
-    TRY(body_make(&g->engine[1], &g->scene[1], dim, "mpm", "bond", points_of));
-    if (dim > 1) TRY(body_make(&g->engine[2], &g->scene[2], dim, "pd", "mospd", points_of));
-    TRY(body_make(&g->engine[3], &g->scene[3], dim, "mpm", "bond", mesh));
-    struct engine *points = &g->engine[1];
+    TRY(body_make(&g->engine[BONDS], &g->scene[BONDS], dim, "pd", "bond", points_of, false));
+    TRY(body_make(&g->engine[YIELDING], &g->scene[YIELDING], dim, "pd", "bond", points_of, true));
+    TRY(body_make(&g->engine[POINTS], &g->scene[POINTS], dim, "mpm", "bond", points_of, false));
+    if (dim > 1) TRY(body_make(&g->engine[STATES], &g->scene[STATES], dim, "pd", "mospd", points_of, false));
+    TRY(body_make(&g->engine[MESH], &g->scene[MESH], dim, "mpm", "bond", mesh, false));
+    struct engine *points = &g->engine[POINTS];
     points->transfer.dt = points->transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
     g->list = NEW("bench.list", points->part.n, int32_t);
     g->value = NEW("bench.value", points->part.n, real);
@@ -127,7 +130,7 @@ static status ground_make(struct ground *g, int dim)
 
 static void ground_free(struct ground *g)
 {
-    for (int k = 0; k < 4; k++) bench_engine_free(&g->engine[k], &g->scene[k]);
+    for (int k = 0; k < GROUNDS; k++) bench_engine_free(&g->engine[k], &g->scene[k]);
     memory_free(g->list);
     memory_free(g->value);
     memory_free(g->field);
@@ -135,9 +138,14 @@ static void ground_free(struct ground *g)
 
 /* ---- timing -------------------------------------------------------------------------------------------- */
 
+static struct engine *bonds_of(const struct job *j, struct ground *g)
+{
+    return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
+}
+
 static void job_call(const struct job *j, struct ground *g)
 {
-    struct engine *pd = &g->engine[j->model >= PD_OSPD ? 2 : 0], *e = &g->engine[1], *m = &g->engine[3];
+    struct engine *pd = bonds_of(j, g), *e = &g->engine[POINTS], *m = &g->engine[MESH];
     struct kernels k;
     kernels_choose(&k, j->dim, j->model, j->shape, j->transfer);
     real impulse[DIM_MAX] = {0}, work = 0;
@@ -212,7 +220,7 @@ static void time_all(struct bench *b, int repetitions)
         }
         b->limits.triad = fmax(b->limits.triad, triad_probe_run(triad));
         for (int k = 0; k < JOBS; k++) job_time(&b->job[k], &b->ground[b->job[k].dim]);
-        for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[1].grid);
+        for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].grid);
     }
     for (int d = 1; d <= DIM_MAX; d++) stencil_probe_free(stencil[d]);
     triad_probe_free(triad);
@@ -221,30 +229,30 @@ static void time_all(struct bench *b, int repetitions)
 
 /* ---- bytes --------------------------------------------------------------------------------------------- */
 
-/* Bytes of a slot as the force kernels read it (bond_slot.h), in the mean. */
+/* Bytes of a slot as the kernels read it (bond_slot.h), in the mean; patterns stay in cache. */
 static double slot_bytes(const struct bonds *b)
 {
     double sum = 0;
-    for (int64_t slot = 0; slot < b->slots; slot++) {
-        const struct bond_slot *c = &b->common[slot];
-        sum += sizeof *c + (c->alike ? 0 : LANES * sizeof *b->w);
-        if (!c->lattice) sum += LANES * (sizeof *b->inverse_length + (c->first < 0 ? sizeof *b->nbr : 0));
-    }
+    for (int64_t g = 0; g < b->groups; g++)
+        for (int64_t slot = b->slot[g]; slot < b->slot[g + 1] && !b->pattern[g]; slot++) {
+            const struct bond_slot *c = &b->common[slot];
+            sum += sizeof *c + (c->alike ? 0 : LANES * sizeof *b->w);
+            if (!c->lattice) sum += LANES * (sizeof *b->inverse_length + (c->first < 0 ? sizeof *b->nbr : 0));
+        }
     return sum / (double)b->slots;
 }
 
 /* Bytes that a kernel must move a particle, counted from the arrays it reads and writes once; nodes shared among the
  * points of their cell. */
-static double job_bytes(const struct job *j, const struct ground *g)
+static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
-    const struct engine *e = &g->engine[1], *pd = &g->engine[j->model >= PD_OSPD ? 2 : 0];
+    const struct engine *e = &g->engine[POINTS], *pd = bonds_of(j, g);
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
     const double node = r * (double)e->grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
     /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
     const double slots = (double)pd->bonds.slots / (double)pd->part.n;
-    const double stored = j->kind == BOND_FORCE ? slot_bytes(&pd->bonds) : 12.5 * LANES;
-    const double bond = slots * (stored * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +
+    const double bond = slots * (slot_bytes(&pd->bonds) * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +
                                  (j->model == PD_BOND_PLASTIC ? 36 * LANES : 0)),
                  apic = j->transfer == TRANSFER_APIC;
     switch (j->kind) {
@@ -283,13 +291,13 @@ static double job_bytes(const struct job *j, const struct ground *g)
 static bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
 static int64_t job_particles(const struct job *j, const struct ground *g)
 {
-    return g->engine[j->kind >= MESH_CLEAR ? 3 : j->kind > PD_MOVE].part.n;
+    return g->engine[j->kind >= MESH_CLEAR ? MESH : j->kind > PD_MOVE ? POINTS : BONDS].part.n;
 }
 
 /* Bonds of a particle; NAN where a kernel visits none. */
 static double job_bonds(const struct job *j, const struct ground *g)
 {
-    return on_bonds(j) ? (double)g->engine[0].bonds.n / (double)g->engine[0].part.n : NAN;
+    return on_bonds(j) ? (double)g->engine[BONDS].bonds.n / (double)g->engine[BONDS].part.n : NAN;
 }
 
 /* The larger of what memory and arithmetic need. */
@@ -297,7 +305,7 @@ static void find_limits(struct bench *b)
 {
     for (int k = 0; k < JOBS; k++) {
         struct job *j = &b->job[k];
-        const struct ground *g = &b->ground[j->dim];
+        struct ground *g = &b->ground[j->dim];
         j->bytes = job_bytes(j, g);
         j->limit = j->bytes / b->limits.triad;
         if (on_bonds(j)) j->limit = fmax(j->limit, job_bonds(j, g) * b->limits.stencil[j->dim]);

@@ -124,6 +124,28 @@ struct bond_slot {
     uint8_t unused;                      /* two of them in a cache line                                   */
 };
 
+/* A slot in every group of a pattern. */
+struct pattern_slot {
+    int32_t offset;                      /* from the particles of the rows to their neighbours, by number */
+    uint8_t intact, lattice;             /* as above                                       */
+    uint16_t unused;                     /* patterns are compared byte by byte             */
+    real inverse_length, w;              /* [1/m]; of a bond [1]                           */
+    real weighted, squared;              /* w |xi| and w |xi|^2 of the lattice's |xi| [m], [m^2] */
+    real xi[DIM_MAX];                    /* X_j - X_i [m]                                  */
+};
+
+/* Groups of eight particles in a row that have the same neighbours at the same distances with the same weights, nothing broken:
+ * most of a lattice. They read one list of slots, which stays in the nearest cache, and bonds cost their arithmetic. What
+ * they would store for themselves is not written before somebody looks at it bond by bond (group_unfold). */
+struct pattern {
+    int slots;
+    bool whole;                          /* all lanes have all bonds, of one weight        */
+    int32_t next;                        /* with the same hash, -1: none                   */
+    struct pattern_slot *slot;           /* [slots]                                        */
+    real (*w)[LANES];                    /* [slots] of the lanes, 0: no bond [1]           */
+};
+struct patterns;                         /* all of them (bonds_patterns.c)                 */
+
 struct bonds {
     int64_t rows, groups, slots;
     int64_t n;                           /* directed bonds in the rows, broken ones included              */
@@ -141,6 +163,9 @@ struct bonds {
                                             stiffness; 0: broken, cut or padding                [1]       */
     struct bond_slot *common;            /* [slots]                                                       */
     struct bond_length *lattice;         /* [BOND_LATTICE]                                                */
+    const struct pattern **pattern;      /* [groups] what a group follows, NULL: nothing                  */
+    uint8_t *folded;                     /* [groups] its slots are not written                            */
+    struct patterns *patterns;
     real *plastic_stretch, *plastic_path;   /* [slots 8] s_p and alpha of a bond; NULL where none yields   [1]  */
     int32_t *pair;                       /* [slots 8] entry of `yield`; NULL where none yields               */
     struct bond_yield yield;
@@ -213,9 +238,17 @@ void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source 
 real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row);
 void bonds_free(struct bonds *b);
 /* What the bonds of a slot have in common, for their weights and lengths of now. Whoever changes w or the sign of
- * inverse_length outside the kernels calls it; the same numbers give the same bits whether shared or not. */
-void bonds_share(struct bonds *b, int64_t slot);
-void bonds_share_all(struct bonds *b);
+ * inverse_length calls it, mostly by bonds_changed; the same numbers give the same bits whether shared or not. */
+void bonds_share(const struct bonds *b, int64_t slot);
+/* The weight of bond q of a row has changed: its group follows no pattern any more. */
+void bonds_changed(struct bonds *b, int64_t row, int64_t q);
+/* Writes the slots of a group as its pattern has them; any number of threads may ask for it. */
+void group_unfold(const struct bonds *b, int64_t group);
+
+/* What a slot stores, for readers of whole bodies: nothing is unfolded. */
+struct slot_copy { int32_t first, nbr[LANES]; real inverse_length[LANES], w[LANES]; };
+/* Slot k of a group. */
+void slot_read(struct slot_copy *to, const struct bonds *b, int64_t group, int64_t k);
 
 /* Critical time step of the peridynamic side [s]: 2 / omega_max with the block-Gershgorin bound over
  * all particles of the body as if all were peridynamic. */
@@ -238,13 +271,15 @@ real bonds_fracture_energy(const struct bonds *b);
 static inline unsigned bonds_intact(const struct bonds *b, int64_t group)
 {
     unsigned bits = 0;
+    if (__atomic_load_n(&b->folded[group], __ATOMIC_ACQUIRE)) group_unfold(b, group);
     for (int64_t slot = b->slot[group]; slot < b->slot[group + 1]; slot++) bits |= b->common[slot].intact;
     return bits;
 }
 
-/* Place of bond k of group g, lane l: slot (b->slot[g] + k) LANES + l. */
+/* Place of bond k of group g, lane l: slot (b->slot[g] + k) LANES + l. Whoever asks may read what is stored there. */
 static inline int64_t bond_index(const struct bonds *b, int64_t group, int64_t k, int lane)
 {
+    if (__atomic_load_n(&b->folded[group], __ATOMIC_ACQUIRE)) group_unfold(b, group);
     return (b->slot[group] + k) * LANES + lane;
 }
 

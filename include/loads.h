@@ -104,7 +104,7 @@ void loads_applied_free(struct loads *l);
 void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity);
 void loads_push_work(struct loads *l, struct particles *p, real t);
 
-#define LOADS_TOLERANCE 1e-9             /* of a spacing: points on a region's border belong to it    */
+#define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 
 /* ---- mirrors (loads_mirror.c) ---------------------------------------------------------------------- */
 

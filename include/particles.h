@@ -10,7 +10,7 @@
 
 #include "base.h"
 
-#define LATTICE_NEAR 1e-10               /* a particle of a lattice may be that far from its site [spacings] */
+#define LATTICE_NEAR 1e-8                /* a particle of a lattice may be that far from its site [spacings] */
 enum { LANES = 8 };                      /* particles per vector: 8 doubles                      */
 
 enum kind { KIND_MPM, KIND_PD, KINDS };

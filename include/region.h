@@ -24,6 +24,9 @@ struct region {
     struct solid *solid;
 };
 
+/* Points this close to a surface count as on it, and so inside [spacings]. */
+#define ON_SURFACE 1e-8
+
 /* Closed set, grown by `tolerance` [m] (shrunk where negative). */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
 

@@ -41,7 +41,7 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 {
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
-    bonds_share(b, q / LANES);
+    bonds_changed(b, row, q);
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
     set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_CUT : FLAG_CUT | FLAG_CRACKED);
@@ -70,7 +70,7 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     if (w > 0) b->w[q] = w;
     else if (b->inverse_length[q] > 0) bond_end(b, p, row, q, i, j);
     else b->w[q] = 0;
-    bonds_share(b, q / LANES);
+    bonds_changed(b, row, q);
     row_changed(b, row);
     b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row) : half_energy(b, q, stretch)));
 }
@@ -106,15 +106,14 @@ static real least_limit(const struct bond_limit *limit)
 }
 
 /* The larger of each row's stretch so far and that of its bond in a slot. */
-static ALWAYS_INLINE lanes largest_of(lanes largest, const struct bonds *b, const struct particles *p, const lanes *x,
-                                      int64_t slot, const enum slot_kind kind, const int dim)
+static ALWAYS_INLINE lanes largest_of(lanes largest, const struct particles *p, const lanes *x, const struct slot s, const int dim)
 {
     lanes distance2 = lanes_of(TINY);
     for (int d = 0; d < dim; d++) {
-        const lanes y = slot_at(b, slot, kind, p->x[d]) - x[d];
+        const lanes y = slot_at(s, p->x[d]) - x[d];
         distance2 += y * y;
     }
-    return slot_largest(b, slot, kind, largest, STRETCH_OF(lanes_root(distance2), slot_inverse_length(b, slot, kind)));
+    return slot_largest(s, largest, STRETCH_OF(lanes_root(distance2), slot_inverse_length(s)));
 }
 
 /* Which rows of a group have a bond beyond this stretch. */
@@ -124,8 +123,8 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
     const int32_t *row = b->particle + g * LANES;
     lanes x[DIM_MAX], largest = lanes_of(-1);
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(SLOT, KIND) largest = largest_of(largest, b, p, x, SLOT, KIND, dim)
-    FOR_SLOTS(b, g, slot, VISIT);
+#define VISIT(SLOT) largest = largest_of(largest, p, x, SLOT, dim)
+    FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     return largest > lanes_of(least);
 }

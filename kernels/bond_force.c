@@ -15,27 +15,24 @@
 
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
 
-/* A group while its slots are visited. */
-struct bond_sums { lanes x0, x1, x2, f0, f1, f2, trigger, passed; };
+/* A group while its slots are visited; `stretch` is the largest. */
+struct bond_sums { lanes x0, x1, x2, f0, f1, f2, stretch; };
 
-/* Adds the forces of a slot. `change` is the stretch over the length of now; a bond has passed its limit t where it is larger
- * than t over that length. The difference 1/L - 1/l would be the same and cheaper; a body in free fall then gathers three
- * times the round-off. */
-static ALWAYS_INLINE struct bond_sums bond_force_slot(struct bond_sums sum, const struct bonds *b, const struct particles *p,
-                                                      int64_t slot, const enum slot_kind kind, const int dim,
-                                                      const enum pd_model model)
+/* Adds the forces of a slot. The difference of the inverse lengths would be the stretch over the length, and cheaper; a body in
+ * free fall then gathers three times the round-off. */
+static ALWAYS_INLINE struct bond_sums bond_force_slot(struct bond_sums sum, const struct particles *p, const struct slot s,
+                                                      const int dim, const enum pd_model model)
 {
-    slot_ask(b, slot, kind);
-    const lanes d0 = slot_at(b, slot, kind, p->x[0]) - sum.x0;
-    const lanes d1 = dim > 1 ? slot_at(b, slot, kind, p->x[1]) - sum.x1 : d0;
-    const lanes d2 = dim > 2 ? slot_at(b, slot, kind, p->x[2]) - sum.x2 : d0;
+    const lanes d0 = slot_at(s, p->x[0]) - sum.x0;
+    const lanes d1 = dim > 1 ? slot_at(s, p->x[1]) - sum.x1 : d0;
+    const lanes d2 = dim > 2 ? slot_at(s, p->x[2]) - sum.x2 : d0;
     lanes distance2 = d0 * d0 + TINY;
     if (dim > 1) distance2 += d1 * d1;
     if (dim > 2) distance2 += d2 * d2;
-    const lanes inverse = lanes_inverse_root(distance2), w = slot_weight(b, slot, kind);
-    const lanes change = STRETCH_OF(distance2 * inverse, slot_inverse_length(b, slot, kind)) * inverse;
-    const lanes force = w * bond_law(model, b, slot * LANES, change, inverse, distance2, w);
-    sum.passed = slot_largest(b, slot, kind, sum.passed, change - sum.trigger * inverse);
+    const lanes inverse = lanes_inverse_root(distance2), w = slot_weight(s);
+    const lanes stretch = STRETCH_OF(distance2 * inverse, slot_inverse_length(s));
+    const lanes force = bond_law(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
+    sum.stretch = slot_largest(s, sum.stretch, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
     if (dim > 2) sum.f2 += force * d2;
@@ -52,14 +49,14 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
     const int32_t own = aligned ? row[0] : -1;
     const lanes zero = lanes_of(0), x0 = lanes_at(p->x[0], own, row);
     struct bond_sums sum = {x0, dim > 1 ? lanes_at(p->x[1], own, row) : x0, dim > 2 ? lanes_at(p->x[2], own, row) : x0,
-                            zero, zero, zero, lanes_load(b->trigger + g * LANES), lanes_of(-1)};
-#define VISIT(SLOT, KIND) sum = bond_force_slot(sum, b, p, SLOT, KIND, dim, model)
-    FOR_SLOTS(b, g, slot, VISIT);
+                            zero, zero, zero, lanes_of(-1)};
+#define VISIT(SLOT) sum = bond_force_slot(sum, p, SLOT, dim, model)
+    FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     rows_store(p->f[0], row, rows, aligned, sum.f0 * b->stiffness, share);
     if (dim > 1) rows_store(p->f[1], row, rows, aligned, sum.f1 * b->stiffness, share);
     if (dim > 2) rows_store(p->f[2], row, rows, aligned, sum.f2 * b->stiffness, share);
-    return lanes_any(sum.passed > 0.0);
+    return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
 }
 
 #define INSTANCE(D, M)                                                                                   \

@@ -28,14 +28,11 @@ static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes s
     return stretch - plastic;
 }
 
-/* Force over stiffness, weight and length [1/m] of eight bonds from entry q on: f = c s n (Silling & Askari 2005; Zeng et
- * al. 2022, eqs. 17, 29), of the elastic part of the stretch where bonds yield. Updates what yielding does to them. In:
- * stretch over length, 1/length, length^2. */
-static ALWAYS_INLINE lanes bond_law(const enum pd_model model, const struct bonds *b, int64_t q, lanes change, lanes inverse,
-                                    lanes distance2, lanes w)
+/* Force over stiffness and weight [1] of eight bonds from entry q on: f = c s n (Silling & Askari 2005; Zeng et al. 2022,
+ * eqs. 17, 29), of the elastic part of the stretch where bonds yield. Updates what yielding does to them. */
+static ALWAYS_INLINE lanes bond_law(const enum pd_model model, const struct bonds *b, int64_t q, lanes stretch, lanes w)
 {
-    if (model != PD_BOND_PLASTIC) return change;
-    return bond_yields(b, q, distance2 * inverse * change, w > 0.0) * inverse;
+    return model == PD_BOND_PLASTIC ? bond_yields(b, q, stretch, w > 0.0) : stretch;
 }
 
 /* The elastic part of the stretch, nothing updated; eight bonds and one. */

@@ -7,6 +7,34 @@
 #include "team.h"
 #include "variants.h"
 
+#define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
+
+/* 1/|y|, and the stretch of the bonds of a slot from rows at x to neighbours at x + y. */
+static ALWAYS_INLINE lanes measure(const struct slot s, const struct particles *p, const lanes *x, lanes *y, lanes *stretch,
+                                   const int dim)
+{
+    lanes distance2 = lanes_of(TINY);
+    for (int d = 0; d < dim; d++) {
+        y[d] = slot_at(s, p->x[d]) - x[d];
+        distance2 += y[d] * y[d];
+    }
+    const lanes inverse = lanes_inverse_root(distance2);
+    *stretch = STRETCH_OF(distance2 * inverse, slot_inverse_length(s));
+    return inverse;
+}
+
+/* Energy of a slot over half the stiffness. */
+static ALWAYS_INLINE lanes bond_energy_slot(const struct slot s, const struct particles *p, const lanes *x, const int dim,
+                                            const enum pd_model model)
+{
+    lanes y[DIM_MAX], stretch;
+    measure(s, p, x, y, &stretch, dim);
+    const lanes w = slot_weight(s), inverse = slot_inverse_length(s);
+    const lanes length = lanes_inverse_root(inverse * inverse);            /* cheaper than a division */
+    const lanes elastic = bond_elastic(model, s.b, s.number * LANES, stretch);
+    return lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
+}
+
 /* Energy over half the stiffness (each bond has two rows) of the eight rows of a group. */
 static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                             const enum pd_model model)
@@ -14,22 +42,24 @@ static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct 
     const int32_t *row = b->particle + g * LANES;
     lanes sum = lanes_of(0), x[DIM_MAX];
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
-        const int64_t q = slot * LANES;
-        lanes distance2 = lanes_of(1e-300);
-        for (int d = 0; d < dim; d++) {
-            const lanes relative = lanes_at(p->x[d], b->first[slot], b->nbr + q) - x[d];
-            distance2 += relative * relative;
-        }
-        const lanes w = lanes_load(b->w + q), inverse = lanes_load(b->inverse_length + q);
-        const lanes stretch = STRETCH_OF(distance2 * lanes_inverse_root(distance2), inverse);
-        const lanes length = lanes_inverse_root(inverse * inverse);        /* cheaper than a division */
-        const lanes elastic = bond_elastic(model, b, q, stretch);
-        sum += lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
-    }
+#define VISIT(SLOT) sum += bond_energy_slot(SLOT, p, x, dim, model)
+    FOR_SLOTS(b, g, VISIT);
+#undef VISIT
     real total = 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     return total;
+}
+
+/* Adds sum_j F_ij (x) (x_j - x_i) over the stiffness, of a slot. */
+static ALWAYS_INLINE void bond_stress_slot(lanes *sum, const struct slot s, const struct particles *p, const lanes *x,
+                                           const int dim, const enum pd_model model)
+{
+    lanes y[DIM_MAX], stretch;
+    const lanes inverse = measure(s, p, x, y, &stretch, dim);
+    const lanes share = slot_weight(s) * bond_elastic(model, s.b, s.number * LANES, stretch) * inverse;
+    for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
+    if (dim > 1) sum[dim] += share * y[0] * y[1];
+    if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
 }
 
 /* sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F the force on i, of the peridynamic particles among the eight rows of a
@@ -38,23 +68,12 @@ static ALWAYS_INLINE void bond_stress_group(const struct bonds *b, struct partic
                                             const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    lanes sum[SYM_MAX], x[DIM_MAX], y[DIM_MAX];
+    lanes sum[SYM_MAX], x[DIM_MAX];
     for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_of(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
-        const int64_t q = slot * LANES;
-        lanes distance2 = lanes_of(1e-300);
-        for (int d = 0; d < dim; d++) {
-            y[d] = lanes_at(p->x[d], b->first[slot], b->nbr + q) - x[d];
-            distance2 += y[d] * y[d];
-        }
-        const lanes inverse = lanes_inverse_root(distance2);
-        const lanes stretch = STRETCH_OF(distance2 * inverse, lanes_load(b->inverse_length + q));
-        const lanes share = lanes_load(b->w + q) * bond_elastic(model, b, q, stretch) * inverse;
-        for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
-        if (dim > 1) sum[dim] += share * y[0] * y[1];
-        if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
-    }
+#define VISIT(SLOT) bond_stress_slot(sum, SLOT, p, x, dim, model)
+    FOR_SLOTS(b, g, VISIT);
+#undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
         for (int s = 0; s < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; s++)
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);

@@ -7,42 +7,86 @@
 
 enum { SLOTS_AHEAD = 40 };               /* asked from memory before they are needed: about 200 ns */
 
-/* What a slot's bonds share: nothing; neighbours in a row, with lengths of the lattice; their weight too. */
-enum slot_kind { SLOT_FREE, SLOT_LATTICE, SLOT_ALIKE };
+/* What a slot's bonds share: nothing; neighbours in a row, with lengths of the lattice; their weight too; all but the weight with
+ * other groups; all with other groups. */
+enum slot_kind { SLOT_FREE, SLOT_LATTICE, SLOT_ALIKE, SLOT_PATTERN, SLOT_WHOLE };
 
-/* Calls VISIT(slot, kind), the kind a constant, for the slots of a group: one body, three instances. */
-#define FOR_SLOTS(B, GROUP, SLOT, VISIT)                                                              \
-    for (int64_t SLOT = (B)->slot[GROUP]; SLOT < (B)->slot[(GROUP) + 1]; SLOT++)                      \
-        if ((B)->common[SLOT].alike) VISIT(SLOT, SLOT_ALIKE);                                         \
-        else if ((B)->common[SLOT].lattice) VISIT(SLOT, SLOT_LATTICE);                                \
-        else VISIT(SLOT, SLOT_FREE)
+/* Eight bonds, entries number LANES on of what bonds store. Its kind is a constant wherever it is visited. */
+struct slot {
+    const struct bonds *b;
+    int64_t number;
+    int64_t first;                       /* neighbour of lane 0; SLOT_FREE: maybe < 0 */
+    const struct pattern_slot *pattern;  /* of SLOT_PATTERN and SLOT_WHOLE            */
+    const real *w;                       /* of SLOT_PATTERN: of the lanes             */
+    enum slot_kind kind;
+};
 
-static ALWAYS_INLINE void slot_ask(const struct bonds *b, int64_t slot, const enum slot_kind kind)
+/* Asks memory for what will be visited soon. */
+static ALWAYS_INLINE struct slot slot_stored(const struct bonds *b, int64_t number, const enum slot_kind kind)
 {
-    const int64_t q = (slot + SLOTS_AHEAD) * LANES;
-    __builtin_prefetch(b->common + slot + SLOTS_AHEAD);
+    const int64_t q = (number + SLOTS_AHEAD) * LANES;
+    __builtin_prefetch(b->common + number + SLOTS_AHEAD);
     if (kind == SLOT_FREE) __builtin_prefetch(b->inverse_length + q), __builtin_prefetch(b->nbr + q);
     if (kind != SLOT_ALIKE) __builtin_prefetch(b->w + q);
+    return (struct slot){b, number, b->common[number].first, NULL, NULL, kind};
 }
 
-/* Of the neighbours. */
-static ALWAYS_INLINE lanes slot_at(const struct bonds *b, int64_t slot, const enum slot_kind kind, const real *from)
+/* Slot k of a group that follows a pattern and begins with particle `own`; slot `number` of all. */
+static ALWAYS_INLINE struct slot slot_of(const struct bonds *b, int64_t number, const struct pattern *pattern, int64_t k,
+                                         int64_t own, const enum slot_kind kind)
 {
-    const int32_t first = b->common[slot].first;
-    return kind ? lanes_load(from + first) : lanes_at(from, first, b->nbr + slot * LANES);
+    const struct pattern_slot *slot = pattern->slot + k;
+    return (struct slot){b, number, own + slot->offset, slot, kind == SLOT_WHOLE ? NULL : pattern->w[k], kind};
+}
+
+/* Calls VISIT(slot) for the slots of a group: one body, an instance for each kind. */
+#define FOR_SLOTS(B, GROUP, VISIT)                                                                                             \
+    do {                                                                                                                       \
+        const struct pattern *pattern_ = (B)->pattern[GROUP];                                                                  \
+        const int64_t from_ = (B)->slot[GROUP], slots_ = (B)->slot[(GROUP) + 1] - from_, own_ = (B)->particle[(GROUP) * LANES]; \
+        if (!pattern_)                                                                                                         \
+            for (int64_t k_ = from_; k_ < from_ + slots_; k_++)                                                                \
+                if ((B)->common[k_].alike) VISIT(slot_stored(B, k_, SLOT_ALIKE));                                              \
+                else if ((B)->common[k_].lattice) VISIT(slot_stored(B, k_, SLOT_LATTICE));                                     \
+                else VISIT(slot_stored(B, k_, SLOT_FREE));                                                                     \
+        else if (pattern_->whole)                                                                                              \
+            for (int64_t k_ = 0; k_ < slots_; k_++) VISIT(slot_of(B, from_ + k_, pattern_, k_, own_, SLOT_WHOLE));             \
+        else                                                                                                                   \
+            for (int64_t k_ = 0; k_ < slots_; k_++) VISIT(slot_of(B, from_ + k_, pattern_, k_, own_, SLOT_PATTERN));           \
+    } while (0)
+
+/* Of the neighbours. */
+static ALWAYS_INLINE lanes slot_at(const struct slot s, const real *from)
+{
+    return s.kind ? lanes_load(from + s.first) : lanes_at(from, (int32_t)s.first, s.b->nbr + s.number * LANES);
+}
+
+/* Component d of X_j - X_i, with X of the rows [m]. */
+static ALWAYS_INLINE lanes slot_reference(const struct slot s, const struct particles *p, int d, lanes X)
+{
+    return s.pattern ? lanes_of(s.pattern->xi[d]) : slot_at(s, p->X[d]) - X;
 }
 
 /* 1/|X_j - X_i| [1/m]; of broken bonds maybe the negative of it. */
-static ALWAYS_INLINE lanes slot_inverse_length(const struct bonds *b, int64_t slot, const enum slot_kind kind)
+static ALWAYS_INLINE lanes slot_inverse_length(const struct slot s)
 {
-    const struct bond_slot *c = &b->common[slot];
-    return kind ? lanes_excess(b->lattice[c->lattice].inverse, c->excess) : lanes_load(b->inverse_length + slot * LANES);
+    if (s.pattern) return lanes_of(s.pattern->inverse_length);
+    const struct bond_slot *c = &s.b->common[s.number];
+    return s.kind ? lanes_excess(s.b->lattice[c->lattice].inverse, c->excess) : lanes_load(s.b->inverse_length + s.number * LANES);
 }
 
-static ALWAYS_INLINE lanes slot_weight(const struct bonds *b, int64_t slot, const enum slot_kind kind)
+/* Lanes with an intact bond; of SLOT_FREE not known. */
+static ALWAYS_INLINE uint8_t slot_intact(const struct slot s)
 {
-    const struct bond_slot *c = &b->common[slot];
-    return kind == SLOT_ALIKE ? lanes_keep(c->intact, lanes_of(c->w)) : lanes_load(b->w + slot * LANES);
+    return s.pattern ? s.pattern->intact : s.b->common[s.number].intact;
+}
+
+static ALWAYS_INLINE lanes slot_weight(const struct slot s)
+{
+    if (s.kind == SLOT_WHOLE) return lanes_of(s.pattern->w);
+    if (s.kind == SLOT_PATTERN) return lanes_load(s.w);
+    const struct bond_slot *c = &s.b->common[s.number];
+    return s.kind == SLOT_ALIKE ? lanes_keep(c->intact, lanes_of(c->w)) : lanes_load(s.b->w + s.number * LANES);
 }
 
 /* Stretch |y|/|xi| - 1, of broken bonds maybe -|y|/|xi| - 1: rounded to a multiple of 2^-49 by passing between 8 and 16, so
@@ -54,9 +98,9 @@ static ALWAYS_INLINE lanes slot_weight(const struct bonds *b, int64_t slot, cons
 
 /* a, or of intact bonds what is larger. Where lengths are read as stored those of broken ones are negative and tell by
  * themselves. */
-static ALWAYS_INLINE lanes slot_largest(const struct bonds *b, int64_t slot, const enum slot_kind kind, lanes a, lanes other)
+static ALWAYS_INLINE lanes slot_largest(const struct slot s, lanes a, lanes other)
 {
-    return kind ? lanes_max_kept(b->common[slot].intact, a, other) : lanes_max(a, other);
+    return s.kind == SLOT_FREE || s.kind == SLOT_WHOLE ? lanes_max(a, other) : lanes_max_kept(slot_intact(s), a, other);
 }
 
 /* Rows of a group: f = new share + f (1 - share) */

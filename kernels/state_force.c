@@ -16,17 +16,15 @@
 struct family_sums { lanes extension, stretch, moment[DIM_MAX * DIM_MAX]; lanes_mask moved; };
 
 /* Adds a slot: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
-static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
-                                    const enum slot_kind kind, const lanes *x, const lanes *X, const bool knows, const int dim,
-                                    const enum pd_model model)
+static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct particles *p, const struct slot slot, const lanes *x,
+                                    const lanes *X, const bool knows, const int dim, const enum pd_model model)
 {
     struct state_bond s;
-    slot_ask(b, slot, kind);
-    state_bond_make(&s, b, p, slot, kind, x, X, dim, model);
-    const lanes w = slot_weight(b, slot, kind), stretch = STRETCH_OF(lanes_root(s.distance2), s.inverse_length);
-    sum->stretch = slot_largest(b, slot, kind, sum->stretch, stretch);
+    state_bond_make(&s, p, slot, x, X, dim, model);
+    const lanes w = slot_weight(slot), stretch = STRETCH_OF(lanes_root(s.distance2), s.inverse_length);
+    sum->stretch = slot_largest(slot, sum->stretch, stretch);
     if (!knows) return;
-    sum->extension += state_weight(b, slot, kind, w, s.inverse_length, true) * stretch;
+    sum->extension += state_weight(slot, w, s.inverse_length, true) * stretch;
     if (!state_turns(model)) return;
     for (int c = 0; c < dim; c++) {
         const lanes weighted = w * s.xi[c];
@@ -89,8 +87,8 @@ static ALWAYS_INLINE void know_group(struct bonds *b, const struct particles *p,
         x[d] = lanes_at(p->x[d], own, row);
         if (state_turns(model)) X[d] = lanes_at(p->X[d], own, row);
     }
-#define VISIT(SLOT, KIND) know_slot(&sum, b, p, SLOT, KIND, x, X, knows, dim, model)
-    FOR_SLOTS(b, g, slot, VISIT);
+#define VISIT(SLOT) know_slot(&sum, p, SLOT, x, X, knows, dim, model)
+    FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
     if (knows) know_store(b, p, g, &sum, dim, model);
@@ -106,13 +104,13 @@ static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p
 }
 
 /* Adds a slot to the mean rotation that neighbours have: sum w R. */
-static ALWAYS_INLINE void turned_slot(struct family_sums *sum, const struct bonds *b, int64_t slot, const enum slot_kind kind,
-                                      const int dim)
+static ALWAYS_INLINE void turned_slot(struct family_sums *sum, const struct slot slot, const int dim)
 {
-    const lanes w = slot_weight(b, slot, kind), zero = lanes_of(0);
-    const lanes per_spring = w / lanes_choose(w > 0.0, slot_at(b, slot, kind, b->state.spring), lanes_of(1));
+    const struct state *t = &slot.b->state;
+    const lanes w = slot_weight(slot), zero = lanes_of(0);
+    const lanes per_spring = w / lanes_choose(w > 0.0, slot_at(slot, t->spring), lanes_of(1));
     for (int c = 0; c < dim * dim; c++) {
-        const lanes turn = lanes_choose(w > 0.0, slot_at(b, slot, kind, b->state.turn[c]), zero);
+        const lanes turn = lanes_choose(w > 0.0, slot_at(slot, t->turn[c]), zero);
         sum->moment[c] += turn * per_spring + (c % (dim + 1) == 0 ? w : zero);
         sum->moved |= turn != 0.0;
     }
@@ -124,8 +122,8 @@ static ALWAYS_INLINE void turned_group(const struct bonds *b, int64_t g, lanes *
     struct family_sums sum;
     sum.moved = (lanes_mask)lanes_of(0);
     for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_of(0);
-#define VISIT(SLOT, KIND) turned_slot(&sum, b, SLOT, KIND, dim)
-    FOR_SLOTS(b, g, slot, VISIT);
+#define VISIT(SLOT) turned_slot(&sum, SLOT, dim)
+    FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     polar_rotation_lanes(sum.moment, R, dim);
     for (int c = 0; c < dim * dim; c++)
@@ -177,17 +175,16 @@ struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], turn[DIM_MAX * DIM
 
 /* Adds the forces of a slot, with e/|Y| = r (|Y|/r - 1)/|Y|. The effective displacement Y - R xi is (Y - xi) - (R - 1) xi: exactly
  * 0 where nothing has moved; in the plane g (R - 1) = (a, -c; c, a). */
-static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds *b, const struct particles *p, int64_t slot,
-                                     const enum slot_kind kind, const int dim, const enum pd_model model)
+static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct particles *p, const struct slot slot, const int dim,
+                                     const enum pd_model model)
 {
-    const struct state *t = &b->state;
+    const struct state *t = &slot.b->state;
     struct state_bond s;
-    slot_ask(b, slot, kind);
-    state_bond_make(&s, b, p, slot, kind, sum->x, sum->X, dim, model);
+    state_bond_make(&s, p, slot, sum->x, sum->X, dim, model);
     const lanes inverse = lanes_inverse_root(s.distance2);
-    const lanes w = slot_weight(b, slot, kind), wr = state_weight(b, slot, kind, w, s.inverse_length, false);
-    const lanes pressure = sum->pressure + slot_at(b, slot, kind, t->pressure);
-    const lanes spring = sum->spring + slot_at(b, slot, kind, t->spring);
+    const lanes w = slot_weight(slot), wr = state_weight(slot, w, s.inverse_length, false);
+    const lanes pressure = sum->pressure + slot_at(slot, t->pressure);
+    const lanes spring = sum->spring + slot_at(slot, t->spring);
     if (!state_turns(model)) {
         const lanes along = wr * (pressure + spring * STRETCH_OF(s.distance2 * inverse, s.inverse_length)) * inverse;
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
@@ -196,14 +193,14 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct bonds 
     const lanes along = wr * pressure * inverse;
     lanes turned[DIM_MAX];
     if (dim == 2) {
-        const lanes a = sum->turn[0] + slot_at(b, slot, kind, t->turn[0]), c = sum->turn[2] + slot_at(b, slot, kind, t->turn[2]);
+        const lanes a = sum->turn[0] + slot_at(slot, t->turn[0]), c = sum->turn[2] + slot_at(slot, t->turn[2]);
         turned[0] = a * s.xi[0] - c * s.xi[1];
         turned[1] = c * s.xi[0] + a * s.xi[1];
     } else
         for (int d = 0; d < dim; d++) {
             turned[d] = lanes_of(0);
             for (int c = 0; c < dim; c++)
-                turned[d] += (sum->turn[d * dim + c] + slot_at(b, slot, kind, t->turn[d * dim + c])) * s.xi[c];
+                turned[d] += (sum->turn[d * dim + c] + slot_at(slot, t->turn[d * dim + c])) * s.xi[c];
         }
     for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d] + w * (spring * (s.y[d] - s.xi[d]) - turned[d]);
 }
@@ -223,8 +220,8 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
         if (state_turns(model)) sum.X[d] = lanes_at(p->X[d], own, row);
     }
     for (int c = 0; state_turns(model) && c < dim * dim; c++) sum.turn[c] = lanes_at(t->turn[c], own, row);
-#define VISIT(SLOT, KIND) force_slot(&sum, b, p, SLOT, KIND, dim, model)
-    FOR_SLOTS(b, g, slot, VISIT);
+#define VISIT(SLOT) force_slot(&sum, p, SLOT, dim, model)
+    FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d], share);
 }

@@ -33,25 +33,24 @@ struct state_bond {
 
 static ALWAYS_INLINE bool state_turns(const enum pd_model model) { return model == PD_MOSPD; }
 
-static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct bonds *b, const struct particles *p,
-                                          int64_t slot, const enum slot_kind kind, const lanes *x, const lanes *X,
-                                          const int dim, const enum pd_model model)
+static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct particles *p, const struct slot slot,
+                                          const lanes *x, const lanes *X, const int dim, const enum pd_model model)
 {
     s->distance2 = lanes_of(STATE_TINY);
     for (int d = 0; d < dim; d++) {
-        s->y[d] = slot_at(b, slot, kind, p->x[d]) - x[d];
+        s->y[d] = slot_at(slot, p->x[d]) - x[d];
         s->distance2 += s->y[d] * s->y[d];
-        if (state_turns(model)) s->xi[d] = slot_at(b, slot, kind, p->X[d]) - X[d];
+        if (state_turns(model)) s->xi[d] = slot_reference(slot, p, d, X[d]);
     }
-    s->inverse_length = slot_inverse_length(b, slot, kind);
+    s->inverse_length = slot_inverse_length(slot);
 }
 
 /* w |xi| or w |xi|^2: factors, of a lattice without the round-off of positions, which no difference magnifies [m], [m^2]. */
-static ALWAYS_INLINE lanes state_weight(const struct bonds *b, int64_t slot, const enum slot_kind kind, lanes w,
-                                        lanes inverse_length, const bool square)
+static ALWAYS_INLINE lanes state_weight(const struct slot s, lanes w, lanes inverse_length, const bool square)
 {
-    const struct bond_length *known = &b->lattice[b->common[slot].lattice];
-    if (kind) return w * (square ? known->square : known->length);
+    if (s.kind == SLOT_WHOLE) return lanes_of(square ? s.pattern->squared : s.pattern->weighted);
+    const struct bond_length *known = &s.b->lattice[s.pattern ? s.pattern->lattice : s.b->common[s.number].lattice];
+    if (s.kind) return w * (square ? known->square : known->length);
     const lanes r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));
 }

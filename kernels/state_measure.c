@@ -26,15 +26,14 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
 }
 
 /* state_own_force of the eight bonds of a slot; broken ones have none. */
-static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struct bonds *b, const struct particles *p,
-                                          int64_t slot, lanes *T, lanes *xi, const int dim, const bool turns)
+static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struct slot slot, const struct particles *p, lanes *T,
+                                          lanes *xi, const int dim, const bool turns)
 {
-    const int32_t *nbr = b->nbr + slot * LANES, first = b->first[slot];
-    const lanes w = lanes_load(b->w + slot * LANES), inverse_length = lanes_load(b->inverse_length + slot * LANES);
+    const lanes w = slot_weight(slot), inverse_length = slot_inverse_length(slot);
     const lanes r = lanes_inverse_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_of(1)));
     lanes y[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
     for (int d = 0; d < dim; d++) {
-        y[d] = lanes_at(p->x[d], first, nbr) - s->x[d], xi[d] = lanes_at(p->X[d], first, nbr) - s->X[d];
+        y[d] = slot_at(slot, p->x[d]) - s->x[d], xi[d] = slot_reference(slot, p, d, s->X[d]);
         distance2 += y[d] * y[d];
     }
     const lanes inverse = lanes_inverse_root(distance2);
@@ -60,10 +59,21 @@ static ALWAYS_INLINE real energy_group(const struct bonds *b, const struct parti
     const struct own_state s = own_state_of(b, p, g, dim, state_turns(model));
     lanes sum = lanes_of(0), T[DIM_MAX], xi[DIM_MAX];
     real total = 0;
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++)
-        sum += own_force_slot(&s, b, p, slot, T, xi, dim, state_turns(model));
+#define VISIT(SLOT) sum += own_force_slot(&s, SLOT, p, T, xi, dim, state_turns(model))
+    FOR_SLOTS(b, g, VISIT);
+#undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     return total;
+}
+
+static ALWAYS_INLINE void stress_slot(lanes *sum, const struct own_state *s, const struct slot slot, const struct particles *p,
+                                      const int dim, const enum pd_model model)
+{
+    lanes T[DIM_MAX], xi[DIM_MAX];
+    own_force_slot(s, slot, p, T, xi, dim, state_turns(model));
+    for (int d = 0; d < dim; d++) sum[d] += T[d] * xi[d];
+    if (dim > 1) sum[dim] += 0.5 * (T[0] * xi[1] + T[1] * xi[0]);
+    if (dim > 2) sum[4] += 0.5 * (T[1] * xi[2] + T[2] * xi[1]), sum[5] += 0.5 * (T[2] * xi[0] + T[0] * xi[2]);
 }
 
 static ALWAYS_INLINE void stress_group(const struct bonds *b, struct particles *p, int64_t g, const int dim,
@@ -71,14 +81,11 @@ static ALWAYS_INLINE void stress_group(const struct bonds *b, struct particles *
 {
     const struct own_state s = own_state_of(b, p, g, dim, state_turns(model));
     const int32_t *row = b->particle + g * LANES;
-    lanes sum[SYM_MAX], T[DIM_MAX], xi[DIM_MAX];
+    lanes sum[SYM_MAX];
     for (int c = 0; c < dim * (dim + 1) / 2; c++) sum[c] = lanes_of(0);
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) {
-        own_force_slot(&s, b, p, slot, T, xi, dim, state_turns(model));
-        for (int d = 0; d < dim; d++) sum[d] += T[d] * xi[d];
-        if (dim > 1) sum[dim] += 0.5 * (T[0] * xi[1] + T[1] * xi[0]);
-        if (dim > 2) sum[4] += 0.5 * (T[1] * xi[2] + T[2] * xi[1]), sum[5] += 0.5 * (T[2] * xi[0] + T[0] * xi[2]);
-    }
+#define VISIT(SLOT) stress_slot(sum, &s, SLOT, p, dim, model)
+    FOR_SLOTS(b, g, VISIT);
+#undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
         for (int c = 0; c < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; c++)
             p->stress[c][row[l]] = sum[c][l] / p->volume0[row[l]];

@@ -97,6 +97,8 @@ static void rows_arrays(struct bonds *b)
     b->fracture_energy = NEW("bonds.fracture_energy", padded, real);
     b->plastic_work = NEW("bonds.plastic_work", padded, real);
     b->broken = NEW("bonds.broken", padded, int32_t);
+    b->pattern = NEW("bonds.pattern", b->groups, const struct pattern *);
+    b->folded = NEW("bonds.folded", b->groups, uint8_t);
     rest_make(&b->rest, b->groups);
 }
 
@@ -108,6 +110,14 @@ struct rows_pass {
     struct group_found **found;          /* [groups] of those that are searched, NULL: not kept   */
     bool count;                          /* the first pass: slots are counted                     */
 };
+
+static void group_write(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, const struct particles *p)
+{
+    group_fill(b, room, g, rows, by_offset, p);
+    group_note(b, room, g, rows);
+    if (!pattern_of(&room->pattern, b, p, g)) room->pattern.slots = 0;
+    group_follow(b, room, g);
+}
 
 /* Counts the slots of a group, or fills them; returns its bonds. */
 static int64_t group_pass(const struct rows_pass *pass, struct group_room *room, int64_t g)
@@ -121,7 +131,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
     if (pass->lattice->at && rows == LANES && particle[LANES - 1] - particle[0] == LANES - 1 &&
         group_regular(pass->lattice, m->source, m->p, particle[0], &room->regular)) {
         if (pass->count) b->slot[g + 1] = room->regular.n;
-        else group_fill_regular(b, &room->regular, g, m->source, m->p, m->pairs);
+        else group_fill_regular(b, room, g, m);
         for (int k = 0; k < room->regular.n; k++) made += room->regular.to[k] - room->regular.from[k] + 1;
         return made;
     }
@@ -133,7 +143,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
     }
     const int slots = group_slots(room, particle, rows, &by_offset);
     if (pass->count) b->slot[g + 1] = slots;
-    else group_fill(b, room, g, rows, by_offset, m->p), group_note(b, room, g, rows);
+    else group_write(b, room, g, rows, by_offset, m->p);
     if (pass->count && pass->found) pass->found[g] = group_found_make(room->row, rows);
     return made;
 }
@@ -211,6 +221,7 @@ static void rows_carry(struct bonds *b, const struct bonds *old)
 void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
+    b->patterns = patterns_make(old ? old->patterns : NULL);
     int most = bonds_room(s);
     uint8_t *wanted = NEW("bonds.wanted", p->n, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
@@ -265,6 +276,9 @@ void bonds_free(struct bonds *b)
     memory_free(b->w);
     memory_free(b->common);
     memory_free(b->lattice);
+    memory_free(b->pattern);
+    memory_free(b->folded);
+    patterns_free(b->patterns);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
     memory_free(b->pair);

@@ -71,7 +71,7 @@ void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, b
     const int32_t *particle = b->particle + g * LANES;
     int used[LANES] = {0}, slots = (int)(b->slot[g + 1] - b->slot[g]);
     for (int k = 0; k < slots; k++) {
-        int64_t q = bond_index(b, g, k, 0);
+        const int64_t q = (b->slot[g] + k) * LANES;
         for (int l = 0; l < LANES; l++) {
             const struct row *row = &room->row[l];
             bool has = l < rows && used[l] < row->n;
@@ -87,6 +87,12 @@ void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, b
     }
 }
 
+void group_follow(struct bonds *b, struct group_room *room, int64_t g)
+{
+    b->pattern[g] = room->pattern.slots > 0 ? pattern_known(b->patterns, &room->pattern, room->likely) : NULL;
+    if (b->pattern[g]) room->likely = b->pattern[g];
+}
+
 bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
                           struct lattice_bonds *to)
 {
@@ -96,26 +102,58 @@ bool group_regular(const struct lattice *lattice, const struct bond_source *s, c
     return true;
 }
 
-/* group_fill and group_note of whole rows on a lattice. */
-void group_fill_regular(struct bonds *b, const struct lattice_bonds *bonds, int64_t g, const struct bond_source *s,
-                               const struct particles *p, const struct pair_table *pairs)
+/* Slot k of a group whose rows are regular. */
+static void regular_weigh(const struct lattice_bonds *bonds, int k, const struct bond_source *s, const struct particles *p,
+                          const struct pair_table *pairs, int32_t i, real *inverse, real *w)
+{
+    lattice_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
+    for (int l = 0; l < LANES; l++)
+        if (l < bonds->from[k] || l > bonds->to[k]) inverse[l] = w[l] = 0;
+}
+
+/* Does it follow a pattern? Then nothing is written. */
+static bool regular_follows(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m)
 {
     const int32_t i = b->particle[g * LANES];
+    real inverse[LANES], w[LANES];
+    room->pattern.slots = 0;
+    for (int k = 0; k < room->regular.n; k++) {
+        regular_weigh(&room->regular, k, m->source, m->p, m->pairs, i, inverse, w);
+        if (!pattern_add(&room->pattern, b, m->p, i, i + room->regular.offset[k], inverse, w)) return false;
+    }
+    group_follow(b, room, g);
+    b->folded[g] = b->pattern[g] != NULL;
+    return b->folded[g];
+}
+
+static void regular_write(struct bonds *b, const struct lattice_bonds *bonds, int64_t g, const struct row_maker *m)
+{
+    const int32_t i = b->particle[g * LANES];
+    for (int k = 0; k < bonds->n; k++) {
+        const int64_t slot = b->slot[g] + k, q = slot * LANES;
+        b->first[slot] = i + bonds->offset[k];
+        regular_weigh(bonds, k, m->source, m->p, m->pairs, i, b->inverse_length + q, b->w + q);
+        for (int l = 0; l < LANES; l++) b->nbr[q + l] = b->first[slot] + l;
+        bonds_share(b, slot);
+    }
+}
+
+/* group_fill and group_note of whole rows on a lattice. */
+void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m)
+{
+    const struct lattice_bonds *bonds = &room->regular;
+    const struct bond_source *s = m->source;
+    const struct particles *p = m->p;
+    const int32_t i = b->particle[g * LANES];
     real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
+    if (!regular_follows(b, room, g, m)) regular_write(b, bonds, g, m);
     for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
     for (int k = 0; k < bonds->n; k++) {
         const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
-        const int64_t q = bond_index(b, g, k, 0);
-        lattice_weigh(s, p, pairs, i, j, b->inverse_length + q, b->w + q);
-        for (int l = 0; l < LANES; l++) b->nbr[q + l] = j + l;
-        for (int l = 0; l < LANES; l++)
-            if (l < from || l > to) slot_pad(b, q + l, j + l);
         for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? p->volume0[j + l] : 0;
         for (int l = from; l <= to; l++)
             if (s->limit.materials > 1 || trigger[l] == INFINITY)
                 trigger[l] = real_min(trigger[l], row_trigger(s, p, i + l, j + l));
-        b->first[b->slot[g] + k] = j;
-        bonds_share(b, b->slot[g] + k);
     }
     for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
     b->aligned[g] = true;
@@ -141,6 +179,7 @@ void group_room_make(struct group_room *g, int room, const struct lattice *latti
     for (int l = 0; l < LANES; l++) row_room_make(&g->row[l], room);
     g->offset = NEW("bonds.offset", (int64_t)LANES * room + 1, int32_t);
     lattice_bonds_make(&g->regular, lattice);
+    pattern_make(&g->pattern, LANES * room + 1);
 }
 
 void group_room_free(struct group_room *g)
@@ -148,4 +187,5 @@ void group_room_free(struct group_room *g)
     for (int l = 0; l < LANES; l++) row_room_free(&g->row[l]);
     memory_free(g->offset);
     lattice_bonds_free(&g->regular);
+    pattern_free(&g->pattern);
 }

@@ -23,7 +23,7 @@ static void slots_copy(void *to, const void *from, size_t each, const struct bon
            (size_t)(b->slot[g + 1] - b->slot[g]) * each);
 }
 
-void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
+static void slots_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
     slots_copy(b->first, old->first, sizeof *b->first, b, old, g, from);
     slots_copy(b->common, old->common, sizeof *b->common, b, old, g, from);
@@ -35,6 +35,13 @@ void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t fro
         slots_copy(b->plastic_path, old->plastic_path, LANES * sizeof(real), b, old, g, from);
         slots_copy(b->pair, old->pair, LANES * sizeof *b->pair, b, old, g, from);
     }
+}
+
+void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
+{
+    b->pattern[g] = old->pattern[from];
+    b->folded[g] = old->folded[from];
+    if (!b->folded[g]) slots_keep(b, old, g, from);
     b->made[g] = old->made[from];
     b->aligned[g] = old->aligned[from];
     memcpy(b->trigger + g * LANES, old->trigger + from * LANES, LANES * sizeof *b->trigger);

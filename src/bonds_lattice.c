@@ -9,7 +9,7 @@
 #include "memory.h"
 
 /* No site's distance may be as near to the cutoff [spacings]: particles may be LATTICE_NEAR from their sites, round-off then
- * decides nothing, and horizons of whole spacings (tolerance 1e-9) still pass. */
+ * decides nothing, and horizons of whole spacings (tolerance 1e-7) still pass. */
 #define BAND (4 * LATTICE_NEAR)
 enum { HALF_MOST = 16 };
 

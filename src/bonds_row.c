@@ -169,7 +169,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
 
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    const int64_t group = old_row / LANES, end = bond_index(old, group + 1, 0, (int)(old_row % LANES));
+    const int64_t group = old_row / LANES, end = old->slot[group + 1] * LANES;
     row->n = 0;
     for (int64_t q = bond_index(old, group, 0, (int)(old_row % LANES)); q < end; q += LANES) {    /* padding is written over */
         row->nbr[row->n] = old->nbr[q];
@@ -179,7 +179,7 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
 
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    const int64_t group = old_row / LANES, end = bond_index(old, group + 1, 0, (int)(old_row % LANES));
+    const int64_t group = old_row / LANES, end = old->slot[group + 1] * LANES;
     int n = 0;
     for (int64_t q = bond_index(old, group, 0, (int)(old_row % LANES)); q < end; q += LANES) {
         row->inverse_length[n] = old->inverse_length[q];

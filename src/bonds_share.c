@@ -20,32 +20,29 @@ void bonds_share_make(struct bonds *b, real spacing)
     b->common = BARE("bonds.common", b->slots, struct bond_slot);
 }
 
-/* Which of the lattice's lengths the bonds of a slot have, up to the round-off of positions that `excess` takes; 0: none. */
-static int lattice_of(struct bonds *b, int64_t slot)
+int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess)
 {
-    const real *inverse = b->inverse_length + slot * LANES;
     int one = 0;
     while (one < LANES - 1 && inverse[one] == 0) one++;
     const real squares = square(b->lattice[1].inverse / inverse[one]);
     if (!(squares >= 0.5 && squares < BOND_LATTICE - 0.5)) return 0;
     const int lattice = (int)(squares + 0.5);
     const int64_t zero = bits_of(b->lattice[lattice].inverse);
-    int64_t excess[LANES], outside = 0;
+    int64_t outside = 0;
     for (int l = 0; l < LANES; l++) {
-        excess[l] = inverse[l] == 0 ? 0 : bits_of(fabs(inverse[l])) - zero;
-        outside |= excess[l] != (int16_t)excess[l];
+        const int64_t units = inverse[l] == 0 ? 0 : bits_of(fabs(inverse[l])) - zero;
+        outside |= units != (int16_t)units;
+        excess[l] = (int16_t)units;
     }
-    if (outside) return 0;
-    for (int l = 0; l < LANES; l++) b->common[slot].excess[l] = (int16_t)excess[l];
-    return lattice;
+    return outside ? 0 : lattice;
 }
 
-void bonds_share(struct bonds *b, int64_t slot)
+void bonds_share(const struct bonds *b, int64_t slot)
 {
     const real *w = b->w + slot * LANES;
     struct bond_slot *c = &b->common[slot];
     *c = (struct bond_slot){.first = b->first[slot]};
-    if (c->first >= 0) c->lattice = (uint8_t)lattice_of(b, slot);
+    if (c->first >= 0) c->lattice = (uint8_t)lattice_length(b, b->inverse_length + slot * LANES, c->excess);
     c->alike = c->lattice != 0;
     bool same = w[0] != 0;
     for (int l = 1; l < LANES; l++) same &= w[l] == w[0];
@@ -59,10 +56,4 @@ void bonds_share(struct bonds *b, int64_t slot)
         c->w = w[l];
         c->intact |= (uint8_t)(1 << l);
     }
-}
-
-void bonds_share_all(struct bonds *b)
-{
-#pragma omp parallel for schedule(static)
-    for (int64_t slot = 0; slot < b->slots; slot++) bonds_share(b, slot);
 }

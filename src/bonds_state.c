@@ -13,17 +13,27 @@ real state_weight_left(const struct bonds *b, int64_t row)
     return Q;
 }
 
-/* Q of a row: of all bonds it has, or of a full family on the lattice [m^2]. */
-static real weighted_of(const struct bonds *b, const struct particles *p, const struct family *f, int64_t row)
+/* Q of the rows of a group: of all bonds they have, or of a full family on the lattice [m^2]. */
+static void group_weigh(struct bonds *b, const struct particles *p, const struct family *f, int64_t g)
 {
-    if (b->state.local && b->whole[row]) return state_weight_left(b, row);
-    return f->weighted * p->volume0[b->particle[row]] / f->cell_volume;
+    real *Q = b->state.weighted + g * LANES;
+    struct slot_copy slot;
+    for (int l = 0; l < LANES; l++) Q[l] = 0;
+    for (int64_t k = 0; b->state.local && k < b->slot[g + 1] - b->slot[g]; k++) {
+        slot_read(&slot, b, g, k);
+        for (int l = 0; l < LANES; l++)
+            if (slot.w[l] != 0) Q[l] += slot.w[l] / square(slot.inverse_length[l]);
+    }
+    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
+        if (!b->state.local || !b->whole[g * LANES + l])
+            Q[l] = f->weighted * p->volume0[b->particle[g * LANES + l]] / f->cell_volume;
 }
 
 void state_weigh(struct bonds *b, const struct particles *p, const struct family *f)
 {
     if (!b->state.modulus) return;
-    for (int64_t row = 0; row < b->rows; row++) b->state.weighted[row] = weighted_of(b, p, f, row);
+#pragma omp parallel for schedule(static)
+    for (int64_t g = 0; g < b->groups; g++) group_weigh(b, p, f, g);
 }
 
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s)

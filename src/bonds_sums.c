@@ -142,18 +142,21 @@ static real group_frequency(const struct lattice_bonds *bonds, const struct bond
 /* Of group g, as it is made. */
 static real group_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
+    const int64_t slots = b->slot[g + 1] - b->slot[g];
     bool regular = b->aligned[g];
     real largest = 0;
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) regular = regular && b->first[slot] >= 0;
+    for (int64_t k = 0; k < slots && regular && !b->pattern[g]; k++) regular = b->first[b->slot[g] + k] >= 0;
     if (!regular) {
         for (int64_t r = g * LANES; r < g * LANES + group_rows(b, g); r++)
             largest = real_max(largest, bonds_row_bound(b, p, r) / p->mass[b->particle[r]]);
         return largest;
     }
     struct eight_bounds bounds = {0};
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++)
-        bounds_add_any(&bounds, p, b->particle[g * LANES], b->first[slot], b->inverse_length + slot * LANES, b->w + slot * LANES,
-                       b->stiffness);
+    struct slot_copy slot;
+    for (int64_t k = 0; k < slots; k++) {
+        slot_read(&slot, b, g, k);
+        bounds_add_any(&bounds, p, b->particle[g * LANES], slot.first, slot.inverse_length, slot.w, b->stiffness);
+    }
     return bounds_frequency(&bounds, p, b->particle[g * LANES]);
 }
 

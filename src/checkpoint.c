@@ -14,7 +14,7 @@
 #include "output_files.h"
 #include "output_hdf5.h"
 
-enum { CHECKPOINT_VERSION = 8, BLOCK = 1 << 20 };
+enum { CHECKPOINT_VERSION = 9, BLOCK = 1 << 20 };
 static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint.previous.h5",
                   damaged_name[] = "checkpoint.damaged.h5";
 

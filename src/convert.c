@@ -44,7 +44,7 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
         for (int64_t i = 0; i < p->n; i++) {
             real X[DIM_MAX];
             particle_place(p, i, X);
-            if (region && region_contains(region, X, p->dim, 1e-9 * source->family.spacing)) p->kind[i] = KIND_PD;
+            if (region && region_contains(region, X, p->dim, ON_SURFACE * source->family.spacing)) p->kind[i] = KIND_PD;
             if (!cracks_near(source, p, i)) continue;
             family_find(&near, source, p, i);
             if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;

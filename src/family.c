@@ -6,7 +6,7 @@
 #include "bonds.h"
 #include "memory.h"
 
-#define DISTANCE_TOLERANCE 1e-9          /* relative: lattice points at exactly the horizon belong to the family */
+#define DISTANCE_TOLERANCE 1e-7          /* relative: lattice points at exactly the horizon belong to the family */
 
 static real ramp(const struct family *f, real r)
 {

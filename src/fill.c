@@ -3,7 +3,10 @@
  * The lattice of a body hangs on the bounding box of the first solid of its shape: with m = round(edge / spacing)
  * particles along an edge they stand at centre + (k + 1/2 - m/2) spacing, k any whole number. A symmetric solid
  * is filled symmetrically to the last bit about its centre, and solids added later (a driven layer, say)
- * continue the lattice of the first. A body whose first solid is unbounded uses the first body's lattice. */
+ * continue the lattice of the first. A body whose first solid is unbounded uses the first body's lattice.
+ *
+ * Centre and spacing are rounded so that all places are exact numbers: then neighbours are at exactly the same distances
+ * everywhere (struct pattern), and nothing that follows from distances knows where in the body it is. */
 #include <math.h>
 #include <string.h>
 
@@ -13,8 +16,6 @@
 #include "particle_list.h"
 #include "team.h"
 
-/* Points this close to a surface count as on it, and so inside [spacings]. */
-static const real on_surface = 1e-9;
 /* Two particles closer than this are one, given twice [spacings]. */
 static const real too_close = 1e-3;
 /* Farther from the origin double precision no longer resolves a bond's stretch [spacings]. */
@@ -71,13 +72,25 @@ static status draft_add(struct draft *d, const real *X, real volume, int materia
 
 /* Along one direction: places first .. last at centre + (k + 1/2 - m/2) spacing. */
 struct axis {
-    real centre, half_count;             /* [m], m/2 */
+    real centre, half_count, spacing;    /* [m], m/2, [m] */
     int64_t first, last;
 };
 
-static real axis_place(const struct axis *a, real spacing, int64_t k)
+static real axis_place(const struct axis *a, int64_t k)
 {
-    return a->centre + ((real)k + 0.5 - a->half_count) * spacing;
+    return a->centre + ((real)k + 0.5 - a->half_count) * a->spacing;
+}
+
+/* Rounds centre and half the spacing to whole multiples of a power of two, so small that places keep to where they are meant
+ * to be, and so large that all of them are exact. A body of 10,000 spacings has no such power; its places are rounded one by one. */
+static void axis_round(struct axis *a)
+{
+    const real ends = fabs(a->centre) + (fabs((real)a->first - a->half_count) + fabs((real)a->last - a->half_count) + 2) * a->spacing;
+    const real unit = exp2(ceil(log2(ends)) - 53), half = nearbyint(0.5 * a->spacing / unit) * unit;
+    const real farthest = 2 * real_max(fabs((real)a->first - a->half_count), fabs((real)a->last - a->half_count)) + 1;
+    if (fabs(2 * half - a->spacing) * 0.5 * farthest > 0.5 * LATTICE_NEAR * a->spacing) return;
+    a->centre = nearbyint(a->centre / unit) * unit;
+    a->spacing = 2 * half;
 }
 
 /* Box of a shape's first added solid; false if it is unbounded. */
@@ -121,12 +134,14 @@ static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM
         struct axis *x = &axis[a];
         x->centre = 0.5 * (low[a] + high[a]);
         x->half_count = 0.5 * round((high[a] - low[a]) / s->spacing);
+        x->spacing = s->spacing;
         real first = floor((from[a] - x->centre) / s->spacing + x->half_count - 0.5);
         real last = ceil((to[a] - x->centre) / s->spacing + x->half_count - 0.5);
         places *= real_max(0, last - first + 1);
         if (!(places < 64.0 * PARTICLES_MAX && -first < too_far && last < too_far))
             return draft_refuse(d, body, "too large for the spacing");
         x->first = (int64_t)first, x->last = (int64_t)last;
+        axis_round(x);
     }
     return OK;
 }
@@ -135,7 +150,7 @@ static status lattice_point(struct draft *d, int body, const real *place, real v
 {
     const struct scene *s = d->scene;
     real X[DIM_MAX] = {0};
-    if (!region_contains(&s->body[body].shape, place, s->dim, on_surface * s->spacing)) return OK;
+    if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a);   /* Imachi et al. 2019, eq. 49 */
     return draft_add(d, X, volume, s->body[body].material, body);
@@ -151,7 +166,7 @@ static status fill_lattice(struct draft *d, int body)
         for (int64_t j = axis[1].first; j <= axis[1].last; j++)
             for (int64_t i = axis[0].first; i <= axis[0].last; i++) {
                 const int64_t at[DIM_MAX] = {i, j, k};
-                for (int a = 0; a < DIM_MAX; a++) place[a] = axis_place(&axis[a], spacing, at[a]);
+                for (int a = 0; a < DIM_MAX; a++) place[a] = axis_place(&axis[a], at[a]);
                 TRY(lattice_point(d, body, place, volume));
             }
     return OK;
@@ -371,7 +386,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     take_draft(p, d, optional);
     TRY(check_values(p, d, spacing));
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, on_surface * spacing);
+    for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, ON_SURFACE * spacing);
     particles_sort(p, spacing, optional);
     return check_distances(p, d, spacing);
 }

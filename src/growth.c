@@ -184,7 +184,7 @@ static void step_back(struct growth *g, struct bonds *b)
         const int64_t q = entry_of(b, bond->i, bond->j, &row);
         if (q < 0 || (b->w[q] == 0 && bond->now > 0)) continue;
         b->w[q] = bond->before;
-        bonds_share(b, q / LANES);
+        bonds_changed(b, row, q);
         g->fading[kept++] = *bond;
     }
     g->n = kept;

@@ -142,7 +142,7 @@ static status bind_region(struct probe *q, const struct observed *o)
     q->list = NEW("probes.list", p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++) {
         particle_place(p, i, X);
-        if (region_contains(&q->request.region, X, p->dim, 1e-9 * o->spacing)) q->list[q->n++] = (int32_t)i;
+        if (region_contains(&q->request.region, X, p->dim, ON_SURFACE * o->spacing)) q->list[q->n++] = (int32_t)i;
     }
     if (q->n > 0) return OK;
     return status_set(REFUSED, "probe \"%s\": its region holds no particle", q->request.name);

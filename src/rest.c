@@ -80,24 +80,39 @@ static bool is_quiet(const struct bonds *b, const struct particles *p, const uin
     return !has_moved(b, p, group);
 }
 
+/* Group of the neighbour in a lane of a slot; -1: there is none, or it has no row. Padding looks at anybody. */
+static int64_t group_of(const struct bonds *b, const struct particles *p, const struct loads *l, const struct slot_copy *slot,
+                        int lane)
+{
+    if (slot->inverse_length[lane] == 0) return -1;
+    const int32_t row = b->row_of[image_root(p, l->image, slot->nbr[lane])];
+    return row < 0 ? -1 : row / LANES;
+}
+
 /* Gives a group a level, and who is bonded to it one less, and so on. */
 static void wake(struct bonds *b, const struct particles *p, const struct loads *l, int64_t group, int level)
 {
     if (b->rest.level[group] >= level) return;
     b->rest.level[group] = (uint8_t)level;
-    for (int64_t q = b->slot[group] * LANES; q < b->slot[group + 1] * LANES && level > 1; q++) {
-        if (b->inverse_length[q] == 0) continue;     /* padding looks at anybody */
-        const int32_t row = b->row_of[image_root(p, l->image, b->nbr[q])];
-        if (row >= 0) wake(b, p, l, row / LANES, level - 1);
+    for (int64_t k = 0; k < b->slot[group + 1] - b->slot[group] && level > 1; k++) {
+        struct slot_copy slot;
+        slot_read(&slot, b, group, k);
+        for (int lane = 0; lane < LANES; lane++) {
+            const int64_t next = group_of(b, p, l, &slot, lane);
+            if (next >= 0) wake(b, p, l, next, level - 1);
+        }
     }
 }
 
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t group, int level)
 {
-    for (int64_t q = b->slot[group] * LANES; q < b->slot[group + 1] * LANES; q++) {
-        if (b->inverse_length[q] == 0) continue;
-        const int32_t row = b->row_of[image_root(p, l->image, b->nbr[q])];
-        if (row >= 0 && b->rest.level[row / LANES] == level) return true;
+    for (int64_t k = 0; k < b->slot[group + 1] - b->slot[group]; k++) {
+        struct slot_copy slot;
+        slot_read(&slot, b, group, k);
+        for (int lane = 0; lane < LANES; lane++) {
+            const int64_t next = group_of(b, p, l, &slot, lane);
+            if (next >= 0 && b->rest.level[next] == level) return true;
+        }
     }
     return false;
 }

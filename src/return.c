@@ -67,7 +67,7 @@ static int64_t mark_held(const struct return_rule *rule, struct particles *p, co
         else if (!(p->quiet[i] < INFINITY)) p->quiet[i] = t;
         cut[i] = p->damage[i] > 0;
         held[i] = cut[i] || !(t - p->quiet[i] >= rule->dwell) ||
-                  (rule->kept && region_contains(rule->kept, X, p->dim, 1e-9 * rule->source->family.spacing));
+                  (rule->kept && region_contains(rule->kept, X, p->dim, ON_SURFACE * rule->source->family.spacing));
         rested += !held[i];
     }
     return rested;
@@ -232,8 +232,10 @@ static void crossing_of(struct crossing *to, const struct particles *p, const st
         const struct reflection r = reflection_of(source, p, j);
         const int64_t row = b->row_of[r.root];
         if (row < 0 || p->body[j] != p->body[i]) continue;
-        for (int64_t q = b->slot[row / LANES]; q < b->slot[row / LANES + 1]; q++)
-            if (b->w[q * LANES + row % LANES] != 0) crossing_add(to, b, p, &r, j, q * LANES + row % LANES);
+        for (int64_t slot = 0; slot < b->slot[row / LANES + 1] - b->slot[row / LANES]; slot++) {
+            const int64_t q = bond_index(b, row / LANES, slot, (int)(row % LANES));
+            if (b->w[q] != 0) crossing_add(to, b, p, &r, j, q);
+        }
     }
     for (int c = 0; c < SYM_MAX; c++) to->stress[c] /= p->volume0[i];
     for (int c = 0; c < SYM_MAX * SYM_MAX; c++) to->T[c] /= p->volume0[i];

@@ -139,7 +139,7 @@ static void make_weights(struct engine *e)
     for (int b = 0; b < e->loads.n; b++) {
         const struct boundary *m = e->loads.load[b].boundary;
         for (int64_t i = 0; m->kind == BOUNDARY_MIRROR && i < e->part.n; i++) {
-            if (fabs(e->part.X[m->axis][i] - m->at) > 1e-9 * e->scene->spacing) continue;
+            if (fabs(e->part.X[m->axis][i] - m->at) > ON_SURFACE * e->scene->spacing) continue;
             if (m->body >= 0 && e->part.body[i] != m->body) continue;
             s->weight[i] *= 0.5;
             s->held[i] |= (uint8_t)(m->hold_tangential ? (1 << DIM_MAX) - 1 : 1 << m->axis);

@@ -116,7 +116,7 @@ static void extent_and_sites(void **state)
     for (int k = -1000; k <= 1000; k++) {            /* places as a scene computes them: round-off does not matter */
         assert_true(lattice_site(0.3 + k * 1e-3, 0.3, 1e-3, &site));
         assert_exact(site, k);
-        assert_false(lattice_site(0.3 + (k + 1e-9) * 1e-3, 0.3, 1e-3, &site));
+        assert_false(lattice_site(0.3 + (k + 1e-7) * 1e-3, 0.3, 1e-3, &site));
     }
 }
 

@@ -70,7 +70,8 @@ done
 # ---- a disc falls --------------------------------------------------------------------------------------------------
 
 # Newton: displacement g t^2/2, exact in the leap-frog scheme at every step; velocity g (t - dt/2), half a step
-# behind; no stress. What is left is round-off of some hundred sums.
+# behind; no stress. What is left is round-off of some hundred sums: 1e-12 of the speed in the mean over particles (rms,
+# measured), so a particle may have some times that.
 scene fall <<'END'
 space: plane stress
 thickness: 1 mm
@@ -100,7 +101,7 @@ for run in fall_pd fall_flip fall_apic; do
         near "$run: way along $axis" "$(f $run probes.middle.displacement_$axis)" \
             "$(awk -v b=$force -v t="$time" 'BEGIN { printf "%.17g", b / 7800 * t * t / 2 }')" 1e-12
         near "$run: speed along $axis" "$(f $run probes.middle.velocity_$axis)" \
-            "$(awk -v b=$force -v t="$speed" 'BEGIN { printf "%.17g", b / 7800 * t }')" 1e-12
+            "$(awk -v b=$force -v t="$speed" 'BEGIN { printf "%.17g", b / 7800 * t }')" 5e-12
         near "$run: impulse along $axis" "$(f $run probes.momentum.$axis)" \
             "$(awk -v b=$force -v m="$mass" -v t="$speed" 'BEGIN { printf "%.17g", b / 7800 * m * t }')" 2e-12
         # 5e9 N/m^3 over 10 mm would be 50 MPa

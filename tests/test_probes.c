@@ -207,7 +207,7 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
             bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);
             if (b->w[q] == 0 || !across || fabs(p->X[0][i] - p->X[0][j]) < shortest - 0.5) continue;
             b->w[q] = 0;
-            bonds_share(b, q / LANES);
+            bonds_changed(b, row, q);
             b->broken[row]++;
             p->flag[i] |= FLAG_CUT | FLAG_CRACKED;
         }

@@ -203,13 +203,14 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
     const int dim = space_dim(space);
     body_make(b, &plan, model, 0.3, local);
     cloud_bonds(&b->c);
+    for (int64_t g = 0; g < b->c.bonds.groups; g++) group_unfold(&b->c.bonds, g);
     for (int64_t g = 0; g < b->c.bonds.groups; g++)          /* a cut along x = 4.5, up to y = 4 */
         for (int64_t q = b->c.bonds.slot[g] * LANES; q < b->c.bonds.slot[g + 1] * LANES; q++) {
             int32_t i = b->c.bonds.particle[g * LANES + q % LANES], j = b->c.bonds.nbr[q];
             const real *X = b->c.p.X[0], *Y = b->c.p.X[1], line = 4.5 * CLOUD_SPACING;
             if (b->c.bonds.w[q] == 0 || (X[i] < line) == (X[j] < line) || Y[i] + Y[j] > 8 * CLOUD_SPACING) continue;
             b->c.bonds.w[q] = 0, b->c.bonds.inverse_length[q] *= -1;
-            bonds_share(&b->c.bonds, q / LANES);
+            bonds_changed(&b->c.bonds, g * LANES + q % LANES, q);
         }
     state_weigh(&b->c.bonds, &b->c.p, &b->c.source.family);
     uint64_t seed = 17;

@@ -1,0 +1,187 @@
+/* floor 1: groups that have the same bonds as others read one list of slots, their pattern. */
+#include <string.h>
+
+#include "bonds_parts.h"
+#include "memory.h"
+
+enum { PATTERNS_MOST = 2048, HASHES = 4096 };
+
+struct patterns {
+    int n, users;                        /* users: rows and rows made anew from them */
+    struct pattern pattern[PATTERNS_MOST];
+    int32_t first[HASHES];               /* of a hash, + 1; 0: none */
+};
+
+struct patterns *patterns_make(struct patterns *of)
+{
+    struct patterns *p = of ? of : NEW("bonds.patterns", 1, struct patterns);
+    p->users++;
+    return p;
+}
+
+void patterns_free(struct patterns *p)
+{
+    if (!p || --p->users > 0) return;
+    for (int k = 0; k < p->n; k++) memory_free(p->pattern[k].slot), memory_free(p->pattern[k].w);
+    memory_free(p);
+}
+
+void pattern_make(struct pattern *p, int slots)
+{
+    *p = (struct pattern){0};
+    p->slot = NEW("bonds.pattern_slot", slots, struct pattern_slot);
+    p->w = (real (*)[LANES])NEW("bonds.pattern_w", (int64_t)slots * LANES, real);
+}
+
+void pattern_free(struct pattern *p)
+{
+    memory_free(p->slot);
+    memory_free(p->w);
+}
+
+/* ---- what a group would follow ---------------------------------------------------------------------- */
+
+/* Do all bonds of a slot have the same components to the last bit? Then they are stored. */
+static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct pattern_slot *to)
+{
+    int one = 0, same = 1;
+    while (!(to->intact & (1 << one))) one++;
+    for (int d = 0; d < p->dim; d++) {
+        const real *X = p->X[d];
+        to->xi[d] = X[j + one] - X[i + one];
+        for (int l = 0; l < LANES; l++) same &= !(to->intact & (1 << l)) | (X[j + l] - X[i + l] == to->xi[d]);
+    }
+    return same;
+}
+
+bool pattern_add(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t i, int64_t j, const real *inverse,
+                 const real *w)
+{
+    struct pattern_slot *slot = &to->slot[to->slots];
+    int16_t excess[LANES];
+    int alone = 0, alike = 1, bonds = 0;
+    *slot = (struct pattern_slot){.offset = (int32_t)(j - i), .lattice = (uint8_t)lattice_length(b, inverse, excess)};
+    for (int l = 0; l < LANES; l++) {
+        to->w[to->slots][l] = w[l];
+        alone |= (w[l] == 0) != (inverse[l] == 0);       /* cut or broken */
+        if (w[l] == 0) continue;
+        alone |= bonds > 0 && inverse[l] != slot->inverse_length;
+        alike &= bonds == 0 || w[l] == slot->w;
+        slot->inverse_length = inverse[l], slot->w = w[l], slot->intact |= (uint8_t)(1 << l), bonds++;
+    }
+    if (alone || bonds == 0 || slot->lattice == 0 || !reference_of(p, i, j, slot)) return false;
+    const struct bond_length *length = &b->lattice[slot->lattice];
+    slot->weighted = slot->w * length->length, slot->squared = slot->w * length->square;
+    to->whole = (to->slots == 0 || to->whole) && alike && bonds == LANES;
+    to->slots++;
+    return true;
+}
+
+bool pattern_of(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t group)
+{
+    const int64_t from = b->slot[group];
+    to->slots = 0;
+    if (!b->aligned[group] || (group + 1) * LANES > b->rows || b->plastic_stretch) return false;
+    for (int64_t slot = from; slot < b->slot[group + 1]; slot++)
+        if (b->first[slot] < 0 || !pattern_add(to, b, p, b->particle[group * LANES], b->first[slot], b->inverse_length + slot * LANES,
+                                               b->w + slot * LANES)) return false;
+    return to->slots > 0;
+}
+
+/* ---- all patterns ----------------------------------------------------------------------------------- */
+
+static bool patterns_equal(const struct pattern *a, const struct pattern *b)
+{
+    return a->slots == b->slots && memcmp(a->slot, b->slot, (size_t)a->slots * sizeof *a->slot) == 0 &&
+           memcmp(a->w, b->w, (size_t)a->slots * sizeof *a->w) == 0;
+}
+
+/* Fowler, Noll & Vo's hash, over words. */
+static uint64_t hash_add(uint64_t hash, const void *from, size_t bytes)
+{
+    for (size_t at = 0; at < bytes; at += sizeof(uint64_t)) {
+        uint64_t word;
+        memcpy(&word, (const char *)from + at, sizeof word);
+        hash = (hash ^ word) * UINT64_C(0x100000001b3);
+    }
+    return hash;
+}
+
+static int hash_of(const struct pattern *p)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    hash = hash_add(hash, p->slot, (size_t)p->slots * sizeof *p->slot);
+    hash = hash_add(hash, p->w, (size_t)p->slots * sizeof *p->w);
+    return (int)((hash ^ hash >> 32) % HASHES);
+}
+
+static const struct pattern *pattern_store(struct patterns *all, const struct pattern *pattern)
+{
+    const int hash = hash_of(pattern);
+    for (int32_t k = all->first[hash] - 1; k >= 0; k = all->pattern[k].next)
+        if (patterns_equal(&all->pattern[k], pattern)) return &all->pattern[k];
+    if (all->n == PATTERNS_MOST) return NULL;
+    struct pattern *stored = &all->pattern[all->n];
+    pattern_make(stored, pattern->slots);
+    memcpy(stored->slot, pattern->slot, (size_t)pattern->slots * sizeof *stored->slot);
+    memcpy(stored->w, pattern->w, (size_t)pattern->slots * sizeof *stored->w);
+    stored->slots = pattern->slots, stored->whole = pattern->whole;
+    stored->next = all->first[hash] - 1;
+    all->first[hash] = ++all->n;
+    return stored;
+}
+
+const struct pattern *pattern_known(struct patterns *all, const struct pattern *pattern, const struct pattern *likely)
+{
+    const struct pattern *known;
+    if (likely && patterns_equal(likely, pattern)) return likely;
+#pragma omp critical(bonds_patterns)
+    known = pattern_store(all, pattern);
+    return known;
+}
+
+/* ---- bond by bond ----------------------------------------------------------------------------------- */
+
+void slot_read(struct slot_copy *to, const struct bonds *b, int64_t group, int64_t k)
+{
+    const int64_t slot = b->slot[group] + k;
+    if (!__atomic_load_n(&b->folded[group], __ATOMIC_ACQUIRE)) {
+        to->first = b->first[slot];
+        memcpy(to->nbr, b->nbr + slot * LANES, sizeof to->nbr);
+        memcpy(to->inverse_length, b->inverse_length + slot * LANES, sizeof to->inverse_length);
+        memcpy(to->w, b->w + slot * LANES, sizeof to->w);
+        return;
+    }
+    const struct pattern_slot *of = &b->pattern[group]->slot[k];
+    to->first = b->particle[group * LANES] + of->offset;
+    memcpy(to->w, b->pattern[group]->w[k], sizeof to->w);
+    for (int l = 0; l < LANES; l++) to->nbr[l] = to->first + l, to->inverse_length[l] = to->w[l] == 0 ? 0 : of->inverse_length;
+}
+
+static void unfold(const struct bonds *b, int64_t group)
+{
+    struct slot_copy copy;
+    for (int64_t slot = b->slot[group]; slot < b->slot[group + 1]; slot++) {
+        slot_read(&copy, b, group, slot - b->slot[group]);
+        b->first[slot] = copy.first;
+        memcpy(b->nbr + slot * LANES, copy.nbr, sizeof copy.nbr);
+        memcpy(b->inverse_length + slot * LANES, copy.inverse_length, sizeof copy.inverse_length);
+        memcpy(b->w + slot * LANES, copy.w, sizeof copy.w);
+        bonds_share(b, slot);
+    }
+}
+
+void group_unfold(const struct bonds *b, int64_t group)
+{
+#pragma omp critical(bonds_unfold)
+    if (b->folded[group]) {
+        unfold(b, group);
+        __atomic_store_n(&b->folded[group], 0, __ATOMIC_RELEASE);
+    }
+}
+
+void bonds_changed(struct bonds *b, int64_t row, int64_t q)
+{
+    b->pattern[row / LANES] = NULL;
+    bonds_share(b, q / LANES);
+}

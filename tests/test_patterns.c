@@ -1,0 +1,182 @@
+/* floor 4: groups that follow a pattern: who does, that what they would store is right, and that every kernel makes the same
+ * bits of them as of groups that have all of their bonds in memory. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "cloud.h"
+#include "kernels.h"
+
+/* A lattice all of whose places are exact, as fill.c makes them. */
+static void exact_cloud(struct cloud *c, int dim, enum surface_rule surface, const struct state_modulus *modulus)
+{
+    static const enum space space[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+    const real half = nearbyint(0.5 * CLOUD_SPACING * 0x1p50) * 0x1p-50;
+    cloud_make(c, &(struct cloud_plan){.space = space[dim], .count = {32, 14, 11}, .horizon = 3.015, .surface = surface});
+    for (int d = 0; d < dim; d++)
+        for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] = half * nearbyint(c->p.X[d][i] / half);
+    c->source.modulus = modulus, c->source.turns = true, c->source.local = true;
+    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = 0.02;
+    cloud_source(c);
+    c->source.yield.stretch = NULL;
+    bonds_make(&c->bonds, NULL, &c->p, &c->source);
+}
+
+static void shake(struct cloud *c, real most)
+{
+    uint64_t seed = 7;
+    for (int64_t i = 0; i < c->p.n; i++)
+        for (int d = 0; d < c->p.dim; d++) c->p.x[d][i] = c->p.X[d][i] + cloud_between(&seed, -most, most) * CLOUD_SPACING;
+}
+
+static void follow_nothing(struct bonds *b)
+{
+    for (int64_t g = 0; g < b->groups; g++) {
+        if (b->folded[g]) group_unfold(b, g);
+        b->pattern[g] = NULL;
+    }
+}
+
+static int64_t count_folded(const struct bonds *b)
+{
+    int64_t n = 0;
+    for (int64_t g = 0; g < b->groups; g++) n += b->folded[g];
+    return n;
+}
+
+static real apart(const struct particles *p, int64_t i, int64_t j)
+{
+    real r2 = 0;
+    for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][j] - p->X[d][i]);
+    return sqrt(r2);
+}
+
+/* Eight neighbours in a row may begin before the first particle of all, or end behind the last: such groups are stored. */
+static bool at_an_end(const struct cloud *c, int64_t group)
+{
+    return fmin(apart(&c->p, 0, group * LANES), apart(&c->p, c->p.n - 1, group * LANES + 7)) < c->source.family.cutoff;
+}
+
+/* Lines of 32 particles are four groups each, all on the lattice; those in the middle have all of their bonds. */
+static void test_who_follows(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
+            struct cloud c;
+            int64_t whole = 0;
+            exact_cloud(&c, dim, surface, NULL);
+            for (int64_t g = 0; g < c.bonds.groups; g++) {
+                const struct pattern *pattern = c.bonds.pattern[g];
+                assert_true(pattern || at_an_end(&c, g));
+                whole += pattern && pattern->whole;
+            }
+            if (surface == SURFACE_NONE) assert_int_equal(whole, c.bonds.groups / 2);
+            assert_true(whole > 0 && (dim == 1 || count_folded(&c.bonds) > whole));
+            cloud_free(&c);
+        }
+}
+
+/* Every bond that there is, and no other, by looking at all pairs. */
+static void test_what_is_stored(void **state)
+{
+    (void)state;
+    struct cloud c;
+    exact_cloud(&c, 2, SURFACE_NONE, NULL);
+    const struct particles *p = &c.p;
+    const struct bonds *b = &c.bonds;
+    for (int64_t row = 0; row < b->rows; row++) {
+        int64_t k = 0, slots = b->slot[row / LANES + 1] - b->slot[row / LANES];
+        for (int64_t j = 0; j < p->n; j++) {
+            const int32_t i = b->particle[row];
+            const real r = apart(p, i, j);
+            if (j == i || r > c.source.family.cutoff) continue;
+            while (k < slots && b->w[bond_index(b, row / LANES, k, (int)(row % LANES))] == 0) k++;
+            assert_true(k < slots);
+            const int64_t q = bond_index(b, row / LANES, k++, (int)(row % LANES));
+            assert_int_equal(b->nbr[q], j);
+            assert_true(fabs(b->inverse_length[q] * r - 1) < 1e-15);
+            assert_true(b->w[q] == 1);
+        }
+        for (; k < slots; k++) assert_true(b->w[bond_index(b, row / LANES, k, (int)(row % LANES))] == 0);
+    }
+    assert_int_equal(count_folded(b), 0);                /* asked for bond by bond */
+    cloud_free(&c);
+}
+
+/* Everything the kernels make of the places of now, one number after the other. */
+struct made { real *value; int64_t n; };
+
+static void made_add(struct made *m, const real *from, int64_t n)
+{
+    memcpy(m->value + m->n, from, (size_t)n * sizeof *from);
+    m->n += n;
+}
+
+static struct made make_all(struct cloud *c, enum pd_model model)
+{
+    struct kernels k;
+    struct made m = {NEW("test.made", 2 * (DIM_MAX + SYM_MAX) * c->p.n + 4, real), 0};
+    kernels_choose(&k, c->p.dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
+    for (int turn = 0; turn < 2; turn++) {               /* in the first some break */
+        const real broken = (real)k.bond_force(&c->bonds, &c->p, &c->source.limit);
+        const real energy = k.bond_energy(&c->bonds, &c->p);
+        k.bond_stress(&c->bonds, &c->p);
+        made_add(&m, &broken, 1);
+        made_add(&m, &energy, 1);
+        for (int d = 0; d < c->p.dim; d++) made_add(&m, c->p.f[d], c->p.n);
+        for (int s = 0; s < symmetric_count(c->p.dim); s++) made_add(&m, c->p.stress[s], c->p.n);
+    }
+    return m;
+}
+
+static void test_same_bits(void **state)
+{
+    (void)state;
+    static const enum pd_model models[] = {PD_BOND, PD_OSPD, PD_MOSPD};
+    const struct state_modulus modulus[CLOUD_MATERIALS] = {{3e11, 4e11, 2e11}, {3e11, 4e11, 2e11}};
+    for (int dim = 2; dim <= DIM_MAX; dim++)
+        for (size_t k = 0; k < COUNT_OF(models); k++) {
+            struct cloud folded, open;
+            const bool states = models[k] != PD_BOND;
+            exact_cloud(&folded, dim, states ? SURFACE_NONE : SURFACE_VOLUME, states ? modulus : NULL);
+            exact_cloud(&open, dim, states ? SURFACE_NONE : SURFACE_VOLUME, states ? modulus : NULL);
+            follow_nothing(&open.bonds);
+            shake(&folded, 0.013), shake(&open, 0.013);
+            struct made a = make_all(&folded, models[k]), b = make_all(&open, models[k]);
+            assert_true(a.value[0] > 0);                                   /* some bonds have broken, */
+            assert_true(count_folded(&folded.bonds) > 0);                  /* and not all groups have been opened */
+            assert_int_equal(a.n, b.n);
+            assert_memory_equal(a.value, b.value, (size_t)a.n * sizeof *a.value);
+            memory_free(a.value), memory_free(b.value);
+            cloud_free(&folded), cloud_free(&open);
+        }
+}
+
+/* A bond that changes takes its group out of the pattern, and no other. */
+static void test_who_leaves(void **state)
+{
+    (void)state;
+    struct cloud c;
+    exact_cloud(&c, 2, SURFACE_NONE, NULL);
+    const int64_t folded = count_folded(&c.bonds), group = c.bonds.groups / 2, q = bond_index(&c.bonds, group, 3, 4);
+    bond_fade(&c.bonds, &c.p, group * LANES + 4, q, 0);
+    for (int64_t g = 0; g < c.bonds.groups; g++) assert_true(c.bonds.pattern[g] ? g != group : g == group || at_an_end(&c, g));
+    assert_int_equal(count_folded(&c.bonds), folded - 1);
+    cloud_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_who_follows),
+        cmocka_unit_test(test_what_is_stored),
+        cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_who_leaves),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
