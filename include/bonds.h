@@ -131,7 +131,7 @@ struct pattern_slot {
     uint16_t unused;                     /* patterns are compared byte by byte             */
     real inverse_length, w;              /* [1/m]; of a bond [1]                           */
     real weighted, squared;              /* w |xi| and w |xi|^2 of the lattice's |xi| [m], [m^2] */
-    real xi[DIM_MAX];                    /* X_j - X_i [m]                                  */
+    real xi[DIM_MAX], w_xi[DIM_MAX];     /* X_j - X_i, and w times that [m]                */
 };
 
 /* Groups of eight particles in a row that have the same neighbours at the same distances with the same weights, nothing broken:
@@ -270,8 +270,10 @@ real bonds_fracture_energy(const struct bonds *b);
 /* Rows of a group that have an intact bond: a bit each. */
 static inline unsigned bonds_intact(const struct bonds *b, int64_t group)
 {
+    const struct pattern *pattern = b->pattern[group];
     unsigned bits = 0;
-    if (__atomic_load_n(&b->folded[group], __ATOMIC_ACQUIRE)) group_unfold(b, group);
+    for (int k = 0; pattern && k < pattern->slots; k++) bits |= pattern->slot[k].intact;
+    if (pattern) return bits;
     for (int64_t slot = b->slot[group]; slot < b->slot[group + 1]; slot++) bits |= b->common[slot].intact;
     return bits;
 }

@@ -12,6 +12,9 @@ void *memory_new(const char *label, int64_t count, size_t size);
 /* The same without zeros, for what is written at once and whole by the threads that will own it. */
 void *memory_bare(const char *label, int64_t count, size_t size);
 
+/* The same for what is mostly never written: small pages, and only those that are written take memory. */
+void *memory_sparse(const char *label, int64_t count, size_t size);
+
 /* Grows or shrinks an array of memory_new; the first min(old, new) elements are kept, new ones are zero.
  * `pointer` may be NULL. */
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);

@@ -67,6 +67,12 @@ static ALWAYS_INLINE lanes slot_reference(const struct slot s, const struct part
     return s.pattern ? lanes_of(s.pattern->xi[d]) : slot_at(s, p->X[d]) - X;
 }
 
+/* The same, by weight [m]. */
+static ALWAYS_INLINE lanes slot_weighted_reference(const struct slot s, int d, lanes w, lanes xi)
+{
+    return s.kind == SLOT_WHOLE ? lanes_of(s.pattern->w_xi[d]) : w * xi;
+}
+
 /* 1/|X_j - X_i| [1/m]; of broken bonds maybe the negative of it. */
 static ALWAYS_INLINE lanes slot_inverse_length(const struct slot s)
 {

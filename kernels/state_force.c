@@ -27,8 +27,9 @@ static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct partic
     sum->extension += state_weight(slot, w, s.inverse_length, true) * stretch;
     if (!state_turns(model)) return;
     for (int c = 0; c < dim; c++) {
-        const lanes weighted = w * s.xi[c];
-        sum->moved |= ((lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c]) & (w > 0.0);     /* padding may look at anybody */
+        const lanes weighted = slot_weighted_reference(slot, c, w, s.xi[c]);
+        const lanes_mask moved = (lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c];
+        sum->moved |= slot.kind == SLOT_WHOLE ? moved : moved & (w > 0.0);        /* padding may look at anybody */
         for (int d = 0; d < dim; d++) sum->moment[d * dim + c] += weighted * s.y[d];
     }
 }
@@ -47,7 +48,7 @@ static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p,
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    const bool whole = own >= 0 && p->kind[own] == KIND_PD && eight_alike(p->kind + own);
+    const bool whole = own >= 0 && b->whole[g * LANES] && eight_alike(b->whole + g * LANES);
     const bool alike = own >= 0 && eight_alike(p->material + own);
     const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
     lanes A = lanes_of(m->A), B = lanes_of(m->B), R[DIM_MAX * DIM_MAX];
@@ -66,7 +67,7 @@ static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p,
     }
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
         const int32_t i = row[l];
-        if (p->kind[i] != KIND_PD) continue;
+        if (!b->whole[g * LANES + l]) continue;
         b->state.pressure[i] = pressure[l];
         b->state.spring[i] = spring[l];
         for (int c = 0; state_turns(model) && c < dim * dim; c++) b->state.turn[c][i] = spring[l] * R[c][l];
@@ -97,9 +98,8 @@ static ALWAYS_INLINE void know_group(struct bonds *b, const struct particles *p,
 static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                       const enum pd_model model)
 {
-    bool knows = false;
-    for (int l = 0; l < LANES; l++) knows |= p->kind[b->particle[g * LANES + l]] == KIND_PD;
-    if (knows) know_group(b, p, g, true, dim, model);
+    const uint8_t *whole = b->whole + g * LANES;         /* 0 of padding rows */
+    if (whole[0] || !eight_alike(whole)) know_group(b, p, g, true, dim, model);
     else know_group(b, p, g, false, dim, model);
 }
 
@@ -170,11 +170,23 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 
 /* ---- second sweep: forces -------------------------------------------------------------------------------- */
 
-/* A group while its slots are visited. */
-struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], turn[DIM_MAX * DIM_MAX], pressure, spring; };
+/* A group while its slots are visited; `arm` is sum w xi, which turns with the rotation of the row's own particle. */
+struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring; };
+
+/* f less g (R - 1) arm, the matrix that of eight particles; in the plane it is (a, -c; c, a). */
+static ALWAYS_INLINE void turn_off(lanes *f, const lanes *turn, const lanes *arm, const int dim)
+{
+    if (dim == 2) {
+        f[0] += turn[2] * arm[1] - turn[0] * arm[0];
+        f[1] -= turn[2] * arm[0] + turn[0] * arm[1];
+        return;
+    }
+    for (int d = 0; d < dim; d++)
+        for (int c = 0; c < dim; c++) f[d] -= turn[d * dim + c] * arm[c];
+}
 
 /* Adds the forces of a slot, with e/|Y| = r (|Y|/r - 1)/|Y|. The effective displacement Y - R xi is (Y - xi) - (R - 1) xi: exactly
- * 0 where nothing has moved; in the plane g (R - 1) = (a, -c; c, a). */
+ * 0 where nothing has moved. What the rows' own rotations add follows from the sum of arms (force_group). */
 static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct particles *p, const struct slot slot, const int dim,
                                      const enum pd_model model)
 {
@@ -190,19 +202,16 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct partic
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
         return;
     }
-    const lanes along = wr * pressure * inverse;
-    lanes turned[DIM_MAX];
-    if (dim == 2) {
-        const lanes a = sum->turn[0] + slot_at(slot, t->turn[0]), c = sum->turn[2] + slot_at(slot, t->turn[2]);
-        turned[0] = a * s.xi[0] - c * s.xi[1];
-        turned[1] = c * s.xi[0] + a * s.xi[1];
-    } else
-        for (int d = 0; d < dim; d++) {
-            turned[d] = lanes_of(0);
-            for (int c = 0; c < dim; c++)
-                turned[d] += (sum->turn[d * dim + c] + slot_at(slot, t->turn[d * dim + c])) * s.xi[c];
-        }
-    for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d] + w * (spring * (s.y[d] - s.xi[d]) - turned[d]);
+    const lanes along = wr * pressure * inverse, weighted = w * spring;
+    lanes turn[DIM_MAX * DIM_MAX], arm[DIM_MAX];
+    for (int d = 0; d < dim; d++) {
+        arm[d] = slot_weighted_reference(slot, d, w, s.xi[d]);
+        sum->arm[d] += arm[d];
+        sum->f[d] += along * s.y[d] + weighted * (s.y[d] - s.xi[d]);
+        for (int c = 0; c < dim; c++)
+            if (dim > 2 || d != 0 || c == 0) turn[d * dim + c] = slot_at(slot, t->turn[d * dim + c]);
+    }
+    turn_off(sum->f, turn, arm, dim);
 }
 
 /* Force of one group, mixed into what f holds by `share`. */
@@ -216,13 +225,17 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
     struct state_sums sum;
     sum.pressure = lanes_at(t->pressure, own, row), sum.spring = lanes_at(t->spring, own, row);
     for (int d = 0; d < dim; d++) {
-        sum.x[d] = lanes_at(p->x[d], own, row), sum.f[d] = lanes_of(0);
+        sum.x[d] = lanes_at(p->x[d], own, row), sum.f[d] = sum.arm[d] = lanes_of(0);
         if (state_turns(model)) sum.X[d] = lanes_at(p->X[d], own, row);
     }
-    for (int c = 0; state_turns(model) && c < dim * dim; c++) sum.turn[c] = lanes_at(t->turn[c], own, row);
 #define VISIT(SLOT) force_slot(&sum, p, SLOT, dim, model)
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
+    if (state_turns(model)) {
+        lanes turn[DIM_MAX * DIM_MAX];
+        for (int c = 0; c < dim * dim; c++) turn[c] = lanes_at(t->turn[c], own, row);
+        turn_off(sum.f, turn, sum.arm, dim);
+    }
     for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d], share);
 }
 

@@ -111,14 +111,6 @@ struct rows_pass {
     bool count;                          /* the first pass: slots are counted                     */
 };
 
-static void group_write(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, const struct particles *p)
-{
-    group_fill(b, room, g, rows, by_offset, p);
-    group_note(b, room, g, rows);
-    if (!pattern_of(&room->pattern, b, p, g)) room->pattern.slots = 0;
-    group_follow(b, room, g);
-}
-
 /* Counts the slots of a group, or fills them; returns its bonds. */
 static int64_t group_pass(const struct rows_pass *pass, struct group_room *room, int64_t g)
 {
@@ -143,7 +135,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
     }
     const int slots = group_slots(room, particle, rows, &by_offset);
     if (pass->count) b->slot[g + 1] = slots;
-    else group_write(b, room, g, rows, by_offset, m->p);
+    else group_fill(b, room, g, rows, by_offset, m->p);
     if (pass->count && pass->found) pass->found[g] = group_found_make(room->row, rows);
     return made;
 }
@@ -171,14 +163,16 @@ static int64_t rows_pass(const struct rows_pass *pass)
     return made;
 }
 
-/* Groups write all of their slots, padding included. */
-static void slots_arrays(struct bonds *b, const struct bond_source *s)
+/* Groups write all of their slots, padding included, or none: on a lattice most. */
+static void slots_arrays(struct bonds *b, const struct bond_source *s, bool lattice)
 {
-    b->first = BARE("bonds.first", b->slots, int32_t);
-    b->nbr = BARE("bonds.nbr", b->slots * LANES, int32_t);
-    b->inverse_length = BARE("bonds.inverse_length", b->slots * LANES, real);
-    b->w = BARE("bonds.w", b->slots * LANES, real);
-    bonds_share_make(b, s->family.spacing);
+    void *(*make)(const char *, int64_t, size_t) = lattice ? memory_sparse : memory_bare;
+    b->first = make("bonds.first", b->slots, sizeof *b->first);
+    b->nbr = make("bonds.nbr", b->slots * LANES, sizeof *b->nbr);
+    b->inverse_length = make("bonds.inverse_length", b->slots * LANES, sizeof *b->inverse_length);
+    b->w = make("bonds.w", b->slots * LANES, sizeof *b->w);
+    b->common = make("bonds.common", b->slots, sizeof *b->common);
+    lattice_lengths(b, s->family.spacing);
     if (!s->yield.stretch) return;
     b->yield = s->yield;
     b->plastic_stretch = NEW("bonds.plastic_stretch", b->slots * LANES, real);
@@ -198,7 +192,7 @@ static void rows_make(struct bonds *b, struct row_maker maker)
     rows_pass(&pass);
     for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
     b->slots = b->slot[b->groups];
-    slots_arrays(b, maker.source);
+    slots_arrays(b, maker.source, lattice.at != NULL);
     pass.count = false;
     b->n = rows_pass(&pass);
     for (int64_t g = 0; g < b->groups && pass.found; g++) memory_free(pass.found[g]);

@@ -41,125 +41,20 @@ int group_slots(struct group_room *g, const int32_t *particle, int rows, bool *b
     return *by_offset ? offsets : longest;
 }
 
-static void slot_put(struct bonds *b, int64_t q, const struct row *row, int k, int32_t pair)
-{
-    if (b->plastic_stretch) {
-        b->plastic_stretch[q] = row->plastic[k].stretch;
-        b->plastic_path[q] = row->plastic[k].path;
-        b->pair[q] = pair;
-    }
-    b->nbr[q] = row->nbr[k];
-    b->inverse_length[q] = row->inverse_length[k];
-    b->w[q] = row->w[k];
-}
-
-static void slot_pad(struct bonds *b, int64_t q, int32_t neighbour)
-{
-    b->nbr[q] = neighbour;
-    b->inverse_length[q] = 0;
-    b->w[q] = 0;
-}
-
 static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] * b->yield.materials + p->material[j];
 }
 
-void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset,
-                       const struct particles *p)
+static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plastic, int32_t pair)
 {
-    const int32_t *particle = b->particle + g * LANES;
-    int used[LANES] = {0}, slots = (int)(b->slot[g + 1] - b->slot[g]);
-    for (int k = 0; k < slots; k++) {
-        const int64_t q = (b->slot[g] + k) * LANES;
-        for (int l = 0; l < LANES; l++) {
-            const struct row *row = &room->row[l];
-            bool has = l < rows && used[l] < row->n;
-            if (has && by_offset) has = row->nbr[used[l]] - particle[l] == room->offset[k];
-            int64_t other = by_offset ? particle[l] + (l < rows ? room->offset[k] : 0) : particle[l];
-            if (has) slot_put(b, q + l, row, used[l], pair_of(b, p, particle[l], row->nbr[used[l]])), used[l]++;
-            else slot_pad(b, q + l, other < 0 || other >= p->n_all ? particle[l] : (int32_t)other);
-        }
-        bool consecutive = true;
-        for (int l = 1; l < LANES; l++) consecutive = consecutive && b->nbr[q + l] == b->nbr[q] + l;
-        b->first[b->slot[g] + k] = consecutive ? b->nbr[q] : -1;
-        bonds_share(b, b->slot[g] + k);
-    }
+    b->plastic_stretch[q] = plastic.stretch;
+    b->plastic_path[q] = plastic.path;
+    b->pair[q] = pair;
 }
 
-void group_follow(struct bonds *b, struct group_room *room, int64_t g)
-{
-    b->pattern[g] = room->pattern.slots > 0 ? pattern_known(b->patterns, &room->pattern, room->likely) : NULL;
-    if (b->pattern[g]) room->likely = b->pattern[g];
-}
-
-bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
-                          struct lattice_bonds *to)
-{
-    if (!lattice_bonds(lattice, p, i, to)) return false;
-    for (int l = 0; l < LANES; l++)
-        if (p->kind[i + l] != KIND_PD || cracks_near(s, p, i + l)) return false;
-    return true;
-}
-
-/* Slot k of a group whose rows are regular. */
-static void regular_weigh(const struct lattice_bonds *bonds, int k, const struct bond_source *s, const struct particles *p,
-                          const struct pair_table *pairs, int32_t i, real *inverse, real *w)
-{
-    lattice_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
-    for (int l = 0; l < LANES; l++)
-        if (l < bonds->from[k] || l > bonds->to[k]) inverse[l] = w[l] = 0;
-}
-
-/* Does it follow a pattern? Then nothing is written. */
-static bool regular_follows(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m)
-{
-    const int32_t i = b->particle[g * LANES];
-    real inverse[LANES], w[LANES];
-    room->pattern.slots = 0;
-    for (int k = 0; k < room->regular.n; k++) {
-        regular_weigh(&room->regular, k, m->source, m->p, m->pairs, i, inverse, w);
-        if (!pattern_add(&room->pattern, b, m->p, i, i + room->regular.offset[k], inverse, w)) return false;
-    }
-    group_follow(b, room, g);
-    b->folded[g] = b->pattern[g] != NULL;
-    return b->folded[g];
-}
-
-static void regular_write(struct bonds *b, const struct lattice_bonds *bonds, int64_t g, const struct row_maker *m)
-{
-    const int32_t i = b->particle[g * LANES];
-    for (int k = 0; k < bonds->n; k++) {
-        const int64_t slot = b->slot[g] + k, q = slot * LANES;
-        b->first[slot] = i + bonds->offset[k];
-        regular_weigh(bonds, k, m->source, m->p, m->pairs, i, b->inverse_length + q, b->w + q);
-        for (int l = 0; l < LANES; l++) b->nbr[q + l] = b->first[slot] + l;
-        bonds_share(b, slot);
-    }
-}
-
-/* group_fill and group_note of whole rows on a lattice. */
-void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m)
-{
-    const struct lattice_bonds *bonds = &room->regular;
-    const struct bond_source *s = m->source;
-    const struct particles *p = m->p;
-    const int32_t i = b->particle[g * LANES];
-    real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
-    if (!regular_follows(b, room, g, m)) regular_write(b, bonds, g, m);
-    for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
-    for (int k = 0; k < bonds->n; k++) {
-        const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
-        for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? p->volume0[j + l] : 0;
-        for (int l = from; l <= to; l++)
-            if (s->limit.materials > 1 || trigger[l] == INFINITY)
-                trigger[l] = real_min(trigger[l], row_trigger(s, p, i + l, j + l));
-    }
-    for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
-    b->aligned[g] = true;
-}
-
-void group_note(struct bonds *b, const struct group_room *room, int64_t g, int rows)
+/* What is known of the rows of a group. */
+static void group_note(struct bonds *b, const struct group_room *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
     for (int l = 1; l < rows; l++) aligned = aligned && b->particle[g * LANES + l] == b->particle[g * LANES] + l;
@@ -173,6 +68,92 @@ void group_note(struct bonds *b, const struct group_room *room, int64_t g, int r
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
+/* Has row l bond number `used` at the index distance of slot k? Packed rows take whatever comes next. */
+static bool row_has(const struct group_room *room, const int32_t *particle, int l, int used, bool by_offset, int k)
+{
+    const struct row *row = &room->row[l];
+    return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
+}
+
+void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, const struct particles *p)
+{
+    const int32_t *particle = b->particle + g * LANES;
+    int used[LANES] = {0}, slots = (int)(b->slot[g + 1] - b->slot[g]);
+    for (int k = 0; k < slots; k++) {
+        struct slot_copy *slot = &room->slot[k];
+        for (int l = 0; l < LANES; l++) {
+            const struct row *row = &room->row[l];
+            const int64_t other = by_offset ? particle[l] + (l < rows ? room->offset[k] : 0) : particle[l];
+            slot->nbr[l] = other < 0 || other >= p->n_all ? particle[l] : (int32_t)other;    /* padding looks at anybody */
+            slot->inverse_length[l] = slot->w[l] = 0;
+            if (l >= rows || !row_has(room, particle, l, used[l], by_offset, k)) continue;
+            const int n = used[l]++;
+            slot->nbr[l] = row->nbr[n], slot->inverse_length[l] = row->inverse_length[n], slot->w[l] = row->w[n];
+            if (b->plastic_stretch)
+                plastic_put(b, (b->slot[g] + k) * LANES + l, row->plastic[n], pair_of(b, p, particle[l], row->nbr[n]));
+        }
+        bool consecutive = true;
+        for (int l = 1; l < LANES; l++) consecutive = consecutive && slot->nbr[l] == slot->nbr[0] + l;
+        slot->first = consecutive ? slot->nbr[0] : -1;
+    }
+    group_note(b, room, g, rows);
+    group_store(b, room, g, p);
+}
+
+/* What the slots in a group's room would follow; false: they have something of their own. */
+static bool pattern_of(const struct bonds *b, struct group_room *room, int64_t g, const struct particles *p)
+{
+    const int slots = (int)(b->slot[g + 1] - b->slot[g]);
+    room->pattern.slots = 0;
+    if (!b->aligned[g] || slots == 0 || b->plastic_stretch) return false;
+    for (int k = 0; k < slots; k++)
+        if (!pattern_add(&room->pattern, b, p, b->particle[g * LANES], &room->slot[k])) return false;
+    return true;
+}
+
+void group_store(struct bonds *b, struct group_room *room, int64_t g, const struct particles *p)
+{
+    b->pattern[g] = pattern_of(b, room, g, p) ? pattern_known(b->patterns, &room->pattern, room->likely) : NULL;
+    b->folded[g] = b->pattern[g] != NULL;
+    if (b->folded[g]) room->likely = b->pattern[g];
+    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1] && !b->folded[g]; slot++) slot_write(b, slot, &room->slot[slot - b->slot[g]]);
+}
+
+bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
+                          struct lattice_bonds *to)
+{
+    if (!lattice_bonds(lattice, p, i, to)) return false;
+    for (int l = 0; l < LANES; l++)
+        if (p->kind[i + l] != KIND_PD || cracks_near(s, p, i + l)) return false;
+    return true;
+}
+
+/* group_fill of whole rows on a lattice. */
+void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m)
+{
+    const struct lattice_bonds *bonds = &room->regular;
+    const struct bond_source *s = m->source;
+    const struct particles *p = m->p;
+    const int32_t i = b->particle[g * LANES];
+    real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
+    for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
+    for (int k = 0; k < bonds->n; k++) {
+        struct slot_copy *slot = &room->slot[k];
+        const int32_t j = slot->first = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
+        lattice_weigh(s, p, m->pairs, i, j, slot->inverse_length, slot->w);
+        for (int l = 0; l < LANES; l++) slot->nbr[l] = j + l;
+        for (int l = 0; l < LANES; l++)
+            if (l < from || l > to) slot->inverse_length[l] = slot->w[l] = 0;
+        for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? p->volume0[j + l] : 0;
+        for (int l = from; l <= to; l++)
+            if (s->limit.materials > 1 || trigger[l] == INFINITY)
+                trigger[l] = real_min(trigger[l], row_trigger(s, p, i + l, j + l));
+    }
+    for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
+    b->aligned[g] = true;
+    group_store(b, room, g, p);
+}
+
 void group_room_make(struct group_room *g, int room, const struct lattice *lattice)
 {
     g->room = room;
@@ -180,6 +161,7 @@ void group_room_make(struct group_room *g, int room, const struct lattice *latti
     g->offset = NEW("bonds.offset", (int64_t)LANES * room + 1, int32_t);
     lattice_bonds_make(&g->regular, lattice);
     pattern_make(&g->pattern, LANES * room + 1);
+    g->slot = NEW("bonds.slot_copy", (int64_t)LANES * room + 1, struct slot_copy);
 }
 
 void group_room_free(struct group_room *g)
@@ -188,4 +170,5 @@ void group_room_free(struct group_room *g)
     memory_free(g->offset);
     lattice_bonds_free(&g->regular);
     pattern_free(&g->pattern);
+    memory_free(g->slot);
 }

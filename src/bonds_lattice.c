@@ -158,12 +158,16 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
     const struct family *f = &s->family;
     const real *volume = p->volume0, *around = s->neighbour_volume;
     real xi[DIM_MAX][LANES], r[LANES];
+    int same = 1;
     for (int l = 0; l < LANES; l++) {
-        real r2 = 0;
-        for (int d = 0; d < dim; d++) xi[d][l] = p->X[d][j + l] - p->X[d][i + l], r2 += square(xi[d][l]);
-        r[l] = sqrt(r2);
-        inverse[l] = 1 / r[l];
         w[l] = f->shell_weight[0];
+        for (int d = 0; d < dim; d++) xi[d][l] = p->X[d][j + l] - p->X[d][i + l], same &= xi[d][l] == xi[d][0];
+    }
+    for (int l = 0; l < LANES; l++) {    /* on a lattice of exact places one root will do */
+        real r2 = 0;
+        for (int d = 0; d < dim; d++) r2 += square(xi[d][l]);
+        r[l] = same && l > 0 ? r[0] : sqrt(r2);
+        inverse[l] = same && l > 0 ? inverse[0] : 1 / r[l];
     }
     for (int l = 0; l < LANES && !family_plain(f); l++) {
         real one[DIM_MAX];

@@ -98,7 +98,8 @@ struct group_room {
     int room;                            /* bonds a row may have */
     struct row row[LANES];
     int32_t *offset;                     /* [LANES room] distinct index distances */
-    struct pattern pattern;              /* that of a group                    */
+    struct slot_copy *slot;              /* [LANES room] of a group            */
+    struct pattern pattern;              /* what they make                     */
     const struct pattern *likely;        /* that of the group before           */
 };
 void group_room_make(struct group_room *g, int room, const struct lattice *lattice);
@@ -106,14 +107,13 @@ void group_room_free(struct group_room *g);
 /* Slots the group needs, by index distance or simply packed; then fills them, and notes what is known of its rows. */
 int group_slots(struct group_room *g, const int32_t *particle, int rows, bool *by_offset);
 void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, const struct particles *p);
-void group_note(struct bonds *b, const struct group_room *room, int64_t g, int rows);
-/* Both of whole rows on a lattice. */
+/* The same of whole rows on a lattice. */
 void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m);
-/* A group follows the pattern that its room holds, if there is one. */
-void group_follow(struct bonds *b, struct group_room *room, int64_t g);
+/* The last of both: the group follows the pattern that the slots in its room make, or stores them. */
+void group_store(struct bonds *b, struct group_room *room, int64_t g, const struct particles *p);
 
-/* Room for what slots have in common; bonds_share fills it. */
-void bonds_share_make(struct bonds *b, real spacing);
+/* Makes b->lattice. */
+void lattice_lengths(struct bonds *b, real spacing);
 /* Which of the lattice's lengths eight bonds have, up to the round-off of positions, which goes to `excess`; 0: none. */
 int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess);
 
@@ -123,14 +123,13 @@ struct patterns *patterns_make(struct patterns *of);
 void patterns_free(struct patterns *p);
 void pattern_make(struct pattern *p, int slots);
 void pattern_free(struct pattern *p);
-/* One slot more: bonds of particles i .. i + 7 to j .. j + 7, those without w and inverse have none. False: they differ in
- * length, or are cut. */
-bool pattern_add(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t i, int64_t j, const real *inverse,
-                 const real *w);
-/* What a group that is written would follow; false: it has bonds of its own. */
-bool pattern_of(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t group);
+/* One slot more, of a group that begins with particle i; those of its bonds without w and inverse length are none. False: its
+ * neighbours are not in a row, or bonds differ in length, or are cut. */
+bool pattern_add(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t i, const struct slot_copy *from);
 /* The one among all that is equal, the likely one first; NULL: there are too many to take it in. */
 const struct pattern *pattern_known(struct patterns *all, const struct pattern *pattern, const struct pattern *likely);
+/* Into memory. */
+void slot_write(const struct bonds *b, int64_t slot, const struct slot_copy *from);
 
 /* What state-based models keep; after the rows and their `whole` (bonds_state.c). */
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);

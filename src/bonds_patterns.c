@@ -54,13 +54,13 @@ static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct
     return same;
 }
 
-bool pattern_add(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t i, int64_t j, const real *inverse,
-                 const real *w)
+bool pattern_add(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t i, const struct slot_copy *from)
 {
     struct pattern_slot *slot = &to->slot[to->slots];
+    const real *inverse = from->inverse_length, *w = from->w;
     int16_t excess[LANES];
-    int alone = 0, alike = 1, bonds = 0;
-    *slot = (struct pattern_slot){.offset = (int32_t)(j - i), .lattice = (uint8_t)lattice_length(b, inverse, excess)};
+    int alone = from->first < 0, alike = 1, bonds = 0;
+    *slot = (struct pattern_slot){.offset = (int32_t)(from->first - i), .lattice = (uint8_t)lattice_length(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
         to->w[to->slots][l] = w[l];
         alone |= (w[l] == 0) != (inverse[l] == 0);       /* cut or broken */
@@ -69,23 +69,13 @@ bool pattern_add(struct pattern *to, const struct bonds *b, const struct particl
         alike &= bonds == 0 || w[l] == slot->w;
         slot->inverse_length = inverse[l], slot->w = w[l], slot->intact |= (uint8_t)(1 << l), bonds++;
     }
-    if (alone || bonds == 0 || slot->lattice == 0 || !reference_of(p, i, j, slot)) return false;
+    if (alone || bonds == 0 || slot->lattice == 0 || !reference_of(p, i, from->first, slot)) return false;
     const struct bond_length *length = &b->lattice[slot->lattice];
     slot->weighted = slot->w * length->length, slot->squared = slot->w * length->square;
+    for (int d = 0; d < p->dim; d++) slot->w_xi[d] = slot->w * slot->xi[d];
     to->whole = (to->slots == 0 || to->whole) && alike && bonds == LANES;
     to->slots++;
     return true;
-}
-
-bool pattern_of(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t group)
-{
-    const int64_t from = b->slot[group];
-    to->slots = 0;
-    if (!b->aligned[group] || (group + 1) * LANES > b->rows || b->plastic_stretch) return false;
-    for (int64_t slot = from; slot < b->slot[group + 1]; slot++)
-        if (b->first[slot] < 0 || !pattern_add(to, b, p, b->particle[group * LANES], b->first[slot], b->inverse_length + slot * LANES,
-                                               b->w + slot * LANES)) return false;
-    return to->slots > 0;
 }
 
 /* ---- all patterns ----------------------------------------------------------------------------------- */
@@ -158,16 +148,21 @@ void slot_read(struct slot_copy *to, const struct bonds *b, int64_t group, int64
     for (int l = 0; l < LANES; l++) to->nbr[l] = to->first + l, to->inverse_length[l] = to->w[l] == 0 ? 0 : of->inverse_length;
 }
 
+void slot_write(const struct bonds *b, int64_t slot, const struct slot_copy *from)
+{
+    b->first[slot] = from->first;
+    memcpy(b->nbr + slot * LANES, from->nbr, sizeof from->nbr);
+    memcpy(b->inverse_length + slot * LANES, from->inverse_length, sizeof from->inverse_length);
+    memcpy(b->w + slot * LANES, from->w, sizeof from->w);
+    bonds_share(b, slot);
+}
+
 static void unfold(const struct bonds *b, int64_t group)
 {
     struct slot_copy copy;
     for (int64_t slot = b->slot[group]; slot < b->slot[group + 1]; slot++) {
         slot_read(&copy, b, group, slot - b->slot[group]);
-        b->first[slot] = copy.first;
-        memcpy(b->nbr + slot * LANES, copy.nbr, sizeof copy.nbr);
-        memcpy(b->inverse_length + slot * LANES, copy.inverse_length, sizeof copy.inverse_length);
-        memcpy(b->w + slot * LANES, copy.w, sizeof copy.w);
-        bonds_share(b, slot);
+        slot_write(b, slot, &copy);
     }
 }
 

@@ -13,11 +13,10 @@ static int64_t bits_of(real a)
     return bits;
 }
 
-void bonds_share_make(struct bonds *b, real spacing)
+void lattice_lengths(struct bonds *b, real spacing)
 {
     b->lattice = NEW("bonds.lattice", BOND_LATTICE, struct bond_length);
     for (int k = 1; k < BOND_LATTICE; k++) b->lattice[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
-    b->common = BARE("bonds.common", b->slots, struct bond_slot);
 }
 
 int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess)

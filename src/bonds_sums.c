@@ -72,14 +72,15 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
 
 real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row)
 {
-    const int64_t g = row / LANES, i = b->particle[row];
+    const int64_t g = row / LANES, i = b->particle[row], l = row % LANES;
     struct spring_bound bound = {{{0}}, 0};
+    struct slot_copy slot;
     for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
-        const int64_t q = bond_index(b, g, k, (int)(row % LANES));
         real n[DIM_MAX] = {0};
-        if (b->w[q] == 0) continue;
-        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][b->nbr[q]] - p->X[d][i]) * b->inverse_length[q];
-        spring_bound_add(&bound, b->stiffness * b->w[q] * b->inverse_length[q], n, p->dim);
+        slot_read(&slot, b, g, k);
+        if (slot.w[l] == 0) continue;
+        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][slot.nbr[l]] - p->X[d][i]) * slot.inverse_length[l];
+        spring_bound_add(&bound, b->stiffness * slot.w[l] * slot.inverse_length[l], n, p->dim);
     }
     return spring_bound_of(&bound, p->dim);
 }

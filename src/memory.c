@@ -135,28 +135,32 @@ static char *block_make(struct block *block, size_t length, size_t alignment, bo
     return block->whole;
 }
 
-static void *array_make(const char *label, int64_t count, size_t size, bool zeroed)
+enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN };
+
+static void *array_make(const char *label, int64_t count, size_t size, enum content content)
 {
     size_t length;
     struct block block;
     if (count < 0 || __builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
         out_of_memory(label, count, size);
     const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;   /* also for count 0 */
-    const bool large = rounded >= LARGE_ARRAY;
+    const bool large = rounded >= LARGE_ARRAY && content != MOSTLY_UNWRITTEN;
     bool fresh;
     char *from = block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, &fresh);
     if (!block.whole) out_of_memory(label, count, size);
 #ifdef MADV_HUGEPAGE
     if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
+    if (content == MOSTLY_UNWRITTEN && block.mapped > 0) madvise(block.whole, block.mapped, MADV_NOHUGEPAGE);
 #endif
     char *pointer = from + ahead;
-    if (zeroed) zero(pointer, rounded, fresh);
+    if (content == ZEROED) zero(pointer, rounded, fresh);
     memcpy(pointer - sizeof block, &block, sizeof block);
     return pointer;
 }
 
-void *memory_new(const char *label, int64_t count, size_t size) { return array_make(label, count, size, true); }
-void *memory_bare(const char *label, int64_t count, size_t size) { return array_make(label, count, size, false); }
+void *memory_new(const char *label, int64_t count, size_t size) { return array_make(label, count, size, ZEROED); }
+void *memory_bare(const char *label, int64_t count, size_t size) { return array_make(label, count, size, WRITTEN_SOON); }
+void *memory_sparse(const char *label, int64_t count, size_t size) { return array_make(label, count, size, MOSTLY_UNWRITTEN); }
 
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
 {

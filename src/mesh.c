@@ -356,11 +356,15 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
     uint8_t *seen = NEW("mesh.seen", p->n, uint8_t);
     for (int64_t g = 0; g < b->groups; g++) {
         const unsigned intact = bonds_intact(b, g);
+        struct slot_copy slot;
         for (int lane = 0; lane < LANES; lane++) seen[b->particle[g * LANES + lane]] |= intact >> lane & 1;
+        for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g] && p->n_all > p->n; k++) {
+            slot_read(&slot, b, g, k);
+            images_see(seen, p, l->image, slot.nbr);
+        }
     }
     for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
         for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
-    for (int64_t k = 0; k < b->slots && p->n_all > p->n; k++) images_see(seen, p, l->image, b->nbr + k * LANES);
     mesh->seen = 0;
     for (int64_t I = 0; I < mesh->grid.n; I++)
         if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, seen, I);

@@ -214,10 +214,10 @@ bool partial_table_row(const struct partial_table *t, const struct particles *p,
     real X[DIM_MAX];
     bool any = false;
     particle_place(p, b->particle[row], X);
-    for (int64_t slot = b->slot[row / LANES]; slot < b->slot[row / LANES + 1]; slot++) {
-        const int64_t q = slot * LANES + row % LANES;
+    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         real to[DIM_MAX];
-        if (!(b->common[slot].intact >> row % LANES & 1)) continue;
+        if (b->w[q] == 0) continue;
         any = true;
         particle_place(p, b->nbr[q], to);
         const int64_t place = place_between(t, X, to);

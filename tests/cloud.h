@@ -96,6 +96,21 @@ static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
     particles_list(p);
 }
 
+/* Places that are exact numbers, as fill.c makes them; not of a shaken cloud. */
+static inline void cloud_exact(struct cloud *c)
+{
+    const real half = nearbyint(0.5 * CLOUD_SPACING * 0x1p50) * 0x1p-50;
+    for (int d = 0; d < c->p.dim; d++)
+        for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] = half * nearbyint(c->p.X[d][i] / half);
+}
+
+/* All bonds where they are stored. */
+static inline void cloud_unfold(const struct bonds *b)
+{
+    for (int64_t g = 0; g < b->groups; g++)
+        if (b->folded[g]) group_unfold(b, g);
+}
+
 /* What bonds are made from, once kinds, bodies and materials are as the test wants them. */
 static inline void cloud_source(struct cloud *c)
 {

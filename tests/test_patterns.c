@@ -15,10 +15,8 @@
 static void exact_cloud(struct cloud *c, int dim, enum surface_rule surface, const struct state_modulus *modulus)
 {
     static const enum space space[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
-    const real half = nearbyint(0.5 * CLOUD_SPACING * 0x1p50) * 0x1p-50;
     cloud_make(c, &(struct cloud_plan){.space = space[dim], .count = {32, 14, 11}, .horizon = 3.015, .surface = surface});
-    for (int d = 0; d < dim; d++)
-        for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] = half * nearbyint(c->p.X[d][i] / half);
+    cloud_exact(c);
     c->source.modulus = modulus, c->source.turns = true, c->source.local = true;
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = 0.02;
     cloud_source(c);
@@ -35,10 +33,8 @@ static void shake(struct cloud *c, real most)
 
 static void follow_nothing(struct bonds *b)
 {
-    for (int64_t g = 0; g < b->groups; g++) {
-        if (b->folded[g]) group_unfold(b, g);
-        b->pattern[g] = NULL;
-    }
+    cloud_unfold(b);
+    for (int64_t g = 0; g < b->groups; g++) b->pattern[g] = NULL;
 }
 
 static int64_t count_folded(const struct bonds *b)
