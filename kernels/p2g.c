@@ -109,13 +109,15 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     cell_sums sum;
     FOR_ROWS(dim, shape)
         for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_of(0);
-    for (int k = 0; k < n; k++) p2g_fetch(p, list, k, dim, transfer);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct stencil s;
         const int points = at_once(n - k, dim);
         stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         stencil_turn(&s, dim, shape);
-        for (int at = 0; at < points; at++) p2g_particle(sum, g, p, t, &s, at, dim, shape, transfer);
+        for (int at = 0; at < points; at++) {
+            p2g_fetch(p, list, k + at, dim, transfer);
+            p2g_particle(sum, g, p, t, &s, at, dim, shape, transfer);
+        }
     }
     FOR_ROWS(dim, shape) {
         const int64_t I = cell_row(&c, g, k1, k2, dim);

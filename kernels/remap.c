@@ -31,6 +31,14 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct ste
     }
 }
 
+static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
+{
+    int64_t i;
+    if (!fetch_now(list, k, &i)) return;
+    fetch(p->mass + i);
+    for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i);
+}
+
 static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
                                        const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                        const enum shape shape)
@@ -43,20 +51,13 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
     for (int at = 0; at < n; at++) {
         const row_of_nodes N = stencil_touch(&s, at, g->h, dim, shape).N;
         row_of_nodes given[DIM_MAX];
+        remap_fetch(p, list, at, dim);
         for (int d = 0; d < dim; d++) given[d] = momentum[d][at] * N;
         FOR_TOUCHED(&s, at, dim, shape) {
             const real weight = stencil_row(&s, at, k1, k2, dim, shape);
             for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] += weight * given[d];
         }
     }
-}
-
-static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
-{
-    int64_t i;
-    if (!fetch_now(list, k, &i)) return;
-    fetch(p->mass + i);
-    for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i);
 }
 
 static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
@@ -66,7 +67,6 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
     cell_rows sum;
     FOR_ROWS(dim, shape)
         for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
-    for (int k = 0; k < n; k++) remap_fetch(p, list, k, dim);
     for (int k = 0; k < n; k += AT_ONCE(dim))
         remap_points(sum, g, &c, p, t, list + k, at_once(n - k, dim), dim, shape);
     FOR_ROWS(dim, shape)
