@@ -89,7 +89,7 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
     const int along = ROW_DIMS(dim, shape);
     for (int d = 0; d < dim; d++) velocity[d] = points_of(0);
     for (int k = 0; k < dim * dim; k++) L[k] = points_of(0);
-    FOR_TOUCHED(s, ANY, dim, shape) {
+    FOR_ANY_TOUCHED(s, dim, shape) {
         const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
         const int64_t I = cell_row(c, g, k1, k2, dim);
         for (int d = 0; d < dim; d++) {

@@ -14,7 +14,7 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct ste
 {
     row_of_points gain[DIM_MAX];
     for (int d = 0; d < dim; d++) gain[d] = points_of(0);
-    FOR_TOUCHED(s, ANY, dim, shape) {
+    FOR_ANY_TOUCHED(s, dim, shape) {
         const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
         for (int d = 0; d < dim; d++) {
             const real *change = g->force[d] + cell_row(c, g, k1, k2, dim);

@@ -71,11 +71,16 @@ static ALWAYS_INLINE int points_signs(row_of_points a)
 /* Points taken at once: as many as a cell has as a rule, but two in 1D. Lanes beyond are copies. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
-static ALWAYS_INLINE int at_once(int left, const int dim) { return left < AT_ONCE(dim) ? left : AT_ONCE(dim); }
+static ALWAYS_INLINE int smaller(int a, int b) { return a < b ? a : b; }
+static ALWAYS_INLINE int at_once(int left, const int dim) { return smaller(left, AT_ONCE(dim)); }
+
+/* All lanes are one point: the branch pays where cells hold one, and costs nothing where they hold four. */
+static ALWAYS_INLINE bool points_alone(const int32_t *point, const int dim) { return dim > 1 && point[0] == point[POINTS - 1]; }
 
 /* An array's numbers of a few points, wherever they stand. Storing, a point named twice has to agree with itself. */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
+    if (points_alone(point, dim)) return points_of(from[point[0]]);
     row_of_points a;
     for (int k = 0; k < POINTS; k++) a[k] = from[point[k % AT_ONCE(dim)]];
     return a;
@@ -83,7 +88,9 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
 
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
-    for (int k = 0; k < AT_ONCE(dim); k++) to[point[k]] = a[k];
+    to[point[0]] = a[0];
+    if (points_alone(point, dim)) return;
+    for (int k = 1; k < AT_ONCE(dim); k++) to[point[k]] = a[k];
 }
 
 /* Rows by nodes, a lane for each point, to rows by points, a lane for each node. */

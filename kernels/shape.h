@@ -95,17 +95,17 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define ROW_END(dim, shape) ((shape) == SHAPE_LINEAR && !IS_FACE(dim, shape) ? 1 : 0)
 #define FOR_NODES(dim, shape) for (int k = ROW_END(dim, shape); k < ROW - ROW_END(dim, shape); k++)
 
-/* Loops over the rows k1, k2 of a patch, and over those that point `at` of a stencil touches, or ANY of its points. */
-enum { ANY = POINTS };
-#define FOR_ROWS(dim, shape)                                      \
-    for (int k2 = 0; k2 < ROWS_Z(dim, shape); k2++)               \
-        for (int k1 = 0; k1 < ROWS_Y(dim, shape); k1++)
+/* Loops over the rows k1, k2 of a patch, over those that point `at` of a stencil touches, and that any of its points does. */
+#define FOR_SPAN(low2, end2, low1, end1)                                                                             \
+    for (int k2 = (low2), above = (end2); k2 < above; k2++)                                                          \
+        for (int k1 = (low1), beyond = (end1); k1 < beyond; k1++)
+#define FOR_ROWS(dim, shape) FOR_SPAN(0, ROWS_Z(dim, shape), 0, ROWS_Y(dim, shape))
 #define FOR_TOUCHED(s, at, dim, shape)                                                                               \
-    for (int k2 = SKIPS(dim, shape) ? (s)->low[2][at] : 0, end2 = SKIPS(dim, shape) ? (s)->end[2][at] : ROWS_Z(dim, shape); \
-         k2 < end2; k2++)                                                                                            \
-        for (int k1 = SKIPS(dim, shape) ? (s)->low[1][at] : 0,                                                       \
-                 end1 = SKIPS(dim, shape) ? (s)->end[1][at] : ROWS_Y(dim, shape);                                    \
-             k1 < end1; k1++)
+    FOR_SPAN(SKIPS(dim, shape) ? (s)->low[2][at] : 0, SKIPS(dim, shape) ? k2 + 3 : ROWS_Z(dim, shape),               \
+             SKIPS(dim, shape) ? (s)->low[1][at] : 0, SKIPS(dim, shape) ? k1 + 3 : ROWS_Y(dim, shape))
+#define FOR_ANY_TOUCHED(s, dim, shape)                                                                               \
+    FOR_SPAN(SKIPS(dim, shape) ? (s)->lowest[2] : 0, SKIPS(dim, shape) ? (s)->end[2] : ROWS_Z(dim, shape),           \
+             SKIPS(dim, shape) ? (s)->lowest[1] : 0, SKIPS(dim, shape) ? (s)->end[1] : ROWS_Y(dim, shape))
 /* Place of a row in the arrays of a patch. */
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
@@ -165,7 +165,8 @@ struct stencil {
     row_of_points N[ROW], D[2][ROW];     /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
     row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D seen from each point                          */
     row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS]; /* of rows: weights [1], slopes [1/m], by the direction across */
-    int low[DIM_MAX][ANY + 1], end[DIM_MAX][ANY + 1]; /* first row that a point of three nodes touches, and after the last */
+    int low[DIM_MAX][POINTS];            /* first row that a point of three nodes touches                 */
+    int lowest[DIM_MAX], end[DIM_MAX];   /* first that any touches, and first beyond that none does       */
 };
 
 /* The nodes of a row seen from one point: weights [1], slopes in the directions along it [1/m]. */
@@ -189,15 +190,13 @@ static ALWAYS_INLINE void stencil_face(struct stencil *s, real inverse, const in
     s->B[2][0] = points_of(-inverse), s->B[2][1] = points_of(inverse);
 }
 
-/* Points whose place is below l leave out the node above their cell, the others the one below. */
+/* Points whose place is below l leave out the node above their cell, the others the one below. Nothing here may branch:
+ * at the edges of a lattice's particles the answers are as good as random. */
 static ALWAYS_INLINE void stencil_touched(struct stencil *s, row_of_points l, int d)
 {
-    int upper = 0;
-    for (int k = 0; k < POINTS; k++) {
-        s->low[d][k] = s->t[d][k] >= l[k], s->end[d][k] = s->low[d][k] + 3;
-        upper += s->low[d][k];
-    }
-    s->low[d][ANY] = upper == POINTS, s->end[d][ANY] = upper > 0 ? 4 : 3;
+    const int all = (1 << POINTS) - 1, upper = ~points_signs(s->t[d] - l) & all;
+    for (int k = 0; k < POINTS; k++) s->low[d][k] = upper >> k & 1;
+    s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
 static ALWAYS_INLINE void stencil_direction(struct stencil *s, const struct particles *p, real inverse, real half_width,
@@ -223,7 +222,7 @@ static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, 
                                        const enum shape shape)
 {
     const real inverse = 1 / g->h;
-    for (int k = 0; k < POINTS; k++) s->point[k] = list[k % AT_ONCE(dim) < n ? k % AT_ONCE(dim) : n - 1];
+    for (int k = 0; k < POINTS; k++) s->point[k] = list[smaller(k % AT_ONCE(dim), n - 1)];
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
         s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d];           /* grid_place */
