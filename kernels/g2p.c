@@ -11,21 +11,44 @@
 #include "stress.h"
 #include "variants.h"
 
-/* Volume follows tr eps of the space; in plane stress the strain through the thickness is left out (below 1 % strain
- * it changes the volume by less than 0.5 %). */
-static ALWAYS_INLINE void point_strain(struct particles *p, const struct transfer_data *t, int64_t i, const real *L,
-                                       const int dim, const enum shape shape)
+/* Constants of the points, of one material as a rule. */
+static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p, const struct transfer_data *t,
+                                                      const int32_t *point, const int dim)
+{
+    const struct elastic *first = &t->elastic[p->material[point[0]]];
+    struct elastic_points m = {points_of(first->c11), points_of(first->c12), points_of(first->shear),
+                               points_of(first->trigger), points_of(first->yield)};
+    for (int k = 1; k < AT_ONCE(dim); k++) {
+        const struct elastic *own = &t->elastic[p->material[point[k]]];
+        if (own == first) continue;
+        m.c11[k] = own->c11, m.c12[k] = own->c12, m.shear[k] = own->shear;
+        m.trigger[k] = own->trigger, m.yield[k] = own->yield;
+    }
+    return m;
+}
+
+/* Stress and volume; volume follows tr eps of the space; in plane stress the strain through the thickness is
+ * left out (below 1 % strain it changes the volume by less than 0.5 %). */
+static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, const struct elastic_points *m,
+                                        const int32_t *point, const row_of_points *L, const int dim, const enum shape shape)
 {
     const int n = dim * (dim + 1) / 2;
-    const struct elastic *m = &t->elastic[p->material[i]];
-    real stress[SYM_MAX];
-    for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
-    p->volume[i] *= 1 + stress_update(stress, L, m, t->dt, dim);
-    for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
+    row_of_points stress[SYM_MAX];
+    for (int c = 0; c < n; c++) stress[c] = points_load(p->stress[c], point, dim);
+    const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim);
+    points_store(p->volume, point, volume + volume * trace, dim);
+    for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
     if (shape == SHAPE_CPGIMP)
-        for (int d = 0; d < dim; d++) p->stretch[d][i] *= 1 + t->dt * L[d * dim + d];
-    if (stress_bound(stress, dim) > m->trigger && stress_principal(stress, dim) > m->trigger)
-        p->flag[i] |= FLAG_STRESSED;
+        for (int d = 0; d < dim; d++) {
+            const row_of_points stretch = points_load(p->stretch[d], point, dim);
+            points_store(p->stretch[d], point, stretch + stretch * (t->dt * L[d * dim + d]), dim);
+        }
+    const int near = points_signs(m->trigger - stress_bounds(stress, dim));
+    for (int k = 0; k < AT_ONCE(dim) && __builtin_expect(near, 0); k++) {
+        real own[SYM_MAX];
+        for (int c = 0; c < n; c++) own[c] = stress[c][k];
+        if (near >> k & 1 && stress_principal(own, dim) > m->trigger[k]) p->flag[point[k]] |= FLAG_STRESSED;
+    }
 }
 
 /* What the trial stress has beyond the yield surface becomes plastic strain; the mark is that of the stress that stays.
@@ -44,74 +67,68 @@ static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic 
     if (!(stress_principal(stress, dim) > m->trigger)) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
-/* Returns whether the point left its cell. */
-static ALWAYS_INLINE bool point_move(const struct grid *g, const struct cell *c, struct particles *p, int64_t i,
-                                     const real *step, const int dim)
+/* Returns which points left their cell, a bit each. */
+static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
+                                     const struct stencil *s, const row_of_points *step, const int dim)
 {
-    bool moved = false;
+    points_mask inside = (points_mask){0} - 1;
     for (int d = 0; d < dim; d++) {
-        p->x[d][i] += step[d];
-        const real place = grid_place(g, d, p->x[d][i]);
-        moved |= !(place >= c->place[d] && place < c->place[d] + 1);
+        const row_of_points x = s->x[d] + step[d];
+        const row_of_points place = (x - g->anchor[d]) * (1 / g->h);       /* grid_place */
+        points_store(p->x[d], s->point, x, dim);
+        inside &= (place >= c->place[d]) & (place < c->place[d] + 1);
     }
-    return moved;
+    return points_signs((row_of_points)~inside);
 }
 
-/* By rows of a cell's nodes: the velocity, and the one that strains. */
-typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
-
-/* Velocity and its gradient at a point. Rows are added up first: all share the weights along them. */
-static ALWAYS_INLINE void point_gather(const cell_rows moving, const cell_rows straining, const struct stencil *s,
-                                       real *velocity, real *L, const int dim, const enum shape shape)
+/* Velocity and its gradient at the points. Nodes of a row are added up first: all share the weights across. */
+static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct stencil *s,
+                                        row_of_points *velocity, row_of_points *L, const int dim, const enum shape shape,
+                                        const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
-    row_of_nodes moves[DIM_MAX], strains[DIM_MAX], across[DIM_MAX][DIM_MAX];
-    for (int d = 0; d < dim; d++) {
-        moves[d] = strains[d] = row_of(0);
-        for (int e = along; e < dim; e++) across[d][e] = row_of(0);
-    }
-    FOR_TOUCHED(s, dim, shape) {
-        const real weight = stencil_row(s, k1, k2, dim, shape);
-        const int k = PATCH(dim, shape);
+    for (int d = 0; d < dim; d++) velocity[d] = points_of(0);
+    for (int k = 0; k < dim * dim; k++) L[k] = points_of(0);
+    FOR_ANY_TOUCHED(s, dim, shape) {
+        const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
+        const int64_t I = cell_row(c, g, k1, k2, dim);
         for (int d = 0; d < dim; d++) {
-            moves[d] += weight * moving[d][k];
-            strains[d] += weight * straining[d][k];
-            for (int e = along; e < dim; e++)
-                across[d][e] += stencil_slope(s, k1, k2, e, dim, shape) * straining[d][k];
+            const real *moving = g->velocity[d] + I, *straining = transfer == TRANSFER_APIC ? moving : g->momentum[d] + I;
+            row_of_points moved = points_of(0), strained = points_of(0), slope[2] = {points_of(0), points_of(0)};
+            FOR_NODES(dim, shape) {
+                const int64_t node = row_node(g, k, dim, shape);
+                moved += s->N[k] * moving[node];
+                strained += s->N[k] * straining[node];
+                for (int e = 0; e < along; e++) slope[e] += s->D[e][k] * straining[node];
+            }
+            velocity[d] += weight * moved;
+            for (int e = 0; e < dim; e++)
+                L[d * dim + e] += e < along ? weight * slope[e] : stencil_slopes(s, k1, k2, e, dim, shape) * strained;
         }
     }
-    row_of_nodes term[DIM_MAX * (1 + DIM_MAX)] = {{0}};      /* gradients first: four in 2D */
-    for (int d = 0; d < dim; d++) {
-        for (int e = 0; e < dim; e++) term[d * dim + e] = e < along ? s->D[e] * strains[d] : s->N * across[d][e];
-        term[dim * dim + d] = s->N * moves[d];
-    }
-    real sum[DIM_MAX * (1 + DIM_MAX)];
-    for (int k = 0; k < dim * (1 + dim); k += ROW) {
-        const row_of_nodes four = row_sums(term[k], term[k + 1], term[k + 2], term[k + 3]);
-        for (int m = 0; m < ROW; m++) sum[k + m] = four[m];
-    }
-    for (int k = 0; k < dim * dim; k++) L[k] = sum[k];
-    for (int d = 0; d < dim; d++) velocity[d] = sum[dim * dim + d];
 }
 
-static ALWAYS_INLINE bool g2p_particle(const cell_rows moving, const cell_rows straining, const struct grid *g,
-                                       const struct cell *c, struct particles *p, const struct transfer_data *t,
-                                       int64_t i, const int dim, const enum shape shape, const enum transfer transfer)
+/* Returns how many of the n points, at most AT_ONCE, left the cell. */
+static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, struct particles *p,
+                                    const struct transfer_data *t, const int32_t *list, int n, const int dim,
+                                    const enum shape shape, const enum transfer transfer)
 {
     struct stencil s;
-    real velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
-    stencil_make(&s, g, c, p, i, t->half_width, dim, shape);
-    point_gather(moving, straining, &s, velocity, L, dim, shape);
+    row_of_points velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
+    stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
+    points_gather(g, c, &s, velocity, L, dim, shape, transfer);
     if (transfer == TRANSFER_APIC) {
-        for (int d = 0; d < dim; d++) p->v[d][i] = velocity[d];
-        for (int k = 0; k < dim * dim; k++) p->gradient[k][i] = L[k];
+        for (int d = 0; d < dim; d++) points_store(p->v[d], s.point, velocity[d], dim);
+        for (int k = 0; k < dim * dim; k++) points_store(p->gradient[k], s.point, L[k], dim);
     }
-    if (!t->bare) point_strain(p, t, i, L, dim, shape);
+    const struct elastic_points m = elastic_of(p, t, s.point, dim);
+    if (!t->bare) points_strain(p, t, &m, s.point, L, dim, shape);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
-    const bool moved = point_move(g, c, p, i, velocity, dim);
-    const struct elastic *m = &t->elastic[p->material[i]];
-    if (__builtin_expect(m->yield > 0, 0)) point_yield(p, m, i, dim);
-    return moved;
+    const int moved = points_move(g, c, p, &s, velocity, dim);
+    if (__builtin_expect(points_signs(-m.yield), 0))
+        for (int k = 0; k < n; k++)
+            if (m.yield[k] > 0) point_yield(p, &t->elastic[p->material[list[k]]], list[k], dim);
+    return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
 static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
@@ -123,25 +140,16 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
     for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
 }
 
-/* Returns how many points left the cell. */
+/* Returns how many points left the cell, which is found anew for each round: most have but one, and nothing need be kept. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       const int32_t *list, int n, const int dim, const enum shape shape,
                                       const enum transfer transfer)
 {
-    const struct cell c = cell_make(g, p, list[0], dim, shape);
-    cell_rows moving, straining;
     int64_t moved = 0;
-    FOR_ROWS(dim, shape) {
-        const int64_t I = cell_row(&c, g, k1, k2, dim);
-        const int k = PATCH(dim, shape);
-        for (int d = 0; d < dim; d++) {
-            moving[d][k] = nodes_load(g, g->velocity[d] + I, dim, shape);
-            straining[d][k] = transfer == TRANSFER_APIC ? moving[d][k] : nodes_load(g, g->momentum[d] + I, dim, shape);
-        }
-    }
-    for (int k = 0; k < n; k++) {
-        g2p_fetch(p, list, k, dim);
-        moved += g2p_particle(moving, straining, g, &c, p, t, list[k], dim, shape, transfer);
+    for (int k = 0; k < n; k++) g2p_fetch(p, list, k, dim);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        const struct cell c = cell_make(g, p, list[k], dim, shape);
+        moved += g2p_points(g, &c, p, t, list + k, at_once(n - k, dim), dim, shape, transfer);
     }
     return moved;
 }

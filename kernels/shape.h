@@ -7,143 +7,69 @@
 #ifndef CLEAVE_SHAPE_H
 #define CLEAVE_SHAPE_H
 
-#include <math.h>
-
 #include "kernels.h"
+#include "row.h"
 
-#ifdef __AVX__
-#include <immintrin.h>
-#endif
+/* ---- one direction, a few points -----------------------------------------------------------------------
+ *
+ * Weights are made for a few points of a cell at once, one in each lane, so that nothing is added up across lanes. */
 
-enum { ROW = 4 };
-typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
-typedef real row_anywhere __attribute__((vector_size(ROW * sizeof(real)), aligned(sizeof(real)), may_alias));
-typedef int64_t row_mask __attribute__((vector_size(ROW * sizeof(int64_t))));
-typedef real pair_of_nodes __attribute__((vector_size(2 * sizeof(real))));
-typedef real pair_anywhere __attribute__((vector_size(2 * sizeof(real)), aligned(sizeof(real)), may_alias));
-
-static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
-static ALWAYS_INLINE real row_sum(row_of_nodes a) { return (a[0] + a[2]) + (a[1] + a[3]); }
-
-/* a where `sign` is negative, else b. Without AVX a comparison of four would be four comparisons. */
-static ALWAYS_INLINE row_of_nodes row_choose(row_of_nodes sign, row_of_nodes a, row_of_nodes b)
+/* Hat functions: 1 - t, t. */
+static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
-#ifdef __AVX__
-    return (row_of_nodes)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)sign);
-#else
-    typedef uint64_t row_bits __attribute__((vector_size(ROW * sizeof(uint64_t))));
-    const row_bits mask = -((row_bits)sign >> 63);
-    return (row_of_nodes)((mask & (row_bits)a) | (~mask & (row_bits)b));
-#endif
+    N[0] = N[3] = dN[0] = dN[3] = points_of(0);
+    N[1] = 1 - t, N[2] = t;
+    dN[1] = points_of(-1), dN[2] = points_of(1);
 }
 
-static ALWAYS_INLINE row_of_nodes row_max(row_of_nodes a, row_of_nodes b)
+/* Mean of the hat functions over the particle's width 2l <= 2. The hats of the cell's two nodes go on as straight lines beyond
+ * the cell; what reaches over its lower end by b = (l - t)_+ gives the node below b^2/4l and bends both lines by as much, and so
+ * at the upper end. So a node that the particle just touches gets a weight of the size that it should, never below 0: it may have
+ * no other, and what a node without mass is given is lost. GIMP keeps 2l <= 1 and has three nodes. A stretched particle
+ * (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous particles then share out
+ * every hat without gap or overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen & Kober
+ * 2004). */
+static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width, row_of_points N[ROW],
+                                     row_of_points dN[ROW])
 {
-#ifdef __AVX__
-    return (row_of_nodes)_mm256_max_pd((__m256d)a, (__m256d)b);
-#else
-    return row_choose(b - a, a, b);
-#endif
+    const row_of_points rest = 1 - t, below = points_max(l - t, points_of(0)), above = points_max(l - rest, points_of(0));
+    dN[0] = -below * inverse_width, dN[3] = above * inverse_width;
+    N[0] = -0.5 * below * dN[0], N[3] = 0.5 * above * dN[3];
+    N[1] = rest - 2 * N[0] + N[3], N[2] = t + N[0] - 2 * N[3];
+    dN[1] = dN[3] - 2 * dN[0] - 1, dN[2] = dN[0] - 2 * dN[3] + 1;
 }
 
-static ALWAYS_INLINE row_of_nodes row_min(row_of_nodes a, row_of_nodes b)
+/* Cubic B-spline: t^3/6 and 2/3 - t^2 + t^3/2, from either end. */
+static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
-#ifdef __AVX__
-    return (row_of_nodes)_mm256_min_pd((__m256d)a, (__m256d)b);
-#else
-    return row_choose(a - b, a, b);
-#endif
-}
-
-/* The four sums of four rows. */
-static ALWAYS_INLINE row_of_nodes row_sums(row_of_nodes a, row_of_nodes b, row_of_nodes c, row_of_nodes d)
-{
-    const row_mask even = {0, 4, 2, 6}, odd = {1, 5, 3, 7}, low = {0, 1, 4, 5}, high = {2, 3, 6, 7};
-    const row_of_nodes ab = __builtin_shuffle(a, b, even) + __builtin_shuffle(a, b, odd);
-    const row_of_nodes cd = __builtin_shuffle(c, d, even) + __builtin_shuffle(c, d, odd);
-    return __builtin_shuffle(ab, cd, low) + __builtin_shuffle(ab, cd, high);
-}
-
-static ALWAYS_INLINE row_of_nodes row_size(row_of_nodes a)
-{
-    const row_mask digits = (row_mask){0} + INT64_MAX;
-    return (row_of_nodes)((row_mask)a & digits);
-}
-
-/* `to` with the sign of `from`, which it has not itself. */
-static ALWAYS_INLINE row_of_nodes row_signed(row_of_nodes to, row_of_nodes from)
-{
-    const row_mask sign = (row_mask){0} + INT64_MIN;
-    return (row_of_nodes)((row_mask)to | ((row_mask)from & sign));
-}
-
-/* ---- one direction ---------------------------------------------------------------------------------- */
-
-/* Distances from the nodes of the row. */
-static ALWAYS_INLINE row_of_nodes row_distance(real t) { return t - (row_of_nodes){-1, 0, 1, 2}; }
-
-/* Hat function: N = 1 - |s|. */
-static ALWAYS_INLINE void shape_linear(real t, row_of_nodes *N, row_of_nodes *dN)
-{
-    *N = (row_of_nodes){0, 1, 0, 0} + t * (row_of_nodes){0, -1, 1, 0};
-    *dN = (row_of_nodes){0, -1, 1, 0};
-}
-
-/* Mean of the hat functions over the particle's width 2l <= 2, by what a hat has beyond the particle's ends, at a - l and
- * a + l for a node at the distance a: (1 - |s|)^2/2 beyond s, one end's less the other's, or less what is missing at both where
- * the node lies between them. So a node that the particle just touches gets a weight of the size that it should, never below
- * 0: it may have no other, and what a node without mass is given is lost. GIMP keeps 2l <= 1 and has three nodes. A stretched
- * particle (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous particles then
- * share out every hat without gap or overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen &
- * Kober 2004). */
-static ALWAYS_INLINE void shape_gimp(real t, real l, real inverse_width, row_of_nodes *N, row_of_nodes *dN)
-{
-    const row_of_nodes s = row_distance(t), a = row_size(s);
-    const row_of_nodes near = row_min(row_size(a - l), row_of(1)), far = row_min(a + l, row_of(1));
-    const row_of_nodes twice_near = (1 - near) * (1 - near), twice_far = (1 - far) * (1 - far), rest = 2 - twice_near;
-    const row_of_nodes from = row_choose(a - l, rest, twice_near);
-    *N = (from - twice_far) * (0.5 * inverse_width);
-    *dN = row_signed((far - near) * inverse_width, -s);
-}
-
-/* B-splines as sums of truncated powers, a = |s|: N = ((3/2 - a)_+^2 - 3 (1/2 - a)_+^2)/2. */
-static ALWAYS_INLINE void shape_quadratic(real t, row_of_nodes *N, row_of_nodes *dN)
-{
-    const row_of_nodes s = row_distance(t), size = row_size(s);
-    const row_of_nodes far = row_max(1.5 - size, row_of(0)), near = row_max(0.5 - size, row_of(0));
-    *N = 0.5 * far * far - 1.5 * near * near;
-    *dN = row_signed(row_of(1), s) * (3 * near - far);
-}
-
-/* N = ((2 - a)_+^3 - 4 (1 - a)_+^3)/6. */
-static ALWAYS_INLINE void shape_cubic(real t, row_of_nodes *N, row_of_nodes *dN)
-{
-    const row_of_nodes s = row_distance(t), size = row_size(s);
-    const row_of_nodes far = row_max(2 - size, row_of(0)), near = row_max(1 - size, row_of(0));
-    const row_of_nodes far2 = far * far, near2 = near * near;
-    *N = (far2 * far - 4 * near2 * near) * (1.0 / 6);
-    *dN = row_signed(row_of(1), s) * (2 * near2 - 0.5 * far2);
+    const row_of_points rest = 1 - t, t2 = t * t, rest2 = rest * rest;
+    N[0] = rest2 * rest * (1.0 / 6), N[3] = t2 * t * (1.0 / 6);
+    N[1] = 2.0 / 3 + t2 * (0.5 * t - 1), N[2] = 2.0 / 3 + rest2 * (0.5 * rest - 1);
+    dN[0] = -0.5 * rest2, dN[3] = 0.5 * t2;
+    dN[1] = t * (1.5 * t - 2), dN[2] = rest * (2 - 1.5 * rest);
 }
 
 /* Weights must add up to 1 to the last bit: every map gives momentum (sum N) times what it takes, and on a lattice all points
  * have the same round-off, which grows with the steps. The nearer node of the cell, never a light one, takes what is
  * missing. */
-static ALWAYS_INLINE row_of_nodes whole(row_of_nodes N, real t)
+static ALWAYS_INLINE void whole(row_of_points t, row_of_points N[ROW])
 {
-    const row_of_nodes nearer = t < 0.5 ? (row_of_nodes){0, 1, 0, 0} : (row_of_nodes){0, 0, 1, 0};
-    return N + (1 - row_sum(N)) * nearer;
+    const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
+    N[1] += points_choose(t - 0.5, missing, points_of(0));
+    N[2] += points_choose(t - 0.5, points_of(0), missing);
 }
 
-static ALWAYS_INLINE void shape_row(const enum shape shape, real t, real l, real inverse_width, row_of_nodes *N,
-                                    row_of_nodes *dN)
+/* The quadratic B-spline is the mean of a hat over a whole cell. */
+static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row_of_points l, row_of_points inverse_width,
+                                    row_of_points N[ROW], row_of_points dN[ROW])
 {
     switch (shape) {
     case SHAPE_LINEAR: shape_linear(t, N, dN); return;
-    case SHAPE_QUADRATIC: shape_quadratic(t, N, dN); break;
+    case SHAPE_QUADRATIC: shape_gimp(t, points_of(0.5), points_of(1), N, dN); break;
     case SHAPE_CUBIC: shape_cubic(t, N, dN); break;
     default: shape_gimp(t, l, inverse_width, N, dN);
     }
-    *N = whole(*N, t);
+    whole(t, N);
 }
 
 /* ---- the nodes of a cell ----------------------------------------------------------------------------
@@ -165,15 +91,21 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 /* A point of a shape with three nodes skips the rest in 3D; in 2D a weight of zero costs less than finding its rows. */
 #define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
 
-/* Loops over the rows k1, k2 of a patch, and over those of one point. */
-#define FOR_ROWS(dim, shape)                                      \
-    for (int k2 = 0; k2 < ROWS_Z(dim, shape); k2++)               \
-        for (int k1 = 0; k1 < ROWS_Y(dim, shape); k1++)
-#define FOR_TOUCHED(s, dim, shape)                                                                                   \
-    for (int k2 = SKIPS(dim, shape) ? (s)->low[2] : 0, end2 = SKIPS(dim, shape) ? k2 + 3 : ROWS_Z(dim, shape);       \
-         k2 < end2; k2++)                                                                                            \
-        for (int k1 = SKIPS(dim, shape) ? (s)->low[1] : 0, end1 = SKIPS(dim, shape) ? k1 + 3 : ROWS_Y(dim, shape);   \
-             k1 < end1; k1++)
+/* Loop over the nodes k of a row; the ends of a linear one have no weight. */
+#define ROW_END(dim, shape) ((shape) == SHAPE_LINEAR && !IS_FACE(dim, shape) ? 1 : 0)
+#define FOR_NODES(dim, shape) for (int k = ROW_END(dim, shape); k < ROW - ROW_END(dim, shape); k++)
+
+/* Loops over the rows k1, k2 of a patch, over those that point `at` of a stencil touches, and that any of its points does. */
+#define FOR_SPAN(low2, end2, low1, end1)                                                                             \
+    for (int k2 = (low2), above = (end2); k2 < above; k2++)                                                          \
+        for (int k1 = (low1), beyond = (end1); k1 < beyond; k1++)
+#define FOR_ROWS(dim, shape) FOR_SPAN(0, ROWS_Z(dim, shape), 0, ROWS_Y(dim, shape))
+#define FOR_TOUCHED(s, at, dim, shape)                                                                               \
+    FOR_SPAN(SKIPS(dim, shape) ? (s)->low[2][at] : 0, SKIPS(dim, shape) ? k2 + 3 : ROWS_Z(dim, shape),               \
+             SKIPS(dim, shape) ? (s)->low[1][at] : 0, SKIPS(dim, shape) ? k1 + 3 : ROWS_Y(dim, shape))
+#define FOR_ANY_TOUCHED(s, dim, shape)                                                                               \
+    FOR_SPAN(SKIPS(dim, shape) ? (s)->lowest[2] : 0, SKIPS(dim, shape) ? (s)->end[2] : ROWS_Z(dim, shape),           \
+             SKIPS(dim, shape) ? (s)->lowest[1] : 0, SKIPS(dim, shape) ? (s)->end[1] : ROWS_Y(dim, shape))
 /* Place of a row in the arrays of a patch. */
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
@@ -208,12 +140,10 @@ static ALWAYS_INLINE int64_t cell_row(const struct cell *c, const struct grid *g
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
-static ALWAYS_INLINE row_of_nodes nodes_load(const struct grid *g, const real *from, const int dim, const enum shape shape)
+/* Node k of a row, counted from its first. */
+static ALWAYS_INLINE int64_t row_node(const struct grid *g, int k, const int dim, const enum shape shape)
 {
-    if (!IS_FACE(dim, shape)) return (row_of_nodes) * (const row_anywhere *)from;
-    const pair_of_nodes a = (pair_of_nodes) * (const pair_anywhere *)from,
-                        b = (pair_of_nodes) * (const pair_anywhere *)(from + g->stride[1]);
-    return (row_of_nodes){a[0], a[1], b[0], b[1]};
+    return IS_FACE(dim, shape) ? k % 2 + k / 2 * g->stride[1] : k;
 }
 
 static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes a, const int dim, const enum shape shape)
@@ -226,14 +156,21 @@ static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes
     }
 }
 
-/* ---- the weights of one point ----------------------------------------------------------------------- */
+/* ---- the weights of a few points of a cell --------------------------------------------------------------- */
 
 struct stencil {
-    row_of_nodes N, D[2];                /* weights [1] of a row, slopes in the directions along it [1/m] */
-    real A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS]; /* weights [1] and slopes [1/m] of rows, by the direction across */
-    real t[DIM_MAX];                     /* place in the cell                                         [1] */
-    int low[DIM_MAX];                    /* first row that a point of three nodes touches                 */
+    int32_t point[POINTS];               /* where fewer are left: the last one, again                     */
+    row_of_points x[DIM_MAX];            /* position                                                  [m] */
+    row_of_points t[DIM_MAX];            /* place in the cell                                         [1] */
+    row_of_points N[ROW], D[2][ROW];     /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
+    row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D seen from each point                          */
+    row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS]; /* of rows: weights [1], slopes [1/m], by the direction across */
+    int low[DIM_MAX][POINTS];            /* first row that a point of three nodes touches                 */
+    int lowest[DIM_MAX], end[DIM_MAX];   /* first that any touches, and first beyond that none does       */
 };
+
+/* The nodes of a row seen from one point: weights [1], slopes in the directions along it [1/m]. */
+struct touch { row_of_nodes N, D[2]; };
 
 /* Largest half width over h of cpGIMP: four nodes reach no further. A particle stretched beyond it keeps it, and numerical
  * fracture starts: at a stretch of 4 with two particles per cell. */
@@ -242,75 +179,126 @@ struct stencil {
 /* Corners of a face: products of two hats. */
 static ALWAYS_INLINE void stencil_face(struct stencil *s, real inverse, const int dim)
 {
-    const row_of_nodes right = {-1, 1, -1, 1}, up = {-1, -1, 1, 1};
-    const row_of_nodes X = (row_of_nodes){1, 0, 1, 0} + s->t[0] * right, Y = (row_of_nodes){1, 1, 0, 0} + s->t[1] * up;
-    s->N = X * Y;
-    s->D[0] = Y * (right * inverse);
-    s->D[1] = X * (up * inverse);
+    const row_of_points X[2] = {1 - s->t[0], s->t[0]}, Y[2] = {1 - s->t[1], s->t[1]};
+    for (int k = 0; k < ROW; k++) {
+        s->N[k] = X[k % 2] * Y[k / 2];
+        s->D[0][k] = Y[k / 2] * (k % 2 ? inverse : -inverse);
+        s->D[1][k] = X[k % 2] * (k / 2 ? inverse : -inverse);
+    }
     if (dim < 3) return;
     s->A[2][0] = 1 - s->t[2], s->A[2][1] = s->t[2];
-    s->B[2][0] = -inverse, s->B[2][1] = inverse;
+    s->B[2][0] = points_of(-inverse), s->B[2][1] = points_of(inverse);
 }
 
+/* Points whose place is below l leave out the node above their cell, the others the one below. Nothing here may branch:
+ * at the edges of a lattice's particles the answers are as good as random. */
+static ALWAYS_INLINE void stencil_touched(struct stencil *s, row_of_points l, int d)
+{
+    const int all = (1 << POINTS) - 1, upper = ~points_signs(s->t[d] - l) & all;
+    for (int k = 0; k < POINTS; k++) s->low[d][k] = upper >> k & 1;
+    s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
+}
+
+static ALWAYS_INLINE void stencil_direction(struct stencil *s, const struct particles *p, real inverse, real half_width,
+                                            int d, const int dim, const enum shape shape)
+{
+    row_of_points l = points_of(half_width * inverse), inverse_width = points_of(0.5 / (half_width * inverse));
+    row_of_points N[ROW], dN[ROW];
+    if (shape == SHAPE_CPGIMP) {
+        l = points_min(l * points_load(p->stretch[d], s->point, dim), points_of(HALF_WIDTH_MOST));
+        inverse_width = 0.5 / l;
+    }
+    shape_row(shape, s->t[d], l, inverse_width, N, dN);
+    for (int k = 0; k < ROW; k++) {
+        if (d == 0) s->N[k] = N[k], s->D[0][k] = dN[k] * inverse;
+        else s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse;
+    }
+    if (SKIPS(dim, shape) && d > 0) stencil_touched(s, shape == SHAPE_GIMP ? l : points_of(0.5), d);
+}
+
+/* Of the n points of a list, at most AT_ONCE. */
 static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, const struct cell *c,
-                                       const struct particles *p, int64_t i, real half_width, const int dim,
+                                       const struct particles *p, const int32_t *list, int n, real half_width, const int dim,
                                        const enum shape shape)
 {
-    const real inverse = 1 / g->h, l0 = half_width * inverse, inverse_width0 = 0.5 / l0;
-    for (int d = 0; d < dim; d++) s->t[d] = grid_place(g, d, p->x[d][i]) - c->place[d];
-    if (IS_FACE(dim, shape)) {
-        stencil_face(s, inverse, dim);
-        return;
-    }
+    const real inverse = 1 / g->h;
+    for (int k = 0; k < POINTS; k++) s->point[k] = list[smaller(k % AT_ONCE(dim), n - 1)];
     for (int d = 0; d < dim; d++) {
-        row_of_nodes N, dN;
-        real l = l0, inverse_width = inverse_width0;
-        if (shape == SHAPE_CPGIMP) {
-            l *= p->stretch[d][i];
-            if (l > HALF_WIDTH_MOST) l = HALF_WIDTH_MOST;
-            inverse_width = 0.5 / l;
-        }
-        shape_row(shape, s->t[d], l, inverse_width, &N, &dN);
-        dN *= inverse;
-        if (d == 0) {
-            s->N = N, s->D[0] = dN;
-            continue;
-        }
-        for (int k = 0; k < ACROSS; k++) s->A[d][k] = N[k], s->B[d][k] = dN[k];
-        if (SKIPS(dim, shape)) s->low[d] = s->t[d] >= (shape == SHAPE_GIMP ? l : 0.5);
+        s->x[d] = points_load(p->x[d], s->point, dim);
+        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d];           /* grid_place */
     }
+    if (IS_FACE(dim, shape)) stencil_face(s, inverse, dim);
+    else
+        for (int d = 0; d < dim; d++) stencil_direction(s, p, inverse, half_width, d, dim, shape);
 }
 
-/* Weight of a row, and its slope in the direction d across it [1/m]. */
-static ALWAYS_INLINE real stencil_row(const struct stencil *s, int k1, int k2, const int dim, const enum shape shape)
+/* Rows seen from each point, for maps that add to nodes. */
+static ALWAYS_INLINE void stencil_turn(struct stencil *s, const int dim, const enum shape shape)
 {
-    real weight = 1;
+    if (IS_FACE(dim, shape)) return;
+    rows_turn(s->N, s->from_N);
+    rows_turn(s->D[0], s->from_D);
+}
+
+/* A row seen from point `at`. Corners of a face are cheaper one by one than turned. */
+static ALWAYS_INLINE struct touch stencil_touch(const struct stencil *s, int at, real h, const int dim, const enum shape shape)
+{
+    if (!IS_FACE(dim, shape)) return (struct touch){s->from_N[at], {s->from_D[at]}};
+    const row_of_nodes right = {-1, 1, -1, 1}, up = {-1, -1, 1, 1};
+    const row_of_nodes X = (row_of_nodes){1, 0, 1, 0} + s->t[0][at] * right, Y = (row_of_nodes){1, 1, 0, 0} + s->t[1][at] * up;
+    return (struct touch){X * Y, {Y * (right * (1 / h)), X * (up * (1 / h))}};
+}
+
+/* Weights of a row, a lane for each point, and its slopes in the direction d across it [1/m]. */
+static ALWAYS_INLINE row_of_points stencil_rows(const struct stencil *s, int k1, int k2, const int dim, const enum shape shape)
+{
+    row_of_points weight = points_of(1);
     if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1];
     if (dim > 2) weight *= s->A[2][k2];
     return weight;
 }
 
-static ALWAYS_INLINE real stencil_slope(const struct stencil *s, int k1, int k2, int d, const int dim,
-                                        const enum shape shape)
+static ALWAYS_INLINE row_of_points stencil_slopes(const struct stencil *s, int k1, int k2, int d, const int dim,
+                                                  const enum shape shape)
 {
-    real slope = 1;
+    row_of_points slope = points_of(1);
     if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1] : s->A[1][k1];
     if (dim > 2) slope *= d == 2 ? s->B[2][k2] : s->A[2][k2];
     return slope;
 }
 
-/* From the point to the nodes of a row in the direction d along it, and to those of row k across it [m]. */
-static ALWAYS_INLINE row_of_nodes stencil_along(const struct stencil *s, real h, int d, const int dim,
-                                                const enum shape shape)
+/* The same of point `at` alone. */
+static ALWAYS_INLINE real stencil_row(const struct stencil *s, int at, int k1, int k2, const int dim, const enum shape shape)
 {
-    if (!IS_FACE(dim, shape)) return -row_distance(s->t[0]) * h;
-    return ((d == 0 ? (row_of_nodes){0, 1, 0, 1} : (row_of_nodes){0, 0, 1, 1}) - s->t[d]) * h;
+    real weight = 1;
+    if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1][at];
+    if (dim > 2) weight *= s->A[2][k2][at];
+    return weight;
 }
 
-static ALWAYS_INLINE real stencil_across(const struct stencil *s, real h, int d, int k, const int dim,
+static ALWAYS_INLINE real stencil_slope(const struct stencil *s, int at, int k1, int k2, int d, const int dim,
+                                        const enum shape shape)
+{
+    real slope = 1;
+    if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1][at] : s->A[1][k1][at];
+    if (dim > 2) slope *= d == 2 ? s->B[2][k2][at] : s->A[2][k2][at];
+    return slope;
+}
+
+/* From point `at` to the nodes of a row in the direction d along it, and to those of row k across it [m]. */
+static ALWAYS_INLINE row_of_nodes stencil_along(const struct stencil *s, int at, real h, int d, const int dim,
+                                                const enum shape shape)
+{
+    const row_of_nodes nodes = !IS_FACE(dim, shape) ? (row_of_nodes){-1, 0, 1, 2}
+                               : d == 0             ? (row_of_nodes){0, 1, 0, 1}
+                                                    : (row_of_nodes){0, 0, 1, 1};
+    return (nodes - s->t[d][at]) * h;
+}
+
+static ALWAYS_INLINE real stencil_across(const struct stencil *s, int at, real h, int d, int k, const int dim,
                                          const enum shape shape)
 {
-    return (k - (IS_FACE(dim, shape) ? 0 : 1) - s->t[d]) * h;
+    return (k - (IS_FACE(dim, shape) ? 0 : 1) - s->t[d][at]) * h;
 }
 
 #endif

@@ -7,18 +7,14 @@
 #include <math.h>
 
 #include "kernels.h"
+#include "row.h"
 
 /* Half the angle above which the exact rotation replaces the first-order one, whose error grows with its square [rad]. */
 #define SPIN_SMALL 1e-3
 
-static ALWAYS_INLINE void stress_rotate_2d(real *s, real w)
+/* R s R^T with the rotation by the angle -w of x towards y (w = W_xy). */
+static inline void stress_rotate_2d(real *s, real w)
 {
-    /* first order: s + W s - s W; else R s R^T with the rotation by the angle -w of x towards y (w = W_xy) */
-    if (fabs(w) <= SPIN_SMALL) {
-        const real xx = s[0], yy = s[1], xy = s[2];
-        s[0] = xx + 2 * xy * w, s[1] = yy - 2 * xy * w, s[2] = xy + (yy - xx) * w;
-        return;
-    }
     const real c = cos(2 * w), n = sin(2 * w), mean = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
     const real turned = half * c + s[2] * n;
     s[2] = s[2] * c - half * n;
@@ -32,52 +28,83 @@ static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], rea
         for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
 }
 
-/* s + W s - s W with W_xy, W_yz, W_zx; beyond SPIN_SMALL R s R^T with R = exp W (Rodrigues). */
-static ALWAYS_INLINE void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
+/* R s R^T with R = exp W (Rodrigues); W_xy, W_yz, W_zx. */
+static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
 {
     const real S[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
     const real W[3][3] = {{0, wxy, -wzx}, {-wxy, 0, wyz}, {wzx, -wyz, 0}};
-    const real angle2 = wxy * wxy + wyz * wyz + wzx * wzx;
-    real WS[3][3], turned[3][3];
-    product_3d(W, S, WS);
-    if (angle2 <= SPIN_SMALL * SPIN_SMALL) {     /* W S - S W = W S + (W S)^T */
-        for (int a = 0; a < 3; a++)
-            for (int b = 0; b < 3; b++) turned[a][b] = S[a][b] + WS[a][b] + WS[b][a];
-    } else {
-        const real angle = sqrt(angle2), first = sin(angle) / angle, second = (1 - cos(angle)) / angle2;
-        real WW[3][3], R[3][3], RS[3][3];
-        product_3d(W, W, WW);
-        for (int a = 0; a < 3; a++)
-            for (int b = 0; b < 3; b++) R[a][b] = (a == b) + first * W[a][b] + second * WW[a][b];
-        product_3d(R, S, RS);
-        for (int a = 0; a < 3; a++)
-            for (int b = 0; b < 3; b++) turned[a][b] = RS[a][0] * R[b][0] + RS[a][1] * R[b][1] + RS[a][2] * R[b][2];
-    }
+    const real angle2 = wxy * wxy + wyz * wyz + wzx * wzx, angle = sqrt(angle2);
+    const real first = sin(angle) / angle, second = (1 - cos(angle)) / angle2;
+    real WW[3][3], R[3][3], RS[3][3], turned[3][3];
+    product_3d(W, W, WW);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) R[a][b] = (a == b) + first * W[a][b] + second * WW[a][b];
+    product_3d(R, S, RS);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) turned[a][b] = RS[a][0] * R[b][0] + RS[a][1] * R[b][1] + RS[a][2] * R[b][2];
     s[0] = turned[0][0], s[1] = turned[1][1], s[2] = turned[2][2];
     s[3] = turned[0][1], s[4] = turned[1][2], s[5] = turned[2][0];
 }
 
+/* First order: what W s - s W = W s + (W s)^T adds to the stress of a few points; w: W_xy, in 3D W_yz and W_zx too. */
+static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_points *w, row_of_points *more, const int dim)
+{
+    if (dim == 2) {
+        more[0] = 2 * w[0] * s[2], more[1] = -more[0], more[2] = w[0] * (s[1] - s[0]);
+        return;
+    }
+    const row_of_points xy = w[0] * s[3], yz = w[1] * s[4], zx = w[2] * s[5];
+    more[0] = 2 * (xy - zx), more[1] = 2 * (yz - xy), more[2] = 2 * (zx - yz);
+    more[3] = w[0] * (s[1] - s[0]) + w[1] * s[5] - w[2] * s[4];
+    more[4] = w[1] * (s[2] - s[1]) + w[2] * s[3] - w[0] * s[5];
+    more[5] = w[2] * (s[0] - s[2]) + w[0] * s[4] - w[1] * s[3];
+}
+
+/* Turns the stress of a few points; each by its own angle, exactly where that is large. */
+static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w, const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    row_of_points more[SYM_MAX], angle2 = w[0] * w[0];
+    if (dim == 3) angle2 += w[1] * w[1] + w[2] * w[2];
+    stress_spin(s, w, more, dim);
+    const int large = points_signs(SPIN_SMALL * SPIN_SMALL - angle2);
+    for (int k = 0; k < POINTS && __builtin_expect(large, 0); k++) {
+        real turned[SYM_MAX];
+        if (!(large >> k & 1)) continue;
+        for (int c = 0; c < n; c++) turned[c] = s[c][k];
+        if (dim == 2) stress_rotate_2d(turned, w[0][k]);
+        else stress_rotate_3d(turned, w[0][k], w[1][k], w[2][k]);
+        for (int c = 0; c < n; c++) more[c][k] = turned[c] - s[c][k];
+    }
+    for (int c = 0; c < n; c++) s[c] += more[c];
+}
+
+/* struct elastic of a few points. */
+struct elastic_points { row_of_points c11, c12, shear, trigger, yield; };   /* [Pa] */
+
 /* Updates s by the velocity gradient L[a dim + b] = dv_a/dx_b; returns the trace of the strain increment. */
-static ALWAYS_INLINE real stress_update(real *s, const real *L, const struct elastic *m, real dt, const int dim)
+static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_points *L, const struct elastic_points *m, real dt,
+                                                 const int dim)
 {
     if (dim == 1) {
         s[0] += m->c11 * L[0] * dt;
         return L[0] * dt;
     }
     if (dim == 2) {
-        const real xx = L[0] * dt, yy = L[3] * dt, xy = 0.5 * (L[1] + L[2]) * dt;
-        stress_rotate_2d(s, 0.5 * (L[1] - L[2]) * dt);
+        const row_of_points xx = L[0] * dt, yy = L[3] * dt, spin = 0.5 * (L[1] - L[2]) * dt;
+        stress_rotate(s, &spin, dim);
         s[0] += m->c11 * xx + m->c12 * yy;
         s[1] += m->c12 * xx + m->c11 * yy;
-        s[2] += 2 * m->shear * xy;
+        s[2] += m->shear * (L[1] + L[2]) * dt;
         return xx + yy;
     }
-    const real xx = L[0] * dt, yy = L[4] * dt, zz = L[8] * dt, trace = xx + yy + zz;
-    stress_rotate_3d(s, 0.5 * (L[1] - L[3]) * dt, 0.5 * (L[5] - L[7]) * dt, 0.5 * (L[6] - L[2]) * dt);
-    const real lambda = m->c12, twice = m->c11 - m->c12;
-    s[0] += lambda * trace + twice * xx;
-    s[1] += lambda * trace + twice * yy;
-    s[2] += lambda * trace + twice * zz;
+    const row_of_points xx = L[0] * dt, yy = L[4] * dt, zz = L[8] * dt, trace = xx + yy + zz;
+    const row_of_points spin[3] = {0.5 * (L[1] - L[3]) * dt, 0.5 * (L[5] - L[7]) * dt, 0.5 * (L[6] - L[2]) * dt};
+    stress_rotate(s, spin, dim);
+    const row_of_points pressure = m->c12 * trace, twice = m->c11 - m->c12;
+    s[0] += pressure + twice * xx;
+    s[1] += pressure + twice * yy;
+    s[2] += pressure + twice * zz;
     s[3] += m->shear * (L[1] + L[3]) * dt;
     s[4] += m->shear * (L[5] + L[7]) * dt;
     s[5] += m->shear * (L[6] + L[2]) * dt;
@@ -107,6 +134,14 @@ static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
     real most = s[0] > s[1] ? s[0] : s[1];
     most = most > s[2] ? most : s[2];
     return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
+}
+
+/* The same for a few points. */
+static ALWAYS_INLINE row_of_points stress_bounds(const row_of_points *s, const int dim)
+{
+    if (dim == 1) return s[0];
+    if (dim == 2) return points_max(s[0], s[1]) + points_size(s[2]);
+    return points_max(points_max(s[0], s[1]), s[2]) + 2 * (points_size(s[3]) + points_size(s[4]) + points_size(s[5]));
 }
 
 /* The stress a point gives to the grid: all of it, or what the crossing bonds leave (src/partial_stress.c). */

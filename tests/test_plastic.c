@@ -42,7 +42,13 @@ static struct elastic steel(enum space space, real hardening)
 /* A step of strain L dt, as in g2p.c. Returns the increment of plastic strain. */
 static real step(struct point *p, const struct elastic *m, const real *L)
 {
-    stress_update(p->s, L, m, 1, space_dim(m->space));
+    const int dim = space_dim(m->space);
+    const struct elastic_points constants = {.c11 = points_of(m->c11), .c12 = points_of(m->c12), .shear = points_of(m->shear)};
+    row_of_points stress[SYM_MAX], gradient[DIM_MAX * DIM_MAX];
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = points_of(p->s[c]);
+    for (int k = 0; k < dim * dim; k++) gradient[k] = points_of(L[k]);
+    stress_update(stress, gradient, &constants, 1, dim);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) p->s[c] = stress[c][0];
     const real more = plastic_return(m, p->s, p->a, &p->zz);
     p->a += more;
     return more;
