@@ -165,6 +165,7 @@ struct bonds {
     struct bond_length *lattice;         /* [BOND_LATTICE]                                                */
     const struct pattern **pattern;      /* [groups] what a group follows, NULL: nothing                  */
     uint8_t *folded;                     /* [groups] its slots are not written                            */
+    uint8_t *changed;                    /* [groups] weights are not those that it was made with: it follows nothing */
     struct patterns *patterns;
     real *plastic_stretch, *plastic_path;   /* [slots 8] s_p and alpha of a bond; NULL where none yields   [1]  */
     int32_t *pair;                       /* [slots 8] entry of `yield`; NULL where none yields               */

@@ -203,15 +203,16 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct partic
         return;
     }
     const lanes along = wr * pressure * inverse, weighted = w * spring;
-    lanes turn[DIM_MAX * DIM_MAX], arm[DIM_MAX];
+    lanes turn[DIM_MAX * DIM_MAX], arm[DIM_MAX], f[DIM_MAX];
     for (int d = 0; d < dim; d++) {
         arm[d] = slot_weighted_reference(slot, d, w, s.xi[d]);
         sum->arm[d] += arm[d];
-        sum->f[d] += along * s.y[d] + weighted * (s.y[d] - s.xi[d]);
+        f[d] = along * s.y[d] + weighted * (s.y[d] - s.xi[d]);
         for (int c = 0; c < dim; c++)
             if (dim > 2 || d != 0 || c == 0) turn[d * dim + c] = slot_at(slot, t->turn[d * dim + c]);
     }
-    turn_off(sum->f, turn, arm, dim);
+    turn_off(f, turn, arm, dim);
+    for (int d = 0; d < dim; d++) sum->f[d] += f[d];     /* one addition a slot: the chain is as short as can be */
 }
 
 /* Force of one group, mixed into what f holds by `share`. */

@@ -99,6 +99,7 @@ static void rows_arrays(struct bonds *b)
     b->broken = NEW("bonds.broken", padded, int32_t);
     b->pattern = NEW("bonds.pattern", b->groups, const struct pattern *);
     b->folded = NEW("bonds.folded", b->groups, uint8_t);
+    b->changed = NEW("bonds.changed", b->groups, uint8_t);
     rest_make(&b->rest, b->groups);
 }
 
@@ -110,6 +111,17 @@ struct rows_pass {
     struct group_found **found;          /* [groups] of those that are searched, NULL: not kept   */
     bool count;                          /* the first pass: slots are counted                     */
 };
+
+/* What has changed a row has changed every group that it is in. */
+static bool group_inherits(const struct bonds *old, const int32_t *particle, int rows)
+{
+    bool changed = false;
+    for (int l = 0; old && l < rows; l++) {
+        const int32_t row = old->row_of[particle[l]];
+        changed = changed || (row >= 0 && old->changed[row / LANES]);
+    }
+    return changed;
+}
 
 /* Counts the slots of a group, or fills them; returns its bonds. */
 static int64_t group_pass(const struct rows_pass *pass, struct group_room *room, int64_t g)
@@ -127,6 +139,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
         for (int k = 0; k < room->regular.n; k++) made += room->regular.to[k] - room->regular.from[k] + 1;
         return made;
     }
+    b->changed[g] = group_inherits(m->old, particle, rows);
     if (pass->found && pass->found[g]) group_found_take(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
         if (!pass->found || !pass->found[g]) row_find(&room->row[l], m, particle[l]);
@@ -272,6 +285,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->lattice);
     memory_free(b->pattern);
     memory_free(b->folded);
+    memory_free(b->changed);
     patterns_free(b->patterns);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);

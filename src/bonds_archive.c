@@ -6,20 +6,11 @@
 #include "bonds_parts.h"
 #include "memory.h"
 
-/* Groups that follow a pattern have the weights that they are made with. Marks the others; returns their slots. */
-static int64_t mark_own(const struct bonds *b, uint8_t *own)
-{
-    int64_t slots = 0;
-    for (int64_t g = 0; g < b->groups; g++)
-        if ((own[g] = b->pattern[g] == NULL)) slots += b->slot[g + 1] - b->slot[g];
-    return slots;
-}
-
-/* Weights of the marked groups, side by side, there or back. */
-static void own_weights(struct bonds *b, const uint8_t *own, real *w, bool saving)
+/* Weights of the groups that have changed, side by side, there or back; the others have those that they are made with. */
+static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->groups; g++) {
-        if (!own[g]) continue;
+        if (!b->changed[g]) continue;
         const int64_t from = bond_index(b, g, 0, 0), n = (b->slot[g + 1] - b->slot[g]) * LANES;
         memcpy(saving ? w : b->w + from, saving ? b->w + from : w, (size_t)n * sizeof *w);
         w += n;
@@ -33,15 +24,14 @@ static void own_weights(struct bonds *b, const uint8_t *own, real *w, bool savin
 
 static status weights_archive(struct bonds *b, struct archive *a)
 {
-    uint8_t *own = NEW("bonds.own", b->groups, uint8_t);
-    int64_t slots = mark_own(b, own);
-    status s = a->exchange(a, "bonds/own", own, (size_t)b->groups * sizeof *own);
-    if (s == OK) s = a->exchange(a, "bonds/own_slots", &slots, sizeof slots);
-    real *w = NEW("bonds.own_w", slots * LANES, real);
-    if (a->saving) own_weights(b, own, w, true);
-    if (s == OK && slots > 0) s = a->exchange(a, "bonds/w", w, (size_t)slots * LANES * sizeof *w);
-    if (s == OK && !a->saving) own_weights(b, own, w, false);
-    memory_free(own);
+    int64_t slots = 0;
+    TRY(a->exchange(a, "bonds/changed", b->changed, (size_t)b->groups * sizeof *b->changed));
+    for (int64_t g = 0; g < b->groups; g++) slots += b->changed[g] ? b->slot[g + 1] - b->slot[g] : 0;
+    if (slots == 0) return OK;
+    real *w = NEW("bonds.changed_w", slots * LANES, real);
+    if (a->saving) changed_weights(b, w, true);
+    const status s = a->exchange(a, "bonds/w", w, (size_t)slots * LANES * sizeof *w);
+    if (s == OK && !a->saving) changed_weights(b, w, false);
     memory_free(w);
     return s;
 }

@@ -105,7 +105,7 @@ static bool pattern_of(const struct bonds *b, struct group_room *room, int64_t g
 {
     const int slots = (int)(b->slot[g + 1] - b->slot[g]);
     room->pattern.slots = 0;
-    if (!b->aligned[g] || slots == 0 || b->plastic_stretch) return false;
+    if (!b->aligned[g] || slots == 0 || b->plastic_stretch || b->changed[g]) return false;
     for (int k = 0; k < slots; k++)
         if (!pattern_add(&room->pattern, b, p, b->particle[g * LANES], &room->slot[k])) return false;
     return true;

@@ -40,7 +40,7 @@ static void slots_keep(struct bonds *b, const struct bonds *old, int64_t g, int6
 void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
     b->pattern[g] = old->pattern[from];
-    b->folded[g] = old->folded[from];
+    b->folded[g] = old->folded[from], b->changed[g] = old->changed[from];
     if (!b->folded[g]) slots_keep(b, old, g, from);
     b->made[g] = old->made[from];
     b->aligned[g] = old->aligned[from];

@@ -178,5 +178,6 @@ void group_unfold(const struct bonds *b, int64_t group)
 void bonds_changed(struct bonds *b, int64_t row, int64_t q)
 {
     b->pattern[row / LANES] = NULL;
+    b->changed[row / LANES] = 1;
     bonds_share(b, q / LANES);
 }

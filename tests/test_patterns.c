@@ -166,6 +166,36 @@ static void test_who_leaves(void **state)
     cloud_free(&c);
 }
 
+/* It stays out when rows are made anew around it, with weights that no pattern of new rows has. */
+static void test_who_stays_out(void **state)
+{
+    (void)state;
+    struct cloud c;
+    exact_cloud(&c, 2, SURFACE_NONE, NULL);
+    bonds_free(&c.bonds);
+    const int32_t point = (int32_t)c.p.n / 2 + 3;
+    c.p.kind[point] = KIND_MPM;
+    particles_list(&c.p);
+    bonds_make(&c.bonds, NULL, &c.p, &c.source);
+    const int64_t row = c.bonds.row_of[point] + 1, q = bond_index(&c.bonds, row / LANES, 5, (int)(row % LANES));
+    const int32_t j = c.bonds.nbr[q];
+    bond_fade(&c.bonds, &c.p, row, q, 0.5);
+    c.p.kind[point] = KIND_PD;
+    struct bonds old = c.bonds;
+    particles_list(&c.p);
+    bonds_make(&c.bonds, &old, &c.p, &c.source);
+    bonds_free(&old);
+    int found = 0;
+    for (int64_t k = 0; k < c.bonds.slot[row / LANES + 1] - c.bonds.slot[row / LANES]; k++) {
+        const int64_t at = bond_index(&c.bonds, row / LANES, k, (int)(row % LANES));
+        if (c.bonds.nbr[at] == j && c.bonds.w[at] == 0.5) found++;
+    }
+    assert_int_equal(found, 1);
+    assert_true(c.bonds.changed[row / LANES]);
+    assert_null(c.bonds.pattern[row / LANES]);
+    cloud_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -173,6 +203,7 @@ int main(void)
         cmocka_unit_test(test_what_is_stored),
         cmocka_unit_test(test_same_bits),
         cmocka_unit_test(test_who_leaves),
+        cmocka_unit_test(test_who_stays_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
