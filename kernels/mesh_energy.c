@@ -6,10 +6,12 @@
 static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid *g = context;
-    for (int64_t I = first; I < end; I++) {
-        real speed2 = 0;
-        for (int d = 0; d < g->dim; d++) speed2 += square(g->velocity[d][I]);
-        sum[0] += 0.5 * g->mass[I] * speed2;
+    for (int d = 0; d < g->dim; d++) {
+        const real *mass = g->mass, *v = g->velocity[d];
+        real total = 0;
+#pragma omp simd reduction(+ : total)
+        for (int64_t I = first; I < end; I++) total += mass[I] * square(v[I]);
+        sum[0] += 0.5 * total;
     }
 }
 
@@ -23,10 +25,12 @@ real mesh_kinetic(const struct mesh *mesh)
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
-    for (int64_t I = first; I < end; I++) {
-        real force2 = 0;
-        for (int d = 0; d < mesh->grid.dim; d++) force2 += square(mesh->grid.force[d][I]);
-        sum[0] += 0.25 * force2 * mesh->inverse_mass[I];
+    for (int d = 0; d < mesh->grid.dim; d++) {
+        const real *inverse_mass = mesh->inverse_mass, *force = mesh->grid.force[d];
+        real total = 0;
+#pragma omp simd reduction(+ : total)
+        for (int64_t I = first; I < end; I++) total += square(force[I]) * inverse_mass[I];
+        sum[0] += 0.25 * total;
     }
 }
 

@@ -37,6 +37,37 @@ static bool can_belong(const struct tips *t, const struct particles *p, int64_t 
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
 }
 
+/* Most particles are neither damaged nor of a crack, and are passed by a block at a time: the next block from `first` on that has
+ * one, n if none has. */
+enum { BLOCK = 64 };
+
+static int64_t block_end(const struct particles *p, int64_t first) { return first + BLOCK < p->n ? first + BLOCK : p->n; }
+
+static int64_t next_damaged(const struct particles *p, int64_t first)
+{
+    for (; first < p->n; first += BLOCK) {
+        const int64_t end = block_end(p, first);
+        real most = 0;
+#pragma omp simd reduction(max : most)
+        for (int64_t i = first; i < end; i++) most = real_max(most, p->damage[i]);
+        if (most > TIP_DAMAGE) return first;
+    }
+    return p->n;
+}
+
+static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
+
+static int64_t next_of_crack(const struct tips *t, const struct particles *p, int64_t first)
+{
+    for (; first < p->n; first += BLOCK) {
+        const int64_t end = block_end(p, first);
+        uint8_t any = 0;
+        for (int64_t i = first; i < end; i++) any |= is_of_crack(t->label[i]);
+        if (any) return first;
+    }
+    return p->n;
+}
+
 static void flood_label(struct flood *f, int32_t i, int tip)
 {
     f->t->label[i] = (uint8_t)(tip + 1);
@@ -174,12 +205,14 @@ static void flood_close_ranks(struct flood *f)
 static void flood_make(struct flood *f, struct tips *t, const struct particles *p, const struct cells *c)
 {
     *f = (struct flood){.t = t, .search = {.p = p, .c = c}};
-    for (int64_t i = 0; i < p->n; i++) f->n_fresh += can_belong(t, p, i);
+    for (int64_t b = next_damaged(p, 0); b < p->n; b = next_damaged(p, b + BLOCK))
+        for (int64_t i = b; i < block_end(p, b); i++) f->n_fresh += can_belong(t, p, i);
     f->fresh = NEW("tips.fresh", f->n_fresh, int32_t);
     f->queue = NEW("tips.queue", f->n_fresh, int32_t);
     int64_t k = 0;
-    for (int64_t i = 0; i < p->n; i++)
-        if (can_belong(t, p, i)) f->fresh[k++] = (int32_t)i;
+    for (int64_t b = next_damaged(p, 0); b < p->n && k < f->n_fresh; b = next_damaged(p, b + BLOCK))
+        for (int64_t i = b; i < block_end(p, b); i++)
+            if (can_belong(t, p, i)) f->fresh[k++] = (int32_t)i;
     for (int m = 0; m < t->n; m++) f->into[m] = m;
 }
 
@@ -222,19 +255,21 @@ struct reach { real farthest, place[DIM_MAX]; int64_t equals, particles; };
 
 static void reach_measure(const struct tips *t, const struct particles *p, struct reach *reach)
 {
-    for (int64_t i = 0; i < p->n; i++) {
-        if (t->label[i] == 0 || t->label[i] == TIP_BEFORE) continue;
-        struct reach *r = &reach[t->label[i] - 1];
-        r->particles++;
-        r->farthest = real_max(r->farthest, reach_of(t, p, i));
-    }
-    for (int64_t i = 0; i < p->n; i++) {
-        if (t->label[i] == 0 || t->label[i] == TIP_BEFORE) continue;
-        struct reach *r = &reach[t->label[i] - 1];
-        if (r->farthest <= 0 || reach_of(t, p, i) < r->farthest - EQUAL * t->spacing) continue;
-        for (int d = 0; d < t->dim; d++) r->place[d] += p->X[d][i];
-        r->equals++;
-    }
+    for (int64_t b = next_of_crack(t, p, 0); b < p->n; b = next_of_crack(t, p, b + BLOCK))
+        for (int64_t i = b; i < block_end(p, b); i++) {
+            if (!is_of_crack(t->label[i])) continue;
+            struct reach *r = &reach[t->label[i] - 1];
+            r->particles++;
+            r->farthest = real_max(r->farthest, reach_of(t, p, i));
+        }
+    for (int64_t b = next_of_crack(t, p, 0); b < p->n; b = next_of_crack(t, p, b + BLOCK))
+        for (int64_t i = b; i < block_end(p, b); i++) {
+            if (!is_of_crack(t->label[i])) continue;
+            struct reach *r = &reach[t->label[i] - 1];
+            if (r->farthest <= 0 || reach_of(t, p, i) < r->farthest - EQUAL * t->spacing) continue;
+            for (int d = 0; d < t->dim; d++) r->place[d] += p->X[d][i];
+            r->equals++;
+        }
 }
 
 static void tip_move(struct tip *tip, const struct reach *r, const struct tips *t, real time, bool took_in)

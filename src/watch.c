@@ -12,22 +12,74 @@ void watch_make(struct watch *w) { *w = (struct watch){.break_time = NAN, .break
 
 /* ---- sums over particles ----------------------------------------------------------------------------- */
 
-/* Of a block of particles: kinetic energy. */
+/* Particles and nodes alike: masses [kg] and velocities [m/s]; `flag` NULL: all of them move by themselves. */
+struct movers { int dim; const real *mass; real *const *v; const uint8_t *flag; };
+
+/* Are particles first .. end - 1 all moved by the nodes of a mesh? */
+static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
+{
+    uint8_t all = FLAG_MESHED;
+    for (int64_t i = first; i < end; i++) all &= flag[i];
+    return all != 0;
+}
+
+/* Kinetic energy, momentum by component, and the sum of |m v|: sums of a piece are one set of registers each. */
+struct motion { real kinetic, momentum[DIM_MAX], size; };
+
+static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to, const int dim,
+                                     const bool meshed)
+{
+    const real *mass = m->mass, *v0 = m->v[0], *v1 = m->v[dim > 1], *v2 = m->v[dim > 2 ? 2 : 0];
+    const uint8_t *flag = m->flag;
+    real kinetic = 0, p0 = 0, p1 = 0, p2 = 0, size = 0;
+#pragma omp simd reduction(+ : kinetic, p0, p1, p2, size)
+    for (int64_t i = first; i < end; i++) {
+        const real own = meshed && flag[i] & FLAG_MESHED ? 0 : mass[i];
+        const real speed2 = square(v0[i]) + (dim > 1 ? square(v1[i]) : 0) + (dim > 2 ? square(v2[i]) : 0);
+        kinetic += own * speed2;
+        p0 += own * v0[i];
+        if (dim > 1) p1 += own * v1[i];
+        if (dim > 2) p2 += own * v2[i];
+        size += own * sqrt(speed2);
+    }
+    to->kinetic += 0.5 * kinetic, to->size += size;
+    to->momentum[0] += p0, to->momentum[1] += p1, to->momentum[2] += p2;
+}
+
+static void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to)
+{
+    if (m->flag && all_meshed(m->flag, first, end)) return;
+    switch (m->dim) {
+    case 1: m->flag ? add_motion(m, first, end, to, 1, true) : add_motion(m, first, end, to, 1, false); break;
+    case 2: m->flag ? add_motion(m, first, end, to, 2, true) : add_motion(m, first, end, to, 2, false); break;
+    default: m->flag ? add_motion(m, first, end, to, 3, true) : add_motion(m, first, end, to, 3, false); break;
+    }
+}
+
+/* Pieces are short, so that few of those who are asked for nothing are visited. */
+static struct motion motion_of(const struct movers *m, int64_t first, int64_t end)
+{
+    enum { PIECE = 64 };
+    struct motion sum = {0};
+    for (; first < end; first += PIECE) motion_piece(m, first, first + PIECE < end ? first + PIECE : end, &sum);
+    return sum;
+}
+
 static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct particles *p = context;
-    for (int64_t i = first; i < end; i++) {
-        real speed2 = 0;
-        if (p->flag[i] & FLAG_MESHED) continue;
-        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
-        sum[0] += 0.5 * p->mass[i] * speed2;
-    }
+    sum[0] += motion_of(context, first, end).kinetic;
+}
+
+static struct movers movers_of(const struct particles *p)
+{
+    return (struct movers){p->dim, p->mass, p->v, p->flag};
 }
 
 real watch_kinetic(const struct particles *p)
 {
+    const struct movers m = movers_of(p);
     real kinetic;
-    team_sums(p->n, 1, kinetic_block, p, &kinetic);
+    team_sums(p->n, 1, kinetic_block, &m, &kinetic);
     return kinetic;
 }
 
@@ -53,30 +105,10 @@ real watch_kick(const struct particles *p, real dt)
 /* Momentum by component, and behind them the sum of |m v|. */
 static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct particles *p = context;
-    for (int64_t i = first; i < end; i++) {
-        real speed2 = 0;
-        if (p->flag[i] & FLAG_MESHED) continue;
-        for (int d = 0; d < p->dim; d++) {
-            sum[d] += p->mass[i] * p->v[d][i];
-            speed2 += square(p->v[d][i]);
-        }
-        sum[p->dim] += p->mass[i] * sqrt(speed2);
-    }
-}
-
-/* The same of nodes. */
-static void nodes_block(const void *context, int64_t first, int64_t end, real *sum)
-{
-    const struct grid *g = context;
-    for (int64_t I = first; I < end; I++) {
-        real speed2 = 0;
-        for (int d = 0; d < g->dim; d++) {
-            sum[d] += g->mass[I] * g->velocity[d][I];
-            speed2 += square(g->velocity[d][I]);
-        }
-        sum[g->dim] += g->mass[I] * sqrt(speed2);
-    }
+    const struct movers *m = context;
+    const struct motion motion = motion_of(m, first, end);
+    for (int d = 0; d < m->dim; d++) sum[d] += motion.momentum[d];
+    sum[m->dim] += motion.size;
 }
 
 /* ---- strain energy and plastic work of material points ------------------------------------------------ */
@@ -170,10 +202,12 @@ real watch_plastic(const struct particles *p, const struct material *m, const st
 /* Momentum that neither was there at the start nor was given since, over all that moves. */
 void watch_momentum(struct watch *w, const struct particles *p, const struct grid *mesh, const real *impulse)
 {
+    const struct movers m = movers_of(p);
     real sum[DIM_MAX + 1], nodes[DIM_MAX + 1], missing2 = 0;
-    team_sums(p->n, p->dim + 1, momentum_block, p, sum);
+    team_sums(p->n, p->dim + 1, momentum_block, &m, sum);
     if (mesh && mesh->n > 0) {
-        team_sums(mesh->n, p->dim + 1, nodes_block, mesh, nodes);
+        const struct movers n = {mesh->dim, mesh->mass, mesh->velocity, NULL};
+        team_sums(mesh->n, p->dim + 1, momentum_block, &n, nodes);
         for (int k = 0; k <= p->dim; k++) sum[k] += nodes[k];
     }
     for (int d = 0; d < p->dim; d++) {
