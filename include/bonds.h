@@ -11,7 +11,11 @@
  * Rows shorter than their group are padded with w = 0. Where the rows of a group see neighbours at the same
  * index distances (a lattice), a slot holds one distance, its eight neighbours are consecutive in memory
  * from `first` on, and one load replaces the gather; the hot loop then does not even read nbr. Where the bonds of such a
- * slot also weigh the same, the loop reads what they have in common and two bytes a bond instead of twelve. */
+ * slot also weigh the same, the loop reads what they have in common and two bytes a bond instead of twelve.
+ *
+ * Most groups of a lattice have, index distance by index distance, the bonds that others have. They follow one pattern, read
+ * from the nearest cache, and store nothing of their own (are folded) until somebody looks at their bonds one by one or breaks
+ * one. Room for all slots is kept, but only what is written takes memory. */
 #ifndef CLEAVE_BONDS_H
 #define CLEAVE_BONDS_H
 
