@@ -14,7 +14,8 @@ struct reflection reflection_of(const struct bond_source *s, const struct partic
 /* How the force F of a bond of direction e answers to a uniform strain, times the bond's length [N m]:
  *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
 struct response { real central, pressure, vector; };
-struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t row, int64_t q);
+struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
+                            const struct bond *bond);
 /* Adds the part of one bond, from p (a material point) to m, in the cell round X: T_abcd = l e_b dF_a/deps_cd, symmetric in cd. */
 void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim);
 

@@ -101,13 +101,14 @@ static real family_share(const struct particles *p, const struct bonds *b, const
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 
-struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t row, int64_t q)
+struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
+                            const struct bond *bond)
 {
-    const int32_t i = b->particle[row], j = b->nbr[q];
-    const real r = fabs(1 / b->inverse_length[q]), D = p->dim;
-    if (!s->modulus) return (struct response){.central = b->stiffness * b->w[q] * r};
+    const int32_t j = bond->nbr;
+    const real r = fabs(1 / bond->inverse_length), D = p->dim;
+    if (!s->modulus) return (struct response){.central = b->stiffness * bond->w * r};
     const struct state_modulus *m = &s->modulus[p->material[i]], *n = &s->modulus[p->material[j]];
-    const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = b->w[q] * r * r;
+    const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = bond->w * r * r;
     const real spring = scale * (m->B * first + n->B * second);
     return (struct response){.pressure = scale * (m->A * first + n->A * second) / D,
                              .central = s->turns ? 0 : spring, .vector = s->turns ? spring : 0};
@@ -123,10 +124,10 @@ static struct box box_of(const struct particles *p, const struct bonds *b, int64
         const real *X = p->X[d];
         box.low[d] = box.high[d] = X[b->particle[row]];
         for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-            const int64_t q = bond_index(b, row / LANES, k, row % LANES);
-            if (b->w[q] == 0) continue;
-            box.low[d] = real_min(box.low[d], X[b->nbr[q]]);
-            box.high[d] = real_max(box.high[d], X[b->nbr[q]]);
+            const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+            if (bond.w == 0) continue;
+            box.low[d] = real_min(box.low[d], X[bond.nbr]);
+            box.high[d] = real_max(box.high[d], X[bond.nbr]);
         }
     }
     return box;
@@ -150,15 +151,15 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     real xp[DIM_MAX], xm[DIM_MAX];
     for (int d = 0; d < p->dim; d++) xp[d] = p->X[d][j];
     for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        int64_t q = bond_index(b, row / LANES, k, row % LANES);
-        if (b->w[q] == 0) continue;
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        if (bond.w == 0) continue;
         bool apart = false;                      /* most bonds of a row pass by: seen without a division */
         for (int d = 0; d < p->dim; d++) {
-            xm[d] = r.sign[d] * p->X[d][b->nbr[q]] + r.offset[d];
+            xm[d] = r.sign[d] * p->X[d][bond.nbr] + r.offset[d];
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
         }
         if (apart) continue;
-        tensor_add(T, xp, xm, X, half, response_of(p, b, s, row, q), p->dim);
+        tensor_add(T, xp, xm, X, half, response_of(p, b, s, b->particle[row], &bond), p->dim);
     }
 }
 

@@ -215,14 +215,14 @@ bool partial_table_row(const struct partial_table *t, const struct particles *p,
     bool any = false;
     particle_place(p, b->particle[row], X);
     for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         real to[DIM_MAX];
-        if (b->w[q] == 0) continue;
+        if (bond.w == 0) continue;
         any = true;
-        particle_place(p, b->nbr[q], to);
+        particle_place(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         assert(place >= 0 && t->vector[place] >= 0);
-        const struct response r = response_of(p, b, s, row, q);
+        const struct response r = response_of(p, b, s, b->particle[row], &bond);
         real *part = answer + t->vector[place] * t->parts;
         part[0] = s->turns ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
