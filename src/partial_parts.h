@@ -31,12 +31,11 @@ bool partial_table_serves(const struct partial_table *t);
 bool partial_table_serves_all(const struct partial_table *t);
 /* Is the cell of this particle one of the lattice? */
 bool partial_table_knows(const struct particles *p, const struct bond_source *s, int64_t i);
-/* What the bonds of a row answer, by vector, into so many zeros; false: it has none. */
-int64_t partial_table_row_size(const struct partial_table *t);
-bool partial_table_row(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       int64_t row, real *answer);
-/* T of point i from the answers of rows round it: answer_of[row] is the place of a row's, -1: none of its bonds counts. */
-void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       const int32_t *answer_of, const real *answer, int64_t i, struct near *near, real *T);
+/* Asks the rows of the listed particles anew what their bonds answer; those of others keep it, or with `all` have none. */
+void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                       const int32_t *list, int64_t n, bool all);
+/* T of point i from the answers of the rows round it. */
+void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
+                       struct near *near, real *T);
 
 #endif
