@@ -240,6 +240,7 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     rows_list(b, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
+    state_start(b, s);
 
     rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .lattice = lattice, .room = most});
     memory_free(fresh);

@@ -144,7 +144,8 @@ const struct pattern *pattern_known(struct patterns *all, const struct pattern *
 /* Into memory. */
 void slot_write(const struct bonds *b, int64_t slot, const struct slot_copy *from);
 
-/* What state-based models keep; after the rows and their `whole` (bonds_state.c). */
+/* What state-based models keep: before rows are filled; then the rest, after the rows and their `whole` (bonds_state.c). */
+void state_start(struct bonds *b, const struct bond_source *s);
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
 void state_free(struct bonds *b);
 
