@@ -243,7 +243,8 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
     *r = (struct renewal){.list = NEW("partial.list", dirties, int32_t), .row = NEW("partial.row", rows, int32_t),
                           .own = NEW("partial.own", dirties, bool)};
     for (int64_t i = 0; i < p->n; i++) {
-        if (strange && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->row_of[i] >= 0 && b->made[b->row_of[i] / LANES] > 0) r->row[r->rows++] = b->row_of[i];
+        const int32_t row = mark[i] ? b->row_of[i] : -1;
+        if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->made[row / LANES] > 0) r->row[r->rows++] = row;
         if (!(mark[i] & DIRTY)) continue;
         r->own[r->n] = !changed || mark[i] & OWN;
         r->list[r->n++] = (int32_t)i;
