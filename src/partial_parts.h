@@ -31,9 +31,9 @@ bool partial_table_serves(const struct partial_table *t);
 bool partial_table_serves_all(const struct partial_table *t);
 /* Is the cell of this particle one of the lattice? */
 bool partial_table_knows(const struct particles *p, const struct bond_source *s, int64_t i);
-/* Asks the rows of the listed particles anew what their bonds answer; those of others keep it, or with `all` have none. */
+/* Asks the rows of the listed particles (NULL: of all material points) anew what their bonds answer; those of others keep it. */
 void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       const int32_t *list, int64_t n, bool all);
+                       const int32_t *list, int64_t n);
 /* T of point i from the answers of the rows round it. */
 void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
                        struct near *near, real *T);

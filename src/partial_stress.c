@@ -346,6 +346,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 {
     const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
     const int whole = rows_of(source, p->dim) * n_symmetric, skew = whole - size;
+    const bool all = !changed || !partial->index;
     struct renewal r;
     if (!partial->index) {
         partial->index = NEW("partial.index", p->n, int32_t);
@@ -353,7 +354,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         partial->table = partial_table_make(p, source, whole);
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
-    if (partial_table_serves(partial->table)) partial_table_ask(partial->table, p, b, source, r.list, r.n, !changed);
+    if (partial_table_serves(partial->table)) partial_table_ask(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = NEW("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
     matrices_make(M, crossed, whole, partial->table, &r, p, b, source);

@@ -273,12 +273,15 @@ static bool has_bonds(const struct particles *p, const struct bonds *b, int64_t 
 }
 
 void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       const int32_t *list, int64_t n, bool all)
+                       const int32_t *list, int64_t n)
 {
     struct answers *a = &t->answers;
+    if (!list) {
+        a->n = a->frees = 0;
+        for (int64_t i = 0; i < p->n; i++) a->of[i] = -1;
+        list = p->list[KIND_MPM], n = p->n_of[KIND_MPM];
+    }
     bool *none = NEW("partial.none", n, bool);
-    if (all) a->n = a->frees = 0;
-    for (int64_t i = 0; i < p->n && all; i++) a->of[i] = -1;
     for (int64_t k = 0; k < n; k++)
         if (has_bonds(p, b, list[k])) answer_open(t, list[k]);
         else answer_close(t, list[k]);
