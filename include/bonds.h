@@ -149,6 +149,7 @@ struct pattern {
     real (*w)[LANES];                    /* [slots] of the lanes, 0: no bond [1]           */
 };
 struct patterns;                         /* all of them (bonds_patterns.c)                 */
+struct lattice;                          /* the map of its sites (bonds_lattice.c)         */
 
 struct bonds {
     int64_t rows, groups, slots;
@@ -171,6 +172,7 @@ struct bonds {
     uint8_t *folded;                     /* [groups] its slots are not written                            */
     uint8_t *changed;                    /* [groups] weights are not those that it was made with: it follows nothing */
     struct patterns *patterns;
+    struct lattice *sites;               /* NULL before rows are made anew, which will happen again: then kept */
     real *plastic_stretch, *plastic_path;   /* [slots 8] s_p and alpha of a bond; NULL where none yields   [1]  */
     int32_t *pair;                       /* [slots 8] entry of `yield`; NULL where none yields               */
     struct bond_yield yield;
@@ -288,6 +290,19 @@ static inline int64_t bond_index(const struct bonds *b, int64_t group, int64_t k
 {
     if (__atomic_load_n(&b->folded[group], __ATOMIC_ACQUIRE)) group_unfold(b, group);
     return (b->slot[group] + k) * LANES + lane;
+}
+
+/* Bond k of group g, lane l, for readers of a few: nothing is unfolded. */
+struct bond { int32_t nbr; real inverse_length, w; };    /* as stored */
+static inline struct bond bond_read(const struct bonds *b, int64_t group, int64_t k, int lane)
+{
+    if (!__atomic_load_n(&b->folded[group], __ATOMIC_ACQUIRE)) {
+        const int64_t q = (b->slot[group] + k) * LANES + lane;
+        return (struct bond){b->nbr[q], b->inverse_length[q], b->w[q]};
+    }
+    const struct pattern_slot *of = &b->pattern[group]->slot[k];
+    const real w = b->pattern[group]->w[k][lane];
+    return (struct bond){b->particle[group * LANES] + of->offset + lane, w == 0 ? 0 : of->inverse_length, w};
 }
 
 #endif

@@ -36,8 +36,8 @@ static void rows_complete(uint8_t *wanted, int64_t n)
 
 /* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` those that have to be
  * searched anew: of who has become peridynamic and whoever is within its reach. */
-static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old, int room,
-                      uint8_t *wanted, uint8_t *fresh)
+static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
+                      const struct lattice *lattice, int room, uint8_t *wanted, uint8_t *fresh)
 {
     const bool last = rows_last(old, p);
     if (!last) memset(fresh, 1, (size_t)p->n);
@@ -50,7 +50,7 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
     for (int64_t i = 0; i < p->n_all; i++) {
         if (p->kind[i] != KIND_PD || (last && was_whole(old, s, p, i))) continue;
         if (i < p->n) wanted[i] = fresh[i] = 1;
-        int n = family_search(s, p, (int32_t)i, found, room);
+        int n = family_of(lattice, s, p, (int32_t)i, found, room);
         for (int k = 0; k < n; k++)
             if (found[k] < p->n) wanted[found[k]] = fresh[found[k]] = 1;
     }
@@ -107,7 +107,6 @@ static void rows_arrays(struct bonds *b)
 struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
-    const struct lattice *lattice;
     struct group_found **found;          /* [groups] of those that are searched, NULL: not kept   */
     bool count;                          /* the first pass: slots are counted                     */
 };
@@ -123,6 +122,15 @@ static bool group_inherits(const struct bonds *old, const int32_t *particle, int
     return changed;
 }
 
+/* Are its bonds those that its place on the lattice tells, as new? */
+static bool is_regular(const struct rows_pass *pass, struct group_room *room, int64_t g)
+{
+    const struct row_maker *m = &pass->maker;
+    const int32_t *particle = pass->b->particle + g * LANES;
+    return m->lattice->at && !pass->b->changed[g] && group_rows(pass->b, g) == LANES && particle[LANES - 1] - particle[0] == LANES - 1 &&
+           group_regular(m->lattice, m->source, m->p, particle[0], &room->regular);
+}
+
 /* Counts the slots of a group, or fills them; returns its bonds. */
 static int64_t group_pass(const struct rows_pass *pass, struct group_room *room, int64_t g)
 {
@@ -132,14 +140,12 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
     const int32_t *particle = b->particle + g * LANES;
     int64_t made = 0;
     bool by_offset;
-    if (pass->lattice->at && rows == LANES && particle[LANES - 1] - particle[0] == LANES - 1 &&
-        group_regular(pass->lattice, m->source, m->p, particle[0], &room->regular)) {
-        if (pass->count) b->slot[g + 1] = room->regular.n;
-        else group_fill_regular(b, room, g, m);
-        for (int k = 0; k < room->regular.n; k++) made += room->regular.to[k] - room->regular.from[k] + 1;
-        return made;
-    }
     b->changed[g] = group_inherits(m->old, particle, rows);
+    if (is_regular(pass, room, g)) {
+        if (pass->count) b->slot[g + 1] = group_regular_slots(&room->regular);
+        else group_fill_regular(b, room, g, m);
+        return group_regular_bonds(&room->regular);
+    }
     if (pass->found && pass->found[g]) group_found_take(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
         if (!pass->found || !pass->found[g]) row_find(&room->row[l], m, particle[l]);
@@ -162,7 +168,7 @@ static int64_t rows_pass(const struct rows_pass *pass)
 #pragma omp parallel reduction(+ : made)
     {
         struct group_room room = {0};
-        group_room_make(&room, m->room, pass->lattice);
+        group_room_make(&room, m->room, m->lattice);
 #pragma omp for schedule(static)
         for (int64_t g = 0; g < pass->b->groups; g++) {
             const int64_t from = group_kept(pass->b, m, g);
@@ -193,24 +199,21 @@ static void slots_arrays(struct bonds *b, const struct bond_source *s, bool latt
     b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
 }
 
-/* With old rows few groups change, and what is found for them is kept; a map of all sites would not pay for them. */
+/* With old rows few groups change, and what is searched for them is kept. */
 static void rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = pairs_make(maker.source);
-    struct lattice lattice = {0};
-    if (!maker.old) lattice_make(&lattice, maker.source, maker.p);
     maker.pairs = &pairs;
-    struct rows_pass pass = {.b = b, .maker = maker, .lattice = &lattice, .count = true,
+    struct rows_pass pass = {.b = b, .maker = maker, .count = true,
                              .found = maker.old ? NEW("bonds.found", b->groups, struct group_found *) : NULL};
     rows_pass(&pass);
     for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
     b->slots = b->slot[b->groups];
-    slots_arrays(b, maker.source, lattice.at != NULL);
+    slots_arrays(b, maker.source, maker.lattice->at != NULL);
     pass.count = false;
     b->n = rows_pass(&pass);
     for (int64_t g = 0; g < b->groups && pass.found; g++) memory_free(pass.found[g]);
     memory_free(pass.found);
-    lattice_free(&lattice);
     memory_free(pairs.ratio);
 }
 
@@ -229,17 +232,20 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
 {
     memset(b, 0, sizeof *b);
     b->patterns = patterns_make(old ? old->patterns : NULL);
+    struct lattice *lattice = lattice_keep(old ? old->sites : NULL, s, p);
     int most = bonds_room(s);
     uint8_t *wanted = NEW("bonds.wanted", p->n, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
-    mark_rows(s, p, old, most, wanted, fresh);
+    mark_rows(s, p, old, lattice, most, wanted, fresh);
     rows_list(b, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
+    state_start(b, s);
 
-    rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .room = most});
+    rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .lattice = lattice, .room = most});
     memory_free(fresh);
-    if (old) rows_carry(b, old);
+    if (old) rows_carry(b, old), b->sites = lattice;
+    else lattice_leave(lattice);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
 #pragma omp parallel for schedule(static)
@@ -287,6 +293,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->folded);
     memory_free(b->changed);
     patterns_free(b->patterns);
+    lattice_leave(b->sites);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
     memory_free(b->pair);

@@ -119,39 +119,77 @@ void group_store(struct bonds *b, struct group_room *room, int64_t g, const stru
     for (int64_t slot = b->slot[g]; slot < b->slot[g + 1] && !b->folded[g]; slot++) slot_write(b, slot, &room->slot[slot - b->slot[g]]);
 }
 
-bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
-                          struct lattice_bonds *to)
+/* Which of eight particles in a row are peridynamic: bit by bit. */
+static uint8_t peridynamic(const struct particles *p, int64_t i)
 {
-    if (!lattice_bonds(lattice, p, i, to)) return false;
-    for (int l = 0; l < LANES; l++)
-        if (p->kind[i + l] != KIND_PD || cracks_near(s, p, i + l)) return false;
-    return true;
+    unsigned bits = 0;
+    for (int l = 0; l < LANES; l++) bits |= (unsigned)(p->kind[i + l] == KIND_PD) << l;
+    return (uint8_t)bits;
 }
 
-/* group_fill of whole rows on a lattice. */
+bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
+                   struct lattice_bonds *to)
+{
+    int bonds[LANES] = {0}, slots = 0, longest = 0;
+    if (!lattice_bonds(lattice, p, i, to)) return false;
+    for (int l = 0; l < LANES; l++)
+        if (cracks_near(s, p, i + l)) return false;
+    const uint8_t own = peridynamic(p, i);
+    for (int k = 0; k < to->n; k++) {
+        const unsigned family = (2u << to->to[k]) - (1u << to->from[k]);
+        to->bonds[k] = (uint8_t)(family & (own == UINT8_MAX ? own : own | peridynamic(p, i + to->offset[k])));
+        for (int l = 0; l < LANES; l++) bonds[l] += to->bonds[k] >> l & 1;
+        slots += to->bonds[k] != 0;
+    }
+    for (int l = 0; l < LANES; l++) longest = bonds[l] > longest ? bonds[l] : longest;
+    return slots_by_offset(slots, longest);
+}
+
+int group_regular_slots(const struct lattice_bonds *bonds)
+{
+    int slots = 0;
+    for (int k = 0; k < bonds->n; k++) slots += bonds->bonds[k] != 0;
+    return slots;
+}
+
+int group_regular_bonds(const struct lattice_bonds *bonds)
+{
+    int sum = 0;
+    for (int k = 0; k < bonds->n; k++) sum += __builtin_popcount(bonds->bonds[k]);
+    return sum;
+}
+
+/* The slot of bonds to the particles at one index distance; what bond can break at the least stretch goes to `trigger`. */
+static void fill_slot(struct slot_copy *slot, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds, real *trigger)
+{
+    const struct bond_source *s = m->source;
+    slot->first = j;
+    lattice_weigh(s, m->p, m->pairs, i, j, slot->inverse_length, slot->w);
+    for (int l = 0; l < LANES; l++) {
+        slot->nbr[l] = j + l;
+        if (!(bonds >> l & 1)) slot->inverse_length[l] = slot->w[l] = 0;
+        else if (s->limit.materials > 1 || trigger[l] == INFINITY)
+            trigger[l] = real_min(trigger[l], row_trigger(s, m->p, i + l, j + l));
+    }
+}
+
+/* group_fill on a lattice. */
 void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m)
 {
     const struct lattice_bonds *bonds = &room->regular;
-    const struct bond_source *s = m->source;
-    const struct particles *p = m->p;
+    const real *volume = m->p->volume0;
     const int32_t i = b->particle[g * LANES];
     real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
+    int slots = 0;
     for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
     for (int k = 0; k < bonds->n; k++) {
-        struct slot_copy *slot = &room->slot[k];
-        const int32_t j = slot->first = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
-        lattice_weigh(s, p, m->pairs, i, j, slot->inverse_length, slot->w);
-        for (int l = 0; l < LANES; l++) slot->nbr[l] = j + l;
-        for (int l = 0; l < LANES; l++)
-            if (l < from || l > to) slot->inverse_length[l] = slot->w[l] = 0;
-        for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? p->volume0[j + l] : 0;
-        for (int l = from; l <= to; l++)
-            if (s->limit.materials > 1 || trigger[l] == INFINITY)
-                trigger[l] = real_min(trigger[l], row_trigger(s, p, i + l, j + l));
+        const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
+        for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? volume[j + l] : 0;
+        if (bonds->bonds[k]) fill_slot(&room->slot[slots++], m, i, j, bonds->bonds[k], trigger);
     }
     for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
     b->aligned[g] = true;
-    group_store(b, room, g, p);
+    group_store(b, room, g, m->p);
 }
 
 void group_room_make(struct group_room *g, int room, const struct lattice *lattice)

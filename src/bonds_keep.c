@@ -44,6 +44,7 @@ void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t fro
     if (!b->folded[g]) slots_keep(b, old, g, from);
     b->made[g] = old->made[from];
     b->aligned[g] = old->aligned[from];
+    if (b->state.weighted) memcpy(b->state.weighted + g * LANES, old->state.weighted + from * LANES, LANES * sizeof(real));
     memcpy(b->trigger + g * LANES, old->trigger + from * LANES, LANES * sizeof *b->trigger);
     memcpy(b->family_volume + g * LANES, old->family_volume + from * LANES, LANES * sizeof *b->family_volume);
     memcpy(b->broken_volume + g * LANES, old->broken_volume + from * LANES, LANES * sizeof *b->broken_volume);

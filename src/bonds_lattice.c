@@ -100,6 +100,35 @@ void lattice_free(struct lattice *l)
     *l = (struct lattice){0};
 }
 
+struct lattice *lattice_keep(struct lattice *of, const struct bond_source *s, const struct particles *p)
+{
+    struct lattice *l = of ? of : NEW("bonds.sites", 1, struct lattice);
+    if (!of) lattice_make(l, s, p);
+    l->users++;
+    return l;
+}
+
+void lattice_leave(struct lattice *l)
+{
+    if (!l || --l->users > 0) return;
+    lattice_free(l);
+    memory_free(l);
+}
+
+int lattice_family(const struct lattice *l, const struct particles *p, int32_t i, int32_t *found)
+{
+    const int32_t *own = l->at + site_of(l, p, i);
+    int n = 0;
+    for (int k = 0; k < l->rows; k++)
+        for (int a = -l->row[k].half; a <= l->row[k].half; a++) {
+            const int32_t j = own[l->row[k].site + a] - 1;
+            if (j < 0 || j == i) continue;
+            if (j >= p->n) return -1;
+            found[n++] = j;
+        }
+    return n;
+}
+
 /* ---- eight particles ------------------------------------------------------------------------------- */
 
 /* Bonds along one row of the lattice; false if what stands there is not consecutive. */
@@ -142,6 +171,7 @@ void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l)
     to->offset = NEW("lattice.offset", l->most, int32_t);
     to->from = NEW("lattice.from", l->most, uint8_t);
     to->to = NEW("lattice.to", l->most, uint8_t);
+    to->bonds = NEW("lattice.bonds", l->most, uint8_t);
 }
 
 void lattice_bonds_free(struct lattice_bonds *to)
@@ -149,6 +179,7 @@ void lattice_bonds_free(struct lattice_bonds *to)
     memory_free(to->offset);
     memory_free(to->from);
     memory_free(to->to);
+    memory_free(to->bonds);
 }
 
 /* 1/r and weight of the bonds from i + lane to j + lane, as row_weigh has them. */

@@ -24,6 +24,9 @@ void row_room_free(struct row *row);
  * `room` are not written. */
 int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room);
 
+/* The same, by the map of sites (NULL: none) where it can tell. */
+int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room);
+
 /* What rows are made of. `fresh`: particles whose neighbours may be others than they were in `old`. */
 struct row_maker {
     const struct bonds *old;             /* NULL: none before                   */
@@ -31,6 +34,7 @@ struct row_maker {
     const struct particles *p;
     const struct pair_table *pairs;
     const uint8_t *fresh;                /* [n]                                 */
+    const struct lattice *lattice;       /* `at` NULL: particles do not stand on one */
     int room;                            /* bonds a row may have                */
 };
 
@@ -68,13 +72,20 @@ struct lattice {
     int64_t stride[DIM_MAX];
     struct stencil_row *row;
     int reach, rows, most;               /* most bonds that eight particles in a row can have slots for      */
+    int users;                           /* of one that is kept: rows, and rows made anew from them          */
 };
 /* False, and nothing to free, where particles do not stand on one. */
 bool lattice_make(struct lattice *l, const struct bond_source *s, const struct particles *p);
 void lattice_free(struct lattice *l);
+/* A map that rows hand on to those made anew from them, the one that there is or a new one; and back. */
+struct lattice *lattice_keep(struct lattice *of, const struct bond_source *s, const struct particles *p);
+void lattice_leave(struct lattice *l);
+/* family_search by the map; -1: an image is among them, which would come out of order. */
+int lattice_family(const struct lattice *l, const struct particles *p, int32_t i, int32_t *found);
 
-/* Bonds of eight consecutive particles: lanes `from` to `to` have one at this index distance; distances ascend. */
-struct lattice_bonds { int n; int32_t *offset; uint8_t *from, *to; };
+/* Families of eight consecutive particles: lanes `from` to `to` have a neighbour at this index distance; distances ascend.
+ * `bonds`: bit l is set where lane l has a bond to it, one end of which is peridynamic (group_regular). */
+struct lattice_bonds { int n; int32_t *offset; uint8_t *from, *to, *bonds; };
 void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l);
 void lattice_bonds_free(struct lattice_bonds *to);
 /* Those of particles i .. i + 7, all of which may be read at each distance. False where they are to be searched. */
@@ -83,9 +94,11 @@ bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i
 void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i, int64_t j,
                    real *inverse, real *w);
 
-/* Can the map of sites tell the bonds of particles i .. i + 7, all peridynamic? Then `to` has them. */
+/* Can the map of sites tell the bonds of particles i .. i + 7, none of them cut? Then `to` has them. */
 bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
                    struct lattice_bonds *to);
+int group_regular_slots(const struct lattice_bonds *bonds);
+int group_regular_bonds(const struct lattice_bonds *bonds);
 struct pair_table pairs_make(const struct bond_source *s);
 static inline int group_rows(const struct bonds *b, int64_t g)
 {
@@ -131,7 +144,8 @@ const struct pattern *pattern_known(struct patterns *all, const struct pattern *
 /* Into memory. */
 void slot_write(const struct bonds *b, int64_t slot, const struct slot_copy *from);
 
-/* What state-based models keep; after the rows and their `whole` (bonds_state.c). */
+/* What state-based models keep: before rows are filled; then the rest, after the rows and their `whole` (bonds_state.c). */
+void state_start(struct bonds *b, const struct bond_source *s);
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
 void state_free(struct bonds *b);
 

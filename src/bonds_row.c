@@ -37,6 +37,12 @@ int family_search(const struct bond_source *s, const struct particles *p, int32_
     return kept;
 }
 
+int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
+{
+    const int n = l && l->at && i < p->n ? lattice_family(l, p, i, found) : -1;
+    return n >= 0 ? n : family_search(s, p, i, found, room);
+}
+
 int bonds_room(const struct bond_source *s)
 {
     if (s->room > 0) return s->room;
@@ -76,9 +82,10 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
 }
 
 /* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */
-static void row_search(struct row *row, const struct bond_source *s, const struct particles *p, int32_t i, int room)
+static void row_search(struct row *row, const struct lattice *lattice, const struct bond_source *s, const struct particles *p,
+                       int32_t i, int room)
 {
-    int n = family_search(s, p, i, row->nbr, room), kept = 0;
+    int n = family_of(lattice, s, p, i, row->nbr, room), kept = 0;
     row->family_volume = 0;
     for (int k = 0; k < n; k++) {
         row->family_volume += p->volume0[row->nbr[k]];
@@ -144,8 +151,9 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
-static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t q)
+static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t group, int64_t k, int lane)
 {
+    const int64_t q = (b->slot[group] + k) * LANES + lane;
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
@@ -156,12 +164,12 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     int lane = (int)(old_row % LANES);
     int m = 0;                           /* neighbours ascend in both */
     for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
-        int64_t q = bond_index(old, group, k, lane);
-        if (old->inverse_length[q] == 0) continue;
-        while (m < row->n && row->nbr[m] < old->nbr[q]) m++;
-        if (m == row->n || row->nbr[m] != old->nbr[q] || row->w[m] == 0) continue;
-        if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, q);
-        if (old->w[q] != 0) continue;
+        const struct bond bond = bond_read(old, group, k, lane);
+        if (bond.inverse_length == 0) continue;
+        while (m < row->n && row->nbr[m] < bond.nbr) m++;
+        if (m == row->n || row->nbr[m] != bond.nbr || row->w[m] == 0) continue;
+        if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, group, k, lane);
+        if (bond.w != 0) continue;
         row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
         row->cut_volume += p->volume0[row->nbr[m]];
     }
@@ -169,23 +177,25 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
 
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    const int64_t group = old_row / LANES, end = old->slot[group + 1] * LANES;
+    const int64_t group = old_row / LANES, slots = old->slot[group + 1] - old->slot[group];
     row->n = 0;
-    for (int64_t q = bond_index(old, group, 0, (int)(old_row % LANES)); q < end; q += LANES) {    /* padding is written over */
-        row->nbr[row->n] = old->nbr[q];
-        row->n += old->inverse_length[q] != 0;
+    for (int64_t k = 0; k < slots; k++) {        /* padding is written over */
+        const struct bond bond = bond_read(old, group, k, (int)(old_row % LANES));
+        row->nbr[row->n] = bond.nbr;
+        row->n += bond.inverse_length != 0;
     }
 }
 
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    const int64_t group = old_row / LANES, end = old->slot[group + 1] * LANES;
+    const int64_t group = old_row / LANES, slots = old->slot[group + 1] - old->slot[group];
     int n = 0;
-    for (int64_t q = bond_index(old, group, 0, (int)(old_row % LANES)); q < end; q += LANES) {
-        row->inverse_length[n] = old->inverse_length[q];
-        row->w[n] = old->w[q];
-        if (old->plastic_stretch) row->plastic[n] = stored_plasticity(old, q);
-        n += old->inverse_length[q] != 0;
+    for (int64_t k = 0; k < slots; k++) {
+        const struct bond bond = bond_read(old, group, k, (int)(old_row % LANES));
+        row->inverse_length[n] = bond.inverse_length;
+        row->w[n] = bond.w;
+        if (old->plastic_stretch) row->plastic[n] = stored_plasticity(old, group, k, (int)(old_row % LANES));
+        n += bond.inverse_length != 0;
     }
     row->trigger = old->trigger[old_row];
     row->family_volume = old->family_volume[old_row];
@@ -195,7 +205,7 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 void row_find(struct row *row, const struct row_maker *m, int32_t i)
 {
     if (row_lasts(m, i)) row_copy_neighbours(row, m->old, m->old->row_of[i]);
-    else row_search(row, m->source, m->p, i, m->room);
+    else row_search(row, m->lattice, m->source, m->p, i, m->room);
 }
 
 void row_finish(struct row *row, const struct row_maker *m, int32_t i)

@@ -36,13 +36,26 @@ void state_weigh(struct bonds *b, const struct particles *p, const struct family
     for (int64_t g = 0; g < b->groups; g++) group_weigh(b, p, f, g);
 }
 
+/* Groups that rows made anew have taken over keep their Q; those of others are still 0. */
+static void state_weigh_new(struct bonds *b, const struct particles *p, const struct family *f)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t g = 0; g < b->groups; g++)
+        if (b->state.weighted[g * LANES] == 0) group_weigh(b, p, f, g);
+}
+
+void state_start(struct bonds *b, const struct bond_source *s)
+{
+    if (!s->modulus) return;
+    b->state.modulus = s->modulus;
+    b->state.local = s->local;
+    b->state.weighted = NEW("state.weighted", b->groups * LANES, real);
+}
+
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     if (!s->modulus) return;
     const int64_t room = p->n_all + LANES;
-    b->state.modulus = s->modulus;
-    b->state.local = s->local;
-    b->state.weighted = NEW("state.weighted", b->groups * LANES, real);
     b->state.past = NEW("state.past", b->groups, uint8_t);
     b->state.pressure = NEW("state.pressure", room, real);
     b->state.spring = NEW("state.spring", room, real);
@@ -50,7 +63,7 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
     b->state.image = NEW("state.image", p->n_all - p->n, struct state_image);
     for (int64_t k = 0; k < p->n_all - p->n; k++)
         b->state.image[k] = (struct state_image){s->image[k].source, s->mirror_axis[s->image[k].load]};
-    state_weigh(b, p, &s->family);
+    state_weigh_new(b, p, &s->family);
 }
 
 void state_free(struct bonds *b)

@@ -87,8 +87,8 @@ static bool meets_points(const struct bonds *b, const struct particles *p, int64
 {
     const int64_t row = b->row_of[i], group = row / LANES;
     for (int64_t k = 0; row >= 0 && k < b->slot[group + 1] - b->slot[group]; k++) {
-        const int64_t q = bond_index(b, group, k, row % LANES);
-        if (b->inverse_length[q] != 0 && p->kind[b->nbr[q]] == KIND_MPM) return true;
+        const struct bond bond = bond_read(b, group, k, (int)(row % LANES));
+        if (bond.inverse_length != 0 && p->kind[bond.nbr] == KIND_MPM) return true;
     }
     return false;
 }

@@ -333,6 +333,14 @@ static void images_see(uint8_t *seen, const struct particles *p, const struct im
         if (nbr[l] >= p->n) seen[image_root(p, image, nbr[l])] = 1;
 }
 
+/* May a bond of slot k of a group have an image at its end? */
+static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
+{
+    const struct pattern *pattern = b->pattern[g];
+    const int64_t first = pattern ? b->particle[g * LANES] + pattern->slot[k].offset : b->first[b->slot[g] + k];
+    return first < 0 || first + LANES > p->n;
+}
+
 static void cell_see(struct mesh *mesh, const uint8_t *seen, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
@@ -359,6 +367,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
         struct slot_copy slot;
         for (int lane = 0; lane < LANES; lane++) seen[b->particle[g * LANES + lane]] |= intact >> lane & 1;
         for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g] && p->n_all > p->n; k++) {
+            if (!meets_images(b, p, g, k)) continue;
             slot_read(&slot, b, g, k);
             images_see(seen, p, l->image, slot.nbr);
         }

@@ -252,12 +252,21 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_cuts *old, co
     return from;
 }
 
+/* `each` numbers of every cut cell; only the rest of the last group is 0 already. */
+static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
+{
+    const int64_t groups = mesh_groups(mesh), size = each * LANES;
+    real *numbers = memory_bare(label, groups * size, sizeof *numbers);
+    if (groups > 0) memset(numbers + (groups - 1) * size, 0, (size_t)size * sizeof *numbers);
+    return numbers;
+}
+
 /* The odd part of all cells, where there is one. */
 static void odds_make(struct mesh *mesh, const struct cell_maker *c, struct mesh_cuts *old, const int64_t *from, bool any)
 {
     const int half = c->modes * (c->modes + 1) / 2, odd = half - c->modes, skews = mesh_skews(c->dim) * c->modes;
     if (!any && !old->odd) return;
-    mesh->odd = NEW("mesh.odd", mesh_groups(mesh) * odd * LANES, real);
+    mesh->odd = numbers_make("mesh.odd", mesh, odd);
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t k = 0; k < mesh->cuts; k++)
         if (from[k] >= 0) lane_copy(lane_of(mesh->odd, k, odd), lane_of(old->odd, from[k], odd), odd);
@@ -292,8 +301,8 @@ void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct m
     const int64_t groups = mesh_groups(mesh);
     bool any = false;
     groups_fill(mesh);
-    mesh->stiffness = NEW("mesh.stiffness", groups * half * LANES, real);
-    mesh->skew = c.rows > c.columns ? NEW("mesh.skew", groups * skews * LANES, real) : NULL;
+    mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
+    mesh->skew = c.rows > c.columns ? numbers_make("mesh.skew", mesh, skews) : NULL;
     mesh->cut_force = NEW("mesh.cut_force", groups * unknowns * LANES, real);
     mesh->cut_stressed = NEW("mesh.cut_stressed", groups * LANES, bool);
     mesh->cut_material = NEW("mesh.cut_material", groups * LANES, uint8_t);

@@ -14,7 +14,8 @@ struct reflection reflection_of(const struct bond_source *s, const struct partic
 /* How the force F of a bond of direction e answers to a uniform strain, times the bond's length [N m]:
  *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
 struct response { real central, pressure, vector; };
-struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t row, int64_t q);
+struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
+                            const struct bond *bond);
 /* Adds the part of one bond, from p (a material point) to m, in the cell round X: T_abcd = l e_b dF_a/deps_cd, symmetric in cd. */
 void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim);
 
@@ -30,12 +31,11 @@ bool partial_table_serves(const struct partial_table *t);
 bool partial_table_serves_all(const struct partial_table *t);
 /* Is the cell of this particle one of the lattice? */
 bool partial_table_knows(const struct particles *p, const struct bond_source *s, int64_t i);
-/* What the bonds of a row answer, by vector, into so many zeros; false: it has none. */
-int64_t partial_table_row_size(const struct partial_table *t);
-bool partial_table_row(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       int64_t row, real *answer);
-/* T of point i from the answers of rows round it: answer_of[row] is the place of a row's, -1: none of its bonds counts. */
-void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       const int32_t *answer_of, const real *answer, int64_t i, struct near *near, real *T);
+/* Asks the rows of the listed particles (NULL: of all material points) anew what their bonds answer; those of others keep it. */
+void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                       const int32_t *list, int64_t n);
+/* T of point i from the answers of the rows round it. */
+void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
+                       struct near *near, real *T);
 
 #endif

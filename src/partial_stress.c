@@ -101,13 +101,14 @@ static real family_share(const struct particles *p, const struct bonds *b, const
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 
-struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t row, int64_t q)
+struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
+                            const struct bond *bond)
 {
-    const int32_t i = b->particle[row], j = b->nbr[q];
-    const real r = fabs(1 / b->inverse_length[q]), D = p->dim;
-    if (!s->modulus) return (struct response){.central = b->stiffness * b->w[q] * r};
+    const int32_t j = bond->nbr;
+    const real r = fabs(1 / bond->inverse_length), D = p->dim;
+    if (!s->modulus) return (struct response){.central = b->stiffness * bond->w * r};
     const struct state_modulus *m = &s->modulus[p->material[i]], *n = &s->modulus[p->material[j]];
-    const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = b->w[q] * r * r;
+    const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = bond->w * r * r;
     const real spring = scale * (m->B * first + n->B * second);
     return (struct response){.pressure = scale * (m->A * first + n->A * second) / D,
                              .central = s->turns ? 0 : spring, .vector = s->turns ? spring : 0};
@@ -123,10 +124,10 @@ static struct box box_of(const struct particles *p, const struct bonds *b, int64
         const real *X = p->X[d];
         box.low[d] = box.high[d] = X[b->particle[row]];
         for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-            const int64_t q = bond_index(b, row / LANES, k, row % LANES);
-            if (b->w[q] == 0) continue;
-            box.low[d] = real_min(box.low[d], X[b->nbr[q]]);
-            box.high[d] = real_max(box.high[d], X[b->nbr[q]]);
+            const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+            if (bond.w == 0) continue;
+            box.low[d] = real_min(box.low[d], X[bond.nbr]);
+            box.high[d] = real_max(box.high[d], X[bond.nbr]);
         }
     }
     return box;
@@ -150,15 +151,15 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     real xp[DIM_MAX], xm[DIM_MAX];
     for (int d = 0; d < p->dim; d++) xp[d] = p->X[d][j];
     for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        int64_t q = bond_index(b, row / LANES, k, row % LANES);
-        if (b->w[q] == 0) continue;
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        if (bond.w == 0) continue;
         bool apart = false;                      /* most bonds of a row pass by: seen without a division */
         for (int d = 0; d < p->dim; d++) {
-            xm[d] = r.sign[d] * p->X[d][b->nbr[q]] + r.offset[d];
+            xm[d] = r.sign[d] * p->X[d][bond.nbr] + r.offset[d];
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
         }
         if (apart) continue;
-        tensor_add(T, xp, xm, X, half, response_of(p, b, s, row, q), p->dim);
+        tensor_add(T, xp, xm, X, half, response_of(p, b, s, b->particle[row], &bond), p->dim);
     }
 }
 
@@ -199,11 +200,11 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
 
 /* ---- who needs one ----------------------------------------------------------------------------------- */
 
-/* What is made anew: points around what has changed, and the rows whose bonds may cross their cells. */
+/* What is made anew: points around what has changed; and the rows whose bonds may cross their cells. */
 struct renewal {
     int32_t *list;                       /* points and others there, ascending                              */
     int64_t n;
-    int32_t *row;                        /* rows of material points                                         */
+    int32_t *row;                        /* rows of material points, where there are cells that the table does not know */
     int64_t rows;
     bool *own;                           /* [n] has changed itself                                          */
 };
@@ -233,15 +234,17 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
 {
     /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice, within its
      * own length: the middle of the cell lies in the box that it spans */
-    const real radius = s->family.cutoff + (partial_table_serves_all(table) ? 0 : s->family.spacing * sqrt(p->dim));
+    const bool strange = !partial_table_serves_all(table);
+    const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
     uint8_t *mark = NEW("partial.mark", p->n, uint8_t);
     int64_t rows = 0, dirties = 0;
-    mark_dirty(mark, p, s, radius, radius, changed, n);
+    mark_dirty(mark, p, s, radius, strange ? radius : 0, changed, n);
     for (int64_t i = 0; i < p->n; i++) rows += mark[i] & OTHERS_ROW, dirties += (mark[i] & DIRTY) > 0;
     *r = (struct renewal){.list = NEW("partial.list", dirties, int32_t), .row = NEW("partial.row", rows, int32_t),
                           .own = NEW("partial.own", dirties, bool)};
     for (int64_t i = 0; i < p->n; i++) {
-        if (mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->row_of[i] >= 0 && b->made[b->row_of[i] / LANES] > 0) r->row[r->rows++] = b->row_of[i];
+        const int32_t row = mark[i] ? b->row_of[i] : -1;
+        if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->made[row / LANES] > 0) r->row[r->rows++] = row;
         if (!(mark[i] & DIRTY)) continue;
         r->own[r->n] = !changed || mark[i] & OWN;
         r->list[r->n++] = (int32_t)i;
@@ -318,34 +321,23 @@ static void matrices_make(real *M, bool *crossed, int whole, const struct partia
                           const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
     const bool served = partial_table_serves(table);
-    const bool strange = !partial_table_serves_all(table);    /* is there a cell that the table does not know? */
-    const int64_t each = served ? partial_table_row_size(table) : 0;
-    real *answer = NEW("partial.answer", r->rows * each, real);
-    int32_t *answer_of = NEW("partial.answer_of", b->rows, int32_t);
-    struct box *box = NEW("partial.box", strange ? b->rows : 0, struct box);
+    struct box *box = NEW("partial.box", r->rows > 0 ? b->rows : 0, struct box);
 #pragma omp parallel
     {
         struct near near = {0};
 #pragma omp for schedule(static)
-        for (int64_t row = 0; row < b->rows; row++) answer_of[row] = -1;
-#pragma omp for schedule(static)
-        for (int64_t k = 0; k < r->rows; k++) {
-            if (strange) box[r->row[k]] = box_of(p, b, r->row[k]);
-            if (served && partial_table_row(table, p, b, s, r->row[k], answer + k * each)) answer_of[r->row[k]] = (int32_t)k;
-        }
+        for (int64_t k = 0; k < r->rows; k++) box[r->row[k]] = box_of(p, b, r->row[k]);
 #pragma omp for schedule(dynamic, 16)
         for (int64_t k = 0; k < r->n; k++) {
             const int64_t i = r->list[k];
             real T[ROWS_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
-            if (served && partial_table_knows(p, s, i)) partial_table_sum(table, p, b, s, answer_of, answer, i, &near, T);
+            if (served && partial_table_knows(p, s, i)) partial_table_sum(table, p, s, i, &near, T);
             else tensor_sum(T, p, b, s, box, i, &near);
             crossed[k] = partial_matrix(M + k * whole, T, p, s, i);
         }
         memory_free(near.at);
     }
-    memory_free(answer_of);
-    memory_free(answer);
     memory_free(box);
 }
 
@@ -354,6 +346,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 {
     const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
     const int whole = rows_of(source, p->dim) * n_symmetric, skew = whole - size;
+    const bool all = !changed || !partial->index;
     struct renewal r;
     if (!partial->index) {
         partial->index = NEW("partial.index", p->n, int32_t);
@@ -361,6 +354,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         partial->table = partial_table_make(p, source, whole);
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
+    if (partial_table_serves(partial->table)) partial_table_ask(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = NEW("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
     matrices_make(M, crossed, whole, partial->table, &r, p, b, source);

@@ -13,6 +13,14 @@ enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
 /* A bond of this vector, from the place in question, crosses the cell of the point by this share of its length. */
 struct crossing { int16_t vector, direction; real share; };
 
+/* What rows of material points answer, which lasts until something changes within their reach. */
+struct answers {
+    int32_t *of;                         /* [n] of a particle, -1: none of its bonds counts                    */
+    real *answer;                        /* [room][vectors][parts]                                             */
+    int64_t n, room, frees;
+    int32_t *free;                       /* [room] those of nobody, `frees` of them                            */
+};
+
 /* Places are numbered like the cells of a cube; `reach` cells to either side of the middle. */
 struct partial_table {
     int dim, reach, parts, size;         /* parts of a response; numbers of a tensor                           */
@@ -24,6 +32,7 @@ struct partial_table {
     struct crossing *crossing;
     real *tensor;                        /* [directions][parts][size]                                          */
     bool uniform;                        /* knows all cells                                                    */
+    struct answers answers;
 };
 
 /* ---- places ------------------------------------------------------------------------------------------ */
@@ -188,6 +197,7 @@ struct partial_table *partial_table_make(const struct particles *p, const struct
     mirrors_make(t);
     crossings_make(t);
     tensors_make(t, s);
+    t->answers.of = NEW("partial.answer_of", p->n, int32_t);
     return t;
 }
 
@@ -199,6 +209,9 @@ void partial_table_free(struct partial_table *t)
     memory_free(t->start);
     memory_free(t->crossing);
     memory_free(t->tensor);
+    memory_free(t->answers.of);
+    memory_free(t->answers.answer);
+    memory_free(t->answers.free);
     memory_free(t);
 }
 
@@ -206,28 +219,80 @@ void partial_table_free(struct partial_table *t)
 
 bool partial_table_serves(const struct partial_table *t) { return t->vectors > 0; }
 bool partial_table_serves_all(const struct partial_table *t) { return t->uniform; }
-int64_t partial_table_row_size(const struct partial_table *t) { return (int64_t)t->vectors * t->parts; }
 
-bool partial_table_row(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       int64_t row, real *answer)
+static real *answer_at(const struct partial_table *t, int64_t k) { return t->answers.answer + k * t->vectors * t->parts; }
+
+static void answer_open(struct partial_table *t, int64_t i)
+{
+    struct answers *a = &t->answers;
+    if (a->of[i] >= 0) return;
+    if (a->frees == 0 && a->n == a->room) {
+        const int64_t had = a->room, more = had ? 2 * had : 256, each = (int64_t)t->vectors * t->parts;
+        a->answer = memory_resize("partial.answer", a->answer, had * each, more * each, sizeof(real));
+        a->free = memory_resize("partial.free", a->free, had, more, sizeof *a->free);
+        a->room = more;
+    }
+    a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
+}
+
+static void answer_close(struct partial_table *t, int64_t i)
+{
+    struct answers *a = &t->answers;
+    if (a->of[i] < 0) return;
+    a->free[a->frees++] = a->of[i];
+    a->of[i] = -1;
+}
+
+/* By vector; false: it has none. */
+static bool answer_make(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                        int64_t row, real *answer)
 {
     real X[DIM_MAX];
     bool any = false;
+    memset(answer, 0, sizeof *answer * (size_t)(t->vectors * t->parts));
     particle_place(p, b->particle[row], X);
     for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         real to[DIM_MAX];
-        if (b->w[q] == 0) continue;
+        if (bond.w == 0) continue;
         any = true;
-        particle_place(p, b->nbr[q], to);
+        particle_place(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         assert(place >= 0 && t->vector[place] >= 0);
-        const struct response r = response_of(p, b, s, row, q);
+        const struct response r = response_of(p, b, s, b->particle[row], &bond);
         real *part = answer + t->vector[place] * t->parts;
         part[0] = s->turns ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
     }
     return any;
+}
+
+static bool has_bonds(const struct particles *p, const struct bonds *b, int64_t i)
+{
+    return p->kind[i] == KIND_MPM && b->row_of[i] >= 0 && b->made[b->row_of[i] / LANES] > 0;
+}
+
+void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                       const int32_t *list, int64_t n)
+{
+    struct answers *a = &t->answers;
+    if (!list) {
+        a->n = a->frees = 0;
+        for (int64_t i = 0; i < p->n; i++) a->of[i] = -1;
+        list = p->list[KIND_MPM], n = p->n_of[KIND_MPM];
+    }
+    bool *none = NEW("partial.none", n, bool);
+    for (int64_t k = 0; k < n; k++)
+        if (has_bonds(p, b, list[k])) answer_open(t, list[k]);
+        else answer_close(t, list[k]);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t k = 0; k < n; k++) {
+        const int32_t of = a->of[list[k]];
+        none[k] = of < 0 || !answer_make(t, p, b, s, b->row_of[list[k]], answer_at(t, of));
+    }
+    for (int64_t k = 0; k < n; k++)
+        if (none[k]) answer_close(t, list[k]);
+    memory_free(none);
 }
 
 /* ---- one point --------------------------------------------------------------------------------------- */
@@ -257,8 +322,8 @@ bool partial_table_knows(const struct particles *p, const struct bond_source *s,
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       const int32_t *answer_of, const real *answer, int64_t i, struct near *near, real *T)
+void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
+                       struct near *near, real *T)
 {
     real X[DIM_MAX], sum[VECTORS_MOST];
     particle_place(p, i, X);
@@ -269,18 +334,17 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
         real Y[DIM_MAX];
         int signs = 0;
         if (p->kind[j] != KIND_MPM || p->body[j] != p->body[i]) continue;
-        int32_t row = b->row_of[j];
+        int32_t of = j < p->n ? t->answers.of[j] : -1;
         if (j >= p->n) {
             const struct reflection r = reflection_of(s, p, j);
-            row = b->row_of[r.root];
+            of = t->answers.of[r.root];
             for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         }
-        if (row < 0 || answer_of[row] < 0) continue;
+        if (of < 0) continue;
         particle_place(p, j, Y);
         const int64_t place = place_between(t, X, Y);
-        const real *of_row = answer + answer_of[row] * partial_table_row_size(t);
-        if (t->parts == 1) sum_row(t, sum, place, of_row, signs, 1);
-        else sum_row(t, sum, place, of_row, signs, 2);
+        if (t->parts == 1) sum_row(t, sum, place, answer_at(t, of), signs, 1);
+        else sum_row(t, sum, place, answer_at(t, of), signs, 2);
     }
     sum_tensors(t, sum, T);
 }

@@ -1,5 +1,5 @@
-/* floor 4: groups that follow a pattern: who does, that what they would store is right, and that every kernel makes the same
- * bits of them as of groups that have all of their bonds in memory. */
+/* floor 4: groups that follow a pattern: who does, that what they would store is right, that every kernel makes the same
+ * bits of them as of groups that have all of their bonds in memory, and that they are made anew as a search makes them. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -196,6 +196,73 @@ static void test_who_stays_out(void **state)
     cloud_free(&c);
 }
 
+/* The bonds of a row, lane by lane; padding left out. */
+static int row_bonds(const struct bonds *b, int64_t row, struct bond *to)
+{
+    int n = 0;
+    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        if (bond.inverse_length != 0) to[n++] = bond;
+    }
+    return n;
+}
+
+static void assert_rows_equal(const struct bonds *a, const struct bonds *b)
+{
+    struct bond one[256], other[256];
+    assert_int_equal(a->rows, b->rows);
+    assert_int_equal(a->n, b->n);
+    for (int64_t row = 0; row < a->rows; row++) {
+        const int n = row_bonds(a, row, one);
+        assert_int_equal(a->particle[row], b->particle[row]);
+        assert_int_equal(n, row_bonds(b, row, other));
+        assert_true(a->trigger[row] == b->trigger[row] && a->family_volume[row] == b->family_volume[row]);
+        for (int k = 0; k < n; k++) {
+            assert_int_equal(one[k].nbr, other[k].nbr);
+            assert_true(one[k].w == other[k].w && one[k].inverse_length == other[k].inverse_length);
+        }
+    }
+}
+
+/* A tube of peridynamic particles that grows among material points. */
+static void convert_tube(struct cloud *c, real radius)
+{
+    const struct particles *p = &c->p;
+    for (int64_t i = 0; i < p->n; i++) {
+        real r2 = 0;
+        for (int d = 0; d < p->dim; d++) r2 += d == 2 ? 0 : square(p->X[d][i] - p->X[d][p->n / 2]);
+        p->kind[i] = r2 < square(radius * CLOUD_SPACING) ? KIND_PD : KIND_MPM;
+    }
+    particles_list(&c->p);
+}
+
+/* Beside material points, too, the map of sites tells the bonds that a search finds: bonds that may yield are searched. */
+static void test_beside_points(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct cloud c;
+        struct bonds searched;
+        exact_cloud(&c, dim, SURFACE_VOLUME, NULL);
+        bonds_free(&c.bonds);
+        convert_tube(&c, 1.5);
+        bonds_make(&c.bonds, NULL, &c.p, &c.source);
+        for (real radius = 2.2; radius < 5; radius += 0.8) {
+            struct bonds old = c.bonds;
+            convert_tube(&c, radius);
+            bonds_make(&c.bonds, &old, &c.p, &c.source);
+            bonds_free(&old);
+            c.source.yield = (struct bond_yield){c.yield, c.hardening, CLOUD_MATERIALS};
+            bonds_make(&searched, NULL, &c.p, &c.source);
+            c.source.yield.stretch = NULL;
+            assert_rows_equal(&c.bonds, &searched);
+            bonds_free(&searched);
+        }
+        assert_true(dim == 1 || count_folded(&c.bonds) > 0);
+        cloud_free(&c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -204,6 +271,7 @@ int main(void)
         cmocka_unit_test(test_same_bits),
         cmocka_unit_test(test_who_leaves),
         cmocka_unit_test(test_who_stays_out),
+        cmocka_unit_test(test_beside_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
