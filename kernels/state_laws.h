@@ -21,6 +21,7 @@
 #include "bond_slot.h"
 #include "kernels.h"
 #include "lanes.h"
+#include "turn.h"
 
 #define STATE_TINY 1e-300                /* keeps roots of a padding lane finite */
 
@@ -72,13 +73,12 @@ static inline real state_own_force(const struct bonds *b, const struct particles
     energy = 0.5 * w * along * e;
     for (int d = 0; d < dim; d++) T[d] = w * along * y[d] / length;
     if (!turns) return energy;
+    lanes effective[DIM_MAX], arm[DIM_MAX], turn[TURN];          /* eight times the same */
     real effective2 = 0;
-    for (int d = 0; d < dim; d++) {
-        real effective = t->spring[i] * (y[d] - xi[d]);
-        for (int c = 0; c < dim; c++) effective -= t->turn[d * dim + c][i] * xi[c];
-        T[d] += w * effective;
-        effective2 += square(effective);
-    }
+    for (int c = 0; c < TURN; c++) turn[c] = lanes_of(t->turn[c][i]);
+    for (int d = 0; d < dim; d++) effective[d] = lanes_of(t->spring[i] * (y[d] - xi[d])), arm[d] = lanes_of(xi[d]);
+    turn_off(effective, turn, arm, dim);
+    for (int d = 0; d < dim; d++) T[d] += w * effective[d][0], effective2 += square(effective[d][0]);
     return energy + 0.5 * w * effective2 / t->spring[i];
 }
 
