@@ -134,6 +134,7 @@ struct pattern_slot {
     uint8_t intact, lattice;             /* as above                                       */
     uint16_t unused;                     /* patterns are compared byte by byte             */
     real inverse_length, w;              /* [1/m]; of a bond [1]                           */
+    real length;                         /* 1/inverse_length [m]                           */
     real weighted, squared;              /* w |xi| and w |xi|^2 of the lattice's |xi| [m], [m^2] */
     real xi[DIM_MAX], w_xi[DIM_MAX];     /* X_j - X_i, and w times that [m]                */
 };

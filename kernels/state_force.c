@@ -187,7 +187,8 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 /* A group while its slots are visited; `arm` is sum w xi, which turns with the rotation of the row's own particle. */
 struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring; };
 
-/* Adds the forces of a slot, with e/|Y| = r (|Y|/r - 1)/|Y|. The effective displacement Y - R xi is (Y - xi) - (R - 1) xi: exactly
+/* Adds the forces of a slot. With the share q = e/|Y| that e has in |Y|, r/|Y| is 1 - q, and w (r P + e g)/|Y| is
+ * w [P + (g - P) q]: two products less than with the stretch. The effective displacement Y - R xi is (Y - xi) - (R - 1) xi: exactly
  * 0 where nothing has moved. What the rows' own rotations add follows from the sum of arms (force_group). */
 static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct particles *p, const struct slot slot, const int dim,
                                      const enum pd_model model)
@@ -196,15 +197,16 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct partic
     struct state_bond s;
     state_bond_make(&s, p, slot, sum->x, sum->X, dim, model);
     const lanes inverse = lanes_inverse_root(s.distance2);
-    const lanes w = slot_weight(slot), wr = state_weight(slot, w, s.inverse_length, false);
+    const lanes w = slot_weight(slot);
     const lanes pressure = sum->pressure + slot_at(slot, t->pressure);
     const lanes spring = sum->spring + slot_at(slot, t->spring);
     if (!state_turns(model)) {
-        const lanes along = wr * (pressure + spring * STRETCH_OF(s.distance2 * inverse, s.inverse_length)) * inverse;
+        const lanes share = SHARE_OF(state_length(slot, s.inverse_length), inverse);
+        const lanes along = w * (pressure + (spring - pressure) * share);
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
         return;
     }
-    const lanes along = wr * pressure * inverse, weighted = w * spring;
+    const lanes along = state_weight(slot, w, s.inverse_length, false) * pressure * inverse, weighted = w * spring;
     lanes turn[TURN], arm[DIM_MAX], f[DIM_MAX];
     for (int c = 0; c < TURN; c++)
         if (turn_reads(c, dim)) turn[c] = slot_at(slot, t->turn[c]);

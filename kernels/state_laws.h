@@ -56,6 +56,17 @@ static ALWAYS_INLINE lanes state_weight(const struct slot s, lanes w, lanes inve
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));
 }
 
+/* |xi| as what is stored says, so that |xi|/|Y| is 1 but for round-off where nothing has moved; of broken bonds maybe the negative
+ * [m]. */
+static ALWAYS_INLINE lanes state_length(const struct slot s, lanes inverse_length)
+{
+    if (s.pattern) return lanes_of(s.pattern->length);
+    return 1.0 / (s.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_of(1)));
+}
+
+/* e/|Y| = 1 - |xi|/|Y|, rounded as a stretch is (bond_slot.h). */
+#define SHARE_OF(LENGTH, INVERSE) (9.0 - ((LENGTH) * (INVERSE) + 8.0))
+
 /* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side
  * [J]. */
 static inline real state_own_force(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real *T,
