@@ -4,7 +4,7 @@
  *
  *     g (R - 1) v = 2 g [q0 q x v + q x (q x v)] = a x (s v + a x v)
  *
- * Neighbours are read at any place, and half of such loads touch two cache lines: they cost more than the products do. Where
+ * Neighbours are read at any place, and seven of eight such loads touch two cache lines: they cost more than products do. Where
  * R is 1 to the last bit, so is a 0, and nothing comes of it. */
 #ifndef CLEAVE_TURN_H
 #define CLEAVE_TURN_H
