@@ -99,6 +99,8 @@ static inline struct state_modulus state_modulus_of(const struct material *m, en
 /* Where a mirror image comes from, and the axis that its mirror turns round (-1: none, a clamped plane). */
 struct state_image { int32_t source; int axis; };
 
+enum { TURN = 4 };                       /* numbers that hold a rotation */
+
 /* What particles know of their families; only state-based models have it. */
 struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bonds know nothing but themselves             */
@@ -106,7 +108,9 @@ struct state {
     real *weighted;                      /* [groups 8] Q                                               [m^2] */
     uint8_t *past;                       /* [groups] the last sweep saw a bond that may have passed its limit  */
     real *pressure, *spring;             /* [n_all] P and g                                          [N/m^2], [N/m] */
-    real *turn[DIM_MAX * DIM_MAX];       /* [n_all] g (R - 1), row major; only models with rotations   [N/m] */
+    real *turn[TURN];                    /* [n_all] rotation R and g (kernels/turn.h); only models with rotations:
+                                            g (R - 1), row major, in the plane [N/m]; sqrt(2 g) times the
+                                            quaternion of R, its scalar last, in space [(N/m)^1/2]              */
     struct state_image *image;           /* [n_all - n]                                                       */
 };
 
@@ -134,6 +138,7 @@ struct pattern_slot {
     uint8_t intact, lattice;             /* as above                                       */
     uint16_t unused;                     /* patterns are compared byte by byte             */
     real inverse_length, w;              /* [1/m]; of a bond [1]                           */
+    real length;                         /* 1/inverse_length [m]                           */
     real weighted, squared;              /* w |xi| and w |xi|^2 of the lattice's |xi| [m], [m^2] */
     real xi[DIM_MAX], w_xi[DIM_MAX];     /* X_j - X_i, and w times that [m]                */
 };

@@ -16,7 +16,8 @@ static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
     R[1] = -R[2];
 }
 
-/* One step of R <- (R + R^-T)/2; lanes that are singular or inside out lose their bit of `sound`. Returns the change. */
+/* One step of R <- (R + R^-T)/2; lanes that are singular or inside out lose their bit of `sound`. Returns the determinant that
+ * R had. */
 static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
 {
     const lanes cofactor[9] = {
@@ -25,17 +26,13 @@ static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
         R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
     const lanes determinant = R[0] * cofactor[0] + R[1] * cofactor[1] + R[2] * cofactor[2];
     *sound &= determinant > 1e-12;
-    const lanes half = 0.5 / lanes_choose(*sound, determinant, lanes_of(1));
-    lanes change = lanes_of(0);
-    for (int c = 0; c < 9; c++) {
-        const lanes next = lanes_choose(*sound, 0.5 * R[c] + cofactor[c] * half, lanes_of(c % 4 == 0));
-        change = lanes_max(change, lanes_choose(next > R[c], next - R[c], R[c] - next));
-        R[c] = next;
-    }
-    return change;
+    const lanes half = lanes_choose(*sound, 0.5 / determinant, lanes_of(0));
+    for (int c = 0; c < 9; c++) R[c] = 0.5 * R[c] + cofactor[c] * half;
+    return determinant;
 }
 
-/* A step of Newton squares the error: after a change of 1e-8 what is left is below round-off. */
+/* After a step no singular value is below 1, since (s + 1/s)/2 is not, and their product bounds how far each is above. A step
+ * squares that and halves it: from 1e-8 what is left is below round-off. */
 static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
 {
     lanes size2 = lanes_of(POLAR_TINY);
@@ -44,7 +41,8 @@ static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
     lanes_mask sound = size2 > 2 * POLAR_TINY;
     for (int c = 0; c < 9; c++) R[c] = M[c] * inverse;
     for (int step = 0; step < 30; step++)
-        if (!lanes_any(polar_step(R, &sound) > 1e-8)) return;
+        if (!lanes_any(polar_step(R, &sound) > 1 + 1e-8) && step > 0) break;
+    for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_of(c % 4 == 0));
 }
 
 static ALWAYS_INLINE void polar_rotation_lanes(const lanes *M, lanes *R, const int dim)

@@ -7,6 +7,7 @@
 #include "polar.h"
 #include "polar_lanes.h"
 #include "state_laws.h"
+#include "turn.h"
 #include "variants.h"
 
 /* ---- first sweep: what a particle knows of its family ---------------------------------------------------- */
@@ -42,6 +43,15 @@ static ALWAYS_INLINE bool eight_alike(const uint8_t *from)
     return bytes == from[0] * UINT64_C(0x0101010101010101);
 }
 
+/* The rotation nearest to the moment; where nobody has moved it is none, to the last bit. */
+static ALWAYS_INLINE void family_turn(lanes *turn, const struct family_sums *sum, lanes spring, const int dim)
+{
+    lanes R[DIM_MAX * DIM_MAX];
+    polar_rotation_lanes(sum->moment, R, dim);
+    for (int c = 0; c < dim * dim; c++) R[c] = lanes_choose(sum->moved != 0, R[c], lanes_of(c % (dim + 1) == 0));
+    turn_make(turn, R, spring, dim);
+}
+
 /* What a group's sums tell its peridynamic particles. */
 static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p, int64_t g, const struct family_sums *sum,
                                      const int dim, const enum pd_model model)
@@ -51,18 +61,16 @@ static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p,
     const bool whole = own >= 0 && b->whole[g * LANES] && eight_alike(b->whole + g * LANES);
     const bool alike = own >= 0 && eight_alike(p->material + own);
     const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
-    lanes A = lanes_of(m->A), B = lanes_of(m->B), R[DIM_MAX * DIM_MAX];
+    lanes A = lanes_of(m->A), B = lanes_of(m->B), turn[TURN];
     for (int l = 0; l < LANES && !alike; l++) m = &b->state.modulus[p->material[row[l]]], A[l] = m->A, B[l] = m->B;
     const lanes Q = lanes_load(b->state.weighted + g * LANES), zero = lanes_of(0);
     const lanes inverse = lanes_choose(Q > 0.0, 1.0 / Q, zero), share = lanes_at(p->volume0, own, row) * inverse;
     const lanes pressure = A * sum->extension * inverse * share, spring = B * share;
-    if (state_turns(model)) polar_rotation_lanes(sum->moment, R, dim);
-    for (int c = 0; state_turns(model) && c < dim * dim; c++)    /* R - 1 */
-        R[c] = lanes_choose(sum->moved != 0, R[c] - (c % (dim + 1) == 0 ? 1.0 : 0.0), zero);
+    if (state_turns(model)) family_turn(turn, sum, spring, dim);
     if (whole) {
         lanes_store(b->state.pressure + own, pressure);
         lanes_store(b->state.spring + own, spring);
-        for (int c = 0; state_turns(model) && c < dim * dim; c++) lanes_store(b->state.turn[c] + own, spring * R[c]);
+        for (int c = 0; state_turns(model) && c < TURN; c++) lanes_store(b->state.turn[c] + own, turn[c]);
         return;
     }
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
@@ -70,7 +78,7 @@ static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p,
         if (!b->whole[g * LANES + l]) continue;
         b->state.pressure[i] = pressure[l];
         b->state.spring[i] = spring[l];
-        for (int c = 0; state_turns(model) && c < dim * dim; c++) b->state.turn[c][i] = spring[l] * R[c][l];
+        for (int c = 0; state_turns(model) && c < TURN; c++) b->state.turn[c][i] = turn[c][l];
     }
 }
 
@@ -109,15 +117,21 @@ static ALWAYS_INLINE void turned_slot(struct family_sums *sum, const struct slot
     const struct state *t = &slot.b->state;
     const lanes w = slot_weight(slot), zero = lanes_of(0);
     const lanes per_spring = w / lanes_choose(w > 0.0, slot_at(slot, t->spring), lanes_of(1));
-    for (int c = 0; c < dim * dim; c++) {
-        const lanes turn = lanes_choose(w > 0.0, slot_at(slot, t->turn[c]), zero);
-        sum->moment[c] += turn * per_spring + (c % (dim + 1) == 0 ? w : zero);
-        sum->moved |= turn != 0.0;
+    lanes turn[TURN];
+    for (int c = 0; c < TURN; c++) turn[c] = lanes_choose(w > 0.0, slot_at(slot, t->turn[c]), zero);
+    for (int c = 0; c < dim; c++) {
+        lanes less[DIM_MAX] = {zero, zero, zero}, unit[DIM_MAX] = {zero, zero, zero};
+        unit[c] = lanes_of(1);
+        turn_off(less, turn, unit, dim);
+        for (int d = 0; d < dim; d++) {
+            sum->moment[d * dim + c] += w * unit[d] - less[d] * per_spring;
+            sum->moved |= less[d] != 0.0;
+        }
     }
 }
 
-/* R - 1 of the mean rotation that the neighbours of eight rows have; where none has turned, nothing to the last bit. */
-static ALWAYS_INLINE void turned_group(const struct bonds *b, int64_t g, lanes *R, const int dim)
+/* The mean rotation that the neighbours of eight rows have. */
+static ALWAYS_INLINE void turned_group(const struct bonds *b, int64_t g, lanes *turn, lanes spring, const int dim)
 {
     struct family_sums sum;
     sum.moved = (lanes_mask)lanes_of(0);
@@ -125,9 +139,7 @@ static ALWAYS_INLINE void turned_group(const struct bonds *b, int64_t g, lanes *
 #define VISIT(SLOT) turned_slot(&sum, SLOT, dim)
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
-    polar_rotation_lanes(sum.moment, R, dim);
-    for (int c = 0; c < dim * dim; c++)
-        R[c] = lanes_choose(sum.moved != 0, R[c] - (c % (dim + 1) == 0 ? 1.0 : 0.0), lanes_of(0));
+    family_turn(turn, &sum, spring, dim);
 }
 
 /* A material point has the mean strain that its stress tells, and the mean rotation of the particles it is bonded to. */
@@ -135,11 +147,15 @@ static ALWAYS_INLINE void state_of_points(struct bonds *b, const struct particle
                                           const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    lanes R[DIM_MAX * DIM_MAX];
+    lanes turn[TURN], spring = lanes_of(0);
     bool points = false;
-    for (int l = 0; l < LANES; l++) points |= p->kind[row[l]] == KIND_MPM;
+    if (b->whole[g * LANES] && eight_alike(b->whole + g * LANES)) return;
+    for (int l = 0; l < LANES; l++) {
+        points |= p->kind[row[l]] == KIND_MPM;
+        spring[l] = b->state.modulus[p->material[row[l]]].B * p->volume0[row[l]] / b->state.weighted[g * LANES + l];
+    }
     if (!points) return;
-    if (state_turns(model)) turned_group(b, g, R, dim);
+    if (state_turns(model)) turned_group(b, g, turn, spring, dim);
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
         const int32_t i = row[l];
         const struct state_modulus *m = &b->state.modulus[p->material[i]];
@@ -148,8 +164,8 @@ static ALWAYS_INLINE void state_of_points(struct bonds *b, const struct particle
         if (p->kind[i] != KIND_MPM) continue;
         for (int d = 0; d < dim; d++) trace += p->stress[d][i];
         b->state.pressure[i] = m->A * trace / (dim * dim * m->bulk) * share;
-        b->state.spring[i] = m->B * share;
-        for (int c = 0; state_turns(model) && c < dim * dim; c++) b->state.turn[c][i] = m->B * share * R[c][l];
+        b->state.spring[i] = spring[l];
+        for (int c = 0; state_turns(model) && c < TURN; c++) b->state.turn[c][i] = turn[c][l];
     }
 }
 
@@ -161,10 +177,8 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
         const int axis = b->state.image[g - p->n].axis;
         b->state.pressure[g] = b->state.pressure[i];
         b->state.spring[g] = b->state.spring[i];
-        for (int c = 0; turns && c < dim * dim; c++) {
-            const bool odd = axis >= 0 && (c / dim == axis) != (c % dim == axis);
-            b->state.turn[c][g] = odd ? -b->state.turn[c][i] : b->state.turn[c][i];
-        }
+        for (int c = 0; turns && c < TURN; c++)
+            b->state.turn[c][g] = turn_odd(c, axis, dim) ? -b->state.turn[c][i] : b->state.turn[c][i];
     }
 }
 
@@ -173,19 +187,8 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 /* A group while its slots are visited; `arm` is sum w xi, which turns with the rotation of the row's own particle. */
 struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring; };
 
-/* f less g (R - 1) arm, the matrix that of eight particles; in the plane it is (a, -c; c, a). */
-static ALWAYS_INLINE void turn_off(lanes *f, const lanes *turn, const lanes *arm, const int dim)
-{
-    if (dim == 2) {
-        f[0] += turn[2] * arm[1] - turn[0] * arm[0];
-        f[1] -= turn[2] * arm[0] + turn[0] * arm[1];
-        return;
-    }
-    for (int d = 0; d < dim; d++)
-        for (int c = 0; c < dim; c++) f[d] -= turn[d * dim + c] * arm[c];
-}
-
-/* Adds the forces of a slot, with e/|Y| = r (|Y|/r - 1)/|Y|. The effective displacement Y - R xi is (Y - xi) - (R - 1) xi: exactly
+/* Adds the forces of a slot. With the share q = e/|Y| that e has in |Y|, r/|Y| is 1 - q, and w (r P + e g)/|Y| is
+ * w [P + (g - P) q]: two products less than with the stretch. The effective displacement Y - R xi is (Y - xi) - (R - 1) xi: exactly
  * 0 where nothing has moved. What the rows' own rotations add follows from the sum of arms (force_group). */
 static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct particles *p, const struct slot slot, const int dim,
                                      const enum pd_model model)
@@ -194,22 +197,23 @@ static ALWAYS_INLINE void force_slot(struct state_sums *sum, const struct partic
     struct state_bond s;
     state_bond_make(&s, p, slot, sum->x, sum->X, dim, model);
     const lanes inverse = lanes_inverse_root(s.distance2);
-    const lanes w = slot_weight(slot), wr = state_weight(slot, w, s.inverse_length, false);
+    const lanes w = slot_weight(slot);
     const lanes pressure = sum->pressure + slot_at(slot, t->pressure);
     const lanes spring = sum->spring + slot_at(slot, t->spring);
     if (!state_turns(model)) {
-        const lanes along = wr * (pressure + spring * STRETCH_OF(s.distance2 * inverse, s.inverse_length)) * inverse;
+        const lanes share = SHARE_OF(state_length(slot, s.inverse_length), inverse);
+        const lanes along = w * (pressure + (spring - pressure) * share);
         for (int d = 0; d < dim; d++) sum->f[d] += along * s.y[d];
         return;
     }
-    const lanes along = wr * pressure * inverse, weighted = w * spring;
-    lanes turn[DIM_MAX * DIM_MAX], arm[DIM_MAX], f[DIM_MAX];
+    const lanes along = state_weight(slot, w, s.inverse_length, false) * pressure * inverse, weighted = w * spring;
+    lanes turn[TURN], arm[DIM_MAX], f[DIM_MAX];
+    for (int c = 0; c < TURN; c++)
+        if (turn_reads(c, dim)) turn[c] = slot_at(slot, t->turn[c]);
     for (int d = 0; d < dim; d++) {
         arm[d] = slot_weighted_reference(slot, d, w, s.xi[d]);
         sum->arm[d] += arm[d];
         f[d] = along * s.y[d] + weighted * (s.y[d] - s.xi[d]);
-        for (int c = 0; c < dim; c++)
-            if (dim > 2 || d != 0 || c == 0) turn[d * dim + c] = slot_at(slot, t->turn[d * dim + c]);
     }
     turn_off(f, turn, arm, dim);
     for (int d = 0; d < dim; d++) sum->f[d] += f[d];     /* one addition a slot: the chain is as short as can be */
@@ -233,8 +237,8 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     if (state_turns(model)) {
-        lanes turn[DIM_MAX * DIM_MAX];
-        for (int c = 0; c < dim * dim; c++) turn[c] = lanes_at(t->turn[c], own, row);
+        lanes turn[TURN];
+        for (int c = 0; c < TURN; c++) turn[c] = lanes_at(t->turn[c], own, row);
         turn_off(sum.f, turn, sum.arm, dim);
     }
     for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d], share);

@@ -21,6 +21,7 @@
 #include "bond_slot.h"
 #include "kernels.h"
 #include "lanes.h"
+#include "turn.h"
 
 #define STATE_TINY 1e-300                /* keeps roots of a padding lane finite */
 
@@ -55,6 +56,17 @@ static ALWAYS_INLINE lanes state_weight(const struct slot s, lanes w, lanes inve
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));
 }
 
+/* |xi| as what is stored says, so that |xi|/|Y| is 1 but for round-off where nothing has moved; of broken bonds maybe the negative
+ * [m]. */
+static ALWAYS_INLINE lanes state_length(const struct slot s, lanes inverse_length)
+{
+    if (s.pattern) return lanes_of(s.pattern->length);
+    return 1.0 / (s.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_of(1)));
+}
+
+/* e/|Y| = 1 - |xi|/|Y|, rounded as a stretch is (bond_slot.h). */
+#define SHARE_OF(LENGTH, INVERSE) (9.0 - ((LENGTH) * (INVERSE) + 8.0))
+
 /* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side
  * [J]. */
 static inline real state_own_force(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real *T,
@@ -72,13 +84,12 @@ static inline real state_own_force(const struct bonds *b, const struct particles
     energy = 0.5 * w * along * e;
     for (int d = 0; d < dim; d++) T[d] = w * along * y[d] / length;
     if (!turns) return energy;
+    lanes effective[DIM_MAX], arm[DIM_MAX], turn[TURN];          /* eight times the same */
     real effective2 = 0;
-    for (int d = 0; d < dim; d++) {
-        real effective = t->spring[i] * (y[d] - xi[d]);
-        for (int c = 0; c < dim; c++) effective -= t->turn[d * dim + c][i] * xi[c];
-        T[d] += w * effective;
-        effective2 += square(effective);
-    }
+    for (int c = 0; c < TURN; c++) turn[c] = lanes_of(t->turn[c][i]);
+    for (int d = 0; d < dim; d++) effective[d] = lanes_of(t->spring[i] * (y[d] - xi[d])), arm[d] = lanes_of(xi[d]);
+    turn_off(effective, turn, arm, dim);
+    for (int d = 0; d < dim; d++) T[d] += w * effective[d][0], effective2 += square(effective[d][0]);
     return energy + 0.5 * w * effective2 / t->spring[i];
 }
 

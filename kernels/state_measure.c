@@ -11,7 +11,7 @@
 #include "variants.h"
 
 /* What a group's own force states rest on. */
-struct own_state { lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, turn[DIM_MAX * DIM_MAX]; };
+struct own_state { lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, turn[TURN]; };
 
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                                    const bool turns)
@@ -21,7 +21,7 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
     struct own_state s;
     s.pressure = lanes_at(t->pressure, own, row), s.spring = lanes_at(t->spring, own, row);
     for (int d = 0; d < dim; d++) s.x[d] = lanes_at(p->x[d], own, row), s.X[d] = lanes_at(p->X[d], own, row);
-    for (int c = 0; turns && c < dim * dim; c++) s.turn[c] = lanes_at(t->turn[c], own, row);
+    for (int c = 0; turns && c < TURN; c++) s.turn[c] = lanes_at(t->turn[c], own, row);
     return s;
 }
 
@@ -31,7 +31,7 @@ static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struc
 {
     const lanes w = slot_weight(slot), inverse_length = slot_inverse_length(slot);
     const lanes r = lanes_inverse_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_of(1)));
-    lanes y[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
+    lanes y[DIM_MAX], effective[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
     for (int d = 0; d < dim; d++) {
         y[d] = slot_at(slot, p->x[d]) - s->x[d], xi[d] = slot_reference(slot, p, d, s->X[d]);
         distance2 += y[d] * y[d];
@@ -42,12 +42,9 @@ static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struc
     if (!turns) along += e * s->spring;
     lanes energy = along * e;
     for (int d = 0; d < dim; d++) T[d] = w * along * y[d] * inverse;
-    for (int d = 0; turns && d < dim; d++) {
-        lanes effective = s->spring * (y[d] - xi[d]);
-        for (int c = 0; c < dim; c++) effective -= s->turn[d * dim + c] * xi[c];
-        T[d] += w * effective;
-        effective2 += effective * effective;
-    }
+    for (int d = 0; d < dim; d++) effective[d] = s->spring * (y[d] - xi[d]);
+    if (turns) turn_off(effective, s->turn, xi, dim);
+    for (int d = 0; turns && d < dim; d++) T[d] += w * effective[d], effective2 += effective[d] * effective[d];
     if (turns) energy += effective2 / s->spring;
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_of(0));
 }

@@ -71,6 +71,7 @@ bool pattern_add(struct pattern *to, const struct bonds *b, const struct particl
     }
     if (alone || bonds == 0 || slot->lattice == 0 || !reference_of(p, i, from->first, slot)) return false;
     const struct bond_length *length = &b->lattice[slot->lattice];
+    slot->length = 1 / slot->inverse_length;
     slot->weighted = slot->w * length->length, slot->squared = slot->w * length->square;
     for (int d = 0; d < p->dim; d++) slot->w_xi[d] = slot->w * slot->xi[d];
     to->whole = (to->slots == 0 || to->whole) && alike && bonds == LANES;
