@@ -136,6 +136,7 @@ void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, con
     const struct particles *p = m->p;
     const int32_t i = b->particle[g * LANES];
     real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
+    if (group_follow(b, g, twin_of(bonds, s->neighbour_volume, i))) return;
     for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
     for (int k = 0; k < bonds->n; k++) {
         struct slot_copy *slot = &room->slot[k];
