@@ -45,7 +45,7 @@ static double memory_from_here(void)
 /* Bytes of a particle of the hungriest method, and a frame of it on its way. */
 static bool machine_holds(const struct bench_block *block, double particles)
 {
-    const double each = block->dim == 2 ? 500 : 1200;
+    const double each = block->dim == 2 ? 350 : 1000;
     return each * particles < 0.7 * (double)team_machine().memory;
 }
 

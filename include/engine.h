@@ -103,6 +103,8 @@ struct engine {
 
 /* Everything up to step 0: particles, cells, loads, bonds, grid, time step. `out` may be NULL. */
 status engine_make(struct engine *e, const struct scene *s, struct output *out);
+/* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family [byte]. */
+real engine_memory(const struct engine *e);
 /* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal asked for it. */
 status engine_run(struct engine *e);
 /* What it does with a solver that is not explicit (solver.c), and what that needs. */

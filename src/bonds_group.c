@@ -173,6 +173,14 @@ static void fill_slot(struct slot_copy *slot, const struct row_maker *m, int32_t
     }
 }
 
+/* Are all eight bonded to everybody within reach, as peridynamic particles are? */
+static bool whole_families(const struct lattice_bonds *bonds)
+{
+    unsigned without = 0;
+    for (int k = 0; k < bonds->n; k++) without |= bonds->bonds[k] ^ ((2u << bonds->to[k]) - (1u << bonds->from[k]));
+    return without == 0;
+}
+
 /* group_fill on a lattice. */
 void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m)
 {
@@ -181,6 +189,7 @@ void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, con
     const int32_t i = b->particle[g * LANES];
     real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
     int slots = 0;
+    if (whole_families(bonds) && group_follow(b, g, twin_of(bonds, m->source->neighbour_volume, i))) return;
     for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
     for (int k = 0; k < bonds->n; k++) {
         const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];

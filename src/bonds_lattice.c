@@ -79,6 +79,35 @@ static bool sites_fill(struct lattice *l, const struct particles *p)
     return regular;
 }
 
+/* Are the places along an axis, measured in its farthest one's unit of the last place, whole multiples of one step? Then
+ * neighbours are at exactly the same distances everywhere. */
+static bool axis_exact(const struct lattice *l, const struct particles *p, int d)
+{
+    real low, high;
+    particles_extent(p, p->n_all, d, &low, &high);
+    const real power = exp2(ceil(log2(real_max(fabs(low), fabs(high))))), unit = power * 0x1p-53, sites = nearbyint((high - low) / l->spacing);
+    if (sites == 0) return low == high;
+    if (real_min(high - low, l->reach * l->spacing) > power) return false;   /* a difference would be rounded */
+    const int64_t from = (int64_t)(low / unit), step = ((int64_t)(high / unit) - from) / (int64_t)sites;
+    bool exact = true;
+#pragma omp parallel for schedule(static) reduction(&& : exact)
+    for (int64_t i = 0; i < p->n_all; i++) {
+        const real place = p->X[d][i] / unit, k = nearbyint((p->X[d][i] - low) / l->spacing);
+        exact = exact && place == (real)(int64_t)place && (int64_t)place - from == (int64_t)k * step;
+    }
+    return exact;
+}
+
+static bool is_uniform(const struct lattice *l, const struct particles *p)
+{
+    bool same = true;
+#pragma omp parallel for schedule(static) reduction(&& : same)
+    for (int64_t i = 0; i < p->n_all; i++)
+        same = same && p->volume0[i] == p->volume0[0] && p->material[i] == p->material[0] && (i >= p->n || p->mass[i] == p->mass[0]);
+    for (int d = 0; d < p->dim && same; d++) same = axis_exact(l, p, d);
+    return same;
+}
+
 bool lattice_make(struct lattice *l, const struct bond_source *s, const struct particles *p)
 {
     const struct family *f = &s->family;
@@ -87,7 +116,10 @@ bool lattice_make(struct lattice *l, const struct bond_source *s, const struct p
     const int64_t sites = box_sites(l, p);
     if (sites > 0 && stencil_make(l, f, p->dim)) {
         l->at = NEW("lattice.at", sites, int32_t);
-        if (sites_fill(l, p)) return true;
+        if (sites_fill(l, p)) {
+            l->uniform = is_uniform(l, p);
+            return true;
+        }
     }
     lattice_free(l);
     return false;
@@ -172,6 +204,7 @@ void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l)
     to->from = NEW("lattice.from", l->most, uint8_t);
     to->to = NEW("lattice.to", l->most, uint8_t);
     to->bonds = NEW("lattice.bonds", l->most, uint8_t);
+    to->twins = twins_make(l);
 }
 
 void lattice_bonds_free(struct lattice_bonds *to)
@@ -180,6 +213,7 @@ void lattice_bonds_free(struct lattice_bonds *to)
     memory_free(to->from);
     memory_free(to->to);
     memory_free(to->bonds);
+    twins_free(to->twins);
 }
 
 /* 1/r and weight of the bonds from i + lane to j + lane, as row_weigh has them. */

@@ -73,6 +73,7 @@ struct lattice {
     struct stencil_row *row;
     int reach, rows, most;               /* most bonds that eight particles in a row can have slots for      */
     int users;                           /* of one that is kept: rows, and rows made anew from them          */
+    bool uniform;                        /* exact places, one volume, mass and material: bonds follow from sites */
 };
 /* False, and nothing to free, where particles do not stand on one. */
 bool lattice_make(struct lattice *l, const struct bond_source *s, const struct particles *p);
@@ -85,11 +86,18 @@ int lattice_family(const struct lattice *l, const struct particles *p, int32_t i
 
 /* Families of eight consecutive particles: lanes `from` to `to` have a neighbour at this index distance; distances ascend.
  * `bonds`: bit l is set where lane l has a bond to it, one end of which is peridynamic (group_regular). */
-struct lattice_bonds { int n; int32_t *offset; uint8_t *from, *to, *bonds; };
+struct lattice_bonds { int n; int32_t *offset; uint8_t *from, *to, *bonds; struct twins *twins; };
 void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l);
 void lattice_bonds_free(struct lattice_bonds *to);
 /* Those of particles i .. i + 7, all of which may be read at each distance. False where they are to be searched. */
 bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to);
+/* A thread's memory of such (bonds_twins.c). */
+struct twins *twins_make(const struct lattice *l);
+void twins_free(struct twins *t);
+/* First particle of eight seen before whose bonds are those of i .. i + 7 to the last bit: lengths, weights and what is
+ * summed over them, if none is cut. -1: none, and these are remembered. `around`: of particles, what weights follow from beside
+ * them (neighbour_volume), NULL: nothing. */
+int64_t twin_of(const struct lattice_bonds *b, const real *around, int64_t i);
 /* 1/length and weight of the bonds from particles i .. i + 7 to j .. j + 7, none of them cut. */
 void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i, int64_t j,
                    real *inverse, real *w);
@@ -141,6 +149,8 @@ void pattern_free(struct pattern *p);
 bool pattern_add(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t i, const struct slot_copy *from);
 /* The one among all that is equal, the likely one first; NULL: there are too many to take it in. */
 const struct pattern *pattern_known(struct patterns *all, const struct pattern *pattern, const struct pattern *likely);
+/* Group g follows what its twin follows, the group of particle `twin`, -1: it has none. False: nothing is followed. */
+bool group_follow(struct bonds *b, int64_t g, int64_t twin);
 /* Into memory. */
 void slot_write(const struct bonds *b, int64_t slot, const struct slot_copy *from);
 

@@ -131,6 +131,17 @@ const struct pattern *pattern_known(struct patterns *all, const struct pattern *
     return known;
 }
 
+bool group_follow(struct bonds *b, int64_t g, int64_t twin)
+{
+    const int64_t from = twin >= 0 ? b->row_of[twin] / LANES : g;
+    if (!b->pattern[from]) return false;
+    b->pattern[g] = b->pattern[from];
+    b->folded[g] = b->aligned[g] = true;
+    memcpy(b->trigger + g * LANES, b->trigger + from * LANES, LANES * sizeof *b->trigger);
+    memcpy(b->family_volume + g * LANES, b->family_volume + from * LANES, LANES * sizeof *b->family_volume);
+    return true;
+}
+
 /* ---- bond by bond ----------------------------------------------------------------------------------- */
 
 void slot_read(struct slot_copy *to, const struct bonds *b, int64_t group, int64_t k)

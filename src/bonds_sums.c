@@ -46,7 +46,9 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
             if (lattice.at && first + LANES <= p->n && lattice_bonds(&lattice, p, first, &bonds)) {
-                volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
+                const int64_t twin = twin_of(&bonds, NULL, first);
+                if (twin >= 0) memcpy(volume + first, volume + twin, LANES * sizeof *volume);
+                else volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n_all; i++) volume[i] = volume_near(p, s, &plain, i, found, most);
@@ -189,7 +191,8 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
             if (lattice.at && first + LANES <= p->n && group_regular(&lattice, s, &all, first, &regular)) {
-                largest = real_max(largest, group_frequency(&regular, s, p, &pairs, first, stiffness));
+                if (twin_of(&regular, s->neighbour_volume, first) < 0)     /* that of a twin is in `largest` */
+                    largest = real_max(largest, group_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {

@@ -182,33 +182,48 @@ static void make_grid(struct engine *e)
 
 /* ---- what the machine can hold -------------------------------------------------------------------------- */
 
-#define BYTES_PER_PARTICLE 250.0         /* fields, cells, lists, its part of the grid */
-#define BYTES_PER_BOND 18.0              /* with padding                               */
+/* As measured on blocks of 10^6 particles: */
+#define BYTES_PER_PARTICLE 320.0         /* fields, cells, lists, its part of the grid, a frame on its way              */
+#define BYTES_PER_BOND 24.0              /* stored, with padding                                                        */
+#define BYTES_PER_BOND_LATTICE 3.0       /* of patterns: those of surfaces, and what cracks and ends of lines still store */
+#define EXACT_MOST 6000.0                /* spacings; places of longer bodies may be rounded (fill.c), bonds are stored */
 
-/* Upper bound of the lattice particles: boxes round the bodies. */
-static real particles_bound(const struct scene *s)
+/* Upper bound of the lattice particles: boxes round the bodies. The longest edge of all goes to `longest` [spacings]. */
+static real particles_bound(const struct scene *s, real *longest)
 {
     real n = 0, from[DIM_MAX], to[DIM_MAX];
+    *longest = 0;
     for (int b = 0; b < s->bodies; b++) {
         if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
         real count = 1;
-        for (int d = 0; d < s->dim; d++) count *= (to[d] - from[d]) / s->spacing;
+        for (int d = 0; d < s->dim; d++) {
+            count *= (to[d] - from[d]) / s->spacing;
+            *longest = real_max(*longest, (to[d] - from[d]) / s->spacing);
+        }
         n += count;
     }
     return n;
+}
+
+real engine_memory(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real longest;
+    const real n = particles_bound(s, &longest);
+    const real bonds = s->method == METHOD_PD ? e->source.family.full / e->source.family.cell_volume : 1;
+    const bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
+    return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
 }
 
 /* A scene far beyond the machine is refused before it fills the memory; half as much again is left for solids that are
  * smaller than their boxes. */
 static status make_affordable(const struct engine *e)
 {
-    const struct scene *s = e->scene;
-    real n = particles_bound(s), memory = (real)team_machine().memory;
-    real bonds = s->method == METHOD_PD ? e->source.family.full / e->source.family.cell_volume : 1;
-    real bytes = n * (BYTES_PER_PARTICLE + bonds * BYTES_PER_BOND);
+    const real memory = (real)team_machine().memory, bytes = engine_memory(e);
+    real longest;
     if (memory <= 0 || bytes < 1.5 * memory) return OK;
     return status_set(REFUSED, "about %.2g particles would need some %.2g GB, and this machine has %.2g; choose a larger "
-                               "particles.spacing", n, bytes * 1e-9, memory * 1e-9);
+                               "particles.spacing", particles_bound(e->scene, &longest), bytes * 1e-9, memory * 1e-9);
 }
 
 /* ---- all ------------------------------------------------------------------------------------------------ */

@@ -104,6 +104,38 @@ static void test_what_is_stored(void **state)
     cloud_free(&c);
 }
 
+static void make_again(struct cloud *c)
+{
+    bonds_free(&c->bonds);
+    if (c->neighbour_volume) bonds_neighbour_volume(c->neighbour_volume, &c->p, &c->source);
+    bonds_make(&c->bonds, NULL, &c->p, &c->source);
+}
+
+/* What is taken over from groups with the same surroundings is what each group works out for itself: bonds, triggers, volumes of
+ * neighbours and the critical step. A heavier corner, which has no part in any of them, keeps groups from looking at others. */
+static void test_twins(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
+            struct cloud alike, alone;
+            exact_cloud(&alike, dim, surface, NULL), exact_cloud(&alone, dim, surface, NULL);
+            alone.p.mass[0] *= 2;
+            make_again(&alike), make_again(&alone);
+            const struct bonds *a = &alike.bonds, *b = &alone.bonds;
+            assert_true(bonds_critical_step(&alike.p, &alike.source) == bonds_critical_step(&alone.p, &alone.source));
+            if (surface) assert_memory_equal(alike.neighbour_volume, alone.neighbour_volume, (size_t)alone.p.n * sizeof(real));
+            assert_memory_equal(a->trigger, b->trigger, (size_t)b->rows * sizeof *b->trigger);
+            assert_memory_equal(a->family_volume, b->family_volume, (size_t)b->rows * sizeof *b->family_volume);
+            assert_true(count_folded(a) == count_folded(b) && a->n == b->n && a->slots == b->slots);
+            cloud_unfold(&alike.bonds), cloud_unfold(&alone.bonds);
+            assert_memory_equal(a->nbr, b->nbr, (size_t)(b->slots * LANES) * sizeof *b->nbr);
+            assert_memory_equal(a->inverse_length, b->inverse_length, (size_t)(b->slots * LANES) * sizeof(real));
+            assert_memory_equal(a->w, b->w, (size_t)(b->slots * LANES) * sizeof(real));
+            cloud_free(&alike), cloud_free(&alone);
+        }
+}
+
 /* Everything the kernels make of the places of now, one number after the other. */
 struct made { real *value; int64_t n; };
 
@@ -268,6 +300,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_who_follows),
         cmocka_unit_test(test_what_is_stored),
+        cmocka_unit_test(test_twins),
         cmocka_unit_test(test_same_bits),
         cmocka_unit_test(test_who_leaves),
         cmocka_unit_test(test_who_stays_out),
