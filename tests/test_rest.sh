@@ -55,11 +55,15 @@ for name in pd mpm adaptive; do
     between "$name: at the end" "$(column "$work/$name" rest_share 4e-3)" 0 0
     mean=$(series "$work/$name" 'NR > 1 { sum += rest * (steps - last); last = steps } END { printf "%.9g", sum / last }')
     near "$name: the mean of all steps" "$mean" "$(figure "$work/$name" rest_share)" 1e-8      # nine digits are shown
-    # a sample every step, so that even the mesh takes its time and is caught on the way
+    # a sample every step, so that even the mesh takes its time and is caught on the way; a busy machine may look too late
     every="-s output.samples=2000"
     calm "$work/every" "$work/strip.yaml" -s method=$name "$@" $every
-    interrupted "$work/resumed" 200 "$work/strip.yaml" -s method=$name "$@" $every
-    between "$name: interrupted while some rest" "$(series "$work/resumed" 'END { print rest }')" 0.01 1
+    for try in 1 2 3 4 5 6; do
+        interrupted "$work/resumed" 200 "$work/strip.yaml" -s method=$name "$@" $every
+        resting=$(series "$work/resumed" 'END { print rest }')
+        ! awk -v rest="$resting" 'BEGIN { exit !(rest > 0.01) }' || break
+    done
+    between "$name: interrupted while some rest" "$resting" 0.01 1
     calm "$work/resumed" --resume "$work/strip.yaml" -s method=$name "$@" $every
     same "$name: after a restart" "$work/every" "$work/resumed"
     rm -r "$work/never" "$work/every" "$work/resumed"
