@@ -106,7 +106,8 @@ enum { GROUPS_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
             for (int block = 0; block < BLOCKS_AT_ONCE; block++)                                                \
                 for (int k = 0; k < GROUPS_PER_BLOCK; k++) {                                                    \
                     int64_t g = first + (int64_t)block * GROUPS_PER_BLOCK + k;                                  \
-                    if (g < b->groups && (PD_##M == PD_BOND_PLASTIC || b->rest.level[g] > 0)) part[block] += bond_energy_group(b, p, g, D, PD_##M);                    \
+                    if (g < b->groups && (PD_##M == PD_BOND_PLASTIC || b->rest.level[g] > 0))                   \
+                        part[block] += bond_energy_group(b, p, g, D, PD_##M);                                   \
                 }                                                                                               \
             for (int block = 0; block < BLOCKS_AT_ONCE; block++) total += part[block];                          \
         }                                                                                                       \
