@@ -1,49 +1,11 @@
 /* floor 5: `cleave bench kernels`: every kernel instance beside the machine's own limits, in one thread. Probes and
  * kernels take turns; the fastest repetition counts. */
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-#include "bench.h"
-#include "gnuplot.h"
+#include "kernel_bench.h"
 #include "memory.h"
 #include "variants.h"
-
-enum job_kind {
-    BOND_FORCE,
-    BOND_ENERGY,
-    BOND_STRESS,
-    PD_MOVE,
-    P2G,
-    REMAP,
-    G2P,
-    SPREAD,
-    GRID_CLEAR,
-    GRID_MOVE,
-    GRID_REMAPPED,
-    MESH_CLEAR,
-    MESH_FORCE,
-    MESH_MOVE,
-    JOB_KINDS
-};
-
-static const char *const job_name[JOB_KINDS] = {"bond_force", "bond_energy", "bond_stress",  "pd_move",
-                                                "p2g",        "remap",       "g2p",          "spread",
-                                                "grid_clear", "grid_move",   "grid_remapped",
-                                                "mesh_clear", "mesh_force",  "mesh_move"};
-
-/* One instance to be timed. */
-struct job {
-    enum job_kind kind;
-    int dim;
-    enum pd_model model;
-    enum shape shape;
-    enum transfer transfer;
-    bool finite;         /* strain of a mesh                         */
-    const char *variant;
-    double seconds;      /* of the fastest call                     */
-    double bytes, limit; /* moved a particle; least time it would take a particle [s] */
-};
 
 #define BOND_JOBS(D, M)                                                                                                \
     {BOND_FORCE, D, .model = PD_##M, .variant = #M}, {BOND_ENERGY, D, .model = PD_##M, .variant = #M},                 \
@@ -61,28 +23,6 @@ struct job {
 
 static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS)
                                           SHAPE_VARIANTS(TRANSFER_JOBS)};
-enum { JOBS = COUNT_OF(all_jobs) };
-
-/* What is timed on, for each dimension; state-based particles not in 1D. */
-enum { BONDS, POINTS, STATES, MESH, YIELDING, GROUNDS };
-struct ground {
-    struct scene scene[GROUNDS];
-    struct engine engine[GROUNDS];
-    int32_t *list;
-    real *value, *field; /* of spread */
-};
-
-struct limits {
-    double stencil[DIM_MAX + 1], triad, points;
-}; /* [s/bond], [B/s], [s/point] */
-
-struct bench {
-    struct ground ground[DIM_MAX + 1];
-    struct job job[JOBS];
-    struct limits limits;
-    struct floor floor;
-};
-
 /* ---- ground -------------------------------------------------------------------------------------------- */
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
@@ -205,7 +145,7 @@ static void job_time(struct job *j, struct ground *g)
     }
 }
 
-static void time_all(struct bench *b, int repetitions)
+static void time_all(struct kernel_bench *b, int repetitions)
 {
     struct stencil_probe *stencil[DIM_MAX + 1];
     struct triad_probe *triad = triad_probe_make();
@@ -219,7 +159,7 @@ static void time_all(struct bench *b, int repetitions)
             b->limits.points = fmin(b->limits.points, point_probe_run(points));
         }
         b->limits.triad = fmax(b->limits.triad, triad_probe_run(triad));
-        for (int k = 0; k < JOBS; k++) job_time(&b->job[k], &b->ground[b->job[k].dim]);
+        for (int k = 0; k < b->jobs; k++) job_time(&b->job[k], &b->ground[b->job[k].dim]);
         for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].grid);
     }
     for (int d = 1; d <= DIM_MAX; d++) stencil_probe_free(stencil[d]);
@@ -288,22 +228,10 @@ static double job_bytes(const struct job *j, struct ground *g)
     }
 }
 
-static bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
-static int64_t job_particles(const struct job *j, const struct ground *g)
-{
-    return g->engine[j->kind >= MESH_CLEAR ? MESH : j->kind > PD_MOVE ? POINTS : BONDS].part.n;
-}
-
-/* Bonds of a particle; NAN where a kernel visits none. */
-static double job_bonds(const struct job *j, const struct ground *g)
-{
-    return on_bonds(j) ? (double)g->engine[BONDS].bonds.n / (double)g->engine[BONDS].part.n : NAN;
-}
-
 /* The larger of what memory and arithmetic need. */
-static void find_limits(struct bench *b)
+static void find_limits(struct kernel_bench *b)
 {
-    for (int k = 0; k < JOBS; k++) {
+    for (int k = 0; k < b->jobs; k++) {
         struct job *j = &b->job[k];
         struct ground *g = &b->ground[j->dim];
         j->bytes = job_bytes(j, g);
@@ -312,167 +240,9 @@ static void find_limits(struct bench *b)
     }
 }
 
-/* ---- what is said -------------------------------------------------------------------------------------- */
-
-static void print_limits(const struct limits *l)
-{
-    printf("  limits of this machine, one thread\n");
-    for (int d = 1; d <= DIM_MAX; d++)
-        printf("    lattice stencil of the bond law, %dD      %8.3f ns per directed bond\n", d, 1e9 * l->stencil[d]);
-    printf("    STREAM triad                             %8.1f GB/s\n", 1e-9 * l->triad);
-    printf("    plain cell-sorted MPM, 2D linear FLIP    %8.1f ns per particle and step\n\n", 1e9 * l->points);
-}
-
-static void print_jobs(const struct bench *b)
-{
-    printf("  kernel         dim variant          ns/particle  ns/bond  bytes/particle   GB/s  share of the limit\n");
-    for (int k = 0; k < JOBS; k++) {
-        const struct job *j = &b->job[k];
-        const struct ground *g = &b->ground[j->dim];
-        const double each = j->seconds / (double)job_particles(j, g);
-        char bond[16] = "";
-        if (on_bonds(j)) snprintf(bond, sizeof bond, "%.3f", 1e9 * each / job_bonds(j, g));
-        printf("  %-14s  %d  %-16s %10.2f %9s %13.0f %8.1f %10.2f\n", job_name[j->kind], j->dim, j->variant, 1e9 * each,
-               bond, j->bytes, 1e-9 * j->bytes / each, j->limit / each);
-    }
-    printf("  limit: the longer of bytes at the triad's rate and, for bonds, the stencil; above 1 the data stayed in "
-           "cache\n\n");
-}
-
-static void fill_tables(const struct bench *b, struct bench_table *rows, struct bench_table *limits)
-{
-    bench_table_make(rows, "",
-                     "kernel,dim,variant,particles,seconds_per_particle,seconds_per_bond,bytes_per_particle,limit_"
-                     "seconds_per_particle,share_of_limit");
-    for (int k = 0; k < JOBS; k++) {
-        const struct job *j = &b->job[k];
-        const struct ground *g = &b->ground[j->dim];
-        const double n = (double)job_particles(j, g), each = j->seconds / n;
-        bench_text(rows, job_name[j->kind]);
-        bench_number(rows, j->dim);
-        bench_text(rows, j->variant);
-        const double number[] = {n, each, each / job_bonds(j, g), j->bytes, j->limit, j->limit / each};
-        for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(rows, number[c]);
-    }
-    bench_table_make(limits, "limits",
-                     "stencil_1d_seconds_per_bond,stencil_2d_seconds_per_bond,stencil_3d_seconds_per_bond,triad_bytes_"
-                     "per_second,points_seconds_per_particle");
-    for (int d = 1; d <= DIM_MAX; d++) bench_number(limits, b->limits.stencil[d]);
-    bench_number(limits, b->limits.triad);
-    bench_number(limits, b->limits.points);
-}
-
-static status write_tables(const struct bench *b)
-{
-    struct bench_table table[4];
-    fill_tables(b, &table[0], &table[1]);
-    bench_floor_table(&b->floor, &table[2]);
-    table[3] = b->floor.laps;
-    status s = bench_write("kernels", table, b->floor.laps.cells ? 4 : 3);
-    for (int k = 0; k < 3; k++) bench_table_free(&table[k]);
-    return s;
-}
-
-/* ---- picture ------------------------------------------------------------------------------------------- */
-
-/* The first word in small letters, quoted. */
-static void put_shape(FILE *to, const char *variant)
-{
-    fputc('"', to);
-    for (; *variant && *variant != ' '; variant++) fputc(tolower(*variant), to);
-    fputc('"', to);
-}
-
-/* Blocks $bD (bond kernels, per bond) and $pD (transfers, one row a shape), in ns. */
-static void send_data(FILE *to, const struct bench *b)
-{
-    for (int d = 1; d <= DIM_MAX; d++) {
-        fprintf(to, "$b%d << EOD\n", d);
-        for (int k = 0; k < JOBS; k++) {
-            const struct job *j = &b->job[k];
-            if (j->dim != d || !on_bonds(j)) continue;
-            const double bonds = job_bonds(j, &b->ground[d]) * (double)job_particles(j, &b->ground[d]);
-            fprintf(to, "\"%s\" %.6g\n", job_name[j->kind] + 5, 1e9 * j->seconds / bonds);
-        }
-        fprintf(to, "EOD\n$p%d << EOD\n", d);
-        for (int shape = 0; shape < SHAPES; shape++) {
-            for (int k = 0; k < JOBS; k++) {
-                const struct job *j = &b->job[k];
-                if (j->dim != d || (int)j->shape != shape || (j->kind != P2G && j->kind != G2P && j->kind != REMAP))
-                    continue;
-                if (j->kind == REMAP) put_shape(to, j->variant);
-                fprintf(to, " %.6g", 1e9 * j->seconds / (double)job_particles(j, &b->ground[d]));
-            }
-            fputc('\n', to);
-        }
-        fputs("EOD\n", to);
-    }
-}
-
-static void set_panel(FILE *to, double left, double right, double below, double above)
-{
-    fprintf(to,
-            "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n",
-            left, right, below, above);
-}
-
-/* Asked figures as shares of what is asked. */
-static void draw_floor(FILE *to, const struct floor *f)
-{
-    if (!f->figures) return;
-    const double most = 4; /* longer bars are cut; their figure tells */
-    fputs("$floor << EOD\n", to);
-    for (int k = 0; k < f->figures; k++) {
-        const struct floor_figure *a = &f->figure[k];
-        const double ratio = a->measured / a->limit;
-        const double shown = a->at_least ? a->asked / ratio : ratio / a->asked;
-        fprintf(to, "\"%s\" %.4g %d %.3g\n", a->name, fmin(shown, most), f->figures - k, shown);
-    }
-    fputs("EOD\n", to);
-    set_panel(to, 0.30, 0.97, 0.05, 0.26);
-    fprintf(to,
-            "set title 'speed floor: measured over asked (1 or less is met)'\nset xrange [0:%g]\nset yrange "
-            "[0.4:%d.6]\nset xtics auto norotate\nset grid noy\n"
-            "set arrow 1 from 1, graph 0 to 1, graph 1 nohead dt (6,4) lw 1.4 lc rgb '#3d3d3d'\nset ylabel ''\n"
-            "plot $floor using (0.5*$2):3:(0.5*$2):(0.36):ytic(1) with boxxy fs solid 0.85 lc rgb '%s' notitle, "
-            "'' using (%g):3:(sprintf('%%.2f', $4)) with labels right notitle\n",
-            1.12 * most, f->figures, curve_colour[0], 1.11 * most);
-}
-
-static void draw(FILE *to, const void *context)
-{
-    static const char *const transfer[] = {"re-map", "p2g FLIP", "g2p FLIP", "p2g APIC", "g2p APIC"};
-    const struct bench *b = context;
-    send_data(to, b);
-    fputs("set multiplot\nset style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\n"
-          "set boxwidth 0.9\nset xtics nomirror scale 0\nset yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n",
-          to);
-    for (int d = 1; d <= DIM_MAX; d++) {
-        const double left = 0.07 + 0.315 * (d - 1);
-        set_panel(to, left, left + 0.27, 0.74, 0.94);
-        fprintf(to,
-                "set title '%dD: ns per bond'\nset arrow 1 from graph 0, first %.6g to graph 1, first %.6g nohead dt "
-                "(6,4) lw 1.4 lc rgb '%s'\n"
-                "set key inside left top\nplot $b%d using 2:xtic(1) lc rgb '%s' notitle, NaN with lines dt (6,4) lw "
-                "1.4 lc rgb '%s' title '%s'\n",
-                d, 1e9 * b->limits.stencil[d], 1e9 * b->limits.stencil[d], curve_colour[1], d, curve_colour[0],
-                curve_colour[1], d == 1 ? "stencil limit" : "");
-        fprintf(to, "unset arrow 1\nset xtics rotate by -25\n%s\n",
-                d == 1 ? "set key at screen 0.5,0.695 center top vertical maxrows 2" : "unset key");
-        set_panel(to, left, left + 0.27, 0.40, 0.60);
-        fprintf(to, "set title '%dD: ns per particle'\nplot ", d);
-        for (int k = 0; k < 5; k++)
-            fprintf(to, "%s$p%d using %d:xtic(1) lc rgb '%s' title '%s'", k ? ", " : "", d, k + 2, curve_colour[k],
-                    d == 1 ? transfer[k] : "");
-        fputs("\nset xtics norotate\n", to);
-    }
-    draw_floor(to, &b->floor);
-    fputs("unset multiplot\n", to);
-}
-
 /* ---- all ----------------------------------------------------------------------------------------------- */
 
-static status run(struct bench *b, bool quick)
+static status run(struct kernel_bench *b, bool quick)
 {
     TRY(bench_floor_memory(&b->floor));
     team_make(1);
@@ -480,23 +250,24 @@ static status run(struct bench *b, bool quick)
     for (int d = 1; d <= DIM_MAX; d++) TRY(ground_make(&b->ground[d], d));
     time_all(b, quick ? 2 : 12);
     find_limits(b);
-    print_limits(&b->limits);
-    print_jobs(b);
+    kernels_print(b);
     TRY(bench_floor_speed(&b->floor, quick));
     bench_floor_print(&b->floor);
-    TRY(write_tables(b));
-    return bench_draw("kernels", 1200, 1100, draw, b);
+    return kernels_write(b);
 }
 
 status bench_kernels(bool quick)
 {
-    struct bench *b = NEW("bench", 1, struct bench);
+    struct kernel_bench *b = NEW("bench", 1, struct kernel_bench);
+    b->jobs = COUNT_OF(all_jobs);
+    b->job = NEW("bench.job", b->jobs, struct job);
     memcpy(b->job, all_jobs, sizeof all_jobs);
-    for (int k = 0; k < JOBS; k++) b->job[k].seconds = INFINITY;
+    for (int k = 0; k < b->jobs; k++) b->job[k].seconds = INFINITY;
     printf("kernels\n");
     status s = run(b, quick);
     for (int d = 1; d <= DIM_MAX; d++) ground_free(&b->ground[d]);
     bench_table_free(&b->floor.laps);
+    memory_free(b->job);
     memory_free(b);
     return s;
 }

@@ -184,7 +184,7 @@ static void draw(FILE *to, const void *context)
         }
         fputs("EOD\n", to);
     }
-    fputs("set multiplot layout 2,2\nset logscale xy\nset xrange [5e3:2e7]\nset format x '10^{%T}'\nset xlabel 'particles'\n"
+    fputs("set multiplot layout 2,2\nset logscale xy\nset xrange [5e3:2e7]\nset format x '1e%T'\nset xlabel 'particles'\n"
           "set key top right font ',8'\nset offsets graph 0, 0, graph 0.6, graph 0.2\n", to);
     for (int dim = 2; dim <= 3; dim++)
         for (int memory = 0; memory < 2; memory++) draw_panel(to, dim, memory);

@@ -139,7 +139,7 @@ static void draw(FILE *to, const void *table)
     put_points(to, t);
     fprintf(to, "set title 'scenes in which methods fail: figures over their thresholds, and what cures them'\n"
                 "set lmargin at screen 0.345\nset rmargin at screen 0.59\nset tmargin at screen %g\nset bmargin at screen %g\n"
-                "set logscale x\nset xrange [%g:%g]\nset yrange [%g:0.8]\nunset ytics\nset format x '10^{%%T}'\n"
+                "set logscale x\nset xrange [%g:%g]\nset yrange [%g:0.8]\nunset ytics\nset format x '1e%%T'\n"
                 "set xtics (\"0\" %g, \"0.001\" 0.001, \"0.01\" 0.01, "
                 "\"0.1\" 0.1, \"1\" 1, \"10\" 10, \"100\" 100, \"1000\" 1000)\n"
                 "set xlabel 'measured/threshold'\nunset key\nset grid x\n"

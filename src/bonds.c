@@ -140,7 +140,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
     const int32_t *particle = b->particle + g * LANES;
     int64_t made = 0;
     bool by_offset;
-    b->changed[g] = group_inherits(m->old, particle, rows);
+    if (pass->count) b->changed[g] = group_inherits(m->old, particle, rows);
     if (is_regular(pass, room, g)) {
         if (pass->count) b->slot[g + 1] = group_regular_slots(&room->regular);
         else group_fill_regular(b, room, g, m);

@@ -1,6 +1,5 @@
 /* floor 1: what of the bonds survives a restart. */
 #include <math.h>
-
 #include <string.h>
 
 #include "bonds_parts.h"

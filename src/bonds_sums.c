@@ -74,15 +74,14 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
 
 real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row)
 {
-    const int64_t g = row / LANES, i = b->particle[row], l = row % LANES;
+    const int64_t g = row / LANES, i = b->particle[row];
     struct spring_bound bound = {{{0}}, 0};
-    struct slot_copy slot;
     for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
+        const struct bond bond = bond_read(b, g, k, (int)(row % LANES));
         real n[DIM_MAX] = {0};
-        slot_read(&slot, b, g, k);
-        if (slot.w[l] == 0) continue;
-        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][slot.nbr[l]] - p->X[d][i]) * slot.inverse_length[l];
-        spring_bound_add(&bound, b->stiffness * slot.w[l] * slot.inverse_length[l], n, p->dim);
+        if (bond.w == 0) continue;
+        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond.nbr] - p->X[d][i]) * bond.inverse_length;
+        spring_bound_add(&bound, b->stiffness * bond.w * bond.inverse_length, n, p->dim);
     }
     return spring_bound_of(&bound, p->dim);
 }
