@@ -23,9 +23,11 @@ struct rest_points {
 
 enum { REST_LOOKS = 4 };                 /* steps from look to look */
 
-/* The order of those awake, a part of `all`; `all` itself where all are. Walls of `grid` are those of the step before. */
+/* The order of those awake, a part of `all`; `all` itself where all are. `now`: those awake until now, since all were. Walls of
+ * `grid` are those of the step before. */
 const struct transfer_order *rest_points_look(struct rest_points *r, const struct transfer_order *all,
-                                              const struct particles *p, const struct grid *grid, const struct bonds *b, const struct loads *l,
+                                              const struct transfer_order *now, const struct particles *p,
+                                              const struct grid *grid, const struct bonds *b, const struct loads *l,
                                               enum shape shape, enum transfer transfer);
 void rest_points_free(struct rest_points *r);
 

@@ -14,7 +14,7 @@
     X(mesh_points_move) X(mesh_seen_move) X(mesh_listed_move) X(mesh_seen_force) X(mesh_points_stress)                 \
     X(mesh_points_mark) X(mesh_kinetic) X(mesh_kick) X(mesh_strain) X(stencil_probe_make) X(stencil_probe_run)         \
     X(stencil_probe_free) X(triad_probe_make) X(triad_probe_run) X(triad_probe_free) X(point_probe_make)               \
-    X(point_probe_run) X(point_probe_free)
+    X(point_probe_run) X(point_probe_free) X(particles_out_of_hand)
 
 /* A pointer to each, tables to their first row. */
 #define KERNEL_POINTER(name) __typeof__(&*name) name;

@@ -47,8 +47,8 @@ static status points_sort(struct engine *e)
 static void points_rest(struct engine *e)
 {
     if (!e->scene->rest || e->rest_points.over || coupling_carries(e->coupling) || e->scene->solver != SOLVER_EXPLICIT) return;
-    e->transfer.order = rest_points_look(&e->rest_points, &e->order, &e->part, &e->grid, &e->bonds, &e->loads, e->scene->shape,
-                                         e->scene->transfer);
+    e->transfer.order = rest_points_look(&e->rest_points, &e->order, e->transfer.order, &e->part, &e->grid, &e->bonds, &e->loads,
+                                         e->scene->shape, e->scene->transfer);
 }
 
 /* Who is on the grid in this step, and where. */

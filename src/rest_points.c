@@ -56,16 +56,17 @@ static int64_t reach_of(const struct grid *g, enum shape shape, enum transfer tr
     return REST_LOOKS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->folds > 0 ? 2 : 0));
 }
 
-static void mark(struct rest_points *r, const struct transfer_order *all, const struct particles *p, const struct grid *g,
+/* Cells that were left out until now are as quiet as they were. */
+static void mark(struct rest_points *r, const struct transfer_order *now, const struct particles *p, const struct grid *g,
                  const struct bonds *b, const struct loads *l, bool has_gradient)
 {
     memset(r->busy, 0, (size_t)g->n);
 #pragma omp parallel for schedule(static)
-    for (int32_t c = 0; c < all->cells; c++) {
+    for (int32_t c = 0; c < now->cells; c++) {
         bool quiet = true;
-        for (int32_t k = all->cell_start[c]; k < all->cell_start[c + 1] && quiet; k++)
-            quiet = is_quiet(r, p, b, all->particle[k], has_gradient);
-        if (!quiet) r->busy[cell_of(g, p, all->particle[all->cell_start[c]])] = 1;
+        for (int32_t k = now->cell_start[c]; k < now->cell_start[c + 1] && quiet; k++)
+            quiet = is_quiet(r, p, b, now->particle[k], has_gradient);
+        if (!quiet) r->busy[cell_of(g, p, now->particle[now->cell_start[c]])] = 1;
     }
     for (int64_t k = 0; k < g->walls; k++)
         if (moves(l, g->wall[k].load)) r->busy[g->wall[k].node] = 1;
@@ -101,13 +102,14 @@ static void take(struct rest_points *r, const struct transfer_order *all, const 
 }
 
 const struct transfer_order *rest_points_look(struct rest_points *r, const struct transfer_order *all,
-                                              const struct particles *p, const struct grid *grid, const struct bonds *b, const struct loads *l,
+                                              const struct transfer_order *now, const struct particles *p,
+                                              const struct grid *grid, const struct bonds *b, const struct loads *l,
                                               enum shape shape, enum transfer transfer)
 {
     const int64_t reach = reach_of(grid, shape, transfer);
     if (!r->loaded) loads_mark(l, r->loaded = NEW("rest.loaded", p->n, uint8_t));
     make_room(r, grid);
-    mark(r, all, p, grid, b, l, transfer == TRANSFER_APIC);
+    mark(r, now, p, grid, b, l, transfer == TRANSFER_APIC);
     for (int d = 0; d < grid->dim; d++) {
         uint8_t *from = r->busy;
         widen(grid, from, r->near, d, reach);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "kernels.h"
 #include "memory.h"
 #include "stress.h"
 #include "team.h"
@@ -272,15 +273,10 @@ void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, re
 
 /* ---- the alarm --------------------------------------------------------------------------------------- */
 
-/* Comparisons are written so that a number that is none is caught. */
-static bool out_of_hand(const struct particles *p, int64_t i, real limit2)
+static bool out_of_hand(const struct particles *p, int64_t i, real limit)
 {
-    real speed2 = 0, place = 0;
-    for (int d = 0; d < p->dim; d++) {
-        speed2 += square(p->v[d][i]);
-        place += fabs(p->x[d][i]);
-    }
-    return !(speed2 <= limit2) || !isfinite(place);
+    const int32_t alone[1] = {(int32_t)i};
+    return particles_out_of_hand(p, alone, 1, limit);
 }
 
 static status alarm_raise(const struct particles *p, int64_t i, real limit, int64_t step, real t, const char *cure)
@@ -301,21 +297,20 @@ static status alarm_raise(const struct particles *p, int64_t i, real limit, int6
 }
 
 /* First of the listed particles that is out of hand, n_all if none is. */
-static int64_t first_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit2)
+static int64_t first_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit)
 {
-    int64_t first = p->n_all;
-#pragma omp parallel for schedule(static) reduction(min : first)
-    for (int64_t k = 0; k < n; k++)
-        if (out_of_hand(p, list[k], limit2) && list[k] < first) first = list[k];
-    return first;
+    if (!particles_out_of_hand(p, list, n, limit)) return p->n_all;
+    int64_t k = 0;
+    while (!out_of_hand(p, list[k], limit)) k++;
+    return list[k];
 }
 
 status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, const char *cure)
 {
     assert(limit > 0);
-    int64_t first = first_out_of_hand(p, p->list[KIND_PD], p->n_of[KIND_PD], limit * limit);
-    const int64_t free = everywhere ? first_out_of_hand(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit * limit)
-                                    : first_out_of_hand(p, p->list_free, p->n_free, limit * limit);
+    int64_t first = first_out_of_hand(p, p->list[KIND_PD], p->n_of[KIND_PD], limit);
+    const int64_t free = everywhere ? first_out_of_hand(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
+                                    : first_out_of_hand(p, p->list_free, p->n_free, limit);
     if (free < first) first = free;
     return first < p->n ? alarm_raise(p, first, limit, step, t, cure) : OK;
 }

@@ -1,0 +1,39 @@
+/* floor 2: is one of many particles out of hand? Asked in every step; which one it is, nobody asks before the run ends for it
+ * (watch.c). Reads 32 bytes a particle in 2D. */
+#include <float.h>
+
+#include "kernels.h"
+#include "lanes.h"
+#include "variants.h"
+
+/* Comparisons are written so that a number that is none is caught. */
+static ALWAYS_INLINE lanes_mask out_of_hand(const struct particles *p, const int32_t *list, real limit2, const int dim)
+{
+    const int32_t first = list[LANES - 1] - list[0] == LANES - 1 ? list[0] : -1;   /* ascending, so consecutive */
+    lanes speed2 = lanes_of(0), place = lanes_of(0);
+    for (int d = 0; d < dim; d++) {
+        const lanes v = lanes_at(p->v[d], first, list);
+        speed2 += v * v;
+        place += lanes_size(lanes_at(p->x[d], first, list));
+    }
+    return ~((speed2 <= limit2) & (place <= DBL_MAX));
+}
+
+static ALWAYS_INLINE bool any_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit2, const int dim)
+{
+    const int64_t whole = n / LANES * LANES;
+    int64_t found = 0;
+#pragma omp parallel for schedule(static) reduction(+ : found)
+    for (int64_t k = 0; k < whole; k += LANES) found += lanes_any(out_of_hand(p, list + k, limit2, dim));
+    if (found > 0 || whole == n) return found > 0;
+    _Alignas(sizeof(lanes)) int32_t last[LANES];
+    for (int l = 0; l < LANES; l++) last[l] = list[whole + l < n ? whole + l : whole];   /* never consecutive */
+    return lanes_any(out_of_hand(p, last, limit2, dim));
+}
+
+bool particles_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit)
+{
+#define CASE(D) case D: return any_out_of_hand(p, list, n, limit * limit, D);
+    switch (p->dim) { DIM_VARIANTS(CASE) }
+    return false;
+}
