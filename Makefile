@@ -6,7 +6,7 @@ PREFIX   ?= /usr/local
 BUILD    ?= build
 THREADS  ?= 2
 VERSION  := 0.1.0
-WARN     := -Wall -Wextra -Wshadow -Wno-unknown-pragmas -Wno-psabi
+WARN     := -Wall -Wextra -Wshadow -Werror=implicit-function-declaration -Wno-unknown-pragmas -Wno-psabi
 LIBRARIES := hdf5 hwloc yaml-0.1
 
 CPPFLAGS += -Iinclude -Ikernels -Isrc -Ibench -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'

@@ -4,9 +4,9 @@
 #ifndef CLEAVE_CARRY_H
 #define CLEAVE_CARRY_H
 
-#include "cells.h"
 #include "convert.h"
 #include "grid.h"
+#include "transfer_order.h"
 
 struct carried {
     struct transfer_order order;         /* of the carried particles                                  */

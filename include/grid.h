@@ -70,4 +70,12 @@ static inline real grid_position(const struct grid *g, int d, int64_t k)
 /* Where x is in direction d, in node distances from the anchor; its floor is the cell. All who ask round alike. */
 static inline real grid_place(const struct grid *g, int d, real x) { return (x - g->anchor[d]) * (1 / g->h); }
 
+/* Its floor, without a call of the library. */
+static ALWAYS_INLINE int64_t grid_cell(const struct grid *g, int d, real x)
+{
+    const real place = grid_place(g, d, x);
+    const int64_t k = (int64_t)place;
+    return k - (place < (real)k);
+}
+
 #endif

@@ -8,10 +8,10 @@
 #ifndef CLEAVE_REST_POINTS_H
 #define CLEAVE_REST_POINTS_H
 
-#include "cells.h"
 #include "grid.h"
 #include "kernels.h"
 #include "loads.h"
+#include "transfer_order.h"
 
 struct rest_points {
     bool over;                           /* all are awake for good                                   */

@@ -5,11 +5,11 @@
 #define CLEAVE_KERNELS_H
 
 #include "bonds.h"
-#include "cells.h"
 #include "grid.h"
 #include "kernel.h"
 #include "mesh.h"
 #include "particles.h"
+#include "transfer_order.h"
 
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };

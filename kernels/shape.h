@@ -114,20 +114,13 @@ struct cell {
     real place[DIM_MAX];                 /* of its lower corner, in node distances from the anchor      */
 };
 
-/* Floor without the library call that a negative argument would need. */
-static ALWAYS_INLINE int64_t floor_to_int(real r)
-{
-    int64_t k = (int64_t)r;
-    return k - (r < (real)k);
-}
-
 /* The cell of point i. */
 static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct particles *p, int64_t i, const int dim,
                                            const enum shape shape)
 {
     struct cell c = {0};
     for (int d = 0; d < dim; d++) {
-        const int64_t k = floor_to_int(grid_place(g, d, p->x[d][i]));
+        const int64_t k = grid_cell(g, d, p->x[d][i]);
         c.place[d] = (real)k;
         c.node += (k - (IS_FACE(dim, shape) ? 0 : 1) - g->first[d]) * g->stride[d];
     }

@@ -1,7 +1,6 @@
 /* floor 3: which cells of material points nothing has reached. */
 #include "rest_points.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "memory.h"
@@ -24,7 +23,7 @@ static int64_t cell_of(const struct grid *g, const struct particles *p, int32_t 
 {
     int64_t I = 0;
     for (int d = 0; d < g->dim; d++)
-        I += ((int64_t)floor(grid_place(g, d, p->x[d][i])) - g->first[d]) * g->stride[d];
+        I += (grid_cell(g, d, p->x[d][i]) - g->first[d]) * g->stride[d];
     return I;
 }
 

@@ -7,6 +7,7 @@
 #include "cloud.h"
 #include "grid.h"
 #include "team.h"
+#include "transfer_order.h"
 
 /* Points spread at random over cells -20 .. 20 round node 0, some of them peridynamic. */
 static void scatter_points(struct cloud *c, int dim, struct grid *g)
