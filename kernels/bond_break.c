@@ -8,7 +8,7 @@
 #include "state_laws.h"
 
 #define LIMIT_MARGIN 1e-9                /* vectors look that much below a limit for their round-off; the scalar rule decides */
-#define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
+#define ROUND_OFF 1e-14                  /* of a squared elongation, where limits are smaller than that margin tells */
 
 /* Stretch of stored bond q between i and j [1]. */
 static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
@@ -105,15 +105,17 @@ static real least_limit(const struct bond_limit *limit)
     return least * (1 - LIMIT_MARGIN);
 }
 
-/* The larger of each row's stretch so far and that of its bond in a slot. */
+/* The larger of each row's squared elongation so far and that of its bond in a slot: no root. Broken bonds have a negative
+ * one. */
 static ALWAYS_INLINE lanes largest_of(lanes largest, const struct particles *p, const lanes *x, const struct slot s, const int dim)
 {
-    lanes distance2 = lanes_of(TINY);
+    const lanes inverse = slot_inverse_length(s);
+    lanes distance2 = lanes_of(0);
     for (int d = 0; d < dim; d++) {
         const lanes y = slot_at(s, p->x[d]) - x[d];
         distance2 += y * y;
     }
-    return slot_largest(s, largest, STRETCH_OF(lanes_root(distance2), slot_inverse_length(s)));
+    return slot_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
 }
 
 /* Which rows of a group have a bond beyond this stretch. */
@@ -121,12 +123,12 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
                                           const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
-    lanes x[DIM_MAX], largest = lanes_of(-1);
+    lanes x[DIM_MAX], largest = lanes_of(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
 #define VISIT(SLOT) largest = largest_of(largest, p, x, SLOT, dim)
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
-    return largest > lanes_of(least);
+    return largest > lanes_of(square(1 + least) * (1 - ROUND_OFF));
 }
 
 int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)

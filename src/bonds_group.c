@@ -201,14 +201,15 @@ void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, con
     group_store(b, room, g, m->p);
 }
 
+/* Room for the worst case, of which little is ever touched: none of it is made zero. */
 void group_room_make(struct group_room *g, int room, const struct lattice *lattice)
 {
     g->room = room;
     for (int l = 0; l < LANES; l++) row_room_make(&g->row[l], room);
-    g->offset = NEW("bonds.offset", (int64_t)LANES * room + 1, int32_t);
+    g->offset = BARE("bonds.offset", (int64_t)LANES * room + 1, int32_t);
     lattice_bonds_make(&g->regular, lattice);
     pattern_make(&g->pattern, LANES * room + 1);
-    g->slot = NEW("bonds.slot_copy", (int64_t)LANES * room + 1, struct slot_copy);
+    g->slot = BARE("bonds.slot_copy", (int64_t)LANES * room + 1, struct slot_copy);
 }
 
 void group_room_free(struct group_room *g)

@@ -29,8 +29,8 @@ void patterns_free(struct patterns *p)
 void pattern_make(struct pattern *p, int slots)
 {
     *p = (struct pattern){0};
-    p->slot = NEW("bonds.pattern_slot", slots, struct pattern_slot);
-    p->w = (real (*)[LANES])NEW("bonds.pattern_w", (int64_t)slots * LANES, real);
+    p->slot = BARE("bonds.pattern_slot", slots, struct pattern_slot);
+    p->w = (real (*)[LANES])BARE("bonds.pattern_w", (int64_t)slots * LANES, real);
 }
 
 void pattern_free(struct pattern *p)
@@ -87,22 +87,18 @@ static bool patterns_equal(const struct pattern *a, const struct pattern *b)
            memcmp(a->w, b->w, (size_t)a->slots * sizeof *a->w) == 0;
 }
 
-/* Fowler, Noll & Vo's hash, over words. */
-static uint64_t hash_add(uint64_t hash, const void *from, size_t bytes)
-{
-    for (size_t at = 0; at < bytes; at += sizeof(uint64_t)) {
-        uint64_t word;
-        memcpy(&word, (const char *)from + at, sizeof word);
-        hash = (hash ^ word) * UINT64_C(0x100000001b3);
-    }
-    return hash;
-}
-
+/* Fowler, Noll & Vo's hash over words, of what tells most patterns apart: who is bonded to whom, and how heavily. */
 static int hash_of(const struct pattern *p)
 {
+    const uint64_t prime = UINT64_C(0x100000001b3);
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    hash = hash_add(hash, p->slot, (size_t)p->slots * sizeof *p->slot);
-    hash = hash_add(hash, p->w, (size_t)p->slots * sizeof *p->w);
+    for (int k = 0; k < p->slots; k++) {
+        const struct pattern_slot *slot = &p->slot[k];
+        uint64_t weight;
+        memcpy(&weight, &slot->w, sizeof weight);
+        hash = (hash ^ ((uint64_t)(uint32_t)slot->offset << LANES | slot->intact)) * prime;
+        hash = (hash ^ weight) * prime;
+    }
     return (int)((hash ^ hash >> 32) % HASHES);
 }
 

@@ -10,10 +10,10 @@
 
 void row_room_make(struct row *row, int room)
 {
-    row->nbr = NEW("bonds.row", room + 1, int32_t);       /* row_copy writes one too many */
-    row->inverse_length = NEW("bonds.row", room + 1, real);
-    row->w = NEW("bonds.row", room + 1, real);
-    row->plastic = NEW("bonds.row", room + 1, struct bond_plasticity);
+    row->nbr = BARE("bonds.row", room + 1, int32_t);       /* row_copy writes one too many */
+    row->inverse_length = BARE("bonds.row", room + 1, real);
+    row->w = BARE("bonds.row", room + 1, real);
+    row->plastic = BARE("bonds.row", room + 1, struct bond_plasticity);
 }
 
 void row_room_free(struct row *row)
