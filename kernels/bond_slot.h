@@ -39,14 +39,15 @@ static ALWAYS_INLINE struct slot slot_of(const struct bonds *b, int64_t number, 
     return (struct slot){b, number, own + slot->offset, slot, kind == SLOT_WHOLE ? NULL : pattern->w[k], kind};
 }
 
-/* Calls VISIT(slot) for the slots of a group: one body, an instance for each kind. */
+/* Calls VISIT(slot) for the slots of a group that have an intact bond: one body, an instance for each kind. */
 #define FOR_SLOTS(B, GROUP, VISIT)                                                                                             \
     do {                                                                                                                       \
         const struct pattern *pattern_ = (B)->pattern[GROUP];                                                                  \
         const int64_t from_ = (B)->slot[GROUP], slots_ = (B)->slot[(GROUP) + 1] - from_, own_ = (B)->particle[(GROUP) * LANES]; \
         if (!pattern_)                                                                                                         \
             for (int64_t k_ = from_; k_ < from_ + slots_; k_++)                                                                \
-                if ((B)->common[k_].alike) VISIT(slot_stored(B, k_, SLOT_ALIKE));                                              \
+                if ((B)->common[k_].intact == 0) continue;                                                                     \
+                else if ((B)->common[k_].alike) VISIT(slot_stored(B, k_, SLOT_ALIKE));                                         \
                 else if ((B)->common[k_].lattice) VISIT(slot_stored(B, k_, SLOT_LATTICE));                                     \
                 else VISIT(slot_stored(B, k_, SLOT_FREE));                                                                     \
         else if (pattern_->whole)                                                                                              \

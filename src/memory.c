@@ -1,6 +1,7 @@
 /* floor 0: aligned arrays, touched first by their threads; the end of the run where there is no memory. */
 #include "memory.h"
 
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -188,6 +189,9 @@ void memory_free(void *pointer)
 
 void memory_reuse(bool reuse)
 {
+#ifdef __GLIBC__
+    if (reuse) mallopt(M_TRIM_THRESHOLD, KEPT_ALL), mallopt(M_MXFAST, 0);
+#endif
 #ifdef MAP_ANONYMOUS
     reusing = reuse;
     if (!reuse) keep_none();
