@@ -176,7 +176,6 @@ struct bonds {
     const struct pattern **pattern;      /* [groups] what a group follows, NULL: nothing                  */
     uint8_t *folded;                     /* [groups] its slots are not written                            */
     uint8_t *changed;                    /* [groups] weights are not those that it was made with: it follows nothing */
-    uint8_t *settled;                    /* [n_all] in a group that was the same before rows were made anew; NULL: nobody */
     struct patterns *patterns;
     struct lattice *sites;               /* NULL before rows are made anew, which will happen again: then kept */
     real *plastic_stretch, *plastic_path;   /* [slots 8] s_p and alpha of a bond; NULL where none yields   [1]  */

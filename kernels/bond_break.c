@@ -75,9 +75,8 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row) : half_energy(b, q, stretch)));
 }
 
-/* The rule of breaking on one row, without its bonds to who is settled (NULL: nobody is). */
-static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row,
-                         const uint8_t *settled)
+/* The rule of breaking on one row. */
+static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];
     int64_t broken = 0;
@@ -86,7 +85,6 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
-        if (settled && settled[j]) continue;
         const real stretch = bond_stretch(b, p, q, i, j);
         if (!(stretch > limit->critical_stretch[p->material[i] * limit->materials + p->material[j]])) continue;
         if (b->state.modulus && broken == 0) before = state_row_energy(b, p, row);
@@ -133,8 +131,7 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
     return largest > lanes_of(square(1 + least) * (1 - ROUND_OFF));
 }
 
-static int64_t break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group,
-                           const uint8_t *settled)
+int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
 {
     const real least = least_limit(limit);
     const lanes_mask past = p->dim == 1   ? rows_past(b, p, group, least, 1)
@@ -142,20 +139,14 @@ static int64_t break_group(struct bonds *b, struct particles *p, const struct bo
                                           : rows_past(b, p, group, least, 3);
     int64_t broken = 0;
     for (int l = 0; l < LANES && group * LANES + l < b->rows && lanes_any(past); l++)
-        if (past[l]) broken += break_row(b, p, limit, group * LANES + l, settled);
+        if (past[l]) broken += break_row(b, p, limit, group * LANES + l);
     return broken;
 }
 
-int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
-{
-    return break_group(b, p, limit, group, NULL);
-}
-
-int64_t bond_break_made(struct bonds *b, struct particles *p, const struct bond_limit *limit)
+int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit)
 {
     int64_t broken = 0;
 #pragma omp parallel for schedule(static) reduction(+ : broken)
-    for (int64_t g = 0; g < b->groups; g++)
-        if (!b->settled || !b->settled[b->particle[g * LANES]]) broken += break_group(b, p, limit, g, b->settled);
+    for (int64_t g = 0; g < b->groups; g++) broken += bond_break_group(b, p, limit, g);
     return broken;
 }

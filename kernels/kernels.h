@@ -66,12 +66,10 @@ typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct
  * just made calls it before: the energy of a bond is in it. */
 typedef void state_know_fn(struct bonds *b, const struct particles *p);
 
-/* The rule of breaking, applied to one group; or to all bonds that rows made anew can have and rows before had not, for between
- * particles that were material points until then they may be past their limit at once: both ends of such a bond are in groups
- * that have changed, and other bonds wait for the next sweep at both of theirs. Exact and slow: called where a bond may break.
- * Returns directed bonds broken. */
+/* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then
+ * may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
 KERNEL(int64_t, bond_break_group, (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group));
-KERNEL(int64_t, bond_break_made, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
+KERNEL(int64_t, bond_break_all, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as fracture:
  * a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the next positions.

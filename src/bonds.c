@@ -172,11 +172,6 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
     return made;
 }
 
-static void settle(struct bonds *b, int64_t g)
-{
-    for (int l = 0; l < group_rows(b, g); l++) b->settled[b->particle[g * LANES + l]] = 1;
-}
-
 /* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice.
  * Returns how many there are. */
 static int64_t rows_pass(const struct rows_pass *pass)
@@ -192,7 +187,7 @@ static int64_t rows_pass(const struct rows_pass *pass)
             const int64_t from = group_kept(pass->b, m, g);
             if (from < 0) pass->b->made[g] = (int32_t)group_pass(pass, &room, g);
             else if (pass->count) pass->b->slot[g + 1] = m->old->slot[from + 1] - m->old->slot[from];
-            else group_keep(pass->b, m->old, g, from), settle(pass->b, g);
+            else group_keep(pass->b, m->old, g, from);
             made += pass->b->made[g];
         }
         group_room_free(&room);
@@ -258,12 +253,10 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     rows_list(b, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
-    if (old) b->settled = NEW("bonds.settled", p->n_all, uint8_t);
     state_start(b, s);
 
     rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .lattice = lattice, .room = most});
     memory_free(fresh);
-    for (int64_t k = p->n; old && k < p->n_all; k++) b->settled[k] = b->settled[image_root(p, s->image, k)];
     if (old) rows_carry(b, old), b->sites = lattice;
     else lattice_leave(lattice);
 
@@ -312,7 +305,6 @@ void bonds_free(struct bonds *b)
     memory_free(b->pattern);
     memory_free(b->folded);
     memory_free(b->changed);
-    memory_free(b->settled);
     patterns_free(b->patterns);
     lattice_leave(b->sites);
     memory_free(b->plastic_stretch);

@@ -162,7 +162,7 @@ static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_s
 {
     bonds_renew(b, p, source);
     families_know(b, p, source);
-    return bond_break_made(b, p, &source->limit);
+    return bond_break_all(b, p, &source->limit);
 }
 
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
