@@ -128,7 +128,7 @@ static void draw_floor(FILE *to, const struct floor *f)
         fprintf(to, "\"%s\" %.4g %d %.3g\n", a->name, fmin(shown, most), f->figures - k, shown);
     }
     fputs("EOD\n", to);
-    set_panel(to, 0.30, 0.97, 0.05, 0.26);
+    set_panel(to, 0.36, 0.97, 0.05, 0.26);
     fprintf(to,
             "set title 'speed floor: measured over asked (1 or less is met)'\nset xrange [0:%g]\nset yrange "
             "[0.4:%d.6]\nset xtics auto norotate\nset grid noy\n"
