@@ -55,6 +55,18 @@ struct particles {
  * mirror of load `load`. */
 struct image { int32_t source; uint8_t load; };
 
+/* Marks of eight particles in a row, a byte each; eight times the same. */
+static inline uint64_t eight_bytes(const uint8_t *from)
+{
+    uint64_t eight;
+    memcpy(&eight, from, sizeof eight);
+    return eight;
+}
+#define EIGHT_TIMES(byte) ((uint64_t)(byte) * 0x0101010101010101)
+
+/* So many of n are the eight from `first` on. */
+static inline int eight_at(int64_t first, int64_t n) { return n - first < LANES ? (int)(n - first) : LANES; }
+
 /* The particle of the body that an image, or an image of an image, comes from. */
 static inline int64_t image_root(const struct particles *p, const struct image *image, int64_t i)
 {

@@ -82,7 +82,7 @@ static ALWAYS_INLINE lanes slot_inverse_length(const struct slot s)
     return s.kind ? lanes_excess(s.b->lattice[c->lattice].inverse, c->excess) : lanes_load(s.b->inverse_length + s.number * LANES);
 }
 
-/* Lanes with an intact bond; of SLOT_FREE not known. */
+/* Lanes with an intact bond. */
 static ALWAYS_INLINE uint8_t slot_intact(const struct slot s)
 {
     return s.pattern ? s.pattern->intact : s.b->common[s.number].intact;

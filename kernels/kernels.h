@@ -92,8 +92,8 @@ typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 /* v += dt_velocity f/m, x += dt v of all peridynamic particles that are awake and that the grid does not move. */
 typedef void pd_move_fn(struct particles *p, const struct bonds *b, real dt, real dt_velocity);
 
-/* Whether one of the n listed particles, in ascending order, is faster than `limit` [m/s] or has a place or velocity that is
- * no finite number. */
+/* Whether one of the n listed particles, in ascending order from a 32-byte boundary on, is faster than `limit` [m/s] or has a
+ * place or velocity that is no finite number. */
 KERNEL(bool, particles_out_of_hand, (const struct particles *p, const int32_t *list, int64_t n, real limit));
 
 /* First map: mass, momentum, and force -V sigma_given . grad N + N f (Zeng et al. 2022, eqs. 33-38). */

@@ -22,24 +22,12 @@ static bool rows_last(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* So many of n particles are the eight from `first` on. */
-static inline int eight_at(int64_t first, int64_t n) { return n - first < LANES ? (int)(n - first) : LANES; }
-
-/* Is one of them wanted? */
-static inline bool any_wanted(const uint8_t *wanted, int64_t first, int64_t n)
-{
-    uint64_t eight = 0;
-    if (first + LANES <= n) memcpy(&eight, wanted + first, LANES);
-    else memcpy(&eight, wanted + first, (size_t)(n - first));
-    return eight != 0;
-}
-
 /* Eight particles of consecutive numbers have rows together: a group is the same eight for as long as it is there, it writes
  * whole vectors, and on a lattice its neighbours are consecutive, too. Rows that nobody asked for have no bonds. */
 static void rows_complete(uint8_t *wanted, int64_t n)
 {
     for (int64_t first = 0; first < n; first += LANES)
-        if (any_wanted(wanted, first, n)) memset(wanted + first, 1, (size_t)eight_at(first, n));
+        if (eight_bytes(wanted + first)) memset(wanted + first, 1, (size_t)eight_at(first, n));
 }
 
 /* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` those that have to be
@@ -86,13 +74,13 @@ static void rows_list(struct bonds *b, const struct particles *p, const uint8_t 
     int32_t row = 0;
     b->rows = 0;
     for (int64_t first = 0; first < p->n; first += LANES)
-        if (any_wanted(wanted, first, p->n)) b->rows += eight_at(first, p->n);
+        if (eight_bytes(wanted + first)) b->rows += eight_at(first, p->n);
     b->groups = (b->rows + LANES - 1) / LANES;
     b->particle = NEW("bonds.particle", b->groups * LANES, int32_t);
     b->row_of = BARE("bonds.row_of", p->n_all, int32_t);
     memset(b->row_of, 0xff, (size_t)p->n_all * sizeof *b->row_of);                                      /* -1: none */
     for (int64_t first = 0; first < p->n; first += LANES)
-        for (int l = 0; l < eight_at(first, p->n) && any_wanted(wanted, first, p->n); l++, row++)
+        for (int l = 0; eight_bytes(wanted + first) && l < eight_at(first, p->n); l++, row++)
             b->particle[row] = (int32_t)first + l, b->row_of[first + l] = row;
     for (int64_t r = b->rows; r < b->groups * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
@@ -247,7 +235,7 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     b->patterns = patterns_make(old ? old->patterns : NULL);
     struct lattice *lattice = lattice_keep(old ? old->sites : NULL, s, p);
     int most = bonds_room(s);
-    uint8_t *wanted = NEW("bonds.wanted", p->n, uint8_t);
+    uint8_t *wanted = NEW("bonds.wanted", p->n + LANES, uint8_t);          /* nobody wants who is behind the body */
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
     mark_rows(s, p, old, lattice, most, wanted, fresh);
     rows_list(b, p, wanted);

@@ -110,7 +110,7 @@ int group_regular_bonds(const struct lattice_bonds *bonds);
 struct pair_table pairs_make(const struct bond_source *s);
 static inline int group_rows(const struct bonds *b, int64_t g)
 {
-    return b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
+    return eight_at(g * LANES, b->rows);
 }
 
 /* A thread's room for the eight rows of a group. */

@@ -64,21 +64,12 @@ static bool triggers(const struct conversion_rule *rule, const struct particles 
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
-/* The flags of eight particles from the i-th on; behind the body lie images, which have none that are asked for. */
-static inline uint64_t flags_at(const struct particles *p, int64_t i)
-{
-    uint64_t flags;
-    memcpy(&flags, p->flag + i, sizeof flags);
-    return flags;
-}
-
-#define EIGHT_TIMES(flag) ((uint64_t)(flag) * 0x0101010101010101)
-
+/* Eight particles at a time: behind the body lie images, which have no flag that is asked for. */
 bool convert_due(const struct particles *p)
 {
     uint64_t any = 0;
 #pragma omp parallel for simd schedule(static) reduction(| : any)
-    for (int64_t i = 0; i < p->n; i += LANES) any |= flags_at(p, i) & EIGHT_TIMES(FLAG_CUT | FLAG_STRESSED);
+    for (int64_t i = 0; i < p->n; i += LANES) any |= eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_CUT | FLAG_STRESSED);
     return any != 0;
 }
 
@@ -116,7 +107,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     struct index_list triggered = {0};
     struct near near = {0};
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(flags_at(p, first) & EIGHT_TIMES(FLAG_CUT | FLAG_CRACKED | FLAG_STRESSED))) continue;
+        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_CUT | FLAG_CRACKED | FLAG_STRESSED))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) {
             if (triggers(rule, p, i)) list_add(&triggered, i);
             p->flag[i] &= (uint8_t)~(FLAG_CUT | FLAG_CRACKED | FLAG_STRESSED);

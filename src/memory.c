@@ -189,7 +189,7 @@ void memory_free(void *pointer)
 
 void memory_reuse(bool reuse)
 {
-#ifdef __GLIBC__
+#ifdef __GLIBC__                          /* nor does the heap give back pages, or merge small pieces whenever a large one is freed */
     if (reuse) mallopt(M_TRIM_THRESHOLD, KEPT_ALL), mallopt(M_MXFAST, 0);
 #endif
 #ifdef MAP_ANONYMOUS

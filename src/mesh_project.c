@@ -57,10 +57,13 @@ static ALWAYS_INLINE real inner_product(const real *from, int64_t row, int64_t l
     return 0.375 * (plane_product(from - layer, row) + plane_product(from + layer, row)) + 1.25 * plane_product(from, row);
 }
 
+static bool is_unknown(const struct projection *m, int64_t I) { return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]); }
+
+/* Cell by cell. */
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const real *from, const int dim)
 {
     real sum = 0;
-    for (int c = 0; c < 1 << dim && m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]); c++) {
+    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++) {
         const int64_t cell = I - m->mesh->corner[c];
         sum += value ? cell_sum(m, cell, c, value, dim) : cell_product(m, cell, c, from, dim);
     }
@@ -88,7 +91,7 @@ static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
     real mass = 0;
-    if (!(m->mesh->inverse_mass[I] > 0) || (m->node && !m->node[I])) return 0;
+    if (!is_unknown(m, I)) return 0;
     for (int c = 0; c < 1 << dim; c++)
         for (int q = 0; q < 1 << dim; q++) {
             const int32_t i = m->mesh->point[((I - m->mesh->corner[c]) << dim) + q];

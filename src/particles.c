@@ -185,41 +185,29 @@ void particles_sort(struct particles *p, real spacing, int optional)
     particles_list(p);
 }
 
-static void list_one(struct particles *p, int64_t i)
-{
-    assert(p->kind[i] < KINDS);
-    p->list[p->kind[i]][p->n_of[p->kind[i]]++] = (int32_t)i;
-    if (p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED)) p->list_free[p->n_free++] = (int32_t)i;
-}
-
 /* Are the eight particles from i on of one kind, and all moved by nodes or none? */
 static bool eight_alike(const struct particles *p, int64_t i)
 {
-    const uint64_t each = 0x0101010101010101;
-    uint64_t kind, flag;
-    memcpy(&kind, p->kind + i, sizeof kind), memcpy(&flag, p->flag + i, sizeof flag);
-    flag &= each * FLAG_MESHED;
-    return kind == each * p->kind[i] && (flag == 0 || flag == each * FLAG_MESHED);
+    const uint64_t meshed = eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
+    return eight_bytes(p->kind + i) == EIGHT_TIMES(p->kind[i]) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
-static void list_eight(int32_t *list, int64_t *n, int64_t i)
+/* Particles i .. i + more - 1, to the end of a list of n. */
+static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
 {
-    for (int l = 0; l < LANES; l++) list[*n + l] = (int32_t)i + l;
-    *n += LANES;
+    for (int l = 0; l < more; l++) list[*n + l] = (int32_t)i + l;
+    *n += more;
 }
 
 void particles_list(struct particles *p)
 {
     for (int kind = 0; kind < KINDS; kind++) p->n_of[kind] = 0;
     p->n_free = 0;
-    for (int64_t i = 0, step; i < p->n; i += step) {
-        const bool alike = i + LANES <= p->n && eight_alike(p, i);
-        step = alike ? LANES : 1;
-        if (!alike) {
-            list_one(p, i);
-            continue;
-        }
-        list_eight(p->list[p->kind[i]], &p->n_of[p->kind[i]], i);
-        if (p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED)) list_eight(p->list_free, &p->n_free, i);
+    for (int64_t i = 0; i < p->n;) {
+        const int alike = i + LANES <= p->n && eight_alike(p, i) ? LANES : 1, kind = p->kind[i];
+        assert(kind < KINDS);
+        list_append(p->list[kind], &p->n_of[kind], i, alike);
+        if (kind == KIND_MPM && !(p->flag[i] & FLAG_MESHED)) list_append(p->list_free, &p->n_free, i, alike);
+        i += alike;
     }
 }

@@ -200,12 +200,13 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
     o->cell_start[o->cells] = (int32_t)o->n;
 }
 
+/* All of it is written before it is read. */
 static void sorting_make(struct sorting *s)
 {
     s->chunks = omp_get_max_threads();
-    s->rank = NEW("transfer.rank", s->shape.n, int32_t), s->fill = NEW("transfer.fill", s->chunks * s->shape.n, int32_t);
-    s->key = NEW("transfer.key", s->n, int32_t), s->bucket = NEW("transfer.bucket", s->n, int32_t);
-    s->inside = NEW("transfer.inside", s->n, uint16_t), s->sorted = NEW("transfer.sorted", s->n, uint16_t);
+    s->rank = BARE("transfer.rank", s->shape.n, int32_t), s->fill = BARE("transfer.fill", s->chunks * s->shape.n, int32_t);
+    s->key = BARE("transfer.key", s->n, int32_t), s->bucket = BARE("transfer.bucket", s->n, int32_t);
+    s->inside = BARE("transfer.inside", s->n, uint16_t), s->sorted = BARE("transfer.sorted", s->n, uint16_t);
 }
 
 static void sorting_free(struct sorting *s)

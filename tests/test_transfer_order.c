@@ -129,11 +129,39 @@ static void test_transfer_order_growth(void **state)
     }
 }
 
+/* Each thread sorts a part of the list: nobody sees how many there are. */
+static void test_transfer_order_threads(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct cloud c;
+        struct grid g;
+        struct transfer_order one = {0}, many = {0};
+        scatter_points(&c, dim, &g);
+        team_make(1);
+        transfer_order_sort(&one, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
+        for (int threads = 2; threads <= 7; threads++) {
+            team_make(threads);
+            transfer_order_sort(&many, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
+            assert_int_equal(one.cells, many.cells);
+            assert_memory_equal(one.particle, many.particle, (size_t)one.n * sizeof(int32_t));
+            assert_memory_equal(one.cell_start, many.cell_start, (size_t)(one.cells + 1) * sizeof(int32_t));
+            assert_memory_equal(one.block_start, many.block_start, (size_t)(one.blocks + 1) * sizeof(int32_t));
+        }
+        team_make(2);
+        transfer_order_free(&one);
+        transfer_order_free(&many);
+        grid_free(&g);
+        cloud_free(&c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_transfer_order),
         cmocka_unit_test(test_transfer_order_growth),
+        cmocka_unit_test(test_transfer_order_threads),
     };
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
 /* floor 5: tests of the ledger of energy and momentum, the first break, and the alarm. */
 #include "bodies.h"
+#include "kernels.h"
 #include "watch.h"
 
 /* v = (2, -1) + a shear that adds nothing to the momentum. */
@@ -193,6 +194,36 @@ static void alarm_names_the_first_runaway(void **state)
     body_free(&b);
 }
 
+/* Whoever of a list it is, and nobody beside it: lists in one piece, with gaps and with ends of every length. */
+static void alarm_sees_everybody_listed(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct body b;
+        body_make(&b, dim, (const int[]){dim == 1 ? 64 : 16, 4, 1});
+        const real limit = 5000, wild[3] = {1.0000001 * limit, -INFINITY, NAN};
+        for (int64_t n = 0; n <= 40; n++)
+            for (int64_t k = 0; k < 64; k++) {
+                const bool gaps = n % 2;                /* every other particle up to the 16th is left out */
+                bool listed = false;
+                b.p.n_of[KIND_PD] = 0;
+                for (int64_t i = 0; b.p.n_of[KIND_PD] < n; i++) {
+                    if (gaps && i < 16 && i % 2) continue;
+                    b.p.list[KIND_PD][b.p.n_of[KIND_PD]++] = (int32_t)i;
+                    listed = listed || i == k;
+                }
+                real *of = k % 3 == 1 ? &b.p.x[dim - 1][k] : &b.p.v[dim - 1][k], calm = *of;
+                assert_false(particles_out_of_hand(&b.p, b.p.list[KIND_PD], n, limit));
+                *of = wild[k % 3];
+                assert_int_equal(particles_out_of_hand(&b.p, b.p.list[KIND_PD], n, limit), listed);
+                *of = k % 3 == 1 ? 1e300 : 0.9999999 * limit;
+                assert_false(particles_out_of_hand(&b.p, b.p.list[KIND_PD], n, limit));
+                *of = calm;
+            }
+        body_free(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -201,6 +232,7 @@ int main(void)
         cmocka_unit_test(strain_energy_of_material_points),
         cmocka_unit_test(first_break_is_booked_once),
         cmocka_unit_test(alarm_names_the_first_runaway),
+        cmocka_unit_test(alarm_sees_everybody_listed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
