@@ -22,14 +22,22 @@ struct place {
     hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
 };
 
+/* Looked at once, since it takes some 6 ms, a hundred steps of a small scene; and kept as long as the process. NULL: hidden. */
+static hwloc_topology_t topology(void)
+{
+    static hwloc_topology_t known;
+    if (known) return known;
+    setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
+    if (hwloc_topology_init(&known) != 0) return known = NULL;
+    if (hwloc_topology_load(known) == 0) return known;
+    hwloc_topology_destroy(known);
+    return known = NULL;
+}
+
 static bool place_make(struct place *place)
 {
-    setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
-    if (hwloc_topology_init(&place->topology) != 0) return false;
-    if (hwloc_topology_load(place->topology) != 0) {
-        hwloc_topology_destroy(place->topology);
-        return false;
-    }
+    place->topology = topology();
+    if (!place->topology) return false;
     hwloc_const_cpuset_t allowed = hwloc_topology_get_allowed_cpuset(place->topology);
     place->mask = hwloc_bitmap_alloc();
     if (hwloc_get_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD) != 0)
@@ -39,11 +47,7 @@ static bool place_make(struct place *place)
     return true;
 }
 
-static void place_free(struct place *place)
-{
-    hwloc_bitmap_free(place->mask);
-    hwloc_topology_destroy(place->topology);
-}
+static void place_free(struct place *place) { hwloc_bitmap_free(place->mask); }
 
 /* The k-th physical core of the mask; NULL past the last. */
 static hwloc_obj_t core_at(const struct place *place, int k)
@@ -98,8 +102,9 @@ struct machine team_machine(void)
 /* ---- the team -------------------------------------------------------------------------------------- */
 
 /* Each helper to a core of its own, or back to the whole mask where there are not enough cores. The calling
- * thread stays free: its mask is what tells the next call (another team size) what the process may use, the
- * programs it starts inherit it, and with all helpers in place the scheduler has one core to put it. */
+ * thread goes to the first and stays free: its mask is what tells the next call (another team size) what the process may use,
+ * and the programs it starts inherit it. Left where looking at the machine ends, on a helper's core, it would share that for
+ * some 20 ms, until the scheduler sees it. */
 static void bind_helpers(const struct place *place, int threads)
 {
     bool apart = core_at(place, threads - 1) != NULL;
@@ -108,7 +113,8 @@ static void bind_helpers(const struct place *place, int threads)
         int k = omp_get_thread_num();
         hwloc_bitmap_t mine = hwloc_bitmap_dup(place->mask);
         if (apart) hwloc_bitmap_and(mine, mine, core_at(place, k)->cpuset);
-        if (k > 0) hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD);   /* a wish: refusal does no harm */
+        hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD);              /* a wish: refusal does no harm */
+        if (k == 0) hwloc_set_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD);
         hwloc_bitmap_free(mine);
     }
 }
