@@ -92,7 +92,7 @@ static void job_call(const struct job *j, struct ground *g)
     real impulse[DIM_MAX] = {0}, work = 0;
     switch (j->kind) {
     case BOND_FORCE:
-        k.bond_force(&pd->bonds, &pd->part, &pd->source.limit);
+        k.bond_force(&pd->bonds, &pd->part, &pd->source.limit, NULL);
         break;
     case BOND_ENERGY:
         k.bond_energy(&pd->bonds, &pd->part);
@@ -101,7 +101,7 @@ static void job_call(const struct job *j, struct ground *g)
         k.bond_stress(&pd->bonds, &pd->part);
         break;
     case PD_MOVE:
-        pd_move_table[j->dim](&pd->part, &pd->bonds, 1e-12, 1e-12);
+        pd_move_table[j->dim](&pd->part, pd->part.list[KIND_PD], pd->part.n_of[KIND_PD], &(struct pd_motion){1e-12, 1e-12, INFINITY, NULL, false});
         break;
     case P2G:
         p2g_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer);

@@ -302,7 +302,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     if (ran == OK) ran = peer_solution(peer, e.part.n);
     if (ran == OK) {
         r->own = fmin(r->own, e.loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
-        e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit);     /* there the last places have broken bonds already */
+        e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit, NULL);     /* there the last places have broken bonds already */
         compare(r, &e, peer, damage);
         r->known = true;
     }

@@ -46,7 +46,7 @@ static double memory_from_here(void)
 static bool machine_holds(const struct bench_block *block, double particles)
 {
     const double each = block->dim == 2 ? 350 : 1000;
-    return each * particles < 0.7 * (double)team_machine().memory;
+    return each * particles < 0.7 * (double)team_memory();
 }
 
 /* ---- output ---------------------------------------------------------------------------------------------- */
@@ -201,7 +201,7 @@ static status measure_way(struct scale_bench *b, int way, int sizes, bool quick)
         if (block->dim == 3 && k > 2) continue;
         if (!machine_holds(block, particles)) {
             printf("  %-20s %dD %9.3g  more than this machine's %.0f GB should be asked to hold: left out\n", block->name,
-                   block->dim, particles, 1e-9 * (double)team_machine().memory);
+                   block->dim, particles, 1e-9 * (double)team_memory());
             continue;
         }
         struct size_result *r = &b->at[way][k];

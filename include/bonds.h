@@ -159,6 +159,7 @@ struct lattice;                          /* the map of its sites (bonds_lattice.
 struct bonds {
     int64_t rows, groups, slots;
     int64_t n;                           /* directed bonds in the rows, broken ones included              */
+    int32_t reach;                       /* groups: nobody has a bond to a row farther on                 */
     int32_t *particle;                   /* [groups 8] particle of a row; padding rows repeat the last    */
     int32_t *row_of;                     /* [n_all] row of a particle, -1 without                         */
     int64_t *slot;                       /* [groups + 1] first slot of a group                            */

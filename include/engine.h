@@ -52,6 +52,7 @@ struct engine {
     struct mesh_source mesh_source;
     struct elastic *cell_elastic;        /* [materials] constants of its cells                        */
     real mesh_speed;                     /* largest component of a nodal velocity              [m/s]  */
+    bool wild;                           /* a peridynamic particle is out of hand                     */
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
     struct solver solver;

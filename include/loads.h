@@ -71,6 +71,9 @@ struct held_set {
 struct loads {
     int n;
     struct load *load;
+    uint8_t *loaded;                     /* [particles] 1 where something else than bonds and the grid may move it; NULL: nowhere */
+    int64_t listed;
+    int32_t *list;                       /* [listed] those, ascending                                 */
     int64_t images;
     struct image *image;
     real impulse[DIM_MAX];               /* given by loads and supports since the start       [N s]   */
@@ -84,6 +87,8 @@ struct loads {
     int64_t share_room;
     struct held_set held, held_mesh;     /* nodes in driven regions and on mirrors; driven ones of the mesh */
 };
+
+static inline bool is_loaded(const struct loads *l, int64_t i) { return l->loaded && l->loaded[i]; }
 
 /* Finds the particles of one boundary (none of a mirror), ascending, and their shares; marks FLAG_DRIVEN. */
 void load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
@@ -115,8 +120,6 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int 
  * mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */
 void loads_mirror(const struct loads *l, struct particles *p);
 
-/* 1 at every particle [n] that a load lists: something else than bonds and the grid may move it. */
-void loads_mark(const struct loads *l, uint8_t *loaded);
 /* Before bonds: f = 0 on every loaded particle (loads_applied.c). After bonds: books what mirror images gave, adds applied forces; for
  * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step, where the kick
  * ends that began dt_velocity before. */

@@ -17,7 +17,6 @@ struct rest_points {
     bool over;                           /* all are awake for good                                   */
     int64_t nodes;
     uint8_t *busy, *near;                /* [nodes] cells by their lowest node                       */
-    uint8_t *loaded;                     /* [n] points that a load lists                             */
     struct transfer_order awake;
 };
 

@@ -17,6 +17,7 @@ struct machine {
  * OMP_PROC_BIND or OMP_PLACES; the calling thread goes to the first and keeps the mask. Returns the number in use. */
 int team_make(int threads);
 struct machine team_machine(void);
+int64_t team_memory(void);               /* of the machine [byte]; needs no look at it after team_make */
 
 /* Wall clock [s]. */
 double team_clock(void);

@@ -68,8 +68,9 @@ real watch_energy_change(const struct watch *w);
 void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, real t);
 
 /* FAILED with place, step, cause and `cure` if a position or velocity is not finite or a particle outruns `limit`
- * [m/s] (the fastest wave of the scene). Points of a mesh are looked at only if told so: their nodes are watched. */
-status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, const char *cure);
+ * [m/s] (the fastest wave of the scene). Peridynamic particles and points of a mesh are looked at only if told so: whoever moves
+ * them, or their nodes, watches them. */
+status watch_alarm(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step, real t, const char *cure);
 
 status watch_archive(struct watch *w, struct archive *a);
 

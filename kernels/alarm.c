@@ -21,14 +21,13 @@ static ALWAYS_INLINE lanes_mask out_of_hand(const struct particles *p, const int
 
 static ALWAYS_INLINE bool any_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit2, const int dim)
 {
-    const int64_t whole = n / LANES * LANES;
     int64_t found = 0;
 #pragma omp parallel for schedule(static) reduction(+ : found)
-    for (int64_t k = 0; k < whole; k += LANES) found += lanes_any(out_of_hand(p, list + k, limit2, dim));
-    if (found > 0 || whole == n) return found > 0;
-    _Alignas(sizeof(lanes)) int32_t last[LANES];
-    for (int l = 0; l < LANES; l++) last[l] = list[whole + l < n ? whole + l : whole];   /* never consecutive */
-    return lanes_any(out_of_hand(p, last, limit2, dim));
+    for (int64_t k = 0; k < n; k += LANES) {
+        _Alignas(sizeof(lanes)) int32_t room[LANES];
+        found += lanes_any(out_of_hand(p, list_eight(list, k, n, room), limit2, dim));
+    }
+    return found > 0;
 }
 
 bool particles_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit)

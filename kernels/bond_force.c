@@ -11,6 +11,7 @@
 #include "bond_slot.h"
 #include "kernels.h"
 #include "lanes.h"
+#include "sweep.h"
 #include "variants.h"
 
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
@@ -59,19 +60,20 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
     return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
 }
 
-#define INSTANCE(D, M)                                                                                   \
-    static int64_t bond_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit) \
-    {                                                                                                    \
-        int64_t broken = 0;                                                                              \
-        _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                               \
-        for (int64_t k = 0; k < b->rest.awake; k++) {                                                    \
-            const int64_t g = b->rest.list[k];                                                           \
-            if (!bond_force_group(b, p, g, 1, D, PD_##M)) continue;                                      \
-            int64_t here = bond_break_group(b, p, limit, g);                                             \
-            if (here > 0 && !limit->whole_force) bond_force_group(b, p, g, 0.5, D, PD_##M);              \
-            broken += here;                                                                              \
-        }                                                                                                \
-        return broken;                                                                                   \
+/* Force of one group and the breaking of its bonds; returns how many broke. */
+static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g,
+                                                  const int dim, const enum pd_model model)
+{
+    if (!bond_force_group(b, p, g, 1, dim, model)) return 0;
+    const int64_t broken = bond_break_group(b, p, limit, g);
+    if (broken > 0 && !limit->whole_force) bond_force_group(b, p, g, 0.5, dim, model);
+    return broken;
+}
+
+#define INSTANCE(D, M)                                                                                                           \
+    static int64_t bond_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *m) \
+    {                                                                                                                            \
+        SWEEP(b, p, m, D, bond_force_and_break(b, p, limit, group, D, PD_##M));                                                                                      \
     }
 PD_VARIANTS(INSTANCE)
 

@@ -54,13 +54,23 @@ struct transfer_data {
     bool bare;                           /* carried peridynamic particles: no stress to give, none to update */
 };
 
+/* How peridynamic particles move in a step. */
+struct pd_motion {
+    real dt;                             /* [s]                                                       */
+    real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
+    real fastest;                        /* whoever is faster, or no number, is out of hand   [m/s]   */
+    const uint8_t *loaded;               /* [n] not 0: waits for what loads give; NULL: nobody does   */
+    bool wild;                           /* somebody is out of hand                                   */
+};
+
 /* Force of all intact bonds on the particle of every row that is awake (rest.h; overwrites f there), then breaks what is stretched beyond its limit.
  * A bond acts with half its force in the step in which it breaks: a leap-frog kick stands half before and half after that
  * instant, so the energy of breaking is second order in the time step (all or nothing of it is first order). Sets
  * FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves 4 bytes
  * per bond from memory on a lattice, 12 where weights differ, 16 or 24 elsewhere (bond_slot.h); positions come from
- * cache. Returns the directed bonds broken. */
-typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit);
+ * cache. Returns the directed bonds broken. With `motion` peridynamic particles that are awake, that the grid does not move and that
+ * are not `loaded` move in the same sweep (sweep.h). */
+typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *motion);
 
 /* What particles know of their families, into b->state: the first half of a state-based force. Whoever breaks bonds of rows
  * just made calls it before: the energy of a bond is in it. */
@@ -89,8 +99,9 @@ KERNEL(real, bond_plastic_work, (const struct bonds *b));
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
-/* v += dt_velocity f/m, x += dt v of all peridynamic particles that are awake and that the grid does not move. */
-typedef void pd_move_fn(struct particles *p, const struct bonds *b, real dt, real dt_velocity);
+/* v += dt_velocity f/m, x += dt v of those of the n listed particles that are peridynamic and that the grid does not move; in
+ * ascending order from a 32-byte boundary on. Returns whether one of them is out of hand. */
+typedef bool pd_move_fn(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *motion);
 
 /* Whether one of the n listed particles, in ascending order from a 32-byte boundary on, is faster than `limit` [m/s] or has a
  * place or velocity that is no finite number. */

@@ -7,6 +7,7 @@
 #include "polar.h"
 #include "polar_lanes.h"
 #include "state_laws.h"
+#include "sweep.h"
 #include "turn.h"
 #include "variants.h"
 
@@ -244,30 +245,31 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
     for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d], share);
 }
 
-#define INSTANCE(D, M)                                                                                       \
-    static void state_know_##D##d_##M(struct bonds *b, const struct particles *p)                            \
-    {                                                                                                        \
-        _Pragma("omp parallel for schedule(static)")                                                         \
-        for (int64_t k = 0; k < b->rest.awake; k++)                                                          \
-            state_group(b, p, b->rest.list[k], D, PD_##M);                                                   \
-        _Pragma("omp parallel for schedule(static)")                                                         \
-        for (int64_t g = 0; g < b->groups; g++) state_of_points(b, p, g, D, PD_##M);                         \
-        state_of_images(b, p, D, state_turns(PD_##M));                                                       \
-    }                                                                                                        \
-    static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit) \
-    {                                                                                                        \
-        int64_t broken = 0;                                                                                  \
-        state_know_##D##d_##M(b, p);                                                                         \
-        _Pragma("omp parallel for schedule(static) reduction(+ : broken)")                                   \
-        for (int64_t k = 0; k < b->rest.awake; k++) {                                                        \
-            const int64_t g = b->rest.list[k];                                                               \
-            force_group(b, p, g, 1, D, PD_##M);                                                              \
-            if (!b->state.past[g]) continue;                                                                 \
-            int64_t here = bond_break_group(b, p, limit, g);                                                 \
-            if (here > 0 && !limit->whole_force) force_group(b, p, g, 0.5, D, PD_##M);                       \
-            broken += here;                                                                                  \
-        }                                                                                                    \
-        return broken;                                                                                       \
+/* Force of one group and the breaking of its bonds; returns how many broke. */
+static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g,
+                                             const int dim, const enum pd_model model)
+{
+    force_group(b, p, g, 1, dim, model);
+    if (!b->state.past[g]) return 0;
+    const int64_t broken = bond_break_group(b, p, limit, g);
+    if (broken > 0 && !limit->whole_force) force_group(b, p, g, 0.5, dim, model);
+    return broken;
+}
+
+#define INSTANCE(D, M)                                                                                                            \
+    static void state_know_##D##d_##M(struct bonds *b, const struct particles *p)                                                 \
+    {                                                                                                                             \
+        _Pragma("omp parallel for schedule(static)")                                                                              \
+        for (int64_t k = 0; k < b->rest.awake; k++)                                                                               \
+            state_group(b, p, b->rest.list[k], D, PD_##M);                                                                        \
+        _Pragma("omp parallel for schedule(static)")                                                                              \
+        for (int64_t g = 0; g < b->groups; g++) state_of_points(b, p, g, D, PD_##M);                                              \
+        state_of_images(b, p, D, state_turns(PD_##M));                                                                            \
+    }                                                                                                                             \
+    static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *m) \
+    {                                                                                                                             \
+        state_know_##D##d_##M(b, p);                                                                                              \
+        SWEEP(b, p, m, D, force_and_break(b, p, limit, group, D, PD_##M));                                                        \
     }
 STATE_VARIANTS(INSTANCE)
 

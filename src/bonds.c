@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <omp.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "memory.h"
@@ -132,6 +133,22 @@ static bool is_regular(const struct rows_pass *pass, struct group_room *room, in
            group_regular(m->lattice, m->source, m->p, particle[0], &room->regular);
 }
 
+static void reach_widen(int32_t *reach, int32_t distance)
+{
+    if (abs(distance) > *reach) *reach = abs(distance);
+}
+
+/* How far in the list of particles a group's rows look; images have no rows. */
+static void note_reach(const struct rows_pass *pass, struct group_room *room, int64_t g, bool regular)
+{
+    const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
+    for (int k = 0; regular && k < room->regular.n; k++)
+        if (particle[0] + room->regular.offset[k] < n) reach_widen(&room->reach, room->regular.offset[k]);
+    for (int l = 0; !regular && l < group_rows(pass->b, g); l++)
+        for (int k = 0; k < room->row[l].n; k++)
+            if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
+}
+
 /* Counts the slots of a group, or fills them; returns its bonds. */
 static int64_t group_pass(const struct rows_pass *pass, struct group_room *room, int64_t g)
 {
@@ -143,7 +160,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
     bool by_offset;
     if (pass->count) b->changed[g] = group_inherits(m->old, particle, rows);
     if (is_regular(pass, room, g)) {
-        if (pass->count) b->slot[g + 1] = group_regular_slots(&room->regular);
+        if (pass->count) b->slot[g + 1] = group_regular_slots(&room->regular), note_reach(pass, room, g, true);
         else group_fill_regular(b, room, g, m);
         return group_regular_bonds(&room->regular);
     }
@@ -154,7 +171,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
         made += room->row[l].n;
     }
     const int slots = group_slots(room, particle, rows, &by_offset);
-    if (pass->count) b->slot[g + 1] = slots;
+    if (pass->count) b->slot[g + 1] = slots, note_reach(pass, room, g, false);
     else group_fill(b, room, g, rows, by_offset, m->p);
     if (pass->count && pass->found) pass->found[g] = group_found_make(room->row, rows);
     return made;
@@ -166,7 +183,8 @@ static int64_t rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
     int64_t made = 0;
-#pragma omp parallel reduction(+ : made)
+    int32_t reach = 0;
+#pragma omp parallel reduction(+ : made) reduction(max : reach)
     {
         struct group_room room = {0};
         group_room_make(&room, m->room, m->lattice);
@@ -178,8 +196,11 @@ static int64_t rows_pass(const struct rows_pass *pass)
             else group_keep(pass->b, m->old, g, from);
             made += pass->b->made[g];
         }
+        reach = room.reach;
         group_room_free(&room);
     }
+    const int32_t groups = (reach + LANES - 1) / LANES;
+    if (groups > pass->b->reach) pass->b->reach = groups;
     return made;
 }
 
@@ -232,6 +253,7 @@ static void rows_carry(struct bonds *b, const struct bonds *old)
 void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
+    if (old) b->reach = old->reach;              /* rows that are kept were looked at then */
     b->patterns = patterns_make(old ? old->patterns : NULL);
     struct lattice *lattice = lattice_keep(old ? old->sites : NULL, s, p);
     int most = bonds_room(s);

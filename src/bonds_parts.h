@@ -122,6 +122,7 @@ struct group_room {
     struct slot_copy *slot;              /* [LANES room] of a group            */
     struct pattern pattern;              /* what they make                     */
     const struct pattern *likely;        /* that of the group before           */
+    int32_t reach;                       /* farthest index distance so far     */
 };
 void group_room_make(struct group_room *g, int room, const struct lattice *lattice);
 void group_room_free(struct group_room *g);

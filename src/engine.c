@@ -34,7 +34,7 @@ static status points_sort(struct engine *e)
         if (k == KIND_MPM) bounds_widen(p, p->list_free, p->n_free, from, to);
         else if (coupling_unified(e->coupling)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
     for (int d = 0; d < p->dim; d++)
-        if (!isfinite(to[d] - from[d])) return watch_alarm(p, false, e->wave_speed, e->step, e->t, e->cure);
+        if (!isfinite(to[d] - from[d])) return watch_alarm(p, true, false, e->wave_speed, e->step, e->t, e->cure);
     int64_t most = 64 * p->n + 1000000;          /* far more than any sound run needs; an index is 32 bits */
     TRY(grid_cover(&e->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
     transfer_order_sort(&e->order, p, p->list_free, p->n_free, &e->grid);
@@ -123,6 +123,20 @@ static void renew_partial(struct engine *e, bool changed)
 
 /* ---- the step ------------------------------------------------------------------------------------------- */
 
+/* Where nobody looks at the body between forces and motion, particles that nothing but bonds moves do so as soon as the sweep of
+ * forces has passed (kernels/sweep.h). */
+static bool moves_at_once(const struct engine *e) { return !e->sampling.due && e->scene->growths == 0; }
+
+/* The others, or all. */
+static void move_peridynamic(struct engine *e, struct pd_motion *motion)
+{
+    struct particles *p = &e->part;
+    const struct loads *l = &e->loads;
+    motion->wild |= moves_at_once(e) ? e->kernels.pd_move(p, l->list, l->listed, motion)
+                                     : e->kernels.pd_move(p, p->list[KIND_PD], p->n_of[KIND_PD], motion);
+    e->wild = motion->wild;
+}
+
 status engine_step(struct engine *e)
 {
     const struct kernels *k = &e->kernels;
@@ -130,6 +144,7 @@ status engine_step(struct engine *e)
     const struct scene *s = e->scene;
     const real middle = e->t + 0.5 * e->dt;
     const real dt_velocity = e->step == 0 ? 0.5 * e->dt : e->dt;           /* velocities stand half a step behind */
+    struct pd_motion motion = {e->dt, dt_velocity, e->wave_speed, e->loads.loaded, false};
     e->transfer.dt_velocity = dt_velocity;
 
     engine_return(e);                                                       /* peridynamic -> material point */
@@ -139,14 +154,14 @@ status engine_step(struct engine *e)
     TRY(grid_sort(e));
     if (e->rim.points > 0 && e->rim_share > 0) e->damped += rim_damp(&e->rim, p, e->rim_share);
     lap(&e->laps, LAP_GRID);
-    loads_clear(&e->loads, p);
-    int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit);         /* 2, 5: forces of bonds; breaking */
+    loads_clear(&e->loads, p);                                              /* 2, 5: forces of bonds; breaking */
+    int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit, moves_at_once(e) ? &motion : NULL);
     loads_apply(&e->loads, p, middle, e->dt, dt_velocity);
     lap(&e->laps, LAP_BONDS);
     engine_sample_energy(e);
     broken += grow(e);                                                      /* 5: cracks that grow as they are told */
     lap(&e->laps, LAP_WATCH);
-    k->pd_move(p, &e->bonds, e->dt, dt_velocity);                           /* peridynamic particles move */
+    move_peridynamic(e, &motion);                                           /* peridynamic particles move */
     lap(&e->laps, LAP_BONDS);
     if (p->n_free + p->n_carried > 0) step_grid(e, middle);                 /* 1, 3, 4, 6, 7: material points move */
     else step_without_grid(e);

@@ -219,7 +219,7 @@ real engine_memory(const struct engine *e)
  * smaller than their boxes. */
 static status make_affordable(const struct engine *e)
 {
-    const real memory = (real)team_machine().memory, bytes = engine_memory(e);
+    const real memory = (real)team_memory(), bytes = engine_memory(e);
     real longest;
     if (memory <= 0 || bytes < 1.5 * memory) return OK;
     return status_set(REFUSED, "about %.2g particles would need some %.2g GB, and this machine has %.2g; choose a larger "

@@ -176,5 +176,5 @@ status engine_mesh_alarm(struct engine *e)
 {
     const bool wild = e->mesh.points > 0 && !(e->mesh_speed <= e->wave_speed / sqrt(e->part.dim));
     if (wild) mesh_points_move(&e->mesh, &e->part);
-    return watch_alarm(&e->part, wild, e->wave_speed, e->step, e->t, e->cure);
+    return watch_alarm(&e->part, e->wild || e->part.n_carried > 0, wild, e->wave_speed, e->step, e->t, e->cure);
 }

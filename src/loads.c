@@ -10,6 +10,20 @@
 
 /* ---- set-up ---------------------------------------------------------------------------------------- */
 
+/* Who is loaded. */
+static void loads_list(struct loads *l, const struct particles *p)
+{
+    int64_t most = 0;
+    for (int b = 0; b < l->n; b++) most += l->load[b].n;
+    if (most == 0) return;
+    l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
+    for (int b = 0; b < l->n; b++)
+        for (int64_t k = 0; k < l->load[b].n; k++) l->loaded[l->load[b].particle[k]] = 1;
+    l->list = NEW("loads.list", most < p->n ? most : p->n, int32_t);
+    for (int64_t i = 0; i < p->n; i++)
+        if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
+}
+
 status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
                   real reach, int optional)
 {
@@ -22,6 +36,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     for (int b = 0; b < n; b++)
         if (l->load[b].n == 0 && (boundary[b].kind == BOUNDARY_TRACTION || boundary[b].kind == BOUNDARY_BODY_FORCE))
             return status_set(REFUSED, "boundary %s: no particle lies in its region", boundary[b].name);
+    loads_list(l, p);
     loads_join(l, p->dim);
     return loads_mirrors_make(l, p, reach, optional);
 }
@@ -31,17 +46,13 @@ void loads_free(struct loads *l)
     loads_applied_free(l);
     for (int b = 0; b < l->n; b++) memory_free(l->load[b].particle);
     memory_free(l->load);
+    memory_free(l->loaded);
+    memory_free(l->list);
     memory_free(l->image);
     memory_free(l->share);
     memory_free(l->held.held);
     memory_free(l->held_mesh.held);
     memset(l, 0, sizeof *l);
-}
-
-void loads_mark(const struct loads *l, uint8_t *loaded)
-{
-    for (int c = 0; c < l->n; c++)
-        for (int64_t k = 0; k < l->load[c].n; k++) loaded[l->load[c].particle[k]] = 1;
 }
 
 /* ---- forces on particles --------------------------------------------------------------------------- */

@@ -69,11 +69,11 @@ static bool has_moved(const struct bonds *b, const struct particles *p, int64_t 
 }
 
 /* Neither places, velocities nor forces differ from nothing, and nothing but bonds will move its particles. */
-static bool is_quiet(const struct bonds *b, const struct particles *p, const uint8_t *loaded, int64_t group)
+static bool is_quiet(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t group)
 {
     for (int64_t row = group * LANES; row < b->rows && row < (group + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
-        if (loaded[i] || particle_on_grid(p, i)) return false;
+        if (is_loaded(l, i) || particle_on_grid(p, i)) return false;
         for (int d = 0; d < p->dim; d++)
             if (!bits_equal(p->v[d][i], 0) || p->f[d][i] != 0) return false;
     }
@@ -121,11 +121,8 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
 static void settle(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct rest *r = &b->rest;
-    uint8_t *loaded = NEW("rest.loaded", p->n, uint8_t);
-    loads_mark(l, loaded);
 #pragma omp parallel for schedule(static)
-    for (int64_t k = 0; k < r->blocks; k++) r->level[k] = is_quiet(b, p, loaded, k) ? 0 : (uint8_t)most_of(b);
-    memory_free(loaded);
+    for (int64_t k = 0; k < r->blocks; k++) r->level[k] = is_quiet(b, p, l, k) ? 0 : (uint8_t)most_of(b);
     for (int level = most_of(b) - 1; level > 0; level--) {
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < r->blocks; k++) r->moved[k] = r->level[k] == 0 && is_next_to(b, p, l, k, level + 1);

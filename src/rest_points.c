@@ -8,11 +8,10 @@
 /* A plane of symmetry moves nobody who is at rest. */
 static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
 
-static bool is_quiet(const struct rest_points *r, const struct particles *p, const struct bonds *b, int32_t i,
-                     bool has_gradient)
+static bool is_quiet(const struct loads *l, const struct particles *p, const struct bonds *b, int32_t i, bool has_gradient)
 {
     const int dim = p->dim;
-    bool quiet = !r->loaded[i] && (!b->row_of || b->row_of[i] < 0);
+    bool quiet = !is_loaded(l, i) && (!b->row_of || b->row_of[i] < 0);
     for (int d = 0; d < dim && quiet; d++) quiet = bits_equal(p->v[d][i], 0) && p->f[d][i] == 0;
     for (int c = 0; c < dim * (dim + 1) / 2 && quiet; c++) quiet = bits_equal(p->stress[c][i], 0);
     for (int c = 0; has_gradient && c < dim * dim && quiet; c++) quiet = bits_equal(p->gradient[c][i], 0);
@@ -64,7 +63,7 @@ static void mark(struct rest_points *r, const struct transfer_order *now, const 
     for (int32_t c = 0; c < now->cells; c++) {
         bool quiet = true;
         for (int32_t k = now->cell_start[c]; k < now->cell_start[c + 1] && quiet; k++)
-            quiet = is_quiet(r, p, b, now->particle[k], has_gradient);
+            quiet = is_quiet(l, p, b, now->particle[k], has_gradient);
         if (!quiet) r->busy[cell_of(g, p, now->particle[now->cell_start[c]])] = 1;
     }
     for (int64_t k = 0; k < g->walls; k++)
@@ -106,7 +105,6 @@ const struct transfer_order *rest_points_look(struct rest_points *r, const struc
                                               enum shape shape, enum transfer transfer)
 {
     const int64_t reach = reach_of(grid, shape, transfer);
-    if (!r->loaded) loads_mark(l, r->loaded = NEW("rest.loaded", p->n, uint8_t));
     make_room(r, grid);
     mark(r, now, p, grid, b, l, transfer == TRANSFER_APIC);
     for (int d = 0; d < grid->dim; d++) {
@@ -124,6 +122,5 @@ void rest_points_free(struct rest_points *r)
     transfer_order_free(&r->awake);
     memory_free(r->busy);
     memory_free(r->near);
-    memory_free(r->loaded);
     *r = (struct rest_points){0};
 }

@@ -90,7 +90,7 @@ static void slow_down(struct engine *e)
 status grid_relaxation_step(struct engine *e, bool *done)
 {
     TRY(engine_step(e));
-    TRY(watch_alarm(&e->part, false, e->wave_speed, e->step, e->t, e->cure));
+    TRY(engine_mesh_alarm(e));
     if (e->step % LOOK_STEPS == 0) look(e, done);
     slow_down(e);
     return OK;

@@ -22,22 +22,26 @@ struct place {
     hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
 };
 
-/* Looked at once, since it takes some 6 ms, a hundred steps of a small scene; and kept as long as the process. NULL: hidden. */
-static hwloc_topology_t topology(void)
+/* The machine's memory [byte], noted by whoever looks: hwloc may not see it in a container, and looking takes some 6 ms, a
+ * hundred steps of a small scene. */
+static int64_t memory;
+
+static void note_memory(hwloc_topology_t topology)
 {
-    static hwloc_topology_t known;
-    if (known) return known;
-    setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
-    if (hwloc_topology_init(&known) != 0) return known = NULL;
-    if (hwloc_topology_load(known) == 0) return known;
-    hwloc_topology_destroy(known);
-    return known = NULL;
+    const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;
+    memory = seen > 0 ? seen : (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
 }
 
 static bool place_make(struct place *place)
 {
-    place->topology = topology();
-    if (!place->topology) return false;
+    setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
+    note_memory(NULL);
+    if (hwloc_topology_init(&place->topology) != 0) return false;
+    if (hwloc_topology_load(place->topology) != 0) {
+        hwloc_topology_destroy(place->topology);
+        return false;
+    }
+    note_memory(place->topology);
     hwloc_const_cpuset_t allowed = hwloc_topology_get_allowed_cpuset(place->topology);
     place->mask = hwloc_bitmap_alloc();
     if (hwloc_get_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD) != 0)
@@ -47,7 +51,11 @@ static bool place_make(struct place *place)
     return true;
 }
 
-static void place_free(struct place *place) { hwloc_bitmap_free(place->mask); }
+static void place_free(struct place *place)
+{
+    hwloc_bitmap_free(place->mask);
+    hwloc_topology_destroy(place->topology);
+}
 
 /* The k-th physical core of the mask; NULL past the last. */
 static hwloc_obj_t core_at(const struct place *place, int k)
@@ -83,21 +91,22 @@ static const char *processor_name(hwloc_topology_t topology)
 struct machine team_machine(void)
 {
     struct machine m = {.cores = omp_get_num_procs(), .threads_allowed = omp_get_num_procs()};
-    m.memory = (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
     struct place place;
+    const bool known = place_make(&place);
     snprintf(m.model, sizeof m.model, "unknown processor");
-    if (!place_make(&place)) return m;
+    m.memory = memory;
+    if (!known) return m;
     m.cores = core_count(&place);
     m.threads_allowed = hwloc_bitmap_weight(place.mask);
     m.cache[1] = cache_size(place.topology, HWLOC_OBJ_L1CACHE);
     m.cache[2] = cache_size(place.topology, HWLOC_OBJ_L2CACHE);
     m.cache[3] = cache_size(place.topology, HWLOC_OBJ_L3CACHE);
-    int64_t memory = (int64_t)hwloc_get_root_obj(place.topology)->total_memory;
-    if (memory > 0) m.memory = memory;       /* hwloc may not see it in a container */
     snprintf(m.model, sizeof m.model, "%s", processor_name(place.topology));
     place_free(&place);
     return m;
 }
+
+int64_t team_memory(void) { return memory > 0 ? memory : team_machine().memory; }
 
 /* ---- the team -------------------------------------------------------------------------------------- */
 

@@ -305,11 +305,11 @@ static int64_t first_out_of_hand(const struct particles *p, const int32_t *list,
     return list[k];
 }
 
-status watch_alarm(const struct particles *p, bool everywhere, real limit, int64_t step, real t, const char *cure)
+status watch_alarm(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step, real t, const char *cure)
 {
     assert(limit > 0);
-    int64_t first = first_out_of_hand(p, p->list[KIND_PD], p->n_of[KIND_PD], limit);
-    const int64_t free = everywhere ? first_out_of_hand(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
+    int64_t first = peridynamic ? first_out_of_hand(p, p->list[KIND_PD], p->n_of[KIND_PD], limit) : p->n_all;
+    const int64_t free = meshed ? first_out_of_hand(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
                                     : first_out_of_hand(p, p->list_free, p->n_free, limit);
     if (free < first) first = free;
     return first < p->n ? alarm_raise(p, first, limit, step, t, cure) : OK;

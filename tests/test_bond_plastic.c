@@ -15,7 +15,7 @@
 static real pulled(struct cloud *c, real s)
 {
     c->p.x[0][1] = c->p.x[0][0] + (c->p.X[0][1] - c->p.X[0][0]) * (1 + s);
-    bond_force_table[1][PD_BOND_PLASTIC](&c->bonds, &c->p, &c->source.limit);
+    bond_force_table[1][PD_BOND_PLASTIC](&c->bonds, &c->p, &c->source.limit, NULL);
     int64_t q = bond_index(&c->bonds, 0, 0, 0);
     assert_exact(c->p.f[0][0], -c->p.f[0][1]);
     return c->p.f[0][0] / (c->bonds.stiffness * c->bonds.w[q]);
@@ -143,7 +143,7 @@ static void test_lanes(void **state)
         struct twin *twin = NEW("test.twin", c.bonds.slots * LANES, struct twin);
         for (int step = 0; step < 12; step++) {
             shake(&c, &seed);
-            bond_force_table[dim][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit);
+            bond_force_table[dim][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL);
             for (int64_t r = 0; r < c.bonds.rows; r++) {
                 real force[DIM_MAX] = {0};
                 twin_row(&c, twin, r, force);
@@ -168,7 +168,7 @@ static void test_ends(void **state)
     const struct bonds *b = &c.bonds;
     for (int step = 0; step < 5; step++) {
         shake(&c, &seed);
-        bond_force_table[2][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit);
+        bond_force_table[2][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL);
     }
     for (int64_t r = 0; r < b->rows; r++)
         for (int64_t k = 0; k < b->slot[r / LANES + 1] - b->slot[r / LANES]; k++) {
@@ -209,7 +209,7 @@ static void test_taken_over(void **state)
     struct bonds old = c.bonds;
     bonds_make(&c.bonds, &old, &c.p, &c.source);
     bonds_free(&old);
-    bond_force_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit);
+    bond_force_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL);
     bond_stress_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p);
     for (int64_t i = 4; i < 20; i++) {   /* whole families: round-off of stretches of 1e-4 */
         assert_close(c.p.stress[0][i], stress * (1 + strain), 1e-11);    /* the virial is of current lengths */

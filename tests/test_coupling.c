@@ -49,7 +49,7 @@ static real interface_residual(const struct interface *k, const real strain[DIM_
     cloud_bonds(&s.c);
     cloud_strain(&s.c, strain);
     set_stress(&s.c, strain, stress);
-    bond_force_table[p->dim][PD_BOND](&s.c.bonds, p, &s.c.source.limit);
+    bond_force_table[p->dim][PD_BOND](&s.c.bonds, p, &s.c.source.limit, NULL);
     if (k->coupling == COUPLING_PARTIAL_STRESS) partial_stress_make(&s.partial, p, &s.c.bonds, &s.c.source, NULL, 0);
     patch_grid(&s, k->ratio, k->offset);
     patch_map(&s, k->shape);

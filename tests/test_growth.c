@@ -74,7 +74,7 @@ static void force(struct stage *s, enum pd_model model)
 {
     struct kernels k;
     kernels_choose(&k, 2, model, SHAPE_LINEAR, TRANSFER_FLIP);
-    k.bond_force(&s->c.bonds, &s->c.p, &s->c.source.limit);
+    k.bond_force(&s->c.bonds, &s->c.p, &s->c.source.limit, NULL);
 }
 
 /* ---- which bonds, and how much of them -------------------------------------------------------------------- */

@@ -102,7 +102,7 @@ static void force_case(bond_force_fn *bond_force, int dim, int way)
     body_make(&c, dim, way);
     cloud_copy(&before, &c.p, 0);
     real *w = reference_table(&c.bonds, &c.p);
-    int64_t directed = bond_force(&c.bonds, &c.p, &c.source.limit), expected = 0;
+    int64_t directed = bond_force(&c.bonds, &c.p, &c.source.limit, NULL), expected = 0;
     real *after = reference_table(&c.bonds, &c.p), *acting = NEW("test.acting", c.p.n * c.p.n, real);
     for (int64_t q = 0; q < c.p.n * c.p.n; q++) acting[q] = 0.5 * (w[q] + after[q]);
     check_force(&c, &before, acting);
@@ -114,7 +114,7 @@ static void force_case(bond_force_fn *bond_force, int dim, int way)
         for (int64_t j = 0; j < c.p.n; j++)
             if (!isnan(after[i * c.p.n + j]) && !isnan(after[j * c.p.n + i]))
                 assert_true(after[i * c.p.n + j] == after[j * c.p.n + i]);
-    assert_int_equal(bond_force(&c.bonds, &c.p, &c.source.limit), 0);
+    assert_int_equal(bond_force(&c.bonds, &c.p, &c.source.limit, NULL), 0);
     check_force(&c, &before, after);
     memory_free(w);
     memory_free(after);
@@ -141,7 +141,7 @@ static void test_equality_keeps(void **state)
         c.limit[0] = 0.25;
         for (int i = 0; i < 2; i++) c.p.X[0][i] = i * 0x1p-10, c.p.x[0][i] = i * 0x1p-10 * (1.25 + beyond * 1e-6);
         cloud_bonds(&c);
-        assert_int_equal(bond_force_table[1][PD_BOND](&c.bonds, &c.p, &c.source.limit), 2 * beyond);
+        assert_int_equal(bond_force_table[1][PD_BOND](&c.bonds, &c.p, &c.source.limit, NULL), 2 * beyond);
         cloud_free(&c);
     }
 }
@@ -158,7 +158,7 @@ static void test_bond_momentum(void **state)
                 body_make(&c, dim, way);
                 struct particles *p = &c.p;
                 for (int d = 0; d < dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
-                bond_force_table[dim][model](&c.bonds, p, &c.source.limit);
+                bond_force_table[dim][model](&c.bonds, p, &c.source.limit, NULL);
                 for (int d = 0; d < dim; d++)
                     for (int64_t i = 0; i < p->n; i++) sum += p->f[d][i], size += fabs(p->f[d][i]);
                 for (int64_t i = 0; i < p->n && dim > 1; i++) {
@@ -195,7 +195,7 @@ static real *forces_by_kind(struct cloud *c, bond_force_fn *force, bool kinds[3]
 {
     const int64_t all = c->p.dim * c->p.n;
     real *f = NEW("test.forces", 3 * all, real);
-    assert_true(force(&c->bonds, &c->p, &c->source.limit) > 0);
+    assert_true(force(&c->bonds, &c->p, &c->source.limit, NULL) > 0);
     for (int64_t slot = 0; slot < c->bonds.slots; slot++)
         kinds[c->bonds.common[slot].alike ? 2 : c->bonds.common[slot].lattice ? 1 : 0] = true;
     for (int pass = 0; pass < 3; pass++) {
@@ -203,7 +203,7 @@ static real *forces_by_kind(struct cloud *c, bond_force_fn *force, bool kinds[3]
             c->bonds.common[slot].alike = 0;
             if (pass == 2) c->bonds.common[slot].lattice = 0;
         }
-        assert_int_equal(force(&c->bonds, &c->p, &c->source.limit), 0);
+        assert_int_equal(force(&c->bonds, &c->p, &c->source.limit, NULL), 0);
         for (int d = 0; d < c->p.dim; d++)
             memcpy(f + pass * all + d * c->p.n, c->p.f[d], (size_t)c->p.n * sizeof(real));
     }
@@ -292,7 +292,8 @@ static void test_pd_move(void **state)
             struct particles old;
             body_make(&c, dim, way);
             cloud_copy(&old, &c.p, 0);
-            pd_move_table[dim](&c.p, &c.bonds, dt, dt_velocity);
+            const struct pd_motion motion = {dt, dt_velocity, INFINITY, NULL, false};
+            assert_false(pd_move_table[dim](&c.p, c.p.list[KIND_PD], c.p.n_of[KIND_PD], &motion));
             for (int d = 0; d < dim; d++) {
                 for (int64_t i = 0; i < old.n; i++) {
                     if (old.kind[i] != KIND_PD) continue;
@@ -322,9 +323,10 @@ static void test_bond_threads(void **state)
                     omp_set_num_threads(t + 1);
                     body_make(&c[t], dim, way);
                     energy[t] = bond_energy_table[dim][model](&c[t].bonds, &c[t].p);
-                    bond_force_table[dim][model](&c[t].bonds, &c[t].p, &c[t].source.limit);
+                    bond_force_table[dim][model](&c[t].bonds, &c[t].p, &c[t].source.limit, NULL);
                     bond_stress_table[dim][model](&c[t].bonds, &c[t].p);
-                    pd_move_table[dim](&c[t].p, &c[t].bonds, 1e-8, 1e-8);
+                    pd_move_table[dim](&c[t].p, c[t].p.list[KIND_PD], c[t].p.n_of[KIND_PD],
+                                       &(struct pd_motion){1e-8, 1e-8, INFINITY, NULL, false});
                 }
                 assert_memory_equal(&energy[0], &energy[1], sizeof(real));
                 for (int f = 0; f < particle_fields_count; f++)

@@ -104,7 +104,7 @@ static void check_forces(struct quarter *q)
     struct cloud *both[] = {&q->part, &q->whole};
     real energy[2];
     for (int k = 0; k < 2; k++) {
-        bond_force_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p, &both[k]->source.limit);
+        bond_force_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p, &both[k]->source.limit, NULL);
         bond_stress_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p);
         energy[k] = bond_energy_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p);
     }

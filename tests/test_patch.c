@@ -43,7 +43,7 @@ static void test_pd_rest(void **state)
             cloud_make(&c, &plan);
             cloud_bonds(&c);
             cloud_strain(&c, strain);
-            bond_force_table[c.p.dim][PD_BOND](&c.bonds, &c.p, &c.source.limit);
+            bond_force_table[c.p.dim][PD_BOND](&c.bonds, &c.p, &c.source.limit, NULL);
             real weights = c.source.family.full / c.source.family.cell_volume;
             for (int64_t i = 0; i < c.p.n; i++) {
                 if (!inside(&c.p, i, plan.count, plan.horizon + (volume == VOLUME_RAMP))) continue;

@@ -151,7 +151,7 @@ static struct made make_all(struct cloud *c, enum pd_model model)
     struct made m = {NEW("test.made", 2 * (DIM_MAX + SYM_MAX) * c->p.n + 4, real), 0};
     kernels_choose(&k, c->p.dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
     for (int turn = 0; turn < 2; turn++) {               /* in the first some break */
-        const real broken = (real)k.bond_force(&c->bonds, &c->p, &c->source.limit);
+        const real broken = (real)k.bond_force(&c->bonds, &c->p, &c->source.limit, NULL);
         const real energy = k.bond_energy(&c->bonds, &c->p);
         k.bond_stress(&c->bonds, &c->p);
         made_add(&m, &broken, 1);

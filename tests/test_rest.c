@@ -36,7 +36,7 @@ static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
     kernels_choose(&k, dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < c.p.n; i++) c.p.f[d][i] = 1;
-    k.bond_force(&c.bonds, &c.p, &c.source.limit);
+    k.bond_force(&c.bonds, &c.p, &c.source.limit, NULL);
     assert_true(c.bonds.n > 2 * c.p.n);
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < c.p.n; i++) assert_true(c.p.f[d][i] == 0);

@@ -37,7 +37,7 @@ static real pull(struct pulled *b, real opening)
     struct particles *p = &b->c.p;
     real hold = 0;
     for (int64_t i = 0; i < p->n; i++) p->x[1][i] = p->X[1][i] + (i / COLUMNS < ROWS / 2 ? 0 : opening);
-    state_force_table[2][b->model](&b->c.bonds, p, &b->c.source.limit);
+    state_force_table[2][b->model](&b->c.bonds, p, &b->c.source.limit, NULL);
     for (int64_t i = ROWS / 2 * COLUMNS + COLUMNS / 2; i < p->n; i += COLUMNS) hold -= p->f[1][i];
     return hold;
 }

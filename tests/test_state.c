@@ -34,7 +34,7 @@ static void body_make(struct body *b, const struct cloud_plan *plan, enum pd_mod
     b->c.source.local = local, b->c.source.turns = turns;
 }
 
-static void force(struct body *b) { state_force_table[b->c.p.dim][b->model](&b->c.bonds, &b->c.p, &b->c.source.limit); }
+static void force(struct body *b) { state_force_table[b->c.p.dim][b->model](&b->c.bonds, &b->c.p, &b->c.source.limit, NULL); }
 static real energy(struct body *b)
 {
     force(b);

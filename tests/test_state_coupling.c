@@ -63,7 +63,7 @@ static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MA
     cloud_bonds(&b.s.c);
     cloud_strain(&b.s.c, strain);
     stress_set(&b.s.c, strain);
-    state_force_table[p->dim][k->model](&b.s.c.bonds, p, &b.s.c.source.limit);
+    state_force_table[p->dim][k->model](&b.s.c.bonds, p, &b.s.c.source.limit, NULL);
     partial_stress_make(&b.s.partial, p, &b.s.c.bonds, &b.s.c.source, NULL, 0);
     patch_grid(&b.s, 2, k->offset);
     patch_map(&b.s, SHAPE_LINEAR);
@@ -118,7 +118,7 @@ static real torque(const struct partners *k, bool skew)
     cloud_bonds(&b.s.c);
     cloud_strain(&b.s.c, shear);
     stress_set(&b.s.c, shear);
-    state_force_table[2][k->model](&b.s.c.bonds, p, &b.s.c.source.limit);
+    state_force_table[2][k->model](&b.s.c.bonds, p, &b.s.c.source.limit, NULL);
     partial_stress_make(&b.s.partial, p, &b.s.c.bonds, &b.s.c.source, NULL, 0);
     const struct bonds *bonds = &b.s.c.bonds;
     real sum = 0, size = 0, T[2][DIM_MAX], xi[DIM_MAX];
@@ -203,7 +203,7 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     convert_start(&c->p, &c->source, &(struct region){1, &box});
     assert_int_equal(c->p.n_of[KIND_PD], edge * edge);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
-    state_force_table[2][model](&c->bonds, &c->p, &c->source.limit);
+    state_force_table[2][model](&c->bonds, &c->p, &c->source.limit, NULL);
     partial_stress_make(&b.s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
     const real came = (energy_of(&b, model) - before) / particle;
     patch_free(&b.s);

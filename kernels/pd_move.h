@@ -1,0 +1,56 @@
+/* floor 2: the leap-frog step of eight peridynamic particles, for whoever only moves them (pd_move.c) and for sweeps of forces
+ * (sweep.h). */
+#ifndef CLEAVE_PD_MOVE_H
+#define CLEAVE_PD_MOVE_H
+
+#include <float.h>
+
+#include "kernels.h"
+#include "lanes.h"
+
+/* Which of the first n of eight particles move, a bit each: neither the grid moves them, nor do they wait for loads. */
+static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t *list, int n, const uint8_t *loaded)
+{
+    const int32_t first = list[0];
+    unsigned bits = 0;
+    if (n == LANES && list[LANES - 1] - first == LANES - 1 && eight_bytes(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
+        !(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_CARRIED)) && !(loaded && eight_bytes(loaded + first)))
+        return UINT8_MAX;
+    for (int l = 0; l < n; l++) bits |= (unsigned)(!particle_on_grid(p, list[l]) && !(loaded && loaded[list[l]])) << l;
+    return bits;
+}
+
+static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together, unsigned movers, lanes a)
+{
+    if (together) lanes_store(to + list[0], a);
+    else
+        for (int l = 0; l < LANES; l++)
+            if (movers >> l & 1) to[list[l]] = a[l];
+}
+
+/* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of the first n of eight particles, in ascending order from a
+ * 32-byte boundary on. Is one of them out of hand? Comparisons are written so that a number that is none is caught. */
+static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
+                                        const struct pd_motion *m, const int dim)
+{
+    const unsigned movers = pd_movers(p, list, n, loaded);
+    if (movers == 0) return false;
+    const bool together = movers == UINT8_MAX && list[LANES - 1] - list[0] == LANES - 1;
+    const int32_t first = together ? list[0] : -1;
+    const lanes inverse_mass = m->dt_velocity / lanes_at(p->mass, first, list);
+    lanes speed2 = lanes_of(0), place = lanes_of(0);
+    for (int d = 0; d < dim; d++) {
+        const lanes v = lanes_at(p->v[d], first, list) + lanes_at(p->f[d], first, list) * inverse_mass;
+        const lanes x = lanes_at(p->x[d], first, list) + v * m->dt;
+        pd_store(p->v[d], list, together, movers, v);
+        pd_store(p->x[d], list, together, movers, x);
+        speed2 += v * v, place += lanes_size(x);
+    }
+    const lanes_mask calm = (speed2 <= square(m->fastest)) & (place <= DBL_MAX);
+    if (together) return lanes_any(~calm);
+    for (int l = 0; l < n; l++)
+        if ((movers >> l & 1) && !calm[l]) return true;
+    return false;
+}
+
+#endif
