@@ -48,15 +48,22 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
 
+static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, const struct elastic *m, const int dim, const bool finite)
+{
+    for (int64_t r = mesh->band[band]; r < mesh->band[band + 1]; r++)
+        run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], dim, finite);
+}
+
 /* Two colours of bands. The parallel region stands in each instance, where dimension and strain are literals. */
 #define BANDS(D, FINITE)                                                                                             \
     static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                               \
     {                                                                                                                \
-        _Pragma("omp parallel") for (int colour = 0; colour < 2; colour++)                                           \
+        _Pragma("omp parallel")                                                                                      \
         {                                                                                                            \
-            _Pragma("omp for schedule(static)") for (int64_t b = colour; b < mesh->bands; b += 2)                    \
-                for (int64_t r = mesh->band[b]; r < mesh->band[b + 1]; r++)                                          \
-                    run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], D, FINITE);                            \
+            _Pragma("omp for schedule(static)") for (int64_t b = 0; b < mesh->bands; b += 2)                         \
+                band_force(mesh, b, m, D, FINITE);                                                                   \
+            _Pragma("omp for schedule(static) nowait") for (int64_t b = 1; b < mesh->bands; b += 2)                  \
+                band_force(mesh, b, m, D, FINITE);                                                                   \
         }                                                                                                            \
     }
 
@@ -119,11 +126,13 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
     }
 }
 
+enum { FEW = 16 };                       /* groups that one thread computes in less time than a team */
+
 #define CUTS(D, FINITE)                                                                                              \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                \
     {                                                                                                                \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < mesh_groups(mesh); k++)                 \
-            if (!cuts_asleep(mesh, k)) cut_force(mesh, m, k, D, FINITE);                                             \
+        TEAM_LOOP(mesh_groups(mesh) > FEW, for (int64_t k = 0; k < mesh_groups(mesh); k++)                           \
+            if (!cuts_asleep(mesh, k)) cut_force(mesh, m, k, D, FINITE););                                           \
         cuts_add(mesh, D);                                                                                           \
     }
 

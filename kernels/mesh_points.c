@@ -40,6 +40,8 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
     }
 }
 
+enum { FEW = 128 };                      /* cells whose points one thread moves in less time than a team */
+
 #define MOVE(D)                                                                                                      \
     static void all_move_##D(const struct mesh *mesh, struct particles *p)                                           \
     {                                                                                                                \
@@ -48,8 +50,8 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
     }                                                                                                                \
     static void seen_move_##D(const struct mesh *mesh, struct particles *p)                                          \
     {                                                                                                                \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < mesh->seen; k++)                        \
-            cell_move(mesh, p, mesh->see[k].cell, mesh->see[k].places, D);                                           \
+        TEAM_LOOP(mesh->seen > FEW, for (int64_t k = 0; k < mesh->seen; k++)                                         \
+            cell_move(mesh, p, mesh->see[k].cell, mesh->see[k].places, D););                                         \
     }                                                                                                                \
     static void points_move_##D(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)        \
     {                                                                                                                \

@@ -6,6 +6,7 @@
     static bool pd_move_##D##d(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *m)          \
     {                                                                                                                   \
         int64_t wild = 0;                                                                                               \
+        if (n == 0) return false;                                                                                       \
         _Pragma("omp parallel for schedule(static) reduction(+ : wild)")                                                \
         for (int64_t k = 0; k < n; k += LANES) {                                                                        \
             _Alignas(sizeof(lanes)) int32_t room[LANES];                                                                \

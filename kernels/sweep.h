@@ -87,7 +87,7 @@ static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, s
             if (M && k % PIECE == 0) sweep_follow(&s, B, P, k, M, D);                   \
         }                                                                               \
         if (M) {                                                                        \
-            _Pragma("omp barrier")                                                      \
+            if (omp_get_num_threads() > 1) { _Pragma("omp barrier") }                   \
             sweep_finish(&s, B, P, M, D);                                               \
             wild += s.wild;                                                             \
         }                                                                               \

@@ -218,8 +218,7 @@ void loads_clear(struct loads *l, struct particles *p)
         const struct load *load = &l->load[b];
         const int64_t n = load->n;
         if (is_force(load) && load->leader != b) continue;
-#pragma omp parallel for schedule(static) if (n > SUM_BLOCK)
-        for (int64_t first = 0; first < n; first += SUM_BLOCK)
-            clear_run(load, p, first, first + SUM_BLOCK < n ? first + SUM_BLOCK : n);
+        TEAM_LOOP(n > SUM_BLOCK, for (int64_t first = 0; first < n; first += SUM_BLOCK)
+            clear_run(load, p, first, first + SUM_BLOCK < n ? first + SUM_BLOCK : n););
     }
 }

@@ -174,19 +174,22 @@ int team_make(int threads)
 
 enum { FEW_BLOCKS = 16 };                /* sums that need no memory of their own: steps ask for short ones several times */
 
+static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+                      const void *context, int64_t b, real *part)
+{
+    const int64_t first = b * SUM_BLOCK, end = first + SUM_BLOCK;
+    real own[TERMS_MAX] = {0};
+    block(context, first, end < n ? end : n, own);
+    for (int k = 0; k < terms; k++) part[k] = own[k];
+}
+
 void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                const void *context, real *sum)
 {
     int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
     real few[FEW_BLOCKS * TERMS_MAX], *part = blocks <= FEW_BLOCKS ? few : NEW("team.sums", blocks * terms, real);
     assert(terms <= TERMS_MAX);
-#pragma omp parallel for schedule(static) if (blocks > 1)
-    for (int64_t b = 0; b < blocks; b++) {
-        int64_t first = b * SUM_BLOCK, end = first + SUM_BLOCK;
-        real own[TERMS_MAX] = {0};
-        block(context, first, end < n ? end : n, own);
-        for (int k = 0; k < terms; k++) part[b * terms + k] = own[k];
-    }
+    TEAM_LOOP(blocks > 1, for (int64_t b = 0; b < blocks; b++) sum_block(n, terms, block, context, b, part + b * terms););
     for (int k = 0; k < terms; k++) sum[k] = 0;
     for (int64_t b = 0; b < blocks; b++)
         for (int k = 0; k < terms; k++) sum[k] += part[b * terms + k];

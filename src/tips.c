@@ -43,11 +43,24 @@ enum { BLOCK = 64 };
 
 static int64_t block_end(const struct particles *p, int64_t first) { return first + BLOCK < p->n ? first + BLOCK : p->n; }
 
+/* Has somebody lost a bond? No comparison of numbers: their bits. */
+static bool any_damage(const struct particles *p, int64_t first, int64_t end)
+{
+    uint64_t any = 0;
+    for (int64_t i = first; i < end; i++) {
+        uint64_t bits;
+        memcpy(&bits, p->damage + i, sizeof bits);
+        any |= bits;
+    }
+    return any != 0;
+}
+
 static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n; first += BLOCK) {
         const int64_t end = block_end(p, first);
         real most = 0;
+        if (!any_damage(p, first, end)) continue;
 #pragma omp simd reduction(max : most)
         for (int64_t i = first; i < end; i++) most = real_max(most, p->damage[i]);
         if (most > TIP_DAMAGE) return first;

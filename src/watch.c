@@ -28,7 +28,7 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
 struct motion { real kinetic, momentum[DIM_MAX], size; };
 
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to, const int dim,
-                                     const bool meshed)
+                                     const bool meshed, const bool all)
 {
     const real *mass = m->mass, *v0 = m->v[0], *v1 = m->v[dim > 1], *v2 = m->v[dim > 2 ? 2 : 0];
     const uint8_t *flag = m->flag;
@@ -38,6 +38,7 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
         const real own = meshed && flag[i] & FLAG_MESHED ? 0 : mass[i];
         const real speed2 = square(v0[i]) + (dim > 1 ? square(v1[i]) : 0) + (dim > 2 ? square(v2[i]) : 0);
         kinetic += own * speed2;
+        if (!all) continue;
         p0 += own * v0[i];
         if (dim > 1) p1 += own * v1[i];
         if (dim > 2) p2 += own * v2[i];
@@ -47,28 +48,29 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
     to->momentum[0] += p0, to->momentum[1] += p1, to->momentum[2] += p2;
 }
 
-static void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to)
+static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to, const bool all)
 {
-    if (m->flag && all_meshed(m->flag, first, end)) return;
+    const bool meshed = m->flag != NULL;
+    if (meshed && all_meshed(m->flag, first, end)) return;
     switch (m->dim) {
-    case 1: m->flag ? add_motion(m, first, end, to, 1, true) : add_motion(m, first, end, to, 1, false); break;
-    case 2: m->flag ? add_motion(m, first, end, to, 2, true) : add_motion(m, first, end, to, 2, false); break;
-    default: m->flag ? add_motion(m, first, end, to, 3, true) : add_motion(m, first, end, to, 3, false); break;
+    case 1: meshed ? add_motion(m, first, end, to, 1, true, all) : add_motion(m, first, end, to, 1, false, all); break;
+    case 2: meshed ? add_motion(m, first, end, to, 2, true, all) : add_motion(m, first, end, to, 2, false, all); break;
+    default: meshed ? add_motion(m, first, end, to, 3, true, all) : add_motion(m, first, end, to, 3, false, all); break;
     }
 }
 
-/* Pieces are short, so that few of those who are asked for nothing are visited. */
-static struct motion motion_of(const struct movers *m, int64_t first, int64_t end)
+/* Kinetic energy alone, which takes no roots, or all. Pieces are short, so that few of those who are asked for nothing are visited. */
+static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end, const bool all)
 {
     enum { PIECE = 64 };
     struct motion sum = {0};
-    for (; first < end; first += PIECE) motion_piece(m, first, first + PIECE < end ? first + PIECE : end, &sum);
+    for (; first < end; first += PIECE) motion_piece(m, first, first + PIECE < end ? first + PIECE : end, &sum, all);
     return sum;
 }
 
 static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    sum[0] += motion_of(context, first, end).kinetic;
+    sum[0] += motion_of(context, first, end, false).kinetic;
 }
 
 static struct movers movers_of(const struct particles *p)
@@ -107,7 +109,7 @@ real watch_kick(const struct particles *p, real dt)
 static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct movers *m = context;
-    const struct motion motion = motion_of(m, first, end);
+    const struct motion motion = motion_of(m, first, end, true);
     for (int d = 0; d < m->dim; d++) sum[d] += motion.momentum[d];
     sum[m->dim] += motion.size;
 }
