@@ -28,29 +28,37 @@ static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together,
             if (movers >> l & 1) to[list[l]] = a[l];
 }
 
-/* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of the first n of eight particles, in ascending order from a
- * 32-byte boundary on. Is one of them out of hand? Comparisons are written so that a number that is none is caught. */
+/* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of those of eight particles that move; `together`: all, and they are
+ * consecutive. Is one of them out of hand? Comparisons are written so that a number that is none is caught. */
+static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m, const int dim,
+                                  const bool together)
+{
+    const int32_t first = together ? list[0] : -1;
+    const lanes inverse_mass = m->dt_velocity / lanes_at(p->mass, first, list);
+    lanes speed2 = lanes_of(0), place = lanes_of(0), v[DIM_MAX], x[DIM_MAX];
+    for (int d = 0; d < dim; d++) {
+        v[d] = lanes_at(p->v[d], first, list) + lanes_at(p->f[d], first, list) * inverse_mass;
+        x[d] = lanes_at(p->x[d], first, list) + v[d] * m->dt;
+        speed2 += v[d] * v[d], place += lanes_size(x[d]);
+    }
+    for (int d = 0; d < dim; d++) {
+        pd_store(p->v[d], list, together, movers, v[d]);
+        pd_store(p->x[d], list, together, movers, x[d]);
+    }
+    const lanes_mask calm = (speed2 <= square(m->fastest)) & (place <= DBL_MAX);
+    bool wild = together && lanes_any(~calm);
+    for (int l = 0; l < LANES && !together; l++) wild |= (movers >> l & 1) && !calm[l];
+    return wild;
+}
+
+/* The same of the first n of eight particles, in ascending order from a 32-byte boundary on, but for those that do not move. */
 static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
                                         const struct pd_motion *m, const int dim)
 {
     const unsigned movers = pd_movers(p, list, n, loaded);
     if (movers == 0) return false;
-    const bool together = movers == UINT8_MAX && list[LANES - 1] - list[0] == LANES - 1;
-    const int32_t first = together ? list[0] : -1;
-    const lanes inverse_mass = m->dt_velocity / lanes_at(p->mass, first, list);
-    lanes speed2 = lanes_of(0), place = lanes_of(0);
-    for (int d = 0; d < dim; d++) {
-        const lanes v = lanes_at(p->v[d], first, list) + lanes_at(p->f[d], first, list) * inverse_mass;
-        const lanes x = lanes_at(p->x[d], first, list) + v * m->dt;
-        pd_store(p->v[d], list, together, movers, v);
-        pd_store(p->x[d], list, together, movers, x);
-        speed2 += v * v, place += lanes_size(x);
-    }
-    const lanes_mask calm = (speed2 <= square(m->fastest)) & (place <= DBL_MAX);
-    if (together) return lanes_any(~calm);
-    for (int l = 0; l < n; l++)
-        if ((movers >> l & 1) && !calm[l]) return true;
-    return false;
+    if (movers == UINT8_MAX && list[LANES - 1] - list[0] == LANES - 1) return pd_step(p, list, movers, m, dim, true);
+    return pd_step(p, list, movers, m, dim, false);
 }
 
 #endif
