@@ -149,6 +149,7 @@ struct pattern_slot {
 struct pattern {
     int slots;
     bool whole;                          /* all lanes have all bonds, of one weight        */
+    bool unit;                           /* which is 1                                     */
     int32_t next;                        /* with the same hash, -1: none                   */
     struct pattern_slot *slot;           /* [slots]                                        */
     real (*w)[LANES];                    /* [slots] of the lanes, 0: no bond [1]           */

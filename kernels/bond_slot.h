@@ -8,15 +8,15 @@
 enum { SLOTS_AHEAD = 40 };               /* asked from memory before they are needed: about 200 ns */
 
 /* What a slot's bonds share: nothing; neighbours in a row, with lengths of the lattice; their weight too; all but the weight with
- * other groups; all with other groups. */
-enum slot_kind { SLOT_FREE, SLOT_LATTICE, SLOT_ALIKE, SLOT_PATTERN, SLOT_WHOLE };
+ * other groups; all with other groups; and that weight is one, as it is inside a body. */
+enum slot_kind { SLOT_FREE, SLOT_LATTICE, SLOT_ALIKE, SLOT_PATTERN, SLOT_WHOLE, SLOT_UNIT };
 
 /* Eight bonds, entries number LANES on of what bonds store. Its kind is a constant wherever it is visited. */
 struct slot {
     const struct bonds *b;
     int64_t number;
     int64_t first;                       /* neighbour of lane 0; SLOT_FREE: maybe < 0 */
-    const struct pattern_slot *pattern;  /* of SLOT_PATTERN and SLOT_WHOLE            */
+    const struct pattern_slot *pattern;  /* of SLOT_PATTERN and on                    */
     const real *w;                       /* of SLOT_PATTERN: of the lanes             */
     enum slot_kind kind;
 };
@@ -36,7 +36,7 @@ static ALWAYS_INLINE struct slot slot_of(const struct bonds *b, int64_t number, 
                                          int64_t own, const enum slot_kind kind)
 {
     const struct pattern_slot *slot = pattern->slot + k;
-    return (struct slot){b, number, own + slot->offset, slot, kind == SLOT_WHOLE ? NULL : pattern->w[k], kind};
+    return (struct slot){b, number, own + slot->offset, slot, kind >= SLOT_WHOLE ? NULL : pattern->w[k], kind};
 }
 
 /* Calls VISIT(slot) for the slots of a group that have an intact bond: one body, an instance for each kind. */
@@ -50,6 +50,8 @@ static ALWAYS_INLINE struct slot slot_of(const struct bonds *b, int64_t number, 
                 else if ((B)->common[k_].alike) VISIT(slot_stored(B, k_, SLOT_ALIKE));                                         \
                 else if ((B)->common[k_].lattice) VISIT(slot_stored(B, k_, SLOT_LATTICE));                                     \
                 else VISIT(slot_stored(B, k_, SLOT_FREE));                                                                     \
+        else if (pattern_->unit)                                                                                               \
+            for (int64_t k_ = 0; k_ < slots_; k_++) VISIT(slot_of(B, from_ + k_, pattern_, k_, own_, SLOT_UNIT));              \
         else if (pattern_->whole)                                                                                              \
             for (int64_t k_ = 0; k_ < slots_; k_++) VISIT(slot_of(B, from_ + k_, pattern_, k_, own_, SLOT_WHOLE));             \
         else                                                                                                                   \
@@ -71,7 +73,7 @@ static ALWAYS_INLINE lanes slot_reference(const struct slot s, const struct part
 /* The same, by weight [m]. */
 static ALWAYS_INLINE lanes slot_weighted_reference(const struct slot s, int d, lanes w, lanes xi)
 {
-    return s.kind == SLOT_WHOLE ? lanes_of(s.pattern->w_xi[d]) : w * xi;
+    return s.kind == SLOT_WHOLE ? lanes_of(s.pattern->w_xi[d]) : s.kind == SLOT_UNIT ? xi : w * xi;
 }
 
 /* 1/|X_j - X_i| [1/m]; of broken bonds maybe the negative of it. */
@@ -90,6 +92,7 @@ static ALWAYS_INLINE uint8_t slot_intact(const struct slot s)
 
 static ALWAYS_INLINE lanes slot_weight(const struct slot s)
 {
+    if (s.kind == SLOT_UNIT) return lanes_of(1);
     if (s.kind == SLOT_WHOLE) return lanes_of(s.pattern->w);
     if (s.kind == SLOT_PATTERN) return lanes_load(s.w);
     const struct bond_slot *c = &s.b->common[s.number];
@@ -107,7 +110,7 @@ static ALWAYS_INLINE lanes slot_weight(const struct slot s)
  * themselves. */
 static ALWAYS_INLINE lanes slot_largest(const struct slot s, lanes a, lanes other)
 {
-    return s.kind == SLOT_FREE || s.kind == SLOT_WHOLE ? lanes_max(a, other) : lanes_max_kept(slot_intact(s), a, other);
+    return s.kind == SLOT_FREE || s.kind >= SLOT_WHOLE ? lanes_max(a, other) : lanes_max_kept(slot_intact(s), a, other);
 }
 
 /* Rows of a group: f = new share + f (1 - share) */

@@ -31,7 +31,7 @@ static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct partic
     for (int c = 0; c < dim; c++) {
         const lanes weighted = slot_weighted_reference(slot, c, w, s.xi[c]);
         const lanes_mask moved = (lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c];
-        sum->moved |= slot.kind == SLOT_WHOLE ? moved : moved & (w > 0.0);        /* padding may look at anybody */
+        sum->moved |= slot.kind >= SLOT_WHOLE ? moved : moved & (w > 0.0);        /* padding may look at anybody */
         for (int d = 0; d < dim; d++) sum->moment[d * dim + c] += weighted * s.y[d];
     }
 }

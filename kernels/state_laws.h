@@ -49,7 +49,7 @@ static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct par
 /* w |xi| or w |xi|^2: factors, of a lattice without the round-off of positions, which no difference magnifies [m], [m^2]. */
 static ALWAYS_INLINE lanes state_weight(const struct slot s, lanes w, lanes inverse_length, const bool square)
 {
-    if (s.kind == SLOT_WHOLE) return lanes_of(square ? s.pattern->squared : s.pattern->weighted);
+    if (s.kind >= SLOT_WHOLE) return lanes_of(square ? s.pattern->squared : s.pattern->weighted);
     const struct bond_length *known = &s.b->lattice[s.pattern ? s.pattern->lattice : s.b->common[s.number].lattice];
     if (s.kind) return w * (square ? known->square : known->length);
     const lanes r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);

@@ -75,6 +75,7 @@ bool pattern_add(struct pattern *to, const struct bonds *b, const struct particl
     slot->weighted = slot->w * length->length, slot->squared = slot->w * length->square;
     for (int d = 0; d < p->dim; d++) slot->w_xi[d] = slot->w * slot->xi[d];
     to->whole = (to->slots == 0 || to->whole) && alike && bonds == LANES;
+    to->unit = to->whole && (to->slots == 0 || to->unit) && slot->w == 1;
     to->slots++;
     return true;
 }
@@ -112,7 +113,7 @@ static const struct pattern *pattern_store(struct patterns *all, const struct pa
     pattern_make(stored, pattern->slots);
     memcpy(stored->slot, pattern->slot, (size_t)pattern->slots * sizeof *stored->slot);
     memcpy(stored->w, pattern->w, (size_t)pattern->slots * sizeof *stored->w);
-    stored->slots = pattern->slots, stored->whole = pattern->whole;
+    stored->slots = pattern->slots, stored->whole = pattern->whole, stored->unit = pattern->unit;
     stored->next = all->first[hash] - 1;
     all->first[hash] = ++all->n;
     return stored;

@@ -6,6 +6,8 @@
 
 #include "memory.h"
 
+#define WHOLE 1e-12                      /* of a volume: sums of up to some hundred terms in other orders      */
+
 /* Volume of the neighbours of particle i. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f, int64_t i, int32_t *found,
                         int room)
@@ -28,6 +30,15 @@ static void volumes_near(real *volume, const struct particles *p, const struct l
         for (int l = 0; l < LANES; l++)
             sum[l] += l >= bonds->from[k] && l <= bonds->to[k] ? p->volume0[i + bonds->offset[k] + l] * weight : 0;
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
+}
+
+/* Whole families have the volume of the lattice's to the last bit, in whatever order it was added up: inside a body weights are 1
+ * then, and slots need none (kernels/bond_slot.h). */
+static void whole_volumes(real *volume, int64_t n, real full)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < n; i++)
+        if (fabs(volume[i] - full) <= WHOLE * full) volume[i] = full;
 }
 
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
@@ -57,6 +68,7 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
         memory_free(found);
     }
     lattice_free(&lattice);
+    whole_volumes(volume, p->n, s->family.full);
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
