@@ -116,6 +116,15 @@ void particles_extent(const struct particles *p, int64_t n, int d, real *low, re
 /* Longest edge of the box round the body's particles [m]. */
 real particles_longest(const struct particles *p);
 
+/* Volume of a particle of a lattice [m^3]; section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One place works it out, or who divides
+ * by it would not get 1 to the last bit. */
+static inline real lattice_volume(real section, real spacing, int dim)
+{
+    real volume = section;
+    for (int d = 0; d < dim; d++) volume *= spacing;
+    return volume;
+}
+
 /* Is X a whole number of spacings from `origin`, but for round-off? Then that number is in *site. */
 static inline bool lattice_site(real X, real origin, real spacing, real *site)
 {

@@ -62,9 +62,9 @@ struct pair_table pairs_make(const struct bond_source *s)
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
     real *c = NEW("bonds.moduli", s->materials, real);
     for (int m = 0; m < s->materials; m++) c[m] = family_micro_modulus(&s->family, &s->material[m]);
-    for (int a = 0; a < s->materials; a++)       /* springs in series across a material interface */
+    for (int a = 0; a < s->materials; a++)       /* springs in series across a material interface; of equal ones no round-off */
         for (int b = 0; b < s->materials; b++)
-            t.ratio[a * s->materials + b] = s->modulus ? 1 : 2 * (c[a] * c[b]) / (c[a] + c[b]) / c[0];
+            t.ratio[a * s->materials + b] = s->modulus ? 1 : (c[a] == c[b] ? c[a] : 2 * (c[a] * c[b]) / (c[a] + c[b])) / c[0];
     memory_free(c);
     return t;
 }

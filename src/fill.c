@@ -113,11 +113,9 @@ static real scatter(uint64_t seed, int64_t id, int component)
     return (real)(z >> 11) * 0x1p-53 - 0.5;
 }
 
-static real lattice_volume(const struct scene *s)
+static real cell_volume(const struct scene *s)
 {
-    real volume = s->dim == 1 ? s->section : s->dim == 2 ? s->thickness : 1;
-    for (int d = 0; d < s->dim; d++) volume *= s->spacing;
-    return volume;
+    return lattice_volume(s->dim == 1 ? s->section : s->dim == 2 ? s->thickness : 1, s->spacing, s->dim);
 }
 
 /* The lattice that covers the whole shape of a body. */
@@ -158,7 +156,7 @@ static status lattice_point(struct draft *d, int body, const real *place, real v
 
 static status fill_lattice(struct draft *d, int body)
 {
-    real spacing = d->scene->spacing, volume = lattice_volume(d->scene), place[DIM_MAX];
+    real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
     struct axis axis[DIM_MAX] = {{0}};   /* unused directions hold the one place 0 */
     if (!(spacing > 0)) return draft_refuse(d, body, "a shape is filled with particles.spacing, which is not given");
     TRY(lattice_axes(d, body, axis));
