@@ -25,6 +25,7 @@ struct rest {
     uint8_t *level, *moved;              /* [blocks]; scratch                                             */
     int32_t *list;                       /* [awake] ascending: what the hot loops visit                   */
     bool resumed;                        /* all are visited, in the first step after a restart            */
+    bool over;                           /* of rows: who is awake has moved, so nobody will wake any more */
 };
 
 /* All awake. */

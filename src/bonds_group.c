@@ -135,6 +135,10 @@ bool group_regular(const struct lattice *lattice, const struct bond_source *s, c
     for (int l = 0; l < LANES; l++)
         if (cracks_near(s, p, i + l)) return false;
     const uint8_t own = peridynamic(p, i);
+    if (own == UINT8_MAX && lattice_bonds_full(to)) {
+        memset(to->bonds, UINT8_MAX, (size_t)to->n);
+        return slots_by_offset(to->n, to->n);
+    }
     for (int k = 0; k < to->n; k++) {
         const unsigned family = (2u << to->to[k]) - (1u << to->from[k]);
         to->bonds[k] = (uint8_t)(family & (own == UINT8_MAX ? own : own | peridynamic(p, i + to->offset[k])));

@@ -89,6 +89,8 @@ int lattice_family(const struct lattice *l, const struct particles *p, int32_t i
 struct lattice_bonds { int n; int32_t *offset; uint8_t *from, *to, *bonds; struct twins *twins; };
 void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l);
 void lattice_bonds_free(struct lattice_bonds *to);
+/* Has every lane a neighbour at every distance? */
+bool lattice_bonds_full(const struct lattice_bonds *b);
 /* Those of particles i .. i + 7, all of which may be read at each distance. False where they are to be searched. */
 bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to);
 /* A thread's memory of such (bonds_twins.c). */

@@ -138,13 +138,15 @@ static void follow(struct bonds *b, const struct particles *p, const struct load
 {
     struct rest *r = &b->rest;
     const int most = most_of(b);
-    int64_t moved = 0;
-#pragma omp parallel for schedule(static) reduction(+ : moved)
+    int64_t still = 0, moved = 0;
+    if (r->over) return;
+#pragma omp parallel for schedule(static) reduction(+ : still, moved)
     for (int64_t k = 0; k < r->awake; k++) {
         if (r->level[r->list[k]] >= most) continue;
         r->moved[r->list[k]] = has_moved(b, p, r->list[k]);
-        moved += r->moved[r->list[k]];
+        moved += r->moved[r->list[k]], still++;
     }
+    r->over = still == 0 && !r->resumed;
     if (moved == 0 && !r->resumed) return;
     for (int64_t k = 0; k < r->awake; k++)
         if (r->moved[r->list[k]]) wake(b, p, l, r->list[k], most);
