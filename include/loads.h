@@ -71,7 +71,7 @@ struct held_set {
 struct loads {
     int n;
     struct load *load;
-    uint8_t *loaded;                     /* [particles] 1 where something else than bonds and the grid may move it; NULL: nowhere */
+    uint8_t *loaded;                     /* [n] 1: something else than bonds and the grid may move it; NULL: nobody */
     int64_t listed;
     int32_t *list;                       /* [listed] those, ascending                                 */
     int64_t images;

@@ -116,8 +116,8 @@ void particles_extent(const struct particles *p, int64_t n, int d, real *low, re
 /* Longest edge of the box round the body's particles [m]. */
 real particles_longest(const struct particles *p);
 
-/* Volume of a particle of a lattice [m^3]; section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One place works it out, or who divides
- * by it would not get 1 to the last bit. */
+/* Volume of a particle of a lattice [m^3]; section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One place works it out, or who
+ * divides by it would not get 1 to the last bit. */
 static inline real lattice_volume(real section, real spacing, int dim)
 {
     real volume = section;

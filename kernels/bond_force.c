@@ -70,10 +70,11 @@ static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct partic
     return broken;
 }
 
-#define INSTANCE(D, M)                                                                                                           \
-    static int64_t bond_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *m) \
-    {                                                                                                                            \
-        SWEEP(b, p, m, D, bond_force_and_break(b, p, limit, group, D, PD_##M));                                                                                      \
+#define INSTANCE(D, M)                                                                                                \
+    static int64_t bond_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,        \
+                                         struct pd_motion *m)                                                         \
+    {                                                                                                                 \
+        SWEEP(b, p, m, D, bond_force_and_break(b, p, limit, group, D, PD_##M));                                       \
     }
 PD_VARIANTS(INSTANCE)
 

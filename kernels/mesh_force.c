@@ -48,7 +48,8 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
 
-static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, const struct elastic *m, const int dim, const bool finite)
+static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, const struct elastic *m, const int dim,
+                                     const bool finite)
 {
     for (int64_t r = mesh->band[band]; r < mesh->band[band + 1]; r++)
         run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], dim, finite);

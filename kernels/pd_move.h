@@ -30,8 +30,8 @@ static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together,
 
 /* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of those of eight particles that move; `together`: all, and they are
  * consecutive. Is one of them out of hand? Comparisons are written so that a number that is none is caught. */
-static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m, const int dim,
-                                  const bool together)
+static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m,
+                                  const int dim, const bool together)
 {
     const int32_t first = together ? list[0] : -1;
     const lanes inverse_mass = m->dt_velocity / lanes_at(p->mass, first, list);

@@ -256,20 +256,21 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
     return broken;
 }
 
-#define INSTANCE(D, M)                                                                                                            \
-    static void state_know_##D##d_##M(struct bonds *b, const struct particles *p)                                                 \
-    {                                                                                                                             \
-        _Pragma("omp parallel for schedule(static)")                                                                              \
-        for (int64_t k = 0; k < b->rest.awake; k++)                                                                               \
-            state_group(b, p, b->rest.list[k], D, PD_##M);                                                                        \
-        _Pragma("omp parallel for schedule(static)")                                                                              \
-        for (int64_t g = 0; g < b->groups; g++) state_of_points(b, p, g, D, PD_##M);                                              \
-        state_of_images(b, p, D, state_turns(PD_##M));                                                                            \
-    }                                                                                                                             \
-    static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *m) \
-    {                                                                                                                             \
-        state_know_##D##d_##M(b, p);                                                                                              \
-        SWEEP(b, p, m, D, force_and_break(b, p, limit, group, D, PD_##M));                                                        \
+#define INSTANCE(D, M)                                                                                                \
+    static void state_know_##D##d_##M(struct bonds *b, const struct particles *p)                                     \
+    {                                                                                                                 \
+        _Pragma("omp parallel for schedule(static)")                                                                  \
+        for (int64_t k = 0; k < b->rest.awake; k++)                                                                   \
+            state_group(b, p, b->rest.list[k], D, PD_##M);                                                            \
+        _Pragma("omp parallel for schedule(static)")                                                                  \
+        for (int64_t g = 0; g < b->groups; g++) state_of_points(b, p, g, D, PD_##M);                                  \
+        state_of_images(b, p, D, state_turns(PD_##M));                                                                \
+    }                                                                                                                 \
+    static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,       \
+                                          struct pd_motion *m)                                                        \
+    {                                                                                                                 \
+        state_know_##D##d_##M(b, p);                                                                                  \
+        SWEEP(b, p, m, D, force_and_break(b, p, limit, group, D, PD_##M));                                            \
     }
 STATE_VARIANTS(INSTANCE)
 

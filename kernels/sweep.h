@@ -35,8 +35,8 @@ static ALWAYS_INLINE struct sweep sweep_make(const struct bonds *b)
     return s;
 }
 
-static ALWAYS_INLINE void sweep_move(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k, const struct pd_motion *m,
-                                     const int dim)
+static ALWAYS_INLINE void sweep_move(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
+                                     const struct pd_motion *m, const int dim)
 {
     const int64_t g = s->group[k];
     s->wild |= pd_move_eight(p, b->particle + g * LANES, eight_at(g * LANES, b->rows), m->loaded, m, dim);
@@ -44,12 +44,14 @@ static ALWAYS_INLINE void sweep_move(struct sweep *s, const struct bonds *b, str
 
 /* Asks memory for what the sweep will touch first: places at its reach, forces, velocities of who moves next. The machine does so
  * by itself within a page, but a sweep has a dozen arrays. */
-static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds *b, const struct particles *p, int64_t k, const int dim)
+static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds *b, const struct particles *p, int64_t k,
+                                      const int dim)
 {
     const int64_t next = s->next + k % PIECE;
     if (b->groups < FETCHED || k + AHEAD >= s->end || next >= s->end) return;
     const int64_t group = s->group[k + AHEAD];
-    const int32_t i = b->particle[group * LANES], far = i + b->reach * LANES, moves = b->particle[(int64_t)s->group[next] * LANES];
+    const int32_t i = b->particle[group * LANES], far = i + b->reach * LANES;
+    const int32_t moves = b->particle[(int64_t)s->group[next] * LANES];
     __builtin_prefetch(b->trigger + group * LANES);
     __builtin_prefetch(p->mass + moves);
     for (int d = 0; d < dim; d++) {
@@ -60,15 +62,16 @@ static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds 
 }
 
 /* The k-th has its forces, and all before it: moves who is far enough behind. */
-static ALWAYS_INLINE void sweep_follow(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k, const struct pd_motion *m,
-                                       const int dim)
+static ALWAYS_INLINE void sweep_follow(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
+                                       const struct pd_motion *m, const int dim)
 {
     const int64_t until = k + 1 < s->all ? s->group[k + 1] - b->reach : INT64_MAX;
     for (; s->next <= k && s->group[s->next] < until; s->next++) sweep_move(s, b, p, s->next, m, dim);
 }
 
 /* All threads have the forces of their parts: moves who is left. */
-static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, struct particles *p, const struct pd_motion *m, const int dim)
+static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, struct particles *p, const struct pd_motion *m,
+                                       const int dim)
 {
     for (int64_t k = s->first; k < s->early; k++) sweep_move(s, b, p, k, m, dim);
     for (; s->next < s->end; s->next++) sweep_move(s, b, p, s->next, m, dim);

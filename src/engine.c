@@ -150,12 +150,13 @@ status engine_step(struct engine *e)
     engine_return(e);                                                       /* peridynamic -> material point */
     lap(&e->laps, LAP_CONVERT);
     engine_sample_begin(e);
+    struct pd_motion *now = moves_at_once(e) ? &motion : NULL;
     lap(&e->laps, LAP_WATCH);
     TRY(grid_sort(e));
     if (e->rim.points > 0 && e->rim_share > 0) e->damped += rim_damp(&e->rim, p, e->rim_share);
     lap(&e->laps, LAP_GRID);
-    loads_clear(&e->loads, p);                                              /* 2, 5: forces of bonds; breaking */
-    int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit, moves_at_once(e) ? &motion : NULL);
+    loads_clear(&e->loads, p);
+    int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit, now);    /* 2, 5: forces of bonds; breaking */
     loads_apply(&e->loads, p, middle, e->dt, dt_velocity);
     lap(&e->laps, LAP_BONDS);
     engine_sample_energy(e);
