@@ -13,7 +13,7 @@
 #include "memory.h"
 #include "output_files.h"
 
-enum { SIZES = 4, DIMS = 2, STEPS_WARM = 2, PIECES = 4, FRAME_EVERY = 100 };
+enum { SIZES = 4, DIMS = 2, STEPS_WARM = 2, PIECES = 4, FRAME_EVERY = 100, FRAMES = 6 };
 static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
 /* What is asked: spread over the sizes, set-up [full steps], output [1]. */
 #define SPREAD_ASKED 1.15
@@ -51,7 +51,8 @@ static bool machine_holds(const struct bench_block *block, double particles)
 
 /* ---- output ---------------------------------------------------------------------------------------------- */
 
-/* Frames of a run that writes one every FRAME_EVERY steps; what they hold up the loop is its lap of output. */
+/* Frames of a run that writes one every FRAME_EVERY steps; what they hold up the loop is its lap of output. The first makes room
+ * for the copy that the others write over. */
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;
@@ -60,11 +61,11 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     struct bench_child folder = {0};
     TRY(bench_folder_make());
     strcpy(folder.folder, BENCH_FOLDER "/run-scale");
-    TRY(bench_block_make(&e, &s, block, particles, 2 * FRAME_EVERY, 2, &out));
+    TRY(bench_block_make(&e, &s, block, particles, FRAMES * FRAME_EVERY, FRAMES, &out));
     status ran = output_open(&out, folder.folder, s.text, false, false);
     if (ran == OK) {
         ran = engine_run(&e);
-        r->frame = e.laps.spent[LAP_OUTPUT] / 2;
+        r->frame = e.laps.spent[LAP_OUTPUT] / FRAMES;
         FILE *f = fopen(path_join(folder.folder, "frames/000001.hdf").text, "r");
         if (f && fseek(f, 0, SEEK_END) == 0) r->frame_bytes = (double)ftell(f) / (double)e.part.n;
         if (f) fclose(f);

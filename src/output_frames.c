@@ -15,41 +15,72 @@
 #include "output_hdf5.h"
 
 enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
+enum { COPIED = 4096 };                  /* particles whose rows a thread copies at once */
 
 /* ---- the table of fields --------------------------------------------------------------------------- */
 
-/* One dataset with a row per particle. `fill` writes the row of particle i; `columns` 0 stands for dim; `fixed`: it never
- * changes in a run. */
+/* One dataset with a row per particle. `columns` 0 stands for dim; `fill` writes the row of particle i of what never changes in a
+ * run, `copy` those of particles first .. end - 1 of the rest, into `rows` of all: the loop waits for it. */
 struct frame_field {
     const char *path;
     enum hdf_type type;
     int columns;
     void (*fill)(const struct particles *p, int64_t i, void *row);
-    bool fixed;
+    void (*copy)(const struct particles *p, int64_t first, int64_t end, void *rows);
 };
 
-static void fill_point(const struct particles *p, int64_t i, void *row)
+/* Components of a vector in a place of three. */
+static ALWAYS_INLINE void vector_row(float *row, int64_t i, real *const *of, real *const *less, int dim)
 {
-    for (int d = 0; d < DIM_MAX; d++) ((float *)row)[d] = d < p->dim ? (float)p->x[d][i] : 0;
+    for (int d = 0; d < DIM_MAX; d++) row[d] = d < dim ? (float)(less ? of[d][i] - less[d][i] : of[d][i]) : 0;
 }
 
-static void fill_displacement(const struct particles *p, int64_t i, void *row)
+static void copy_point(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
-    for (int d = 0; d < DIM_MAX; d++) ((float *)row)[d] = d < p->dim ? (float)(p->x[d][i] - p->X[d][i]) : 0;
+    const struct particles own = *p;
+    for (int64_t i = first; i < end; i++) vector_row((float *)rows + DIM_MAX * i, i, own.x, NULL, own.dim);
 }
 
-static void fill_velocity(const struct particles *p, int64_t i, void *row)
+static void copy_displacement(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
-    for (int d = 0; d < DIM_MAX; d++) ((float *)row)[d] = d < p->dim ? (float)p->v[d][i] : 0;
+    const struct particles own = *p;
+    for (int64_t i = first; i < end; i++) vector_row((float *)rows + DIM_MAX * i, i, own.x, own.X, own.dim);
 }
 
-static void fill_stress(const struct particles *p, int64_t i, void *row)
+static void copy_velocity(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    const struct particles own = *p;
+    for (int64_t i = first; i < end; i++) vector_row((float *)rows + DIM_MAX * i, i, own.v, NULL, own.dim);
+}
+
+static void copy_stress(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
     /* Place of our k-th component in VTK's order; differs only in 2D: xx yy xy. */
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
-    float *out = row;
-    for (int k = 0; k < SYM_MAX; k++) out[k] = 0;
-    for (int k = 0; k < symmetric_count(p->dim); k++) out[place[p->dim][k]] = (float)p->stress[k][i];
+    const struct particles own = *p;
+    float *out = rows;
+    memset(out + SYM_MAX * first, 0, (size_t)(SYM_MAX * (end - first)) * sizeof *out);
+    for (int k = 0; k < symmetric_count(own.dim); k++) {
+        const int column = place[own.dim][k];
+        for (int64_t i = first; i < end; i++) out[SYM_MAX * i + column] = (float)own.stress[k][i];
+    }
+}
+
+static void copy_damage(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    const real *damage = p->damage;
+    for (int64_t i = first; i < end; i++) ((float *)rows)[i] = (float)damage[i];
+}
+
+static void copy_plastic_strain(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    const real *strain = p->plastic_strain;
+    for (int64_t i = first; i < end; i++) ((float *)rows)[i] = (float)strain[i];
+}
+
+static void copy_kind(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    memcpy((uint8_t *)rows + first, p->kind + first, (size_t)(end - first));
 }
 
 static void fill_reference(const struct particles *p, int64_t i, void *row)
@@ -57,37 +88,30 @@ static void fill_reference(const struct particles *p, int64_t i, void *row)
     for (int d = 0; d < p->dim; d++) ((double *)row)[d] = p->X[d][i];
 }
 
-static void fill_damage(const struct particles *p, int64_t i, void *row) { *(float *)row = (float)p->damage[i]; }
-static void fill_kind(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->kind[i]; }
 static void fill_material(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->material[i]; }
 static void fill_body(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->body[i]; }
 static void fill_id(const struct particles *p, int64_t i, void *row) { *(int32_t *)row = p->id[i]; }
 
-static void fill_plastic_strain(const struct particles *p, int64_t i, void *row)
-{
-    *(float *)row = (float)p->plastic_strain[i];
-}
-
 #define POINT_DATA "/VTKHDF/PointData/"
 enum { FIELD_POINTS };                   /* where in the table the positions stand */
 static const struct frame_field frame_fields[] = {
-    {"/VTKHDF/Points", HDF_F32, 3, fill_point, false},
-    {POINT_DATA "displacement", HDF_F32, 3, fill_displacement, false},
-    {POINT_DATA "velocity", HDF_F32, 3, fill_velocity, false},
-    {POINT_DATA "stress", HDF_F32, 6, fill_stress, false},
-    {POINT_DATA "damage", HDF_F32, 1, fill_damage, false},
-    {POINT_DATA "plastic_strain", HDF_F32, 1, fill_plastic_strain, false},
-    {POINT_DATA "kind", HDF_U8, 1, fill_kind, false},
-    {POINT_DATA "material", HDF_U8, 1, fill_material, true},
-    {POINT_DATA "body", HDF_U8, 1, fill_body, true},
-    {POINT_DATA "id", HDF_I32, 1, fill_id, true},
-    {"/Cleave/reference", HDF_F64, 0, fill_reference, true},
+    {"/VTKHDF/Points", HDF_F32, 3, NULL, copy_point},
+    {POINT_DATA "displacement", HDF_F32, 3, NULL, copy_displacement},
+    {POINT_DATA "velocity", HDF_F32, 3, NULL, copy_velocity},
+    {POINT_DATA "stress", HDF_F32, 6, NULL, copy_stress},
+    {POINT_DATA "damage", HDF_F32, 1, NULL, copy_damage},
+    {POINT_DATA "plastic_strain", HDF_F32, 1, NULL, copy_plastic_strain},
+    {POINT_DATA "kind", HDF_U8, 1, NULL, copy_kind},
+    {POINT_DATA "material", HDF_U8, 1, fill_material, NULL},
+    {POINT_DATA "body", HDF_U8, 1, fill_body, NULL},
+    {POINT_DATA "id", HDF_I32, 1, fill_id, NULL},
+    {"/Cleave/reference", HDF_F64, 0, fill_reference, NULL},
 };
 
 /* Plastic strain is there only if a material yields. */
 static bool field_exists(const struct frame_field *field, bool yielding)
 {
-    return yielding || field->fill != fill_plastic_strain;
+    return yielding || field->copy != copy_plastic_strain;
 }
 
 /* ---- one frame ------------------------------------------------------------------------------------- */
@@ -125,7 +149,7 @@ static struct frame_job *job_make(struct output *o, const struct particles *p, r
     job->compress = o->compress, job->yielding = p->plastic_strain != NULL, job->scene_text = scene_text;
     for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
         offset[k] = length;
-        if (field_exists(&frame_fields[k], job->yielding) && !frame_fields[k].fixed)
+        if (field_exists(&frame_fields[k], job->yielding) && frame_fields[k].copy)
             length += (size_t)p->n * field_row(&frame_fields[k], p->dim);
     }
     if (o->frame_copy_bytes < (int64_t)length) {
@@ -135,11 +159,11 @@ static struct frame_job *job_make(struct output *o, const struct particles *p, r
     }
     for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
         const struct frame_field *field = &frame_fields[k];
-        if (field->fixed || !field_exists(field, job->yielding)) continue;
-        char *data = job->field[k] = o->frame_copy + offset[k];
-        const size_t row = field_row(field, p->dim);
+        if (!field->copy || !field_exists(field, job->yielding)) continue;
+        job->field[k] = o->frame_copy + offset[k];
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < p->n; i++) field->fill(p, i, data + (size_t)i * row);
+        for (int64_t first = 0; first < p->n; first += COPIED)
+            field->copy(p, first, first + COPIED < p->n ? first + COPIED : p->n, job->field[k]);
     }
     return job;
 }
@@ -174,7 +198,7 @@ static void write_field(struct hdf *f, const struct frame_job *job, size_t k, co
     const size_t row = field_row(field, job->dim);
     assert(row <= ROW_MOST);
     for (int64_t i = 0; i < job->n; i++)
-        if (field->fixed) field->fill(job->p, order[i], room + (size_t)i * row);
+        if (field->fill) field->fill(job->p, order[i], room + (size_t)i * row);
         else memcpy(room + (size_t)i * row, job->field[k] + (size_t)order[i] * row, row);
     hdf_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
 }
