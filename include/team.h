@@ -14,7 +14,7 @@ struct machine {
 
 /* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask.
  * Binds helper thread k >= 1 to the k-th core of the mask, if there is one for each, unless the user set
- * OMP_PROC_BIND or OMP_PLACES; the calling thread goes to the first and keeps the mask. Returns the number in use. */
+ * OMP_PROC_BIND or OMP_PLACES; the calling thread goes to the first core and keeps the mask. Returns the number in use. */
 int team_make(int threads);
 struct machine team_machine(void);
 int64_t team_memory(void);               /* of the machine [byte]; needs no look at it after team_make */

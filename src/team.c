@@ -32,6 +32,28 @@ static void note_memory(hwloc_topology_t topology)
     memory = seen > 0 ? seen : (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
 }
 
+/* The k-th physical core of the mask; NULL past the last. */
+static hwloc_obj_t core_at(const struct place *place, int k)
+{
+    hwloc_obj_t core = NULL;
+    while ((core = hwloc_get_next_obj_by_type(place->topology, HWLOC_OBJ_CORE, core)) != NULL)
+        if (hwloc_bitmap_intersects(core->cpuset, place->mask) && k-- == 0) return core;
+    return NULL;
+}
+
+/* Looking takes the calling thread to every core in turn and leaves it on the last, where it would share a helper's core for some
+ * 20 ms, until the scheduler sees it: it goes to the first, and may go wherever it might. */
+static void come_home(const struct place *place)
+{
+    const hwloc_obj_t core = core_at(place, 0);
+    if (!core) return;
+    hwloc_bitmap_t home = hwloc_bitmap_dup(core->cpuset);
+    hwloc_bitmap_and(home, home, place->mask);
+    hwloc_set_cpubind(place->topology, home, HWLOC_CPUBIND_THREAD);
+    hwloc_set_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD);
+    hwloc_bitmap_free(home);
+}
+
 static bool place_make(struct place *place)
 {
     setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
@@ -48,6 +70,7 @@ static bool place_make(struct place *place)
         hwloc_bitmap_copy(place->mask, allowed);
     hwloc_bitmap_and(place->mask, place->mask, allowed);
     if (hwloc_bitmap_iszero(place->mask)) hwloc_bitmap_copy(place->mask, allowed);
+    come_home(place);
     return true;
 }
 
@@ -55,15 +78,6 @@ static void place_free(struct place *place)
 {
     hwloc_bitmap_free(place->mask);
     hwloc_topology_destroy(place->topology);
-}
-
-/* The k-th physical core of the mask; NULL past the last. */
-static hwloc_obj_t core_at(const struct place *place, int k)
-{
-    hwloc_obj_t core = NULL;
-    while ((core = hwloc_get_next_obj_by_type(place->topology, HWLOC_OBJ_CORE, core)) != NULL)
-        if (hwloc_bitmap_intersects(core->cpuset, place->mask) && k-- == 0) return core;
-    return NULL;
 }
 
 /* Physical cores of the mask; where hwloc sees none (some virtual machines), its hardware threads. */
@@ -111,9 +125,8 @@ int64_t team_memory(void) { return memory > 0 ? memory : team_machine().memory; 
 /* ---- the team -------------------------------------------------------------------------------------- */
 
 /* Each helper to a core of its own, or back to the whole mask where there are not enough cores. The calling
- * thread goes to the first and stays free: its mask is what tells the next call (another team size) what the process may use,
- * and the programs it starts inherit it. Left where looking at the machine ends, on a helper's core, it would share that for
- * some 20 ms, until the scheduler sees it. */
+ * thread stays free: its mask is what tells the next call (another team size) what the process may use, and the
+ * programs it starts inherit it. */
 static void bind_helpers(const struct place *place, int threads)
 {
     bool apart = core_at(place, threads - 1) != NULL;
@@ -122,8 +135,7 @@ static void bind_helpers(const struct place *place, int threads)
         int k = omp_get_thread_num();
         hwloc_bitmap_t mine = hwloc_bitmap_dup(place->mask);
         if (apart) hwloc_bitmap_and(mine, mine, core_at(place, k)->cpuset);
-        hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD);              /* a wish: refusal does no harm */
-        if (k == 0) hwloc_set_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD);
+        if (k > 0) hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD);   /* a wish: refusal does no harm */
         hwloc_bitmap_free(mine);
     }
 }
