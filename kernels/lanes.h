@@ -32,11 +32,12 @@ static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 #endif
 }
 
-/* Eight of a list of n from the k-th on; the last ones of all are copied to `room`, and filled up with the last. */
+/* Eight of a list of n from the k-th on; the last ones of all are copied to `room`, and filled up with the first of them: fewer than
+ * eight never look consecutive. */
 static ALWAYS_INLINE const int32_t *list_eight(const int32_t *list, int64_t k, int64_t n, int32_t room[LANES])
 {
     if (k + LANES <= n) return list + k;
-    for (int l = 0; l < LANES; l++) room[l] = list[k + l < n ? k + l : n - 1];
+    for (int l = 0; l < LANES; l++) room[l] = list[k + l < n ? k + l : k];
     return room;
 }
 

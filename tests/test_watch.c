@@ -224,6 +224,21 @@ static void alarm_sees_everybody_listed(void **state)
     }
 }
 
+/* The ends of a short list may lie as far apart as those of eight in a row: who stands between them is not listed. */
+static void alarm_passes_gaps_at_the_end(void **state)
+{
+    (void)state;
+    struct body b;
+    body_make(&b, 2, (const int[]){16, 4, 1});
+    b.p.v[0][3] = NAN;
+    for (int n = 2; n <= 7; n++) {
+        for (int k = 0; k < n - 1; k++) b.p.list[KIND_PD][k] = k < 3 ? k : k + 1;
+        b.p.list[KIND_PD][n - 1] = 7;
+        assert_false(particles_out_of_hand(&b.p, b.p.list[KIND_PD], n, 5000));
+    }
+    body_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -233,6 +248,7 @@ int main(void)
         cmocka_unit_test(first_break_is_booked_once),
         cmocka_unit_test(alarm_names_the_first_runaway),
         cmocka_unit_test(alarm_sees_everybody_listed),
+        cmocka_unit_test(alarm_passes_gaps_at_the_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
