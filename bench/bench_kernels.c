@@ -101,7 +101,8 @@ static void job_call(const struct job *j, struct ground *g)
         k.bond_stress(&pd->bonds, &pd->part);
         break;
     case PD_MOVE:
-        pd_move_table[j->dim](&pd->part, pd->part.list[KIND_PD], pd->part.n_of[KIND_PD], &(struct pd_motion){1e-12, 1e-12, INFINITY, NULL, false});
+        pd_move_table[j->dim](&pd->part, pd->part.list[KIND_PD], pd->part.n_of[KIND_PD],
+                              &(struct pd_motion){1e-12, 1e-12, INFINITY, NULL, false});
         break;
     case P2G:
         p2g_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer);

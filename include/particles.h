@@ -63,6 +63,7 @@ static inline uint64_t eight_bytes(const uint8_t *from)
     return eight;
 }
 #define EIGHT_TIMES(byte) ((uint64_t)(byte) * 0x0101010101010101)
+static inline bool eight_same(const uint8_t *from) { return eight_bytes(from) == EIGHT_TIMES(from[0]); }
 
 /* So many of n are the eight from `first` on. */
 static inline int eight_at(int64_t first, int64_t n) { return n - first < LANES ? (int)(n - first) : LANES; }

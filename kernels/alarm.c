@@ -1,22 +1,19 @@
 /* floor 2: is one of many particles out of hand? Asked in every step; which one it is, nobody asks before the run ends for it
  * (watch.c). Reads 32 bytes a particle in 2D. */
-#include <float.h>
-
+#include "alarm.h"
 #include "kernels.h"
-#include "lanes.h"
 #include "variants.h"
 
-/* Comparisons are written so that a number that is none is caught. */
-static ALWAYS_INLINE lanes_mask out_of_hand(const struct particles *p, const int32_t *list, real limit2, const int dim)
+static ALWAYS_INLINE lanes_mask eight_out_of_hand(const struct particles *p, const int32_t *list, real limit2, const int dim)
 {
-    const int32_t first = list[LANES - 1] - list[0] == LANES - 1 ? list[0] : -1;   /* ascending, so consecutive */
+    const int32_t first = list_together(list) ? list[0] : -1;
     lanes speed2 = lanes_of(0), place = lanes_of(0);
     for (int d = 0; d < dim; d++) {
         const lanes v = lanes_at(p->v[d], first, list);
         speed2 += v * v;
         place += lanes_size(lanes_at(p->x[d], first, list));
     }
-    return ~((speed2 <= limit2) & (place <= DBL_MAX));
+    return out_of_hand(speed2, place, limit2);
 }
 
 static ALWAYS_INLINE bool any_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit2, const int dim)
@@ -25,7 +22,7 @@ static ALWAYS_INLINE bool any_out_of_hand(const struct particles *p, const int32
 #pragma omp parallel for schedule(static) reduction(+ : found)
     for (int64_t k = 0; k < n; k += LANES) {
         _Alignas(sizeof(lanes)) int32_t room[LANES];
-        found += lanes_any(out_of_hand(p, list_eight(list, k, n, room), limit2, dim));
+        found += lanes_any(eight_out_of_hand(p, list_eight(list, k, n, room), limit2, dim));
     }
     return found > 0;
 }

@@ -46,7 +46,7 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
 {
     const int32_t *row = b->particle + g * LANES;
     const bool aligned = b->aligned[g];
-    const int rows = b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
+    const int rows = eight_at(g * LANES, b->rows);
     const int32_t own = aligned ? row[0] : -1;
     const lanes zero = lanes_of(0), x0 = lanes_at(p->x[0], own, row);
     struct bond_sums sum = {x0, dim > 1 ? lanes_at(p->x[1], own, row) : x0, dim > 2 ? lanes_at(p->x[2], own, row) : x0,

@@ -64,10 +64,10 @@ struct pd_motion {
 };
 
 /* Force of all intact bonds on the particle of every row that is awake (rest.h; overwrites f there), then breaks what is
- * stretched beyond its limit. A bond acts with half its force in the step in which it breaks: a leap-frog kick stands half before and half after that
- * instant, so the energy of breaking is second order in the time step (all or nothing of it is first order). Sets
- * FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves 4 bytes
- * per bond from memory on a lattice, 12 where weights differ, 16 or 24 elsewhere (bond_slot.h); positions come from
+ * stretched beyond its limit. A bond acts with half its force in the step in which it breaks: a leap-frog kick stands half
+ * before and half after that instant, so the energy of breaking is second order in the time step (all or nothing of it is
+ * first order). Sets FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves
+ * 4 bytes per bond from memory on a lattice, 12 where weights differ, 16 or 24 elsewhere (bond_slot.h); positions come from
  * cache. Returns the directed bonds broken. With `motion` peridynamic particles that are awake, that the grid does not move
  * and that are not `loaded` move in the same sweep (sweep.h). */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *motion);

@@ -41,6 +41,9 @@ static ALWAYS_INLINE const int32_t *list_eight(const int32_t *list, int64_t k, i
     return room;
 }
 
+/* Are eight of an ascending list consecutive? */
+static ALWAYS_INLINE bool list_together(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
+
 /* Eight values: consecutive from `first` on, or where that is negative those of `index`. */
 static ALWAYS_INLINE lanes lanes_at(const real *from, int32_t first, const int32_t *index)
 {

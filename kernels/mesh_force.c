@@ -116,7 +116,7 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
         const int64_t left = mesh->cuts - group * LANES;
         const lanes *f = (const lanes *)mesh->cut_force + group * (1 << dim) * dim;
         if (cuts_asleep(mesh, group)) continue;
-        const bool in_line = cell[LANES - 1] - cell[0] == LANES - 1;
+        const bool in_line = list_together(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
                 real *to = mesh->grid.force[i] + mesh->corner[c];

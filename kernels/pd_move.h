@@ -3,17 +3,15 @@
 #ifndef CLEAVE_PD_MOVE_H
 #define CLEAVE_PD_MOVE_H
 
-#include <float.h>
-
+#include "alarm.h"
 #include "kernels.h"
-#include "lanes.h"
 
 /* Which of the first n of eight particles move, a bit each: neither the grid moves them, nor do they wait for loads. */
 static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t *list, int n, const uint8_t *loaded)
 {
     const int32_t first = list[0];
     unsigned bits = 0;
-    if (n == LANES && list[LANES - 1] - first == LANES - 1 && eight_bytes(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
+    if (n == LANES && list_together(list) && eight_bytes(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
         !(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_CARRIED)) && !(loaded && eight_bytes(loaded + first)))
         return UINT8_MAX;
     for (int l = 0; l < n; l++) bits |= (unsigned)(!particle_on_grid(p, list[l]) && !(loaded && loaded[list[l]])) << l;
@@ -29,7 +27,7 @@ static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together,
 }
 
 /* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of those of eight particles that move; `together`: all, and they are
- * consecutive. Is one of them out of hand? Comparisons are written so that a number that is none is caught. */
+ * consecutive. Is one of them out of hand? */
 static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m,
                                   const int dim, const bool together)
 {
@@ -45,10 +43,10 @@ static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsi
         pd_store(p->v[d], list, together, movers, v[d]);
         pd_store(p->x[d], list, together, movers, x[d]);
     }
-    const lanes_mask calm = (speed2 <= square(m->fastest)) & (place <= DBL_MAX);
-    bool wild = together && lanes_any(~calm);
-    for (int l = 0; l < LANES && !together; l++) wild |= (movers >> l & 1) && !calm[l];
-    return wild;
+    const lanes_mask wild = out_of_hand(speed2, place, square(m->fastest));
+    bool any = together && lanes_any(wild);
+    for (int l = 0; l < LANES && !together; l++) any |= (movers >> l & 1) && wild[l];
+    return any;
 }
 
 /* The same of the first n of eight particles, in ascending order from a 32-byte boundary on, but for those that do not move. */
@@ -57,7 +55,7 @@ static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list
 {
     const unsigned movers = pd_movers(p, list, n, loaded);
     if (movers == 0) return false;
-    if (movers == UINT8_MAX && list[LANES - 1] - list[0] == LANES - 1) return pd_step(p, list, movers, m, dim, true);
+    if (movers == UINT8_MAX && list_together(list)) return pd_step(p, list, movers, m, dim, true);
     return pd_step(p, list, movers, m, dim, false);
 }
 

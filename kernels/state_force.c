@@ -36,14 +36,6 @@ static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct partic
     }
 }
 
-/* Are eight bytes alike? */
-static ALWAYS_INLINE bool eight_alike(const uint8_t *from)
-{
-    uint64_t bytes;
-    memcpy(&bytes, from, sizeof bytes);
-    return bytes == from[0] * UINT64_C(0x0101010101010101);
-}
-
 /* The rotation nearest to the moment; where nobody has moved it is none, to the last bit. */
 static ALWAYS_INLINE void family_turn(lanes *turn, const struct family_sums *sum, lanes spring, const int dim)
 {
@@ -59,8 +51,8 @@ static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p,
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    const bool whole = own >= 0 && b->whole[g * LANES] && eight_alike(b->whole + g * LANES);
-    const bool alike = own >= 0 && eight_alike(p->material + own);
+    const bool whole = own >= 0 && b->whole[g * LANES] && eight_same(b->whole + g * LANES);
+    const bool alike = own >= 0 && eight_same(p->material + own);
     const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
     lanes A = lanes_of(m->A), B = lanes_of(m->B), turn[TURN];
     for (int l = 0; l < LANES && !alike; l++) m = &b->state.modulus[p->material[row[l]]], A[l] = m->A, B[l] = m->B;
@@ -108,7 +100,7 @@ static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p
                                       const enum pd_model model)
 {
     const uint8_t *whole = b->whole + g * LANES;         /* 0 of padding rows */
-    if (whole[0] || !eight_alike(whole)) know_group(b, p, g, true, dim, model);
+    if (whole[0] || !eight_same(whole)) know_group(b, p, g, true, dim, model);
     else know_group(b, p, g, false, dim, model);
 }
 
@@ -150,7 +142,7 @@ static ALWAYS_INLINE void state_of_points(struct bonds *b, const struct particle
     const int32_t *row = b->particle + g * LANES;
     lanes turn[TURN], spring = lanes_of(0);
     bool points = false;
-    if (b->whole[g * LANES] && eight_alike(b->whole + g * LANES)) return;
+    if (b->whole[g * LANES] && eight_same(b->whole + g * LANES)) return;
     for (int l = 0; l < LANES; l++) {
         points |= p->kind[row[l]] == KIND_MPM;
         spring[l] = b->state.modulus[p->material[row[l]]].B * p->volume0[row[l]] / b->state.weighted[g * LANES + l];
@@ -226,7 +218,7 @@ static ALWAYS_INLINE void force_group(const struct bonds *b, struct particles *p
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    const int rows = b->rows - g * LANES < LANES ? (int)(b->rows - g * LANES) : LANES;
+    const int rows = eight_at(g * LANES, b->rows);
     const struct state *t = &b->state;
     struct state_sums sum;
     sum.pressure = lanes_at(t->pressure, own, row), sum.spring = lanes_at(t->spring, own, row);

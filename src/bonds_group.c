@@ -135,7 +135,7 @@ bool group_regular(const struct lattice *lattice, const struct bond_source *s, c
     for (int l = 0; l < LANES; l++)
         if (cracks_near(s, p, i + l)) return false;
     const uint8_t own = peridynamic(p, i);
-    if (own == UINT8_MAX && lattice_bonds_full(to)) {
+    if (own == UINT8_MAX && to->full) {
         memset(to->bonds, UINT8_MAX, (size_t)to->n);
         return slots_by_offset(to->n, to->n);
     }

@@ -184,7 +184,7 @@ static bool row_bonds(const struct lattice *l, const struct particles *p, int64_
     return true;
 }
 
-bool lattice_bonds_full(const struct lattice_bonds *b)
+static bool is_full(const struct lattice_bonds *b)
 {
     unsigned other = 0;
     for (int k = 0; k < b->n; k++) other |= b->from[k] | (b->to[k] ^ (LANES - 1u));
@@ -198,7 +198,8 @@ bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i
     if (l->at[site + LANES - 1] - l->at[site] != LANES - 1) return false;
     for (int k = 0; k < l->rows; k++)
         if (!row_bonds(l, p, site, &l->row[k], i, to)) return false;
-    if (lattice_bonds_full(to)) return slots_by_offset(to->n, to->n);
+    to->full = is_full(to);
+    if (to->full) return slots_by_offset(to->n, to->n);
     int bonds[LANES] = {0}, longest = 0;
     for (int k = 0; k < to->n; k++)
         for (int lane = 0; lane < LANES; lane++) bonds[lane] += lane >= to->from[k] && lane <= to->to[k];

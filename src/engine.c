@@ -127,13 +127,13 @@ static void renew_partial(struct engine *e, bool changed)
  * forces has passed (kernels/sweep.h). */
 static bool moves_at_once(const struct engine *e) { return !e->sampling.due && e->scene->growths == 0; }
 
-/* The others, or all. */
-static void move_peridynamic(struct engine *e, struct pd_motion *motion)
+/* Those who have not moved: the loaded ones, or all. */
+static void move_peridynamic(struct engine *e, struct pd_motion *motion, bool others_have)
 {
     struct particles *p = &e->part;
     const struct loads *l = &e->loads;
-    motion->wild |= moves_at_once(e) ? e->kernels.pd_move(p, l->list, l->listed, motion)
-                                     : e->kernels.pd_move(p, p->list[KIND_PD], p->n_of[KIND_PD], motion);
+    motion->wild |= others_have ? e->kernels.pd_move(p, l->list, l->listed, motion)
+                                : e->kernels.pd_move(p, p->list[KIND_PD], p->n_of[KIND_PD], motion);
     e->wild = motion->wild;
 }
 
@@ -162,7 +162,7 @@ status engine_step(struct engine *e)
     engine_sample_energy(e);
     broken += grow(e);                                                      /* 5: cracks that grow as they are told */
     lap(&e->laps, LAP_WATCH);
-    move_peridynamic(e, &motion);                                           /* peridynamic particles move */
+    move_peridynamic(e, &motion, now != NULL);                              /* peridynamic particles move */
     lap(&e->laps, LAP_BONDS);
     if (p->n_free + p->n_carried > 0) step_grid(e, middle);                 /* 1, 3, 4, 6, 7: material points move */
     else step_without_grid(e);

@@ -29,53 +29,52 @@ struct frame_field {
     void (*copy)(const struct particles *p, int64_t first, int64_t end, void *rows);
 };
 
-/* Components of a vector in a place of three. */
-static ALWAYS_INLINE void vector_row(float *row, int64_t i, real *const *of, real *const *less, int dim)
+/* Vectors, or by what they differ from others, in places of three. */
+static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less, int dim)
 {
-    for (int d = 0; d < DIM_MAX; d++) row[d] = d < dim ? (float)(less ? of[d][i] - less[d][i] : of[d][i]) : 0;
+    for (int64_t i = first; i < end; i++)
+        for (int d = 0; d < DIM_MAX; d++) rows[DIM_MAX * i + d] = d < dim ? (float)(less ? of[d][i] - less[d][i] : of[d][i]) : 0;
 }
 
 static void copy_point(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
-    const struct particles own = *p;
-    for (int64_t i = first; i < end; i++) vector_row((float *)rows + DIM_MAX * i, i, own.x, NULL, own.dim);
+    copy_vectors(rows, first, end, p->x, NULL, p->dim);
 }
 
 static void copy_displacement(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
-    const struct particles own = *p;
-    for (int64_t i = first; i < end; i++) vector_row((float *)rows + DIM_MAX * i, i, own.x, own.X, own.dim);
+    copy_vectors(rows, first, end, p->x, p->X, p->dim);
 }
 
 static void copy_velocity(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
-    const struct particles own = *p;
-    for (int64_t i = first; i < end; i++) vector_row((float *)rows + DIM_MAX * i, i, own.v, NULL, own.dim);
+    copy_vectors(rows, first, end, p->v, NULL, p->dim);
+}
+
+/* One number of each in every `columns`-th place. */
+static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of, int columns)
+{
+    for (int64_t i = first; i < end; i++) rows[columns * i] = (float)of[i];
 }
 
 static void copy_stress(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
     /* Place of our k-th component in VTK's order; differs only in 2D: xx yy xy. */
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
-    const struct particles own = *p;
     float *out = rows;
     memset(out + SYM_MAX * first, 0, (size_t)(SYM_MAX * (end - first)) * sizeof *out);
-    for (int k = 0; k < symmetric_count(own.dim); k++) {
-        const int column = place[own.dim][k];
-        for (int64_t i = first; i < end; i++) out[SYM_MAX * i + column] = (float)own.stress[k][i];
-    }
+    for (int k = 0; k < symmetric_count(p->dim); k++)
+        copy_scalars(out + place[p->dim][k], first, end, p->stress[k], SYM_MAX);
 }
 
 static void copy_damage(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
-    const real *damage = p->damage;
-    for (int64_t i = first; i < end; i++) ((float *)rows)[i] = (float)damage[i];
+    copy_scalars(rows, first, end, p->damage, 1);
 }
 
 static void copy_plastic_strain(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
-    const real *strain = p->plastic_strain;
-    for (int64_t i = first; i < end; i++) ((float *)rows)[i] = (float)strain[i];
+    copy_scalars(rows, first, end, p->plastic_strain, 1);
 }
 
 static void copy_kind(const struct particles *p, int64_t first, int64_t end, void *rows)

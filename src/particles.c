@@ -189,7 +189,7 @@ void particles_sort(struct particles *p, real spacing, int optional)
 static bool eight_alike(const struct particles *p, int64_t i)
 {
     const uint64_t meshed = eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
-    return eight_bytes(p->kind + i) == EIGHT_TIMES(p->kind[i]) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
+    return eight_same(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
 /* Particles i .. i + more - 1, to the end of a list of n. */

@@ -7,7 +7,7 @@
 #include "cloud.h"
 #include "engine.h"
 #include "engine_report.h"
-#include "near.h"
+#include "same.h"
 #include "variants.h"
 
 /* ---- nothing at rest is 0 --------------------------------------------------------------------------------- */
@@ -96,10 +96,7 @@ static void same_bits(const struct engine *a, const struct engine *b)
 {
     const struct particles *p = &a->part, *q = &b->part;
     assert_int_equal(p->n_of[KIND_PD], q->n_of[KIND_PD]);
-    for (int f = 0; f < particle_fields_count; f++)
-        for (int k = 0; k < particle_fields[f].count(p->dim, a->optional); k++)
-            assert_memory_equal(particle_array(p, &particle_fields[f], k), particle_array(q, &particle_fields[f], k),
-                                (size_t)p->n * particle_fields[f].size);
+    assert_same_particles(p, q, a->optional);
     assert_memory_equal(a->loads.impulse, b->loads.impulse, sizeof a->loads.impulse);
     assert_int_equal(a->mesh.points, b->mesh.points);
     for (int d = 0; d < p->dim && a->mesh.points > 0; d++) {

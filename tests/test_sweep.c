@@ -1,12 +1,10 @@
 /* floor 4: motion in the sweep of forces against all forces first: the same bits for every law, any number of threads, whoever
  * waits for loads, sleeps, or is moved by the grid. */
-#include <stdarg.h>
-#include <setjmp.h>
 #include <stdlib.h>
-#include <cmocka.h>
 
 #include "cloud.h"
 #include "kernels.h"
+#include "same.h"
 #include "sets.h"
 #include "team.h"
 
@@ -80,14 +78,6 @@ static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way,
     return broken;
 }
 
-static void assert_same(const struct particles *a, const struct particles *b)
-{
-    for (int f = 0; f < particle_fields_count; f++)
-        for (int k = 0; k < particle_fields[f].count(a->dim, 0); k++)
-            assert_memory_equal(particle_array(a, &particle_fields[f], k), particle_array(b, &particle_fields[f], k),
-                                (size_t)a->n * particle_fields[f].size);
-}
-
 static void check_sweep(int dim, enum pd_model model, int way, real fastest)
 {
     bond_force_fn *force = model >= PD_OSPD ? state_force_table[dim][model] : bond_force_table[dim][model];
@@ -104,7 +94,7 @@ static void check_sweep(int dim, enum pd_model model, int way, real fastest)
         struct pd_motion at_once = motion_of(&b, way, fastest);
         assert_int_equal(force(&b.c.bonds, &b.c.p, &b.c.source.limit, &at_once), broken);
         assert_int_equal(at_once.wild, motion.wild);
-        assert_same(&plain.c.p, &b.c.p);
+        assert_same_particles(&plain.c.p, &b.c.p, 0);
         body_free(&b);
     }
     team_make(2);

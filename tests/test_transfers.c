@@ -7,6 +7,7 @@
 
 #include "cloud.h"
 #include "reference_points.h"
+#include "same.h"
 #include "sets.h"
 #include "shape.h"
 #include "team.h"
@@ -430,11 +431,7 @@ static void same_bits(const struct choice *k)
         scene_step(&s[t], k, impulse, &work);
     }
     assert_memory_equal(s[0].g.mass, s[1].g.mass, (size_t)s[0].g.n * sizeof(real));
-    for (int f = 0; f < particle_fields_count; f++)
-        for (int a = 0; a < particle_fields[f].count(k->dim, s[0].optional); a++)
-            assert_memory_equal(particle_array(&s[0].c.p, &particle_fields[f], a),
-                                particle_array(&s[1].c.p, &particle_fields[f], a),
-                                (size_t)s[0].c.p.n * particle_fields[f].size);
+    assert_same_particles(&s[0].c.p, &s[1].c.p, s[0].optional);
     for (int t = 0; t < 2; t++) scene_free(&s[t]);
 }
 
