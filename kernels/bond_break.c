@@ -131,16 +131,33 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
     return largest > lanes_of(square(1 + least) * (1 - ROUND_OFF));
 }
 
-int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
+/* The same in the body's dimension. */
+static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const real least = least_limit(limit);
-    const lanes_mask past = p->dim == 1   ? rows_past(b, p, group, least, 1)
-                            : p->dim == 2 ? rows_past(b, p, group, least, 2)
-                                          : rows_past(b, p, group, least, 3);
+    return p->dim == 1 ? rows_past(b, p, g, least, 1) : p->dim == 2 ? rows_past(b, p, g, least, 2) : rows_past(b, p, g, least, 3);
+}
+
+int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
+{
+    const lanes_mask past = rows_due(b, p, limit, group);
     int64_t broken = 0;
     for (int l = 0; l < LANES && group * LANES + l < b->rows && lanes_any(past); l++)
         if (past[l]) broken += break_row(b, p, limit, group * LANES + l);
     return broken;
+}
+
+/* Padding rows are asked with the last, whose kind they have. */
+bool bond_break_asks(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+{
+    bool asks = false;
+#pragma omp parallel for schedule(static) reduction(|| : asks)
+    for (int64_t g = 0; g < b->groups; g++) {
+        const bool points = b->state.modulus && !(b->whole[g * LANES] && eight_same(b->whole + g * LANES));
+        const lanes_mask past = points && !asks ? rows_due(b, p, limit, g) : (lanes_mask)lanes_of(0);
+        for (int l = 0; l < LANES && points; l++) asks = asks || (past[l] && p->kind[b->particle[g * LANES + l]] == KIND_MPM);
+    }
+    return asks;
 }
 
 int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit)

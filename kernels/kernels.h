@@ -73,13 +73,15 @@ struct pd_motion {
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *motion);
 
 /* What particles know of their families, into b->state: the first half of a state-based force. Whoever breaks bonds of rows
- * just made calls it before: the energy of a bond is in it. */
+ * just made calls it before, if bond_break_asks. */
 typedef void state_know_fn(struct bonds *b, const struct particles *p);
 
 /* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then
  * may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
 KERNEL(int64_t, bond_break_group, (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group));
 KERNEL(int64_t, bond_break_all, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
+/* Might it break a bond of a material point whose energy is in what families know? Peridynamic rows tell theirs by themselves. */
+KERNEL(bool, bond_break_asks, (const struct bonds *b, const struct particles *p, const struct bond_limit *limit));
 
 /* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as fracture:
  * a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the next positions.

@@ -45,34 +45,54 @@ static ALWAYS_INLINE void family_turn(lanes *turn, const struct family_sums *sum
     turn_make(turn, R, spring, dim);
 }
 
-/* What a group's sums tell its peridynamic particles. */
-static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p, int64_t g, const struct family_sums *sum,
-                                     const int dim, const enum pd_model model)
+/* Moduli of eight rows and V/Q [m]; nothing where a family has nothing left. */
+struct own_family { lanes A, B, bulk, inverse, share; };
+
+static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    const bool whole = own >= 0 && b->whole[g * LANES] && eight_same(b->whole + g * LANES);
-    const bool alike = own >= 0 && eight_same(p->material + own);
     const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
-    lanes A = lanes_of(m->A), B = lanes_of(m->B), turn[TURN];
-    for (int l = 0; l < LANES && !alike; l++) m = &b->state.modulus[p->material[row[l]]], A[l] = m->A, B[l] = m->B;
-    const lanes Q = lanes_load(b->state.weighted + g * LANES), zero = lanes_of(0);
-    const lanes inverse = lanes_choose(Q > 0.0, 1.0 / Q, zero), share = lanes_at(p->volume0, own, row) * inverse;
-    const lanes pressure = A * sum->extension * inverse * share, spring = B * share;
-    if (state_turns(model)) family_turn(turn, sum, spring, dim);
-    if (whole) {
-        lanes_store(b->state.pressure + own, pressure);
-        lanes_store(b->state.spring + own, spring);
-        for (int c = 0; state_turns(model) && c < TURN; c++) lanes_store(b->state.turn[c] + own, turn[c]);
+    const lanes Q = lanes_load(b->state.weighted + g * LANES), inverse = lanes_choose(Q > 0.0, 1.0 / Q, lanes_of(0));
+    struct own_family f = {lanes_of(m->A), lanes_of(m->B), lanes_of(m->bulk), inverse, lanes_at(p->volume0, own, row) * inverse};
+    if (own >= 0 && eight_same(p->material + own)) return f;
+    for (int l = 0; l < LANES; l++) m = &b->state.modulus[p->material[row[l]]], f.A[l] = m->A, f.B[l] = m->B, f.bulk[l] = m->bulk;
+    return f;
+}
+
+struct knowledge { lanes pressure, spring, turn[TURN]; };
+
+/* What those rows of a group know that are of one kind. */
+static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p, int64_t g, const struct knowledge *k,
+                                     const enum kind kind, const enum pd_model model)
+{
+    const int32_t *row = b->particle + g * LANES;
+    const uint8_t *whole = b->whole + g * LANES;
+    struct state *t = &b->state;
+    if (b->aligned[g] && eight_same(whole) && (kind == KIND_PD) == whole[0]) {
+        lanes_store(t->pressure + row[0], k->pressure);
+        lanes_store(t->spring + row[0], k->spring);
+        for (int c = 0; state_turns(model) && c < TURN; c++) lanes_store(t->turn[c] + row[0], k->turn[c]);
         return;
     }
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
         const int32_t i = row[l];
-        if (!b->whole[g * LANES + l]) continue;
-        b->state.pressure[i] = pressure[l];
-        b->state.spring[i] = spring[l];
-        for (int c = 0; state_turns(model) && c < TURN; c++) b->state.turn[c][i] = turn[c][l];
+        if (p->kind[i] != kind) continue;
+        t->pressure[i] = k->pressure[l];
+        t->spring[i] = k->spring[l];
+        for (int c = 0; state_turns(model) && c < TURN; c++) t->turn[c][i] = k->turn[c][l];
     }
+}
+
+/* What a group's sums tell its peridynamic particles. */
+static ALWAYS_INLINE void know_by_family(struct bonds *b, const struct particles *p, int64_t g, const struct family_sums *sum,
+                                         const int dim, const enum pd_model model)
+{
+    const struct own_family f = own_family_of(b, p, g);
+    struct knowledge k;
+    k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
+    if (state_turns(model)) family_turn(k.turn, sum, k.spring, dim);
+    know_store(b, p, g, &k, KIND_PD, model);
 }
 
 /* Rows of one group; `knows`: there are peridynamic particles among them. Else only who is past its limit is looked for. */
@@ -93,7 +113,7 @@ static ALWAYS_INLINE void know_group(struct bonds *b, const struct particles *p,
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
-    if (knows) know_store(b, p, g, &sum, dim, model);
+    if (knows) know_by_family(b, p, g, &sum, dim, model);
 }
 
 static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p, int64_t g, const int dim,
@@ -104,34 +124,26 @@ static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p
     else know_group(b, p, g, false, dim, model);
 }
 
-/* Adds a slot to the mean rotation that neighbours have: sum w R. */
-static ALWAYS_INLINE void turned_slot(struct family_sums *sum, const struct slot slot, const int dim)
+/* Adds a slot to the mean rotation that neighbours have. */
+static ALWAYS_INLINE void turned_slot(struct turn_sums *sum, const struct slot slot, const int dim)
 {
     const struct state *t = &slot.b->state;
-    const lanes w = slot_weight(slot), zero = lanes_of(0);
-    const lanes per_spring = w / lanes_choose(w > 0.0, slot_at(slot, t->spring), lanes_of(1));
     lanes turn[TURN];
-    for (int c = 0; c < TURN; c++) turn[c] = lanes_choose(w > 0.0, slot_at(slot, t->turn[c]), zero);
-    for (int c = 0; c < dim; c++) {
-        lanes less[DIM_MAX] = {zero, zero, zero}, unit[DIM_MAX] = {zero, zero, zero};
-        unit[c] = lanes_of(1);
-        turn_off(less, turn, unit, dim);
-        for (int d = 0; d < dim; d++) {
-            sum->moment[d * dim + c] += w * unit[d] - less[d] * per_spring;
-            sum->moved |= less[d] != 0.0;
-        }
-    }
+    for (int c = 0; c < TURN; c++)
+        if (turn_reads(c, dim)) turn[c] = slot_at(slot, t->turn[c]);
+    turn_add(sum, turn, slot_at(slot, t->spring), slot_weight(slot), dim);
 }
 
-/* The mean rotation that the neighbours of eight rows have. */
+/* The mean rotation that the neighbours of eight rows have, by their springs. */
 static ALWAYS_INLINE void turned_group(const struct bonds *b, int64_t g, lanes *turn, lanes spring, const int dim)
 {
+    struct turn_sums turned;
     struct family_sums sum;
-    sum.moved = (lanes_mask)lanes_of(0);
-    for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_of(0);
-#define VISIT(SLOT) turned_slot(&sum, SLOT, dim)
+    turn_sums_make(&turned);
+#define VISIT(SLOT) turned_slot(&turned, SLOT, dim)
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
+    sum.moved = turn_moment(sum.moment, &turned, dim);
     family_turn(turn, &sum, spring, dim);
 }
 
@@ -140,26 +152,16 @@ static ALWAYS_INLINE void state_of_points(struct bonds *b, const struct particle
                                           const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    lanes turn[TURN], spring = lanes_of(0);
-    bool points = false;
-    if (b->whole[g * LANES] && eight_same(b->whole + g * LANES)) return;
-    for (int l = 0; l < LANES; l++) {
-        points |= p->kind[row[l]] == KIND_MPM;
-        spring[l] = b->state.modulus[p->material[row[l]]].B * p->volume0[row[l]] / b->state.weighted[g * LANES + l];
-    }
-    if (!points) return;
-    if (state_turns(model)) turned_group(b, g, turn, spring, dim);
-    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
-        const int32_t i = row[l];
-        const struct state_modulus *m = &b->state.modulus[p->material[i]];
-        const real share = p->volume0[i] / b->state.weighted[g * LANES + l];
-        real trace = 0;
-        if (p->kind[i] != KIND_MPM) continue;
-        for (int d = 0; d < dim; d++) trace += p->stress[d][i];
-        b->state.pressure[i] = m->A * trace / (dim * dim * m->bulk) * share;
-        b->state.spring[i] = spring[l];
-        for (int c = 0; state_turns(model) && c < TURN; c++) b->state.turn[c][i] = turn[c][l];
-    }
+    const uint8_t *whole = b->whole + g * LANES;
+    const int32_t own = b->aligned[g] ? row[0] : -1;
+    if (eight_same(whole) && whole[0]) return;
+    const struct own_family f = own_family_of(b, p, g);
+    struct knowledge k;
+    lanes trace = lanes_of(0);
+    for (int d = 0; d < dim; d++) trace += lanes_at(p->stress[d], own, row);
+    k.pressure = f.A * trace / (dim * dim * f.bulk) * f.share, k.spring = f.B * f.share;
+    if (state_turns(model)) turned_group(b, g, k.turn, k.spring, dim);
+    know_store(b, p, g, &k, KIND_MPM, model);
 }
 
 /* Mirror images know what their source knows; a plane of symmetry turns rotations round. */
@@ -254,6 +256,7 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
         _Pragma("omp parallel for schedule(static)")                                                                  \
         for (int64_t k = 0; k < b->rest.awake; k++)                                                                   \
             state_group(b, p, b->rest.list[k], D, PD_##M);                                                            \
+        if (state_turns(PD_##M)) state_of_images(b, p, D, true);         /* points look at their rotations */         \
         _Pragma("omp parallel for schedule(static)")                                                                  \
         for (int64_t g = 0; g < b->groups; g++) state_of_points(b, p, g, D, PD_##M);                                  \
         state_of_images(b, p, D, state_turns(PD_##M));                                                                \

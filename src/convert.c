@@ -152,7 +152,7 @@ static void look_at(const struct conversion_look *look, const struct particles *
 static int64_t rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
 {
     bonds_renew(b, p, source);
-    families_know(b, p, source);
+    if (bond_break_asks(b, p, &source->limit)) families_know(b, p, source);
     return bond_break_all(b, p, &source->limit);
 }
 

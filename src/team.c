@@ -22,14 +22,15 @@ struct place {
     hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
 };
 
-/* The machine's memory [byte], noted by whoever looks: hwloc may not see it in a container, and looking takes some 6 ms, a
- * hundred steps of a small scene. */
+/* The machine's memory [byte], noted by whoever looks; looking takes some 6 ms, a hundred steps of a small scene. In a container
+ * hwloc may not see it, in a virtual machine only what that began with: the system says the rest. */
 static int64_t memory;
 
 static void note_memory(hwloc_topology_t topology)
 {
     const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;
-    memory = seen > 0 ? seen : (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
+    const int64_t told = (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
+    memory = seen > told ? seen : told;
 }
 
 /* The k-th physical core of the mask; NULL past the last. */
