@@ -176,7 +176,7 @@ static double slot_bytes(const struct bonds *b)
 {
     double sum = 0;
     for (int64_t g = 0; g < b->groups; g++)
-        for (int64_t slot = b->slot[g]; slot < b->slot[g + 1] && !b->pattern[g]; slot++) {
+        for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g] && !b->pattern[g]; slot++) {
             const struct bond_slot *c = &b->common[slot];
             sum += sizeof *c + (c->alike ? 0 : LANES * sizeof *b->w);
             if (!c->lattice) sum += LANES * (sizeof *b->inverse_length + (c->first < 0 ? sizeof *b->nbr : 0));

@@ -106,7 +106,7 @@ static double silling_step(const struct engine *e)
     for (int64_t r = 0; r < b->rows; r++) {
         const int64_t g = r / LANES;
         double sum = 0;
-        for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
+        for (int64_t k = 0; k < b->slot_count[g]; k++) {
             const int64_t q = bond_index(b, g, k, (int)(r % LANES));
             sum += b->stiffness * b->w[q] * b->inverse_length[q];
         }

@@ -15,7 +15,10 @@
  *
  * Most groups of a lattice have, index distance by index distance, the bonds that others have. They follow one pattern, read
  * from the nearest cache, and store nothing of their own (are folded) until somebody looks at their bonds one by one or breaks
- * one. Room for all slots is kept, but only what is written takes memory. */
+ * one. Room for all slots is kept, but only what is written takes memory.
+ *
+ * Rows made anew leave groups that have not changed where they are stored, and put others behind all that is: between them lie
+ * slots of groups that are no more, until there is no room and all move together. */
 #ifndef CLEAVE_BONDS_H
 #define CLEAVE_BONDS_H
 
@@ -159,11 +162,13 @@ struct lattice;                          /* the map of its sites (bonds_lattice.
 
 struct bonds {
     int64_t rows, groups, slots;
+    int64_t used, room;                  /* slots of which something is or was stored; that there is room for */
     int64_t n;                           /* directed bonds in the rows, broken ones included              */
     int32_t reach;                       /* groups: nobody has a bond to a row farther on                 */
     int32_t *particle;                   /* [groups 8] particle of a row; padding rows repeat the last    */
     int32_t *row_of;                     /* [n_all] row of a particle, -1 without                         */
-    int64_t *slot;                       /* [groups + 1] first slot of a group                            */
+    int64_t *slot;                       /* [groups] first slot of a group                                */
+    int32_t *slot_count;                 /* [groups] its slots                                            */
     uint8_t *whole;                      /* [groups 8] the row holds the whole family: its particle is peridynamic */
     int32_t *made;                       /* [groups] directed bonds of the group, broken ones included    */
     uint8_t *aligned;                    /* [groups] the eight particles are consecutive                  */
@@ -240,10 +245,10 @@ int bonds_room(const struct bond_source *s);
 /* V_i^H = sum V_j beta of every particle, uncracked [m^3], n_all entries. */
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
 
-/* Makes the rows of all peridynamic and hand-shake particles. With `old` (rows made before) what was broken stays
- * broken, and counts are carried over. Bonds cut by a crack have w = 0 and count as damage. Sets damage of all rows'
+/* Makes the rows of all peridynamic and hand-shake particles. With `old` (rows made before, whose slots nobody may read afterwards)
+ * what was broken stays broken, and counts are carried over. Bonds cut by a crack have w = 0 and count as damage. Sets damage of all rows'
  * peridynamic particles. */
-void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s);
+void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s);
 /* Images become what they are images of. */
 void bonds_images_follow(struct particles *p, const struct bond_source *s);
 /* Lists of particles and rows for a new who-is-what. What has no row any more has no force of bonds. */
@@ -288,7 +293,7 @@ static inline unsigned bonds_intact(const struct bonds *b, int64_t group)
     unsigned bits = 0;
     for (int k = 0; pattern && k < pattern->slots; k++) bits |= pattern->slot[k].intact;
     if (pattern) return bits;
-    for (int64_t slot = b->slot[group]; slot < b->slot[group + 1]; slot++) bits |= b->common[slot].intact;
+    for (int64_t slot = b->slot[group]; slot < b->slot[group] + b->slot_count[group]; slot++) bits |= b->common[slot].intact;
     return bits;
 }
 

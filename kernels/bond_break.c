@@ -81,7 +81,7 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     const int32_t i = b->particle[row];
     int64_t broken = 0;
     real before = 0;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];

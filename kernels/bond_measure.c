@@ -83,7 +83,7 @@ static real plastic_term(const void *context, int64_t row)
 {
     const struct bonds *b = context;
     real sum = b->plastic_work[row];
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++)
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++)
         sum += 0.5 * bond_work_stored(b, bond_index(b, row / LANES, k, (int)(row % LANES)));
     return sum;
 }

@@ -43,7 +43,7 @@ static ALWAYS_INLINE struct slot slot_of(const struct bonds *b, int64_t number, 
 #define FOR_SLOTS(B, GROUP, VISIT)                                                                                             \
     do {                                                                                                                       \
         const struct pattern *pattern_ = (B)->pattern[GROUP];                                                                  \
-        const int64_t from_ = (B)->slot[GROUP], slots_ = (B)->slot[(GROUP) + 1] - from_, own_ = (B)->particle[(GROUP) * LANES]; \
+        const int64_t from_ = (B)->slot[GROUP], slots_ = (B)->slot_count[GROUP], own_ = (B)->particle[(GROUP) * LANES];        \
         if (!pattern_)                                                                                                         \
             for (int64_t k_ = from_; k_ < from_ + slots_; k_++)                                                                \
                 if ((B)->common[k_].intact == 0) continue;                                                                     \

@@ -121,7 +121,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
     const int dim = p->dim;
     real M[DIM_MAX * DIM_MAX] = {0}, R[DIM_MAX * DIM_MAX], sum = 0;
     for (int pass = 0; pass < 2; pass++) {
-        for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
             const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
             const int32_t j = b->nbr[q];
             if (b->w[q] == 0) continue;
@@ -141,7 +141,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
 static real point_energy(const struct bonds *b, const struct particles *p, int64_t row)
 {
     real sum = 0, T[DIM_MAX], xi[DIM_MAX];
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] != 0) sum += state_own_force(b, p, q, b->particle[row], T, xi, p->dim, b->state.turn[0] != NULL);
     }
@@ -154,7 +154,7 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
     real Q = 0, S = 0, e2 = 0;
     if (p->kind[i] != KIND_PD) return point_energy(b, p, row);
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         real y2 = 0, r = fabs(1 / b->inverse_length[q]);

@@ -89,7 +89,8 @@ static void rows_list(struct bonds *b, const struct particles *p, const uint8_t 
 static void rows_arrays(struct bonds *b)
 {
     int64_t padded = b->groups * LANES;
-    b->slot = NEW("bonds.slot", b->groups + 1, int64_t);
+    b->slot = NEW("bonds.slot", b->groups, int64_t);
+    b->slot_count = NEW("bonds.slot_count", b->groups, int32_t);
     b->made = NEW("bonds.made", b->groups, int32_t);
     b->aligned = NEW("bonds.aligned", b->groups, uint8_t);
     b->whole = NEW("bonds.whole", padded, uint8_t);
@@ -110,6 +111,7 @@ struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
     struct group_found **found;          /* [groups] of those that are searched, NULL: not kept   */
+    int64_t *kept;                       /* [groups] of old rows whose group is taken over, -1: made */
     bool count;                          /* the first pass: slots are counted                     */
 };
 
@@ -160,7 +162,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
     bool by_offset;
     if (pass->count) b->changed[g] = group_inherits(m->old, particle, rows);
     if (is_regular(pass, room, g)) {
-        if (pass->count) b->slot[g + 1] = group_regular_slots(&room->regular), note_reach(pass, room, g, true);
+        if (pass->count) b->slot_count[g] = group_regular_slots(&room->regular), note_reach(pass, room, g, true);
         else group_fill_regular(b, room, g, m);
         return group_regular_bonds(&room->regular);
     }
@@ -171,7 +173,7 @@ static int64_t group_pass(const struct rows_pass *pass, struct group_room *room,
         made += room->row[l].n;
     }
     const int slots = group_slots(room, particle, rows, &by_offset);
-    if (pass->count) b->slot[g + 1] = slots, note_reach(pass, room, g, false);
+    if (pass->count) b->slot_count[g] = slots, note_reach(pass, room, g, false);
     else group_fill(b, room, g, rows, by_offset, m->p);
     if (pass->count && pass->found) pass->found[g] = group_found_make(room->row, rows);
     return made;
@@ -190,9 +192,9 @@ static int64_t rows_pass(const struct rows_pass *pass)
         group_room_make(&room, m->room, m->lattice);
 #pragma omp for schedule(static)
         for (int64_t g = 0; g < pass->b->groups; g++) {
-            const int64_t from = group_kept(pass->b, m, g);
+            const int64_t from = pass->count ? (pass->kept[g] = group_kept(pass->b, m, g)) : pass->kept[g];
             if (from < 0) pass->b->made[g] = (int32_t)group_pass(pass, &room, g);
-            else if (pass->count) pass->b->slot[g + 1] = m->old->slot[from + 1] - m->old->slot[from];
+            else if (pass->count) pass->b->slot_count[g] = m->old->slot_count[from];
             else group_keep(pass->b, m->old, g, from);
             made += pass->b->made[g];
         }
@@ -208,17 +210,55 @@ static int64_t rows_pass(const struct rows_pass *pass)
 static void slots_arrays(struct bonds *b, const struct bond_source *s, bool lattice)
 {
     void *(*make)(const char *, int64_t, size_t) = lattice ? memory_sparse : memory_bare;
-    b->first = make("bonds.first", b->slots, sizeof *b->first);
-    b->nbr = make("bonds.nbr", b->slots * LANES, sizeof *b->nbr);
-    b->inverse_length = make("bonds.inverse_length", b->slots * LANES, sizeof *b->inverse_length);
-    b->w = make("bonds.w", b->slots * LANES, sizeof *b->w);
-    b->common = make("bonds.common", b->slots, sizeof *b->common);
-    lattice_lengths(b, s->family.spacing);
+    b->first = make("bonds.first", b->room, sizeof *b->first);
+    b->nbr = make("bonds.nbr", b->room * LANES, sizeof *b->nbr);
+    b->inverse_length = make("bonds.inverse_length", b->room * LANES, sizeof *b->inverse_length);
+    b->w = make("bonds.w", b->room * LANES, sizeof *b->w);
+    b->common = make("bonds.common", b->room, sizeof *b->common);
     if (!s->yield.stretch) return;
     b->yield = s->yield;
-    b->plastic_stretch = NEW("bonds.plastic_stretch", b->slots * LANES, real);
-    b->plastic_path = NEW("bonds.plastic_path", b->slots * LANES, real);
-    b->pair = NEW("bonds.pair", b->slots * LANES, int32_t);
+    b->plastic_stretch = NEW("bonds.plastic_stretch", b->room * LANES, real);
+    b->plastic_path = NEW("bonds.plastic_path", b->room * LANES, real);
+    b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
+}
+
+/* Is there room behind what old rows have stored for all groups that they do not have? Plastic strain stays in the order of its
+ * groups (bonds_archive.c). */
+static bool slots_fit(const struct bonds *b, const struct bonds *old, const int64_t *kept)
+{
+    if (!old || old->plastic_stretch) return false;
+    int64_t made = 0;
+    for (int64_t g = 0; g < b->groups; g++) made += kept[g] < 0 ? b->slot_count[g] : 0;
+    return made <= old->room - old->used;
+}
+
+/* Where each group is stored: kept ones where they are, others behind them; or all anew, side by side, and where that will
+ * happen again, with room for as much. Until old rows are left they and the new ones share what was taken over. */
+static void slots_place(struct bonds *b, const struct rows_pass *pass)
+{
+    const struct bonds *old = pass->maker.old;
+    const bool fit = slots_fit(b, old, pass->kept);
+    if (fit) {
+        b->used = old->used, b->room = old->room;
+        b->first = old->first, b->nbr = old->nbr, b->inverse_length = old->inverse_length, b->w = old->w, b->common = old->common;
+    }
+    for (int64_t g = 0; g < b->groups; g++) {
+        const bool stays = fit && pass->kept[g] >= 0;
+        b->slot[g] = stays ? old->slot[pass->kept[g]] : b->used;
+        b->used += stays ? 0 : b->slot_count[g];
+        b->slots += b->slot_count[g];
+    }
+    lattice_lengths(b, pass->maker.source->family.spacing);
+    if (fit) return;
+    b->room = old ? 2 * b->slots : b->slots;
+    slots_arrays(b, pass->maker.source, pass->maker.lattice->at != NULL);
+}
+
+/* What new rows have taken over is not the old ones' any more. */
+static void slots_leave(struct bonds *old, const struct bonds *b)
+{
+    if (!old || old->w != b->w) return;
+    old->first = old->nbr = NULL, old->inverse_length = old->w = NULL, old->common = NULL;
 }
 
 /* With old rows few groups change, and what is searched for them is kept. */
@@ -226,16 +266,15 @@ static void rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = pairs_make(maker.source);
     maker.pairs = &pairs;
-    struct rows_pass pass = {.b = b, .maker = maker, .count = true,
+    struct rows_pass pass = {.b = b, .maker = maker, .count = true, .kept = BARE("bonds.kept", b->groups, int64_t),
                              .found = maker.old ? NEW("bonds.found", b->groups, struct group_found *) : NULL};
     rows_pass(&pass);
-    for (int64_t g = 0; g < b->groups; g++) b->slot[g + 1] += b->slot[g];
-    b->slots = b->slot[b->groups];
-    slots_arrays(b, maker.source, maker.lattice->at != NULL);
+    slots_place(b, &pass);
     pass.count = false;
     b->n = rows_pass(&pass);
     for (int64_t g = 0; g < b->groups && pass.found; g++) memory_free(pass.found[g]);
     memory_free(pass.found);
+    memory_free(pass.kept);
     memory_free(pairs.ratio);
 }
 
@@ -250,7 +289,7 @@ static void rows_carry(struct bonds *b, const struct bonds *old)
     }
 }
 
-void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, const struct bond_source *s)
+void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
     if (old) b->reach = old->reach;              /* rows that are kept were looked at then */
@@ -269,6 +308,7 @@ void bonds_make(struct bonds *b, const struct bonds *old, struct particles *p, c
     memory_free(fresh);
     if (old) rows_carry(b, old), b->sites = lattice;
     else lattice_leave(lattice);
+    slots_leave(old, b);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
 #pragma omp parallel for schedule(static)
@@ -303,6 +343,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->particle);
     memory_free(b->row_of);
     memory_free(b->slot);
+    memory_free(b->slot_count);
     memory_free(b->made);
     memory_free(b->aligned);
     memory_free(b->whole);

@@ -10,13 +10,13 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->groups; g++) {
         if (!b->changed[g]) continue;
-        const int64_t from = bond_index(b, g, 0, 0), n = (b->slot[g + 1] - b->slot[g]) * LANES;
+        const int64_t from = bond_index(b, g, 0, 0), n = b->slot_count[g] * LANES;
         memcpy(saving ? w : b->w + from, saving ? b->w + from : w, (size_t)n * sizeof *w);
         w += n;
         if (saving) continue;
         for (int64_t q = from; q < from + n; q++)
             if (b->w[q] == 0) b->inverse_length[q] = -fabs(b->inverse_length[q]);
-        for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++) bonds_share(b, slot);
+        for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g]; slot++) bonds_share(b, slot);
         b->pattern[g] = NULL;
     }
 }
@@ -25,7 +25,7 @@ static status weights_archive(struct bonds *b, struct archive *a)
 {
     int64_t slots = 0;
     TRY(a->exchange(a, "bonds/changed", b->changed, (size_t)b->groups * sizeof *b->changed));
-    for (int64_t g = 0; g < b->groups; g++) slots += b->changed[g] ? b->slot[g + 1] - b->slot[g] : 0;
+    for (int64_t g = 0; g < b->groups; g++) slots += b->changed[g] ? b->slot_count[g] : 0;
     if (slots == 0) return OK;
     real *w = NEW("bonds.changed_w", slots * LANES, real);
     if (a->saving) changed_weights(b, w, true);

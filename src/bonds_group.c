@@ -78,7 +78,7 @@ static bool row_has(const struct group_room *room, const int32_t *particle, int 
 void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, const struct particles *p)
 {
     const int32_t *particle = b->particle + g * LANES;
-    int used[LANES] = {0}, slots = (int)(b->slot[g + 1] - b->slot[g]);
+    int used[LANES] = {0}, slots = b->slot_count[g];
     for (int k = 0; k < slots; k++) {
         struct slot_copy *slot = &room->slot[k];
         for (int l = 0; l < LANES; l++) {
@@ -103,7 +103,7 @@ void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, b
 /* What the slots in a group's room would follow; false: they have something of their own. */
 static bool pattern_of(const struct bonds *b, struct group_room *room, int64_t g, const struct particles *p)
 {
-    const int slots = (int)(b->slot[g + 1] - b->slot[g]);
+    const int slots = b->slot_count[g];
     room->pattern.slots = 0;
     if (!b->aligned[g] || slots == 0 || b->plastic_stretch || b->changed[g]) return false;
     for (int k = 0; k < slots; k++)
@@ -116,7 +116,7 @@ void group_store(struct bonds *b, struct group_room *room, int64_t g, const stru
     b->pattern[g] = pattern_of(b, room, g, p) ? pattern_known(b->patterns, &room->pattern, room->likely) : NULL;
     b->folded[g] = b->pattern[g] != NULL;
     if (b->folded[g]) room->likely = b->pattern[g];
-    for (int64_t slot = b->slot[g]; slot < b->slot[g + 1] && !b->folded[g]; slot++) slot_write(b, slot, &room->slot[slot - b->slot[g]]);
+    for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g] && !b->folded[g]; slot++) slot_write(b, slot, &room->slot[slot - b->slot[g]]);
 }
 
 /* Which of eight particles in a row are peridynamic: bit by bit. */

@@ -20,7 +20,7 @@ static void slots_copy(void *to, const void *from, size_t each, const struct bon
                        int64_t of)
 {
     memcpy((char *)to + (size_t)b->slot[g] * each, (const char *)from + (size_t)old->slot[of] * each,
-           (size_t)(b->slot[g + 1] - b->slot[g]) * each);
+           (size_t)b->slot_count[g] * each);
 }
 
 static void slots_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
@@ -41,7 +41,7 @@ void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t fro
 {
     b->pattern[g] = old->pattern[from];
     b->folded[g] = old->folded[from], b->changed[g] = old->changed[from];
-    if (!b->folded[g]) slots_keep(b, old, g, from);
+    if (!b->folded[g] && b->w != old->w) slots_keep(b, old, g, from);
     b->made[g] = old->made[from];
     b->aligned[g] = old->aligned[from];
     if (b->state.weighted) memcpy(b->state.weighted + g * LANES, old->state.weighted + from * LANES, LANES * sizeof(real));

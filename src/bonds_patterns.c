@@ -169,7 +169,7 @@ void slot_write(const struct bonds *b, int64_t slot, const struct slot_copy *fro
 static void unfold(const struct bonds *b, int64_t group)
 {
     struct slot_copy copy;
-    for (int64_t slot = b->slot[group]; slot < b->slot[group + 1]; slot++) {
+    for (int64_t slot = b->slot[group]; slot < b->slot[group] + b->slot_count[group]; slot++) {
         slot_read(&copy, b, group, slot - b->slot[group]);
         slot_write(b, slot, &copy);
     }

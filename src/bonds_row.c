@@ -163,7 +163,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     int64_t group = old_row / LANES;
     int lane = (int)(old_row % LANES);
     int m = 0;                           /* neighbours ascend in both */
-    for (int64_t k = 0; k < old->slot[group + 1] - old->slot[group]; k++) {
+    for (int64_t k = 0; k < old->slot_count[group]; k++) {
         const struct bond bond = bond_read(old, group, k, lane);
         if (bond.inverse_length == 0) continue;
         while (m < row->n && row->nbr[m] < bond.nbr) m++;
@@ -177,7 +177,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
 
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    const int64_t group = old_row / LANES, slots = old->slot[group + 1] - old->slot[group];
+    const int64_t group = old_row / LANES, slots = old->slot_count[group];
     row->n = 0;
     for (int64_t k = 0; k < slots; k++) {        /* padding is written over */
         const struct bond bond = bond_read(old, group, k, (int)(old_row % LANES));
@@ -188,7 +188,7 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
 
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    const int64_t group = old_row / LANES, slots = old->slot[group + 1] - old->slot[group];
+    const int64_t group = old_row / LANES, slots = old->slot_count[group];
     int n = 0;
     for (int64_t k = 0; k < slots; k++) {
         const struct bond bond = bond_read(old, group, k, (int)(old_row % LANES));

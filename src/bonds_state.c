@@ -6,7 +6,7 @@
 real state_weight_left(const struct bonds *b, int64_t row)
 {
     real Q = 0;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] != 0) Q += b->w[q] / square(b->inverse_length[q]);
     }
@@ -19,7 +19,7 @@ static void group_weigh(struct bonds *b, const struct particles *p, const struct
     real *Q = b->state.weighted + g * LANES;
     struct slot_copy slot;
     for (int l = 0; l < LANES; l++) Q[l] = 0;
-    for (int64_t k = 0; b->state.local && k < b->slot[g + 1] - b->slot[g]; k++) {
+    for (int64_t k = 0; b->state.local && k < b->slot_count[g]; k++) {
         slot_read(&slot, b, g, k);
         for (int l = 0; l < LANES; l++)
             if (slot.w[l] != 0) Q[l] += slot.w[l] / square(slot.inverse_length[l]);

@@ -88,7 +88,7 @@ real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t r
 {
     const int64_t g = row / LANES, i = b->particle[row];
     struct spring_bound bound = {{{0}}, 0};
-    for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g]; k++) {
+    for (int64_t k = 0; k < b->slot_count[g]; k++) {
         const struct bond bond = bond_read(b, g, k, (int)(row % LANES));
         real n[DIM_MAX] = {0};
         if (bond.w == 0) continue;
@@ -156,7 +156,7 @@ static real group_frequency(const struct lattice_bonds *bonds, const struct bond
 /* Of group g, as it is made. */
 static real group_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
-    const int64_t slots = b->slot[g + 1] - b->slot[g];
+    const int64_t slots = b->slot_count[g];
     bool regular = b->aligned[g];
     real largest = 0;
     for (int64_t k = 0; k < slots && regular && !b->pattern[g]; k++) regular = b->first[b->slot[g] + k] >= 0;

@@ -77,7 +77,7 @@ bool convert_due(const struct particles *p)
 static bool meets_points(const struct bonds *b, const struct particles *p, int64_t i)
 {
     const int64_t row = b->row_of[i], group = row / LANES;
-    for (int64_t k = 0; row >= 0 && k < b->slot[group + 1] - b->slot[group]; k++) {
+    for (int64_t k = 0; row >= 0 && k < b->slot_count[group]; k++) {
         const struct bond bond = bond_read(b, group, k, (int)(row % LANES));
         if (bond.inverse_length != 0 && p->kind[bond.nbr] == KIND_MPM) return true;
     }

@@ -9,7 +9,8 @@ static int64_t bonds_cut(const struct engine *e)
     const struct bonds *b = &e->bonds;
     int64_t cut = 0;
     for (int64_t g = 0; g < b->groups; g++)
-        for (int64_t q = b->slot[g] * LANES; q < b->slot[g + 1] * LANES && !b->pattern[g]; q++) cut += b->inverse_length[q] < 0;
+        for (int64_t q = b->slot[g] * LANES; q < (b->slot[g] + b->slot_count[g]) * LANES && !b->pattern[g]; q++)
+            cut += b->inverse_length[q] < 0;
     return cut;
 }
 

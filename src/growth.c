@@ -116,7 +116,7 @@ static void cross_row(struct growth *g, const struct bonds *b, const struct part
     const int64_t row = b->row_of[i];
     real X[DIM_MAX], Y[DIM_MAX];
     particle_place(p, i, X);
-    for (int64_t k = 0; row >= 0 && k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; row >= 0 && k < b->slot_count[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         particle_place(p, b->nbr[q], Y);
@@ -168,7 +168,7 @@ static void cross(struct growth *g, const struct bonds *b, struct particles *p, 
 static int64_t entry_of(const struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
-    for (int64_t k = 0; *row >= 0 && k < b->slot[*row / LANES + 1] - b->slot[*row / LANES]; k++) {
+    for (int64_t k = 0; *row >= 0 && k < b->slot_count[*row / LANES]; k++) {
         const int64_t q = bond_index(b, *row / LANES, k, (int)(*row % LANES));
         if (b->nbr[q] == j && b->inverse_length[q] != 0) return q;
     }

@@ -366,7 +366,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
         const unsigned intact = bonds_intact(b, g);
         struct slot_copy slot;
         for (int lane = 0; lane < LANES; lane++) seen[b->particle[g * LANES + lane]] |= intact >> lane & 1;
-        for (int64_t k = 0; k < b->slot[g + 1] - b->slot[g] && p->n_all > p->n; k++) {
+        for (int64_t k = 0; k < b->slot_count[g] && p->n_all > p->n; k++) {
             if (!meets_images(b, p, g, k)) continue;
             slot_read(&slot, b, g, k);
             images_see(seen, p, l->image, slot.nbr);

@@ -123,7 +123,7 @@ static struct box box_of(const struct particles *p, const struct bonds *b, int64
     for (int d = 0; d < p->dim; d++) {
         const real *X = p->X[d];
         box.low[d] = box.high[d] = X[b->particle[row]];
-        for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
             const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
             if (bond.w == 0) continue;
             box.low[d] = real_min(box.low[d], X[bond.nbr]);
@@ -150,7 +150,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     if (row < 0 || p->kind[r.root] != KIND_MPM) return;
     real xp[DIM_MAX], xm[DIM_MAX];
     for (int d = 0; d < p->dim; d++) xp[d] = p->X[d][j];
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         if (bond.w == 0) continue;
         bool apart = false;                      /* most bonds of a row pass by: seen without a division */

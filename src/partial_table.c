@@ -251,7 +251,7 @@ static bool answer_make(const struct partial_table *t, const struct particles *p
     bool any = false;
     memset(answer, 0, sizeof *answer * (size_t)(t->vectors * t->parts));
     particle_place(p, b->particle[row], X);
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         real to[DIM_MAX];
         if (bond.w == 0) continue;

@@ -29,7 +29,7 @@ static void add_bonds(const struct bar *b, const struct observed *o, real *betwe
     for (int64_t row = 0; row < bonds->rows; row++) {
         int32_t i = bonds->particle[row];
         int64_t group = row / LANES;
-        for (int64_t k = 0; k < bonds->slot[group + 1] - bonds->slot[group]; k++) {
+        for (int64_t k = 0; k < bonds->slot_count[group]; k++) {
             int64_t q = bond_index(bonds, group, k, (int)(row % LANES));
             if (bonds->w[q] == 0 || bonds->nbr[q] < i) continue;
             real force = bond_force_stored(bonds, o->part, q, i);

@@ -122,7 +122,7 @@ static real bond_term(const void *context, int64_t k)
     int64_t row = row_at(s, k);
     if (row < 0) return 0;
     real sum = 0;
-    for (int64_t slot = 0; slot < b->slot[row / LANES + 1] - b->slot[row / LANES]; slot++) {
+    for (int64_t slot = 0; slot < b->slot_count[row / LANES]; slot++) {
         int64_t q = bond_index(b, row / LANES, slot, (int)(row % LANES));
         sum += bond_energy_stored(b, p, q, s->q->list[k]);
     }

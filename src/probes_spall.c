@@ -62,7 +62,7 @@ static void columns_bonds(struct columns *c, const struct observed *o, int body)
         int32_t i = b->particle[row];
         if (p->body[i] != body) continue;
         int64_t group = row / LANES, from = column_of(c, p->X[0][i]);
-        for (int64_t k = 0; k < b->slot[group + 1] - b->slot[group]; k++) {
+        for (int64_t k = 0; k < b->slot_count[group]; k++) {
             int64_t q = bond_index(b, group, k, (int)(row % LANES));
             if (b->inverse_length[q] == 0) continue;
             int64_t to = column_of(c, p->X[0][b->nbr[q]]);

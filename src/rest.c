@@ -94,7 +94,7 @@ static void wake(struct bonds *b, const struct particles *p, const struct loads 
 {
     if (b->rest.level[group] >= level) return;
     b->rest.level[group] = (uint8_t)level;
-    for (int64_t k = 0; k < b->slot[group + 1] - b->slot[group] && level > 1; k++) {
+    for (int64_t k = 0; k < b->slot_count[group] && level > 1; k++) {
         struct slot_copy slot;
         slot_read(&slot, b, group, k);
         for (int lane = 0; lane < LANES; lane++) {
@@ -106,7 +106,7 @@ static void wake(struct bonds *b, const struct particles *p, const struct loads 
 
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t group, int level)
 {
-    for (int64_t k = 0; k < b->slot[group + 1] - b->slot[group]; k++) {
+    for (int64_t k = 0; k < b->slot_count[group]; k++) {
         struct slot_copy slot;
         slot_read(&slot, b, group, k);
         for (int lane = 0; lane < LANES; lane++) {

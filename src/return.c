@@ -171,7 +171,7 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
 {
     const int32_t i = b->particle[row];
     const int dim = p->dim;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         real e[DIM_MAX], y[DIM_MAX];
         if (b->w[q] == 0) continue;
@@ -232,7 +232,7 @@ static void crossing_of(struct crossing *to, const struct particles *p, const st
         const struct reflection r = reflection_of(source, p, j);
         const int64_t row = b->row_of[r.root];
         if (row < 0 || p->body[j] != p->body[i]) continue;
-        for (int64_t slot = 0; slot < b->slot[row / LANES + 1] - b->slot[row / LANES]; slot++) {
+        for (int64_t slot = 0; slot < b->slot_count[row / LANES]; slot++) {
             const int64_t q = bond_index(b, row / LANES, slot, (int)(row % LANES));
             if (b->w[q] != 0) crossing_add(to, b, p, &r, j, q);
         }

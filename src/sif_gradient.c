@@ -15,7 +15,7 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
 {
     const int64_t row = b && b->rows > 0 ? b->row_of[i] : -1;
     if (row < 0) return false;
-    const int64_t group = row / LANES, slots = b->slot[group + 1] - b->slot[group];
+    const int64_t group = row / LANES, slots = b->slot_count[group];
     for (int64_t k = 0; k < slots; k++) {
         const int64_t q = bond_index(b, group, k, (int)(row % LANES));
         if (b->nbr[q] == j && b->inverse_length[q] != 0) return b->inverse_length[q] < 0;

@@ -300,7 +300,7 @@ static int64_t bonds_past_limit(const struct engine *e)
     const struct particles *p = &e->part;
     int64_t past = 0;
     for (int64_t r = 0; r < b->rows; r++)
-        for (int64_t k = 0; k < b->slot[r / LANES + 1] - b->slot[r / LANES]; k++) {
+        for (int64_t k = 0; k < b->slot_count[r / LANES]; k++) {
             const int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES));
             const int32_t i = b->particle[r], j = b->nbr[q];
             const real limit = e->pair_stretch[p->material[i] * e->scene->materials + p->material[j]];

@@ -134,7 +134,7 @@ static inline real *reference_table(const struct bonds *b, const struct particle
     real *w = NEW("reference.w", p->n * p->n, real);
     for (int64_t k = 0; k < p->n * p->n; k++) w[k] = NAN;
     for (int64_t row = 0; row < b->rows; row++)
-        for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
             int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
             if (b->inverse_length[q] != 0) w[b->particle[row] * p->n + b->nbr[q]] = b->w[q];
         }

@@ -116,7 +116,7 @@ static void twin_row(const struct cloud *c, struct twin *twin, int64_t r, real *
     const struct bonds *b = &c->bonds;
     const struct particles *p = &c->p;
     const int32_t i = b->particle[r];
-    for (int64_t k = 0; k < b->slot[r / LANES + 1] - b->slot[r / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[r / LANES]; k++) {
         int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES));
         if (b->w[q] == 0) continue;
         int32_t j = b->nbr[q];
@@ -171,10 +171,10 @@ static void test_ends(void **state)
         bond_force_table[2][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL);
     }
     for (int64_t r = 0; r < b->rows; r++)
-        for (int64_t k = 0; k < b->slot[r / LANES + 1] - b->slot[r / LANES]; k++) {
+        for (int64_t k = 0; k < b->slot_count[r / LANES]; k++) {
             int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES)), other = b->row_of[b->nbr[q]];
             if (b->w[q] == 0) continue;
-            for (int64_t m = 0; m < b->slot[other / LANES + 1] - b->slot[other / LANES]; m++) {
+            for (int64_t m = 0; m < b->slot_count[other / LANES]; m++) {
                 int64_t o = bond_index(b, other / LANES, m, (int)(other % LANES));
                 if (b->w[o] == 0 || b->nbr[o] != b->particle[r]) continue;
                 assert_exact(b->plastic_stretch[o], b->plastic_stretch[q]);

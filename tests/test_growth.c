@@ -109,7 +109,7 @@ static void check_weights(struct stage *s, real damping, real exponent, int64_t 
     int64_t gone = 0;
     const real advance = SPEED * STEP;
     for (int64_t row = 0; row < b->rows; row++)
-        for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
             const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
             real X[DIM_MAX], Y[DIM_MAX];
             particle_place(&s->c.p, b->particle[row], X);

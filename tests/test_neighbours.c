@@ -192,7 +192,7 @@ static void check_slots(const struct cloud *c)
     int64_t stored = 0;
     uint8_t *seen = NEW("test.seen", c->p.n * c->p.n, uint8_t);
     for (int64_t g = 0; g < b->groups; g++)
-        for (int64_t slot = b->slot[g]; slot < b->slot[g + 1]; slot++)
+        for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g]; slot++)
             for (int l = 0; l < LANES; l++) {
                 int64_t q = slot * LANES + l, row = g * LANES + l;
                 real xi[DIM_MAX];
@@ -257,6 +257,18 @@ static void test_rows(void **state)
     }
 }
 
+/* Slots of a group, wherever each stores them. */
+static void check_group_like_new(const struct bonds *b, int64_t slot, const struct bonds *new, int64_t of, int64_t slots)
+{
+    assert_memory_equal(b->first + slot, new->first + of, (size_t)slots * sizeof *b->first);
+    assert_memory_equal(b->nbr + slot * LANES, new->nbr + of * LANES, (size_t)(slots * LANES) * sizeof *b->nbr);
+    for (int64_t k = 0; k < slots * LANES; k++) {
+        const int64_t q = slot * LANES + k, m = of * LANES + k;
+        assert_true(fabs(b->inverse_length[q]) == fabs(new->inverse_length[m]));
+        assert_true(b->w[q] == new->w[m] || b->w[q] == 0);
+    }
+}
+
 /* Are these rows, but for what load has broken, those that are made without knowing old ones? Returns how many groups have
  * as many bonds as before. */
 static int64_t check_like_new(const struct cloud *c, const struct bonds *old)
@@ -270,17 +282,12 @@ static int64_t check_like_new(const struct cloud *c, const struct bonds *old)
     cloud_unfold(b), cloud_unfold(&new);
     assert_int_equal(b->slots, new.slots);
     assert_int_equal(b->n, new.n);
-    assert_memory_equal(b->slot, new.slot, (size_t)(b->groups + 1) * sizeof *b->slot);
+    assert_memory_equal(b->slot_count, new.slot_count, (size_t)b->groups * sizeof *b->slot_count);
     assert_memory_equal(b->made, new.made, (size_t)b->groups * sizeof *b->made);
-    assert_memory_equal(b->first, new.first, (size_t)b->slots * sizeof *b->first);
-    assert_memory_equal(b->nbr, new.nbr, (size_t)b->slots * LANES * sizeof *b->nbr);
     assert_memory_equal(b->trigger, new.trigger, (size_t)b->rows * sizeof *b->trigger);
     assert_memory_equal(b->family_volume, new.family_volume, (size_t)b->rows * sizeof *b->family_volume);
-    for (int64_t q = 0; q < b->slots * LANES; q++) {
-        assert_true(fabs(b->inverse_length[q]) == fabs(new.inverse_length[q]));
-        assert_true(b->w[q] == new.w[q] || b->w[q] == 0);
-    }
     for (int64_t g = 0; g < b->groups; g++) {
+        check_group_like_new(b, b->slot[g], &new, new.slot[g], b->slot_count[g]);
         const int32_t row = old->row_of[b->particle[g * LANES]];
         taken += row >= 0 && old->made[row / LANES] == b->made[g];
     }
@@ -322,6 +329,42 @@ static void test_rows_inherit(void **state)
         cloud_free(&c);
     }
     assert_true(taken > 0);
+}
+
+/* Rows made anew again and again, a column more of the body each time, lie where there is room, and sometimes move. */
+static void test_rows_again(void **state)
+{
+    (void)state;
+    static const struct cloud_plan plan[] = {
+        {.space = SPACE_PLANE_STRESS, .count = {16, 40}, .horizon = 3.015, .surface = SURFACE_VOLUME},
+        {.space = SPACE_PLANE_STRESS, .count = {16, 40}, .horizon = 2.015, .shake = 0.3, .seed = 9},
+        {.space = SPACE_SOLID, .count = {8, 6, 20}, .horizon = 2.015}};
+    for (size_t k = 0; k < COUNT_OF(plan); k++) {
+        int moved = 0, stayed = 0;
+        struct cloud c;
+        cloud_make(&c, &plan[k]);
+        const int last = c.p.dim - 1;
+        for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[last][i] < 2e-3 ? KIND_PD : KIND_MPM;
+        particles_list(&c.p);
+        cloud_source(&c);
+        c.source.yield = (struct bond_yield){NULL, NULL, 0};      /* bonds that may yield always move */
+        bonds_make(&c.bonds, NULL, &c.p, &c.source);
+        for (int column = 3; column <= plan[k].count[last]; column++) {
+            struct bonds old = c.bonds;
+            const real *was = old.w;
+            for (int64_t i = 0; i < c.p.n; i++)
+                if (c.p.X[last][i] < column * CLOUD_SPACING) c.p.kind[i] = KIND_PD;
+            particles_list(&c.p);
+            bonds_make(&c.bonds, &old, &c.p, &c.source);
+            moved += c.bonds.w != was, stayed += c.bonds.w == was;
+            assert_true(c.bonds.used <= c.bonds.room && c.bonds.used >= c.bonds.slots);
+            check_like_new(&c, &old);           /* unfolds */
+            check_slots(&c);
+            bonds_free(&old);
+        }
+        assert_true(moved > 1 && stayed > 1);
+        cloud_free(&c);
+    }
 }
 
 /* Rows that the map of a lattice's sites tells are those of the search, bit by bit; bonds that may yield are always searched. */
@@ -399,7 +442,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_search),
         cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_rows_inherit),
+        cmocka_unit_test(test_rows_inherit), cmocka_unit_test(test_rows_again),
         cmocka_unit_test(test_rows_of_lattice),
         cmocka_unit_test(test_rows_threads),
     };

@@ -86,7 +86,7 @@ static void test_what_is_stored(void **state)
     const struct particles *p = &c.p;
     const struct bonds *b = &c.bonds;
     for (int64_t row = 0; row < b->rows; row++) {
-        int64_t k = 0, slots = b->slot[row / LANES + 1] - b->slot[row / LANES];
+        int64_t k = 0, slots = b->slot_count[row / LANES];
         for (int64_t j = 0; j < p->n; j++) {
             const int32_t i = b->particle[row];
             const real r = apart(p, i, j);
@@ -228,7 +228,7 @@ static void test_who_stays_out(void **state)
     bonds_make(&c.bonds, &old, &c.p, &c.source);
     bonds_free(&old);
     int found = 0;
-    for (int64_t k = 0; k < c.bonds.slot[row / LANES + 1] - c.bonds.slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < c.bonds.slot_count[row / LANES]; k++) {
         const int64_t at = bond_index(&c.bonds, row / LANES, k, (int)(row % LANES));
         if (c.bonds.nbr[at] == j && c.bonds.w[at] == 0.5) found++;
     }
@@ -242,7 +242,7 @@ static void test_who_stays_out(void **state)
 static int row_bonds(const struct bonds *b, int64_t row, struct bond *to)
 {
     int n = 0;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         if (bond.inverse_length != 0) to[n++] = bond;
     }

@@ -201,7 +201,7 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
     struct particles *p = &bar->b.p;
     for (int64_t row = 0; row < b->rows; row++) {
         int32_t i = b->particle[row];
-        for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
             int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
             int32_t j = b->nbr[q];
             bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);

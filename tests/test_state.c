@@ -205,7 +205,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
     cloud_bonds(&b->c);
     for (int64_t g = 0; g < b->c.bonds.groups; g++) group_unfold(&b->c.bonds, g);
     for (int64_t g = 0; g < b->c.bonds.groups; g++)          /* a cut along x = 4.5, up to y = 4 */
-        for (int64_t q = b->c.bonds.slot[g] * LANES; q < b->c.bonds.slot[g + 1] * LANES; q++) {
+        for (int64_t q = b->c.bonds.slot[g] * LANES; q < (b->c.bonds.slot[g] + b->c.bonds.slot_count[g]) * LANES; q++) {
             int32_t i = b->c.bonds.particle[g * LANES + q % LANES], j = b->c.bonds.nbr[q];
             const real *X = b->c.p.X[0], *Y = b->c.p.X[1], line = 4.5 * CLOUD_SPACING;
             if (b->c.bonds.w[q] == 0 || (X[i] < line) == (X[j] < line) || Y[i] + Y[j] > 8 * CLOUD_SPACING) continue;

@@ -125,7 +125,7 @@ static real torque(const struct partners *k, bool skew)
     for (int64_t row = 0; row < bonds->rows; row++) {       /* xi x T of both ends of each bond, half to each end */
         const int32_t i = bonds->particle[row];
         if (fabs(p->X[1][i] - 12 * CLOUD_SPACING) > 2 * CLOUD_SPACING || p->X[0][i] < 6 * CLOUD_SPACING) continue;
-        for (int64_t c = 0; c < bonds->slot[row / LANES + 1] - bonds->slot[row / LANES]; c++) {
+        for (int64_t c = 0; c < bonds->slot_count[row / LANES]; c++) {
             const int64_t q = bond_index(bonds, row / LANES, c, (int)(row % LANES));
             const int32_t j = bonds->nbr[q];
             if (bonds->w[q] == 0) continue;

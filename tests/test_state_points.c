@@ -58,7 +58,7 @@ static int mean_rotation(const struct bonds *b, const struct particles *p, int64
 {
     real M[DIM_MAX * DIM_MAX] = {0}, G[DIM_MAX * DIM_MAX];
     int images = 0;
-    for (int64_t k = 0; k < b->slot[row / LANES + 1] - b->slot[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         if (bond.w == 0) continue;
         images += bond.nbr >= p->n;

@@ -123,7 +123,7 @@ static void test_reach(void **state)
             const struct bonds *bonds = &b.c.bonds;
             int64_t farthest = 0;
             for (int64_t g = 0; g < bonds->groups; g++)
-                for (int64_t k = 0; k < bonds->slot[g + 1] - bonds->slot[g]; k++)
+                for (int64_t k = 0; k < bonds->slot_count[g]; k++)
                     for (int l = 0; l < LANES && g * LANES + l < bonds->rows; l++) {
                         const int64_t row = bonds->row_of[bond_read(bonds, g, k, l).nbr];
                         if (row >= 0 && llabs(row / LANES - g) > farthest) farthest = llabs(row / LANES - g);
