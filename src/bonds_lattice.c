@@ -15,8 +15,7 @@ enum { HALF_MOST = 16 };
 
 /* ---- the map of sites ------------------------------------------------------------------------------ */
 
-/* Site of particle i, -1 where it stands on none. */
-static int64_t site_of(const struct lattice *l, const struct particles *p, int64_t i)
+int64_t lattice_site_of(const struct lattice *l, const struct particles *p, int64_t i)
 {
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -67,12 +66,12 @@ static bool sites_fill(struct lattice *l, const struct particles *p)
     bool regular = true;
 #pragma omp parallel for schedule(static) reduction(&& : regular)
     for (int64_t i = 0; i < p->n; i++) {
-        const int64_t site = site_of(l, p, i);
-        regular = regular && site >= 0 && (i == 0 || site_of(l, p, i - 1) < site) && p->body[i] == p->body[0];
+        const int64_t site = lattice_site_of(l, p, i);
+        regular = regular && site >= 0 && (i == 0 || lattice_site_of(l, p, i - 1) < site) && p->body[i] == p->body[0];
         if (site >= 0) l->at[site] = (int32_t)i + 1;
     }
     for (int64_t k = p->n; k < p->n_all && regular; k++) {
-        const int64_t site = site_of(l, p, k);
+        const int64_t site = lattice_site_of(l, p, k);
         regular = site >= 0 && l->at[site] == 0;
         if (regular) l->at[site] = (int32_t)k + 1;
     }
@@ -149,7 +148,7 @@ void lattice_leave(struct lattice *l)
 
 int lattice_family(const struct lattice *l, const struct particles *p, int32_t i, int32_t *found)
 {
-    const int32_t *own = l->at + site_of(l, p, i);
+    const int32_t *own = l->at + lattice_site_of(l, p, i);
     int n = 0;
     for (int k = 0; k < l->rows; k++)
         for (int a = -l->row[k].half; a <= l->row[k].half; a++) {
@@ -193,7 +192,7 @@ static bool is_full(const struct lattice_bonds *b)
 
 bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to)
 {
-    const int64_t site = site_of(l, p, i);
+    const int64_t site = lattice_site_of(l, p, i);
     to->n = 0;
     if (l->at[site + LANES - 1] - l->at[site] != LANES - 1) return false;
     for (int k = 0; k < l->rows; k++)

@@ -75,6 +75,8 @@ struct lattice {
     int users;                           /* of one that is kept: rows, and rows made anew from them          */
     bool uniform;                        /* exact places, one volume, mass and material: bonds follow from sites */
 };
+/* Of particle i, -1 where it stands on none. */
+int64_t lattice_site_of(const struct lattice *l, const struct particles *p, int64_t i);
 /* False, and nothing to free, where particles do not stand on one. */
 bool lattice_make(struct lattice *l, const struct bond_source *s, const struct particles *p);
 void lattice_free(struct lattice *l);

@@ -35,7 +35,7 @@ bool partial_table_knows(const struct particles *p, const struct bond_source *s,
 void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const int32_t *list, int64_t n);
 /* T of point i from the answers of the rows round it. */
-void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
-                       struct near *near, real *T);
+void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
+                       const struct bond_source *s, int64_t i, struct near *near, real *T);
 
 #endif

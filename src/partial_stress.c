@@ -332,7 +332,7 @@ static void matrices_make(real *M, bool *crossed, int whole, const struct partia
             const int64_t i = r->list[k];
             real T[ROWS_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
-            if (served && partial_table_knows(p, s, i)) partial_table_sum(table, p, s, i, &near, T);
+            if (served && partial_table_knows(p, s, i)) partial_table_sum(table, p, b, s, i, &near, T);
             else tensor_sum(T, p, b, s, box, i, &near);
             crossed[k] = partial_matrix(M + k * whole, T, p, s, i);
         }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bonds_parts.h"
 #include "memory.h"
 #include "partial_parts.h"
 
@@ -12,6 +13,9 @@ enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
 
 /* A bond of this vector, from the place in question, crosses the cell of the point by this share of its length. */
 struct crossing { int16_t vector, direction; real share; };
+
+/* A place within a bond's length, the middle included. */
+struct near_place { int16_t place; int8_t at[DIM_MAX]; };
 
 /* What rows of material points answer, which lasts until something changes within their reach. */
 struct answers {
@@ -26,6 +30,7 @@ struct partial_table {
     int dim, reach, parts, size;         /* parts of a response; numbers of a tensor                           */
     real spacing, per_spacing;           /* [m] [1/m]                                                          */
     int vectors, directions;             /* directions: a vector and its opposite                              */
+    struct near_place *near;             /* [vectors + 1] ascending                                            */
     int16_t *vector;                     /* [places] number of the vector to a place, -1: no bond              */
     int16_t *mirror;                     /* [2^dim][vectors] vector with signs changed                         */
     int32_t *start;                      /* [places + 1] crossings of bonds from a place: start .. next start  */
@@ -85,6 +90,13 @@ static void vectors_make(struct partial_table *t, real cutoff)
         t->vector[k] = k != middle && sqrt(length2) <= cutoff * (1 + LATTICE_NEAR) && t->vectors < VECTORS_MOST ? (int16_t)t->vectors++ : -1;
     }
     t->directions = t->vectors / 2;      /* places k and places - 1 - k are opposite */
+    t->near = NEW("partial.near", t->vectors + 1, struct near_place);
+    for (int64_t k = 0, n = 0; k < places && n <= t->vectors; k++) {
+        int at[DIM_MAX] = {0};
+        if (t->vector[k] < 0 && k != middle) continue;
+        place_to(t, k, at);
+        t->near[n++] = (struct near_place){(int16_t)k, {(int8_t)at[0], (int8_t)at[1], (int8_t)at[2]}};
+    }
 }
 
 static int direction_of(const struct partial_table *t, int vector)
@@ -205,6 +217,7 @@ void partial_table_free(struct partial_table *t)
 {
     if (!t) return;
     memory_free(t->vector);
+    memory_free(t->near);
     memory_free(t->mirror);
     memory_free(t->start);
     memory_free(t->crossing);
@@ -322,29 +335,80 @@ bool partial_table_knows(const struct particles *p, const struct bond_source *s,
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
-                       struct near *near, real *T)
+/* A row that may cross the cell of a point: of a particle or an image, and the place of that. A bond starts within its length of any
+ * cell that it crosses. */
+struct crosser { int32_t j, place; };
+
+static int32_t answer_of(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int32_t j)
 {
-    real X[DIM_MAX], sum[VECTORS_MOST];
+    return t->answers.of[image_root(p, s->image, j)];
+}
+
+/* Images come last of all, in their order. */
+static void sort_images(struct crosser *image, int n)
+{
+    for (int k = 1; k < n; k++) {
+        const struct crosser one = image[k];
+        int at = k;
+        for (; at > 0 && image[at - 1].j > one.j; at--) image[at] = image[at - 1];
+        image[at] = one;
+    }
+}
+
+/* By the map of sites: particles stand in their order, images anywhere. */
+static int crossers_by_site(const struct partial_table *t, const struct lattice *l, const struct particles *p,
+                            const struct bond_source *s, int64_t i, struct crosser *to)
+{
+    const int32_t *own = l->at + lattice_site_of(l, p, i);
+    struct crosser image[VECTORS_MOST + 1];
+    int n = 0, images = 0;
+    for (int k = 0; k <= t->vectors; k++) {
+        const struct near_place *near = &t->near[k];
+        const int32_t j = own[near->at[0] + near->at[1] * l->stride[1] + near->at[2] * l->stride[2]] - 1;
+        if (j < 0 || p->kind[j] != KIND_MPM || answer_of(t, p, s, j) < 0) continue;
+        if (j < p->n) to[n++] = (struct crosser){j, near->place};
+        else image[images++] = (struct crosser){j, near->place};
+    }
+    sort_images(image, images);
+    memcpy(to + n, image, (size_t)images * sizeof *image);
+    return n + images;
+}
+
+/* The same in the same order. */
+static int crossers_by_search(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
+                              struct near *near, struct crosser *to)
+{
+    real X[DIM_MAX], Y[DIM_MAX];
+    int n = 0;
     particle_place(p, i, X);
-    memset(sum, 0, sizeof *sum * (size_t)(t->directions * t->parts));
-    near_find_any(near, s->cells, p, i, s->family.cutoff, true);     /* a bond starts within its length of any cell it crosses */
+    near_find(near, s->cells, p, i, s->family.cutoff, true);
     for (int k = 0; k < near->n; k++) {
-        const int64_t j = near->at[k];
-        real Y[DIM_MAX];
+        const int32_t j = near->at[k];
+        if (p->kind[j] != KIND_MPM || p->body[j] != p->body[i] || answer_of(t, p, s, j) < 0) continue;
+        particle_place(p, j, Y);
+        to[n++] = (struct crosser){j, (int32_t)place_between(t, X, Y)};
+    }
+    return n;
+}
+
+void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
+                       const struct bond_source *s, int64_t i, struct near *near, real *T)
+{
+    real sum[VECTORS_MOST];
+    struct crosser row[VECTORS_MOST + 1];
+    const bool mapped = b->sites && b->sites->at;
+    const int rows = mapped ? crossers_by_site(t, b->sites, p, s, i, row) : crossers_by_search(t, p, s, i, near, row);
+    memset(sum, 0, sizeof *sum * (size_t)(t->directions * t->parts));
+    for (int k = 0; k < rows; k++) {
+        const int32_t j = row[k].j;
         int signs = 0;
-        if (p->kind[j] != KIND_MPM || p->body[j] != p->body[i]) continue;
-        int32_t of = j < p->n ? t->answers.of[j] : -1;
         if (j >= p->n) {
             const struct reflection r = reflection_of(s, p, j);
-            of = t->answers.of[r.root];
             for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         }
-        if (of < 0) continue;
-        particle_place(p, j, Y);
-        const int64_t place = place_between(t, X, Y);
-        if (t->parts == 1) sum_row(t, sum, place, answer_at(t, of), signs, 1);
-        else sum_row(t, sum, place, answer_at(t, of), signs, 2);
+        const real *answer = answer_at(t, answer_of(t, p, s, j));
+        if (t->parts == 1) sum_row(t, sum, row[k].place, answer, signs, 1);
+        else sum_row(t, sum, row[k].place, answer, signs, 2);
     }
     sum_tensors(t, sum, T);
 }

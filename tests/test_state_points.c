@@ -1,5 +1,5 @@
 /* floor 5: what a material point at the end of a state-based bond is taken to know: the mean strain of its stress and the mean
- * rotation of its peridynamic neighbours, images among them. */
+ * rotation of its peridynamic neighbours, images among them; and what stress it leaves to its bonds. */
 #include <string.h>
 
 #include "cloud.h"
@@ -129,9 +129,54 @@ static void test_points(void **state)
     check_points(block);
 }
 
+/* Of a point, with the map of sites that rows made anew have, and as first made, by searching: the same bits. */
+static void same_partials(const struct partial_stress *a, const struct partial_stress *b, int64_t n, int dim)
+{
+    const int symmetric = symmetric_count(dim), size = symmetric * symmetric, skew = dim * (dim - 1) / 2 * symmetric;
+    int64_t points = 0;
+    for (int64_t i = 0; i < n; i++) {
+        assert_int_equal(a->index[i] >= 0, b->index[i] >= 0);
+        if (a->index[i] < 0) continue;
+        assert_memory_equal(a->matrix + a->index[i] * size, b->matrix + b->index[i] * size, (size_t)size * sizeof(real));
+        assert_memory_equal(a->skew + a->index[i] * skew, b->skew + b->index[i] * skew, (size_t)skew * sizeof(real));
+        points++;
+    }
+    assert_true(points > 50);
+}
+
+static void check_partials(const char *text)
+{
+    struct scene s;
+    struct engine e = {0};
+    struct bonds searched;
+    struct partial_stress again = {0};
+    if (scene_read_text(&s, text, strlen(text), "points.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    assert_int_equal(engine_make(&e, &s, NULL), OK);
+    int64_t point = 0;
+    while (e.part.kind[point] != KIND_MPM || e.bonds.row_of[point] < 0) point++;
+    e.part.flag[point] |= FLAG_STRESSED;
+    assert_true(convert(&e.conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.partial, NULL, 0) > 0);
+    assert_non_null(e.bonds.sites);
+    bonds_make(&searched, NULL, &e.part, &e.source);
+    assert_null(searched.sites);
+    partial_stress_make(&again, &e.part, &searched, &e.source, NULL, 0);
+    same_partials(&e.partial, &again, e.part.n, e.part.dim);
+    partial_stress_free(&again);
+    bonds_free(&searched);
+    engine_free(&e);
+    scene_free(&s);
+}
+
+static void test_partials(void **state)
+{
+    (void)state;
+    check_partials(plate);
+    check_partials(block);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_points)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_points), cmocka_unit_test(test_partials)};
     team_make(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
