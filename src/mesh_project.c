@@ -15,6 +15,8 @@ struct projection {
     const struct particles *p;
     const uint8_t *node;
     real *mass;                          /* [nodes] of each point round a node that has them all, and of one mass; else 0 [kg] */
+    int32_t *row_of;                     /* [nodes] of other unknown nodes, -1: none                                   */
+    real *row;                           /* [rows][3^dim] of the mass matrix, by the nodes around                       [kg] */
 };
 
 /* sum m_p N_I value_p over the points of a cell of which I is corner c. */
@@ -27,21 +29,38 @@ static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int
     return sum;
 }
 
-/* The same of a nodal field. */
-static ALWAYS_INLINE real cell_product(const struct projection *m, int64_t cell, int c, const real *from, const int dim)
+static int nodes_around(int dim) { return dim == 1 ? 3 : dim == 2 ? 9 : 27; }
+
+/* Corner k of a cell of which a node is corner c, among the nodes around it. */
+static int node_around(int dim, int c, int k)
 {
-    const int32_t *point = m->mesh->point + (cell << dim);
-    real sum = 0;
-    for (int q = 0; q < 1 << dim; q++) {
-        real here = 0;
-        if (point[q] < 0) continue;
-        for (int k = 0; k < 1 << dim; k++) here += mesh_weight(dim, k, q) * from[cell + m->mesh->corner[k]];
-        sum += m->p->mass[point[q]] * mesh_weight(dim, c, q) * here;
+    int at = 0;
+    for (int d = dim - 1; d >= 0; d--) at = 3 * at + 1 + (k >> d & 1) - (c >> d & 1);
+    return at;
+}
+
+/* sum m_p N_I N_J over the points round node I, for the nodes J around it. */
+static void row_make(const struct projection *m, int64_t I, real *row)
+{
+    const int dim = m->p->dim;
+    for (int c = 0; c < 1 << dim; c++) {
+        const int32_t *point = m->mesh->point + ((I - m->mesh->corner[c]) << dim);
+        for (int q = 0; q < 1 << dim; q++)
+            for (int k = 0; k < 1 << dim && point[q] >= 0; k++)
+                row[node_around(dim, c, k)] += m->p->mass[point[q]] * mesh_weight(dim, c, q) * mesh_weight(dim, k, q);
     }
+}
+
+static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t across, int64_t layer, const int dim)
+{
+    real sum = 0;
+    for (int c = dim > 2 ? -1 : 0; c <= (dim > 2); c++)
+        for (int b = dim > 1 ? -1 : 0; b <= (dim > 1); b++)
+            for (int a = -1; a <= 1; a++) sum += *row++ * from[c * layer + b * across + a];
     return sum;
 }
 
-/* The same with all points of mass 1 round a node, direction by direction: with two points in a cell sum_q N_I N_J is 5/8 in
+/* What a row gives with all points of mass 1 round a node, direction by direction: with two points in a cell sum_q N_I N_J is 5/8 in
  * each of two cells, and 3/8 to either side. */
 static ALWAYS_INLINE real line_product(const real *from) { return 0.375 * (from[-1] + from[1]) + 1.25 * from[0]; }
 
@@ -59,25 +78,25 @@ static ALWAYS_INLINE real inner_product(const real *from, int64_t row, int64_t l
 
 static bool is_unknown(const struct projection *m, int64_t I) { return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]); }
 
-/* Cell by cell. */
-static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const real *from, const int dim)
+/* Of points, cell by cell. */
+static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
     real sum = 0;
-    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++) {
-        const int64_t cell = I - m->mesh->corner[c];
-        sum += value ? cell_sum(m, cell, c, value, dim) : cell_product(m, cell, c, from, dim);
-    }
+    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++) sum += cell_sum(m, I - m->mesh->corner[c], c, value, dim);
     return sum;
 }
 
 /* Both sums, of points (`value`) or nodes, at all unknown nodes, and 0 at others: every node is written by one thread. */
 static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to, const int dim)
 {
-    const int64_t row = dim > 1 ? m->mesh->corner[2] : 0, layer = dim > 2 ? m->mesh->corner[4] : 0, n = m->mesh->grid.n;
+    const int64_t across = dim > 1 ? m->mesh->corner[2] : 0, layer = dim > 2 ? m->mesh->corner[4] : 0, n = m->mesh->grid.n;
     const real *mass = m->mass;
 #pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < n; I++)
-        to[I] = from && mass[I] > 0 ? mass[I] * inner_product(from + I, row, layer, dim) : outer_sum(m, I, value, from, dim);
+    for (int64_t I = 0; I < n; I++) {
+        if (value) to[I] = outer_sum(m, I, value, dim);
+        else if (mass[I] > 0) to[I] = mass[I] * inner_product(from + I, across, layer, dim);
+        else to[I] = m->row_of[I] < 0 ? 0 : row_product(m->row + (int64_t)m->row_of[I] * nodes_around(dim), from + I, across, layer, dim);
+    }
 }
 
 static void gather(const struct projection *m, const real *value, const real *from, real *to)
@@ -106,6 +125,22 @@ static void masses_find(struct projection *m)
     m->mass = NEW("mesh.point_mass", m->mesh->grid.n, real);
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < m->mesh->grid.n; I++) m->mass[I] = mass_around(m, I);
+}
+
+static void rows_make(struct projection *m)
+{
+    const int64_t n = m->mesh->grid.n, far = m->mesh->corner[(1 << m->p->dim) - 1];
+    const int each = nodes_around(m->p->dim);
+    int32_t rows = 0;
+    m->row_of = BARE("mesh.row_of", n, int32_t);
+    for (int64_t I = 0; I < n; I++) m->row_of[I] = is_unknown(m, I) && m->mass[I] == 0 ? rows++ : -1;
+    m->row = NEW("mesh.row", (int64_t)rows * each, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < n; I++)
+        if (m->row_of[I] >= 0) {
+            assert(I >= far && I + far < n);               /* a grid has a margin (grid.h) */
+            row_make(m, I, m->row + (int64_t)m->row_of[I] * each);
+        }
 }
 
 struct pair { const real *a, *b, *weight; };      /* weight NULL: 1 */
@@ -161,13 +196,16 @@ static void project(const struct projection *m, const real *value, real *x)
 static void project_all(struct projection m, real *const *value, real *const *node)
 {
     masses_find(&m);
+    rows_make(&m);
     for (int a = 0; a < m.p->dim; a++) project(&m, value[a], node[a]);
     memory_free(m.mass);
+    memory_free(m.row_of);
+    memory_free(m.row);
 }
 
 void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node)
 {
-    project_all((struct projection){mesh, p, NULL, NULL}, value, node);
+    project_all((struct projection){.mesh = mesh, .p = p}, value, node);
 }
 
 void mesh_project_near(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
@@ -175,6 +213,6 @@ void mesh_project_near(const struct mesh *mesh, const struct particles *p, real 
 {
     uint8_t *mark = NEW("mesh.unknown", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < n; k++) mark[list[k]] = 1;
-    project_all((struct projection){mesh, p, mark, NULL}, value, node);
+    project_all((struct projection){.mesh = mesh, .p = p, .node = mark}, value, node);
     memory_free(mark);
 }
