@@ -245,9 +245,9 @@ int bonds_room(const struct bond_source *s);
 /* V_i^H = sum V_j beta of every particle, uncracked [m^3], n_all entries. */
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
 
-/* Makes the rows of all peridynamic and hand-shake particles. With `old` (rows made before, whose slots nobody may read afterwards)
- * what was broken stays broken, and counts are carried over. Bonds cut by a crack have w = 0 and count as damage. Sets damage of all rows'
- * peridynamic particles. */
+/* Makes the rows of all peridynamic and hand-shake particles. With `old` (rows made before, whose slots nobody may read
+ * afterwards) what was broken stays broken, and counts are carried over. Bonds cut by a crack have w = 0 and count as damage.
+ * Sets damage of all rows' peridynamic particles. */
 void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s);
 /* Images become what they are images of. */
 void bonds_images_follow(struct particles *p, const struct bond_source *s);
@@ -285,6 +285,12 @@ void state_weigh(struct bonds *b, const struct particles *p, const struct family
 
 /* Bond energy released by breaking so far [J]. */
 real bonds_fracture_energy(const struct bonds *b);
+
+/* Are all eight rows of a group there and peridynamic? */
+static inline bool group_whole(const struct bonds *b, int64_t group)
+{
+    return eight_bytes(b->whole + group * LANES) == EIGHT_TIMES(1);
+}
 
 /* Rows of a group that have an intact bond: a bit each. */
 static inline unsigned bonds_intact(const struct bonds *b, int64_t group)

@@ -151,11 +151,12 @@ int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond
 bool bond_break_asks(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     bool asks = false;
+    if (!b->state.modulus) return false;
 #pragma omp parallel for schedule(static) reduction(|| : asks)
     for (int64_t g = 0; g < b->groups; g++) {
-        const bool points = b->state.modulus && !(b->whole[g * LANES] && eight_same(b->whole + g * LANES));
-        const lanes_mask past = points && !asks ? rows_due(b, p, limit, g) : (lanes_mask)lanes_of(0);
-        for (int l = 0; l < LANES && points; l++) asks = asks || (past[l] && p->kind[b->particle[g * LANES + l]] == KIND_MPM);
+        if (asks || group_whole(b, g)) continue;
+        const lanes_mask past = rows_due(b, p, limit, g);
+        for (int l = 0; l < LANES; l++) asks = asks || (past[l] && p->kind[b->particle[g * LANES + l]] == KIND_MPM);
     }
     return asks;
 }

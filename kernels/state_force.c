@@ -37,11 +37,11 @@ static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct partic
 }
 
 /* The rotation nearest to the moment; where nobody has moved it is none, to the last bit. */
-static ALWAYS_INLINE void family_turn(lanes *turn, const struct family_sums *sum, lanes spring, const int dim)
+static ALWAYS_INLINE void family_turn(lanes *turn, const lanes *moment, lanes_mask moved, lanes spring, const int dim)
 {
     lanes R[DIM_MAX * DIM_MAX];
-    polar_rotation_lanes(sum->moment, R, dim);
-    for (int c = 0; c < dim * dim; c++) R[c] = lanes_choose(sum->moved != 0, R[c], lanes_of(c % (dim + 1) == 0));
+    polar_rotation_lanes(moment, R, dim);
+    for (int c = 0; c < dim * dim; c++) R[c] = lanes_choose(moved != 0, R[c], lanes_of(c % (dim + 1) == 0));
     turn_make(turn, R, spring, dim);
 }
 
@@ -91,7 +91,7 @@ static ALWAYS_INLINE void know_by_family(struct bonds *b, const struct particles
     const struct own_family f = own_family_of(b, p, g);
     struct knowledge k;
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
-    if (state_turns(model)) family_turn(k.turn, sum, k.spring, dim);
+    if (state_turns(model)) family_turn(k.turn, sum->moment, sum->moved, k.spring, dim);
     know_store(b, p, g, &k, KIND_PD, model);
 }
 
@@ -137,14 +137,14 @@ static ALWAYS_INLINE void turned_slot(struct turn_sums *sum, const struct slot s
 /* The mean rotation that the neighbours of eight rows have, by their springs. */
 static ALWAYS_INLINE void turned_group(const struct bonds *b, int64_t g, lanes *turn, lanes spring, const int dim)
 {
-    struct turn_sums turned;
-    struct family_sums sum;
-    turn_sums_make(&turned);
-#define VISIT(SLOT) turned_slot(&turned, SLOT, dim)
+    struct turn_sums sum;
+    lanes moment[DIM_MAX * DIM_MAX];
+    turn_sums_make(&sum);
+#define VISIT(SLOT) turned_slot(&sum, SLOT, dim)
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
-    sum.moved = turn_moment(sum.moment, &turned, dim);
-    family_turn(turn, &sum, spring, dim);
+    const lanes_mask turned = turn_moment(moment, &sum, dim);
+    family_turn(turn, moment, turned, spring, dim);
 }
 
 /* A material point has the mean strain that its stress tells, and the mean rotation of the particles it is bonded to. */
@@ -152,9 +152,8 @@ static ALWAYS_INLINE void state_of_points(struct bonds *b, const struct particle
                                           const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    const uint8_t *whole = b->whole + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
-    if (eight_same(whole) && whole[0]) return;
+    if (group_whole(b, g)) return;
     const struct own_family f = own_family_of(b, p, g);
     struct knowledge k;
     lanes trace = lanes_of(0);
@@ -256,7 +255,7 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
         _Pragma("omp parallel for schedule(static)")                                                                  \
         for (int64_t k = 0; k < b->rest.awake; k++)                                                                   \
             state_group(b, p, b->rest.list[k], D, PD_##M);                                                            \
-        if (state_turns(PD_##M)) state_of_images(b, p, D, true);         /* points look at their rotations */         \
+        if (state_turns(PD_##M) && p->n_of[KIND_PD] < p->n) state_of_images(b, p, D, true);   /* points look at them */ \
         _Pragma("omp parallel for schedule(static)")                                                                  \
         for (int64_t g = 0; g < b->groups; g++) state_of_points(b, p, g, D, PD_##M);                                  \
         state_of_images(b, p, D, state_turns(PD_##M));                                                                \

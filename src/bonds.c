@@ -111,7 +111,7 @@ struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
     struct group_found **found;          /* [groups] of those that are searched, NULL: not kept   */
-    int64_t *kept;                       /* [groups] of old rows whose group is taken over, -1: made */
+    int64_t *kept;                       /* [groups] of old rows whose group is taken over, -1: made; NULL: all are */
     bool count;                          /* the first pass: slots are counted                     */
 };
 
@@ -192,7 +192,8 @@ static int64_t rows_pass(const struct rows_pass *pass)
         group_room_make(&room, m->room, m->lattice);
 #pragma omp for schedule(static)
         for (int64_t g = 0; g < pass->b->groups; g++) {
-            const int64_t from = pass->count ? (pass->kept[g] = group_kept(pass->b, m, g)) : pass->kept[g];
+            if (pass->kept && pass->count) pass->kept[g] = group_kept(pass->b, m, g);
+            const int64_t from = pass->kept ? pass->kept[g] : -1;
             if (from < 0) pass->b->made[g] = (int32_t)group_pass(pass, &room, g);
             else if (pass->count) pass->b->slot_count[g] = m->old->slot_count[from];
             else group_keep(pass->b, m->old, g, from);
@@ -266,7 +267,7 @@ static void rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = pairs_make(maker.source);
     maker.pairs = &pairs;
-    struct rows_pass pass = {.b = b, .maker = maker, .count = true, .kept = BARE("bonds.kept", b->groups, int64_t),
+    struct rows_pass pass = {.b = b, .maker = maker, .count = true, .kept = maker.old ? BARE("bonds.kept", b->groups, int64_t) : NULL,
                              .found = maker.old ? NEW("bonds.found", b->groups, struct group_found *) : NULL};
     rows_pass(&pass);
     slots_place(b, &pass);

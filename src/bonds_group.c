@@ -116,7 +116,7 @@ void group_store(struct bonds *b, struct group_room *room, int64_t g, const stru
     b->pattern[g] = pattern_of(b, room, g, p) ? pattern_known(b->patterns, &room->pattern, room->likely) : NULL;
     b->folded[g] = b->pattern[g] != NULL;
     if (b->folded[g]) room->likely = b->pattern[g];
-    for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g] && !b->folded[g]; slot++) slot_write(b, slot, &room->slot[slot - b->slot[g]]);
+    for (int k = 0; k < b->slot_count[g] && !b->folded[g]; k++) slot_write(b, b->slot[g] + k, &room->slot[k]);
 }
 
 /* Which of eight particles in a row are peridynamic: bit by bit. */

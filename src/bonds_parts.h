@@ -87,7 +87,8 @@ void lattice_leave(struct lattice *l);
 int lattice_family(const struct lattice *l, const struct particles *p, int32_t i, int32_t *found);
 
 /* Families of eight consecutive particles: lanes `from` to `to` have a neighbour at this index distance; distances ascend.
- * `full`: every lane has one at every distance. `bonds`: bit l is set where lane l has a bond to it, one end of which is peridynamic (group_regular). */
+ * `full`: every lane has one at every distance. `bonds`: bit l is set where lane l has a bond to it, one end of which is
+ * peridynamic (group_regular). */
 struct lattice_bonds { int n; bool full; int32_t *offset; uint8_t *from, *to, *bonds; struct twins *twins; };
 void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l);
 void lattice_bonds_free(struct lattice_bonds *to);

@@ -15,7 +15,7 @@ enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
 struct crossing { int16_t vector, direction; real share; };
 
 /* A place within a bond's length, the middle included. */
-struct near_place { int16_t place; int8_t at[DIM_MAX]; };
+struct near_place { int16_t place, at[DIM_MAX]; };
 
 /* What rows of material points answer, which lasts until something changes within their reach. */
 struct answers {
@@ -95,7 +95,7 @@ static void vectors_make(struct partial_table *t, real cutoff)
         int at[DIM_MAX] = {0};
         if (t->vector[k] < 0 && k != middle) continue;
         place_to(t, k, at);
-        t->near[n++] = (struct near_place){(int16_t)k, {(int8_t)at[0], (int8_t)at[1], (int8_t)at[2]}};
+        t->near[n++] = (struct near_place){(int16_t)k, {(int16_t)at[0], (int16_t)at[1], (int16_t)at[2]}};
     }
 }
 
@@ -335,43 +335,34 @@ bool partial_table_knows(const struct particles *p, const struct bond_source *s,
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* A row that may cross the cell of a point: of a particle or an image, and the place of that. A bond starts within its length of any
- * cell that it crosses. */
-struct crosser { int32_t j, place; };
+/* A row that may cross the cell of a point: of a particle or an image, its place, and what it answers. A bond starts within its
+ * length of any cell that it crosses. */
+struct crosser { int32_t j, place, answer; };
 
-static int32_t answer_of(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int32_t j)
+/* Puts j among n others, ascending, if it is a material point's and answers; returns how many there are. */
+static int crosser_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int32_t j,
+                       int64_t place, struct crosser *to, int n)
 {
-    return t->answers.of[image_root(p, s->image, j)];
+    const int32_t answer = p->kind[j] == KIND_MPM ? t->answers.of[image_root(p, s->image, j)] : -1;
+    int at = n;
+    if (answer < 0) return n;
+    for (; at > 0 && to[at - 1].j > j; at--) to[at] = to[at - 1];
+    to[at] = (struct crosser){j, (int32_t)place, answer};
+    return n + 1;
 }
 
-/* Images come last of all, in their order. */
-static void sort_images(struct crosser *image, int n)
-{
-    for (int k = 1; k < n; k++) {
-        const struct crosser one = image[k];
-        int at = k;
-        for (; at > 0 && image[at - 1].j > one.j; at--) image[at] = image[at - 1];
-        image[at] = one;
-    }
-}
-
-/* By the map of sites: particles stand in their order, images anywhere. */
+/* By the map of sites: particles stand in their order, images, which come last of all, anywhere. */
 static int crossers_by_site(const struct partial_table *t, const struct lattice *l, const struct particles *p,
                             const struct bond_source *s, int64_t i, struct crosser *to)
 {
     const int32_t *own = l->at + lattice_site_of(l, p, i);
-    struct crosser image[VECTORS_MOST + 1];
-    int n = 0, images = 0;
+    int n = 0;
     for (int k = 0; k <= t->vectors; k++) {
         const struct near_place *near = &t->near[k];
         const int32_t j = own[near->at[0] + near->at[1] * l->stride[1] + near->at[2] * l->stride[2]] - 1;
-        if (j < 0 || p->kind[j] != KIND_MPM || answer_of(t, p, s, j) < 0) continue;
-        if (j < p->n) to[n++] = (struct crosser){j, near->place};
-        else image[images++] = (struct crosser){j, near->place};
+        if (j >= 0) n = crosser_add(t, p, s, j, near->place, to, n);
     }
-    sort_images(image, images);
-    memcpy(to + n, image, (size_t)images * sizeof *image);
-    return n + images;
+    return n;
 }
 
 /* The same in the same order. */
@@ -384,9 +375,9 @@ static int crossers_by_search(const struct partial_table *t, const struct partic
     near_find(near, s->cells, p, i, s->family.cutoff, true);
     for (int k = 0; k < near->n; k++) {
         const int32_t j = near->at[k];
-        if (p->kind[j] != KIND_MPM || p->body[j] != p->body[i] || answer_of(t, p, s, j) < 0) continue;
+        if (p->body[j] != p->body[i]) continue;
         particle_place(p, j, Y);
-        to[n++] = (struct crosser){j, (int32_t)place_between(t, X, Y)};
+        n = crosser_add(t, p, s, j, place_between(t, X, Y), to, n);
     }
     return n;
 }
@@ -400,13 +391,12 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
     const int rows = mapped ? crossers_by_site(t, b->sites, p, s, i, row) : crossers_by_search(t, p, s, i, near, row);
     memset(sum, 0, sizeof *sum * (size_t)(t->directions * t->parts));
     for (int k = 0; k < rows; k++) {
-        const int32_t j = row[k].j;
+        const real *answer = answer_at(t, row[k].answer);
         int signs = 0;
-        if (j >= p->n) {
-            const struct reflection r = reflection_of(s, p, j);
+        if (row[k].j >= p->n) {
+            const struct reflection r = reflection_of(s, p, row[k].j);
             for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         }
-        const real *answer = answer_at(t, answer_of(t, p, s, j));
         if (t->parts == 1) sum_row(t, sum, row[k].place, answer, signs, 1);
         else sum_row(t, sum, row[k].place, answer, signs, 2);
     }
