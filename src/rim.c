@@ -8,95 +8,112 @@
 
 #define NEIGHBOUR_SPACINGS 1.5           /* nearest along axes and face diagonals */
 
-enum { OUTSIDE = -1 };
+enum mark { OUTSIDE, BESIDE, POINT };    /* what a particle is: nothing of it, next to it, a point of the rim */
 
 /* ---- who stands near whom ----------------------------------------------------------------------------- */
 
-struct search {
-    const struct particles *p;
-    const struct bond_source *source;
-    struct near near;
-};
+/* Can a particle be moved by the rim? */
+static bool is_free(const struct particles *p, int32_t j) { return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED)); }
 
-/* Free particles of the body of particle i within `radius` of it, ascending, images left out; into s->near. */
-static void search_near(struct search *s, int32_t i, real radius)
+/* Marks free particles of their body within `radius` of those listed, points alone or all, that have no mark. Threads that find the
+ * same write the same. */
+static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list, int64_t n,
+                      real radius, enum mark as)
 {
-    const struct particles *p = s->p;
-    int kept = 0;
-    near_find(&s->near, s->source->cells, p, i, radius, false);
-    for (int k = 0; k < s->near.n; k++) {
-        const int32_t j = s->near.at[k];
-        if (j < p->n && p->body[j] == p->body[i] && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED))) s->near.at[kept++] = j;
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(dynamic, 64)
+        for (int64_t k = 0; k < n; k++) {
+            near_find_any(&near, s->cells, p, list[k], radius, false);
+            for (int q = 0; q < near.n; q++) {
+                const int32_t j = near.at[q];
+                if (!is_free(p, j) || p->body[j] != p->body[list[k]] || (as == POINT && p->kind[j] != KIND_MPM)) continue;
+                if (__atomic_load_n(&mark[j], __ATOMIC_RELAXED) == OUTSIDE) __atomic_store_n(&mark[j], (uint8_t)as, __ATOMIC_RELAXED);
+            }
+        }
+        memory_free(near.at);
     }
-    s->near.n = kept;
 }
 
 /* ---- making ------------------------------------------------------------------------------------------- */
 
-static void member_add(struct rim *r, int32_t *place, int32_t i)
+/* Those with this mark become members. */
+static void members_add(struct rim *r, const uint8_t *mark, int32_t *place, int64_t n, enum mark as)
 {
-    if (place[i] != OUTSIDE) return;
-    place[i] = (int32_t)r->n;
-    r->particle[r->n++] = i;
+    for (int64_t i = 0; i < n; i++)
+        if (mark[i] == as) place[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
 }
 
 /* The points of the rim first, then their other neighbours. */
-static void members_make(struct rim *r, struct search *s, int32_t *place)
+static void members_make(struct rim *r, const struct particles *p, const struct bond_source *s, uint8_t *mark, int32_t *place)
 {
-    const struct particles *p = s->p;
-    const struct family *f = &s->source->family;
-    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
-        search_near(s, p->list[KIND_PD][k], f->cutoff + f->spacing * (1 + 1e-9));
-        for (int q = 0; q < s->near.n; q++)
-            if (p->kind[s->near.at[q]] == KIND_MPM) member_add(r, place, s->near.at[q]);
-    }
+    const real spacing = s->family.spacing;
+    mark_near(mark, p, s, p->list[KIND_PD], p->n_of[KIND_PD], s->family.cutoff + spacing * (1 + 1e-9), POINT);
+    members_add(r, mark, place, p->n, POINT);
     r->points = r->n;
-    for (int64_t k = 0; k < r->points; k++) {
-        search_near(s, r->particle[k], NEIGHBOUR_SPACINGS * f->spacing);
-        for (int q = 0; q < s->near.n; q++) member_add(r, place, s->near.at[q]);
-    }
+    mark_near(mark, p, s, r->particle, r->points, NEIGHBOUR_SPACINGS * spacing, BESIDE);
+    members_add(r, mark, place, p->n, BESIDE);
 }
 
-/* Pairs of members of which one at least is a point of the rim. */
-static void pairs_make(struct rim *r, struct search *s, const int32_t *place)
+/* Neighbours of member k in pairs of which one at least is a point of the rim, ascending; `to` NULL: only how many. */
+static int64_t pairs_of(const struct rim *r, const struct particles *p, const struct bond_source *s, const uint8_t *mark,
+                        const int32_t *place, int64_t k, struct near *near, int32_t *to)
 {
-    int64_t pairs = 0, room = 0;
-    int most = 1;
-    for (int64_t k = 0; k < r->n; k++) {
-        const struct near *near = &s->near;
-        search_near(s, r->particle[k], NEIGHBOUR_SPACINGS * s->source->family.spacing);
-        if (pairs + near->n > room) {
-            int64_t larger = 2 * (pairs + near->n);
-            r->neighbour = memory_resize("rim.neighbour", r->neighbour, room, larger, sizeof *r->neighbour);
-            room = larger;
-        }
-        r->start[k] = pairs;
-        for (int q = 0; q < near->n; q++) {
-            const int32_t m = place[near->at[q]];
-            if (m == OUTSIDE || (k >= r->points && m >= r->points)) continue;
-            if (cracks_part(s->source->crack, s->source->cracks, s->p, r->particle[k], near->at[q])) continue;
-            r->neighbour[pairs++] = m;
-        }
-        if (pairs - r->start[k] > most) most = (int)(pairs - r->start[k]);
+    const int32_t i = r->particle[k];
+    int64_t n = 0;
+    near_find(near, s->cells, p, i, NEIGHBOUR_SPACINGS * s->family.spacing, false);
+    for (int q = 0; q < near->n; q++) {
+        const int32_t j = near->at[q];
+        if (j >= p->n || p->body[j] != p->body[i] || mark[j] == OUTSIDE || (mark[i] != POINT && mark[j] != POINT)) continue;
+        if (cracks_part(s->crack, s->cracks, p, i, j)) continue;
+        if (to) to[n] = place[j];
+        n++;
     }
-    r->start[r->n] = pairs;
-    r->scale = 4 / (most * (1 + 1.0 / s->p->dim));       /* the sum of e e of n neighbours has a norm of about n/dim */
+    return n;
+}
+
+/* Counts the pairs of each member, or writes them; returns the most that one has. */
+static int64_t pairs_pass(struct rim *r, const struct particles *p, const struct bond_source *s, const uint8_t *mark,
+                          const int32_t *place, bool count)
+{
+    int64_t most = 1;
+#pragma omp parallel reduction(max : most)
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < r->n; k++) {
+            const int64_t n = pairs_of(r, p, s, mark, place, k, &near, count ? NULL : r->neighbour + r->start[k]);
+            if (count) r->start[k + 1] = n;
+            if (n > most) most = n;
+        }
+        memory_free(near.at);
+    }
+    return most;
+}
+
+static void pairs_make(struct rim *r, const struct particles *p, const struct bond_source *s, const uint8_t *mark, const int32_t *place)
+{
+    const int64_t most = pairs_pass(r, p, s, mark, place, true);
+    for (int64_t k = 0; k < r->n; k++) r->start[k + 1] += r->start[k];
+    r->neighbour = NEW("rim.neighbour", r->start[r->n], int32_t);
+    pairs_pass(r, p, s, mark, place, false);
+    r->scale = 4 / ((real)most * (1 + 1.0 / p->dim));    /* the sum of e e of n neighbours has a norm of about n/dim */
 }
 
 void rim_make(struct rim *r, const struct particles *p, const struct bond_source *source)
 {
-    struct search s = {.p = p, .source = source};
     rim_free(r);
-    int32_t *place = NEW("rim.place", p->n, int32_t);
-    for (int64_t i = 0; i < p->n; i++) place[i] = OUTSIDE;
+    uint8_t *mark = NEW("rim.mark", p->n, uint8_t);
+    int32_t *place = BARE("rim.place", p->n, int32_t);   /* of whom has a mark */
     r->particle = NEW("rim.particle", p->n, int32_t);
-    members_make(r, &s, place);
+    members_make(r, p, source, mark, place);
     r->particle = memory_resize("rim.particle", r->particle, p->n, r->n, sizeof *r->particle);
     r->start = NEW("rim.start", r->n + 1, int64_t);
-    pairs_make(r, &s, place);
+    pairs_make(r, p, source, mark, place);
     r->difference = NEW("rim.difference", r->n * p->dim, real);
     r->change = NEW("rim.change", r->n * p->dim, real);
-    memory_free(s.near.at);
+    memory_free(mark);
     memory_free(place);
 }
 
