@@ -184,7 +184,7 @@ struct bonds {
     uint8_t *folded;                     /* [groups] its slots are not written                            */
     uint8_t *changed;                    /* [groups] weights are not those that it was made with: it follows nothing */
     struct patterns *patterns;
-    struct lattice *sites;               /* NULL before rows are made anew, which will happen again: then kept */
+    struct lattice *sites;               /* kept where there are material points, who may ask for it; else NULL */
     real *plastic_stretch, *plastic_path;   /* [slots 8] s_p and alpha of a bond; NULL where none yields   [1]  */
     int32_t *pair;                       /* [slots 8] entry of `yield`; NULL where none yields               */
     struct bond_yield yield;

@@ -307,7 +307,8 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
 
     rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .lattice = lattice, .room = most});
     memory_free(fresh);
-    if (old) rows_carry(b, old), b->sites = lattice;
+    if (old) rows_carry(b, old);
+    if (p->n_of[KIND_PD] < p->n) b->sites = lattice;
     else lattice_leave(lattice);
     slots_leave(old, b);
 

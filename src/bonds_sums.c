@@ -9,10 +9,10 @@
 #define WHOLE 1e-12                      /* of a volume: sums of up to some hundred terms in other orders      */
 
 /* Volume of the neighbours of particle i. */
-static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f, int64_t i, int32_t *found,
-                        int room)
+static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f, const struct lattice *lattice,
+                        int64_t i, int32_t *found, int room)
 {
-    const int n = family_search(s, p, (int32_t)i, found, room);
+    const int n = family_of(lattice, s, p, (int32_t)i, found, room);
     real volume = 0;
     for (int k = 0; k < n; k++) {
         real xi[DIM_MAX];
@@ -62,7 +62,7 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
                 else volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
                 continue;
             }
-            for (int64_t i = first; i < first + LANES && i < p->n_all; i++) volume[i] = volume_near(p, s, &plain, i, found, most);
+            for (int64_t i = first; i < first + LANES && i < p->n_all; i++) volume[i] = volume_near(p, s, &plain, &lattice, i, found, most);
         }
         lattice_bonds_free(&bonds);
         memory_free(found);
@@ -190,8 +190,8 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     struct particles all = *p;
     memset(kind, KIND_PD, (size_t)p->n_all);
     all.kind = kind;
-    const struct row_maker maker = {.source = s, .p = &all, .pairs = &pairs, .room = bonds_room(s)};
     struct lattice lattice;
+    const struct row_maker maker = {.source = s, .p = &all, .pairs = &pairs, .lattice = &lattice, .room = bonds_room(s)};
     lattice_make(&lattice, s, p);
 #pragma omp parallel reduction(max : largest)
     {

@@ -87,7 +87,7 @@ static void vectors_make(struct partial_table *t, real cutoff)
         real length2 = 0;
         place_to(t, k, at);
         for (int d = 0; d < t->dim; d++) length2 += square(at[d] * t->spacing);
-        t->vector[k] = k != middle && sqrt(length2) <= cutoff * (1 + LATTICE_NEAR) && t->vectors < VECTORS_MOST ? (int16_t)t->vectors++ : -1;
+        t->vector[k] = k != middle && sqrt(length2) <= cutoff * (1 + LATTICE_NEAR) && t->vectors <= VECTORS_MOST ? (int16_t)t->vectors++ : -1;
     }
     t->directions = t->vectors / 2;      /* places k and places - 1 - k are opposite */
     t->near = NEW("partial.near", t->vectors + 1, struct near_place);
@@ -235,17 +235,25 @@ bool partial_table_serves_all(const struct partial_table *t) { return t->uniform
 
 static real *answer_at(const struct partial_table *t, int64_t k) { return t->answers.answer + k * t->vectors * t->parts; }
 
+/* Room for so many that are open at once. */
+static void answers_room(struct partial_table *t, int64_t open)
+{
+    struct answers *a = &t->answers;
+    const int64_t each = (int64_t)t->vectors * t->parts;
+    if (open <= a->room) return;
+    const int64_t room = open + open / 4;
+    real *answer = BARE("partial.answer", room * each, real);
+    if (a->n > 0) memcpy(answer, a->answer, (size_t)(a->n * each) * sizeof *answer);
+    memory_free(a->answer);
+    a->answer = answer;
+    a->free = memory_resize("partial.free", a->free, a->room, room, sizeof *a->free);
+    a->room = room;
+}
+
 static void answer_open(struct partial_table *t, int64_t i)
 {
     struct answers *a = &t->answers;
-    if (a->of[i] >= 0) return;
-    if (a->frees == 0 && a->n == a->room) {
-        const int64_t had = a->room, more = had ? 2 * had : 256, each = (int64_t)t->vectors * t->parts;
-        a->answer = memory_resize("partial.answer", a->answer, had * each, more * each, sizeof(real));
-        a->free = memory_resize("partial.free", a->free, had, more, sizeof *a->free);
-        a->room = more;
-    }
-    a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
+    if (a->of[i] < 0) a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
 }
 
 static void answer_close(struct partial_table *t, int64_t i)
@@ -256,19 +264,17 @@ static void answer_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* By vector; false: it has none. */
-static bool answer_make(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+/* By vector. */
+static void answer_make(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                         int64_t row, real *answer)
 {
     real X[DIM_MAX];
-    bool any = false;
     memset(answer, 0, sizeof *answer * (size_t)(t->vectors * t->parts));
     particle_place(p, b->particle[row], X);
     for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         real to[DIM_MAX];
         if (bond.w == 0) continue;
-        any = true;
         particle_place(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         assert(place >= 0 && t->vector[place] >= 0);
@@ -277,35 +283,43 @@ static bool answer_make(const struct partial_table *t, const struct particles *p
         part[0] = s->turns ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
     }
-    return any;
 }
 
-static bool has_bonds(const struct particles *p, const struct bonds *b, int64_t i)
+/* Rows of a group with an intact bond: who is asked next is mostly of the same group. */
+struct group_intact { int64_t group; unsigned rows; };
+
+static bool has_bonds(struct group_intact *last, const struct particles *p, const struct bonds *b, int64_t i)
 {
-    return p->kind[i] == KIND_MPM && b->row_of[i] >= 0 && b->made[b->row_of[i] / LANES] > 0;
+    const int64_t row = b->row_of[i], group = row / LANES;
+    if (p->kind[i] != KIND_MPM || row < 0) return false;
+    if (last->group != group) *last = (struct group_intact){group, bonds_intact(b, group)};
+    return last->rows >> row % LANES & 1;
 }
 
 void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const int32_t *list, int64_t n)
 {
     struct answers *a = &t->answers;
+    struct group_intact last = {.group = -1};
     if (!list) {
         a->n = a->frees = 0;
         for (int64_t i = 0; i < p->n; i++) a->of[i] = -1;
         list = p->list[KIND_MPM], n = p->n_of[KIND_MPM];
     }
-    bool *none = NEW("partial.none", n, bool);
-    for (int64_t k = 0; k < n; k++)
-        if (has_bonds(p, b, list[k])) answer_open(t, list[k]);
-        else answer_close(t, list[k]);
-#pragma omp parallel for schedule(dynamic, 16)
+    int64_t more = 0;
+    bool *has = NEW("partial.has", n, bool);
     for (int64_t k = 0; k < n; k++) {
-        const int32_t of = a->of[list[k]];
-        none[k] = of < 0 || !answer_make(t, p, b, s, b->row_of[list[k]], answer_at(t, of));
+        has[k] = has_bonds(&last, p, b, list[k]);
+        if (!has[k]) answer_close(t, list[k]);
+        else more += a->of[list[k]] < 0;
     }
+    answers_room(t, a->n - a->frees + more);
     for (int64_t k = 0; k < n; k++)
-        if (none[k]) answer_close(t, list[k]);
-    memory_free(none);
+        if (has[k]) answer_open(t, list[k]);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t k = 0; k < n; k++)
+        if (has[k]) answer_make(t, p, b, s, b->row_of[list[k]], answer_at(t, a->of[list[k]]));
+    memory_free(has);
 }
 
 /* ---- one point --------------------------------------------------------------------------------------- */

@@ -146,6 +146,42 @@ static void test_share_given(void **state)
     cloud_free(&c);
 }
 
+/* Partial stress of a bar of 2 x 2 lines, half of it bonds; `off`: its last particle, which no bond reaches, stands beside the
+ * lattice, so that nothing is looked up. */
+static void shares_make(struct cloud *c, struct partial_stress *partial, real horizon, bool off)
+{
+    const struct cloud_plan plan = {.space = SPACE_SOLID, .count = {24, 2, 2}, .horizon = horizon};
+    cloud_make(c, &plan);
+    if (off)
+        for (int64_t i = 0; i < c->p.n; i++) c->p.X[0][i] += c->p.X[0][i] > 23 * CLOUD_SPACING ? 0.01 * CLOUD_SPACING : 0;
+    for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = c->p.X[0][i] > 12 * CLOUD_SPACING ? KIND_MPM : KIND_PD;
+    cloud_bonds(c);
+    partial_stress_make(partial, &c->p, &c->bonds, &c->source, NULL, 0);
+}
+
+/* What tables answer is what is found bond by bond; where there are too many bonds for tables (8: 2108 in a family), nobody looks
+ * them up. */
+static void test_wide_families(void **state)
+{
+    (void)state;
+    static const real horizon[] = {3.015, 7.015, 8.015};
+    for (size_t k = 0; k < COUNT_OF(horizon); k++) {
+        struct cloud c[2];
+        struct partial_stress partial[2] = {0};
+        int crossed = 0;
+        for (int off = 0; off < 2; off++) shares_make(&c[off], &partial[off], horizon[k], off);
+        for (int64_t i = 0; i < c[0].p.n; i++) {
+            const int32_t a = partial[0].index[i], b = partial[1].index[i];
+            assert_int_equal(a < 0, b < 0);
+            for (int q = 0; q < SYM_MAX * SYM_MAX && a >= 0; q++)
+                is_near("share", partial[0].matrix[a * SYM_MAX * SYM_MAX + q], partial[1].matrix[b * SYM_MAX * SYM_MAX + q], 1e-12);
+            crossed += a >= 0;
+        }
+        assert_true(crossed >= 4 * (int)horizon[k]);
+        for (int off = 0; off < 2; off++) partial_stress_free(&partial[off]), cloud_free(&c[off]);
+    }
+}
+
 /* ---- energy of conversion -------------------------------------------------------------------------------- */
 
 /* Bonds, and half sigma_given : C^-1 sigma of the points [J]. */
@@ -241,6 +277,7 @@ int main(void)
         cmocka_unit_test(test_interface_2d),
         cmocka_unit_test(test_interface_3d),
         cmocka_unit_test(test_share_given),
+        cmocka_unit_test(test_wide_families),
         cmocka_unit_test(test_energy_at_start),
         cmocka_unit_test(test_energy_in_run),
     };
