@@ -14,7 +14,8 @@ struct bench {
 static const struct bench benches[] = {
     {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
     {"factors", bench_factors}, {"threads", bench_threads},       {"scale", bench_scale},
-    {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability}};
+    {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability},
+    {"scatter", bench_scatter}};
 enum { BENCHES = COUNT_OF(benches) };
 
 /* `accuracy=NAME`: that problem alone, or another thing that bench_accuracy_of knows. */
@@ -28,7 +29,7 @@ static status mark(const char *word, bool *asked)
             return OK;
         }
     return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [threads] "
-                               "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability] [--quick]", word);
+                               "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability] [scatter] [--quick]", word);
 }
 
 status command_bench(int argc, char **argv)

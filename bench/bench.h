@@ -148,4 +148,7 @@ status bench_stability(bool quick);
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */
 status bench_efficiency(bool quick);
 
+/* bench_scatter.c: how far the ends of cracks lie apart when nothing but the time step differs. */
+status bench_scatter(bool quick);
+
 #endif

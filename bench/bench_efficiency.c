@@ -5,69 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench.h"
+#include "efficiency.h"
 #include "gnuplot.h"
 #include "memory.h"
 
-/* What the paper says of the share of peridynamic particles. */
-struct mark {
-    double time, share;
-}; /* [s], [1] */
-
-struct scene_case {
-    const char *name, *path, *model;
-    const char *tips;  /* conversion.tips of adaptive runs: horizons      */
-    const char *spacing; /* finer than the scene's own; NULL: that          */
-    bool quick;        /* short enough for --quick, and the paper's model */
-    double paper_t_r;  /* NAN: none                                       */
-    int marks;
-    struct mark mark[2];
-};
-
-/* Kalthoff's cracks start with those of peridynamics (1 % instead of 12 % later; in space 1 to 3 instead of 5 to 8 %) if three
- * horizons round the notches' ends, in space one, are peridynamic from the start. */
-#define PLATE_CRACK "plate_crack", "inputs/plate_crack.yaml"
-#define PLATE_HOLE "plate_hole", "inputs/plate_hole.yaml"
-#define KALTHOFF "kalthoff_winkler", "inputs/kalthoff_winkler.yaml"
-#define KALTHOFF_3D "kalthoff_winkler_3d", "inputs/kalthoff_winkler_3d.yaml"
-#define NO_PAPER NULL, false, NAN, 0, {{0, 0}}
-#define FINER(spacing) spacing, false, NAN, 0, {{0, 0}}
-
-static const struct scene_case cases[] = {
-    {PLATE_CRACK, "bond", "0", NULL, true, 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
-    {PLATE_HOLE, "bond", "0", NULL, true, 0.342, 0, {{0, 0}}},
-    {KALTHOFF, "bond", "3", NULL, true, 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
-    {KALTHOFF_3D, "bond", "1", NULL, true, NAN, 0, {{0, 0}}},
-    {PLATE_CRACK, "ospd", "0", NO_PAPER}, {PLATE_CRACK, "mospd", "0", NO_PAPER},
-    {PLATE_HOLE, "ospd", "0", NO_PAPER},  {PLATE_HOLE, "mospd", "0", NO_PAPER},
-    {KALTHOFF, "ospd", "3", NO_PAPER},    {KALTHOFF, "mospd", "3", NO_PAPER},
-    {KALTHOFF_3D, "ospd", "1", NO_PAPER}, {KALTHOFF_3D, "mospd", "1", NO_PAPER},
-    {PLATE_CRACK, "bond", "0", FINER("0.25 mm")},      {PLATE_HOLE, "bond", "0", FINER("0.25 mm")},
-    {KALTHOFF, "bond", "3", FINER("0.5 mm")},          {KALTHOFF_3D, "bond", "1", FINER("1 mm")},
-    {KALTHOFF_3D, "ospd", "1", FINER("1 mm")},         {KALTHOFF_3D, "mospd", "1", FINER("1 mm")},
-};
-
-/* Full peridynamics first, then adaptive runs by what they may save with. */
-struct way {
-    const char *method, *levers, *frame, *rest, *back;
-    const char *colour;    /* of its bars; NULL: it has none */
-};
-static const struct way ways[] = {{"pd", "-", "current", "true", "false", NULL},
-                                  {"adaptive", "none", "current", "false", "false", "#b0b0b0"},
-                                  {"adaptive", "frame", "reference", "false", "false", "#2a6fbb"},
-                                  {"adaptive", "rest", "current", "true", "false", NULL},
-                                  {"adaptive", "return", "current", "false", "true", NULL},
-                                  {"adaptive", "all", "reference", "true", "true", "#d1603d"}};
 enum { BARS = 3 };     /* ways that have a colour */
-enum { CASES = COUNT_OF(cases), REPETITIONS = 3, SAMPLES = 100, WAYS = COUNT_OF(ways), SHOWN = 2 /* whose shares are drawn */ };
+enum { CASES = EFFICIENCY_CASES, REPETITIONS = 3, SAMPLES = EFFICIENCY_SAMPLES, SHOWN = WAY_FRAME /* whose shares are drawn */ };
 
 /* One run of one method. Figures of the fracture are the same in every repetition. */
 struct run {
     double seconds[REPETITIONS];
     double stepping[REPETITIONS]; /* of them without samples: the step's own work */
-    struct tip tip[TIPS_MAX];
-    int tips, longest; /* longest -1: none grew                        */
-    double start;      /* first cut bond [s]                           */
+    struct crack_ends ends;
     double time[SAMPLES + 1], share[SAMPLES + 1];
 };
 
@@ -92,39 +41,14 @@ static bool is_run(const struct result *x, int way) { return !x->scene->spacing 
 
 static bool of_bonds(const struct result *x) { return strcmp(x->scene->model, "bond") == 0; }
 
-/* Scene and engine of a method; time step 0: its own. The correction of surfaces is for bonds alone: state-based
- * families know what they have left. */
 static status make(struct engine *e, struct scene *s, const struct result *x, int way)
 {
-    char step[32], samples[16];
-    struct scene_override override[10] = {{"method", ways[way].method},
-                                         {"output.samples", samples},
-                                         {"model", x->scene->model},
-                                         {"mpm.frame", ways[way].frame},
-                                         {"time.rest", ways[way].rest},
-                                         {"pd.surface", of_bonds(x) ? "volume" : "none"}};
-    int n = 6;
-    snprintf(step, sizeof step, "%.17g", x->dt);
-    snprintf(samples, sizeof samples, "%d", SAMPLES);
-    if (way > 0) override[n++] = (struct scene_override){"conversion.return", ways[way].back};
-    if (way > 0) override[n++] = (struct scene_override){"conversion.tips", x->scene->tips};
-    if (x->scene->spacing) override[n++] = (struct scene_override){"particles.spacing", x->scene->spacing};
-    if (x->dt > 0) override[n++] = (struct scene_override){"time.step", step};
-    return bench_engine_make(e, s, x->scene->path, NULL, override, n);
+    return efficiency_make(e, s, x->scene, way, x->dt);
 }
 
 /* ---- one run ---------------------------------------------------------------------------------------------- */
 
 static double pd_share(const struct engine *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
-
-static void keep_figures(struct run *r, const struct engine *e)
-{
-    const struct tip *longest = tips_longest(&e->tips);
-    memcpy(r->tip, e->tips.tip, sizeof r->tip);
-    r->tips = e->tips.n;
-    r->longest = longest ? (int)(longest - e->tips.tip) : -1;
-    r->start = e->watch.break_time;
-}
 
 /* The loop in SAMPLES pieces: the share is noted at the end of each. Not timed: a loop that ends brings everything up to date. */
 static status run_pieces(struct run *r, struct engine *e)
@@ -147,7 +71,7 @@ static status run_once(struct result *x, int way, int repetition)
     r->seconds[repetition] = e.loop_seconds;
     r->stepping[repetition] = e.loop_seconds - e.laps.spent[LAP_WATCH];
     x->particles = e.part.n, x->steps = e.steps;
-    if (ran == OK) keep_figures(r, &e);
+    if (ran == OK) crack_ends_keep(&r->ends, &e);
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -181,36 +105,18 @@ static status find_step(struct result *x)
 
 /* ---- figures of a scene ----------------------------------------------------------------------------------- */
 
-static double distance(const real *a, const real *b)
-{
-    double sum = 0;
-    for (int d = 0; d < DIM_MAX; d++) sum += square(a[d] - b[d]);
-    return sqrt(sum);
-}
-
-/* The tip of the other method that started nearest to where this one did; NULL without. */
-static const struct tip *partner(const struct run *other, const struct tip *tip)
-{
-    const struct tip *best = NULL;
-    for (int k = 0; k < other->tips; k++)
-        if (other->tip[k].growth > 0 &&
-            (!best || distance(other->tip[k].origin, tip->origin) < distance(best->origin, tip->origin)))
-            best = &other->tip[k];
-    return best;
-}
-
 /* The longest crack of full peridynamics and its partner of an adaptive run. */
 static void compare_tips(struct result *x, int way, int dim)
 {
-    const struct run *pd = &x->run[0], *adaptive = &x->run[way];
+    const struct crack_ends *pd = &x->run[0].ends, *adaptive = &x->run[way].ends;
     x->tip_distance[way] = x->angle_difference[way] = x->angle[0] = x->angle[way] = NAN;
     x->start_difference[way] = adaptive->start - pd->start;
     if (pd->longest < 0) return;
-    const struct tip *a = &pd->tip[pd->longest], *b = partner(adaptive, a);
+    const struct tip *a = &pd->tip[pd->longest], *b = crack_partner(adaptive, a);
     x->angle[0] = tip_angle(a, dim);
     if (!b) return;
     x->angle[way] = tip_angle(b, dim);
-    x->tip_distance[way] = distance(a->place, b->place);
+    x->tip_distance[way] = place_distance(a->place, b->place);
     x->angle_difference[way] = fabs(x->angle[0] - x->angle[way]);
 }
 
@@ -238,13 +144,6 @@ static status scene_measure(struct result *x, int repetitions)
 
 /* ---- what is said ------------------------------------------------------------------------------------------ */
 
-/* `kalthoff_winkler`, `kalthoff_winkler at 0.5 mm`. */
-static const char *title_of(const struct result *x, char *text, size_t room)
-{
-    snprintf(text, room, x->scene->spacing ? "%s at %s" : "%s", x->scene->name, x->scene->spacing);
-    return text;
-}
-
 static void print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
@@ -257,11 +156,11 @@ static void print_way(const struct result *x, int way)
 {
     char paper[16] = "-", title[48];
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
-    printf("  %-30s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7s %5.2f mm", title_of(x, title, sizeof title),
-           x->scene->model, ways[way].levers, (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way],
+    printf("  %-30s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7s %5.2f mm", efficiency_title(x->scene, title, sizeof title),
+           x->scene->model, efficiency_way[way].levers, (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way],
            x->t_r_stepping[way], paper, 1e3 * x->tip_distance[way]);
-    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[way], 1e6 * x->run[0].start,
-           1e6 * x->run[way].start, 100 * x->run[way].share[0], 100 * x->run[way].share[SAMPLES]);
+    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[way], 1e6 * x->run[0].ends.start,
+           1e6 * x->run[way].ends.start, 100 * x->run[way].share[0], 100 * x->run[way].share[SAMPLES]);
     fflush(stdout);
 }
 
@@ -292,17 +191,17 @@ static void add_way(struct bench_table *table, const struct result *x, int way)
     const double main[] = {x->t[way],           x->t[0], x->t_r[way], x->tip_distance[way], x->angle_difference[way],
                            x->start_difference[way]};
     const double run[] = {(double)x->particles, (double)x->steps,  x->dt,       x->scene->paper_t_r,
-                          x->run[0].start,      x->run[way].start, x->angle[0], x->angle[way], x->t_r_stepping[way]};
+                          x->run[0].ends.start,      x->run[way].ends.start, x->angle[0], x->angle[way], x->t_r_stepping[way]};
     char title[48];
-    title_of(x, title, sizeof title);
+    efficiency_title(x->scene, title, sizeof title);
     bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
     for (size_t c = 0; c < COUNT_OF(main); c++) bench_number(&table[0], main[c]);
-    bench_text(&table[0], ways[way].levers);
-    bench_text(&table[2], title), bench_text(&table[2], x->scene->model), bench_text(&table[2], ways[way].levers);
+    bench_text(&table[0], efficiency_way[way].levers);
+    bench_text(&table[2], title), bench_text(&table[2], x->scene->model), bench_text(&table[2], efficiency_way[way].levers);
     for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[2], run[c]);
     for (int k = 0; k <= SAMPLES; k++) {
         bench_text(&table[1], title), bench_text(&table[1], x->scene->model);
-        bench_text(&table[1], ways[way].levers);
+        bench_text(&table[1], efficiency_way[way].levers);
         bench_number(&table[1], x->run[way].time[k]), bench_number(&table[1], x->run[way].share[k]);
     }
 }
@@ -329,23 +228,15 @@ static status write_tables(const struct efficiency *all)
 /* Bars as wide as a shelf: losses far below -1 would hide the rest. */
 #define T_R_LEAST -1.0
 
-/* Below a bar: a word of the scene's name a line, model, spacing. */
-static void print_tic(FILE *to, const struct scene_case *scene)
-{
-    fputc('"', to);
-    for (const char *c = scene->name; *c; c++) fputs(*c == '_' ? "\\n" : (char[]){*c, '\0'}, to);
-    fprintf(to, "\\n%s\\n%s\"", scene->model, scene->spacing ? scene->spacing : "");
-}
-
 static void draw_bars(FILE *to, const struct efficiency *all)
 {
     fputs("$bars << EOD\n", to);
     for (int k = 0; k < all->n; k++) {
         const struct result *x = &all->result[k];
-        print_tic(to, x->scene);
+        efficiency_tic(to, x->scene);
         for (int way = 1; way < WAYS; way++)
-            if (ways[way].colour && is_run(x, way)) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
-            else if (ways[way].colour) fputs(" NaN NaN", to);
+            if (efficiency_way[way].colour && is_run(x, way)) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
+            else if (efficiency_way[way].colour) fputs(" NaN NaN", to);
         if (isfinite(x->scene->paper_t_r)) fprintf(to, " %.6g\n", x->scene->paper_t_r);
         else fputs(" NaN\n", to);
     }
@@ -361,12 +252,12 @@ static void draw_bars(FILE *to, const struct efficiency *all)
             "right top horizontal maxrows 1 font ',9'\n"
             "plot ");
     for (int way = 1, bar = 0; way < WAYS; way++) {
-        if (!ways[way].colour) continue;
+        if (!efficiency_way[way].colour) continue;
         bar++;
         fprintf(to,
                 "$bars using %d%s lc rgb '%s' title 'levers: %s', '' using ($0%+.2f):%d:(sprintf('%%.2f', $%d)) with labels "
                 "font ',6' offset 0, 0.6 notitle, ",
-                2 * bar, bar == 1 ? ":xtic(1)" : "", ways[way].colour, ways[way].levers,
+                2 * bar, bar == 1 ? ":xtic(1)" : "", efficiency_way[way].colour, efficiency_way[way].levers,
                 ((double)bar - 1 - 0.5 * BARS) / (BARS + 2), 2 * bar, 2 * bar + 1);
     }
     fprintf(to, "'' using %d lc rgb '%s' title 'Zeng et al. 2022, table 1'\n", 2 * BARS + 2, curve_colour[4]);
@@ -421,9 +312,9 @@ static status measure_all(struct efficiency *all, bool quick)
     const int repetitions = quick ? 1 : REPETITIONS;
     print_header(repetitions);
     for (int k = 0; k < CASES; k++) {
-        if (!bench_scene_exists(cases[k].path) || (quick && !cases[k].quick)) continue;
+        if (!bench_scene_exists(efficiency_case[k].path) || (quick && !efficiency_case[k].quick)) continue;
         struct result *x = &all->result[all->n];
-        x->scene = &cases[k];
+        x->scene = &efficiency_case[k];
         TRY(scene_measure(x, repetitions));
         for (int way = 1; way < WAYS; way++)
             if (is_run(x, way)) print_way(x, way);

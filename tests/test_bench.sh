@@ -11,7 +11,7 @@ cd "$work"
 fail() { echo "test_bench: $1" >&2; exit 1; }
 
 # Refused in one line, exit status 2, nothing written.
-for words in nonsense accuracy=nonsense "--slow" "kernels nonsense" coupling factors efficiency; do
+for words in nonsense accuracy=nonsense "--slow" "kernels nonsense" coupling factors efficiency scatter; do
     set +e
     "$cleave" bench $words >out 2>err
     ended=$?
@@ -20,7 +20,7 @@ for words in nonsense accuracy=nonsense "--slow" "kernels nonsense" coupling fac
     [ "$(wc -l <err)" -eq 1 ] || fail "bench $words: $(wc -l <err) lines on standard error"
     [ ! -e results ] || fail "bench $words left files behind"
 done
-grep -q "inputs" err || fail "efficiency does not say what it misses"
+grep -q "inputs" err || fail "scatter does not say what it misses"
 
 # One scene at a quarter of the particles: the files are there, the columns those of the contract.
 command -v gnuplot >/dev/null || { echo "gnuplot is missing: files not tested"; exit 77; }
@@ -41,6 +41,21 @@ awk -F, 'NR > 1 { exit $2 != "bond" }' efficiency.csv || fail "the model"
 awk -F, 'NR > 1 { d = $5 - (1 - $3 / $4); if (!($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6)) bad = 1 } END { exit bad }' efficiency.csv || fail "t_r"
 for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; do [ -s $file ] || fail "$file is missing"; done
 [ "$(wc -l <efficiency_share.csv)" -eq 506 ] || fail "the share is noted at 100 samples and at the start"
+cd ../..
+
+# Three runs of each method at other steps: means and scatter are what the runs say, to the nine digits written.
+"$cleave" bench scatter --quick >out || fail "scatter failed"
+cd results/bench
+[ "$(head -1 scatter.csv)" = \
+    scene,model,method,runs,start,start_scatter,angle_deg,angle_scatter_deg,x,y,z,place_scatter,spacing ] || fail "columns of scatter.csv"
+[ "$(wc -l <scatter.csv)" -eq 3 ] && [ "$(wc -l <scatter_runs.csv)" -eq 7 ] || fail "two methods, three runs each"
+awk -F, 'FNR == 1 { next }
+    FILENAME == "scatter_runs.csv" { n[$3]++; start[$3] += $5; square[$3] += $5 * $5; x[$3] += $7; step[$4] = 1; next }
+    { mean = start[$3] / n[$3]; scatter = sqrt(square[$3] / n[$3] - mean * mean); d = ($9 - x[$3] / n[$3]) / $13
+      if (!(n[$3] == $4 && $5 / mean < 1 + 1e-6 && $5 / mean > 1 - 1e-6 && d < 1e-6 && d > -1e-6)) bad = 1
+      if (!($6 > 0 && $6 / scatter < 1 + 1e-3 && $6 / scatter > 1 - 1e-3)) bad = 1 }
+    END { for (k in step) steps++; exit bad || steps != 3 }' scatter_runs.csv scatter.csv || fail "figures of scatter.csv"
+for file in scatter.json scatter.png scatter.svg; do [ -s $file ] || fail "$file is missing"; done
 cd ../..
 
 # Scaling over threads and sizes: files, columns, and figures that follow from the others.

@@ -1,0 +1,99 @@
+/* floor 5: scenes that are run by full peridynamics and adaptively, and where their cracks end. */
+#include "efficiency.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Kalthoff's cracks start with those of peridynamics (1 % instead of 12 % later; in space 1 to 3 instead of 5 to 8 %) if three
+ * horizons round the notches' ends, in space one, are peridynamic from the start. */
+#define PLATE_CRACK "plate_crack", "inputs/plate_crack.yaml"
+#define PLATE_HOLE "plate_hole", "inputs/plate_hole.yaml"
+#define KALTHOFF "kalthoff_winkler", "inputs/kalthoff_winkler.yaml"
+#define KALTHOFF_3D "kalthoff_winkler_3d", "inputs/kalthoff_winkler_3d.yaml"
+#define NO_PAPER NULL, false, NAN, 0, {{0, 0}}
+#define FINER(spacing) spacing, false, NAN, 0, {{0, 0}}
+
+const struct scene_case efficiency_case[EFFICIENCY_CASES] = {
+    {PLATE_CRACK, "bond", "0", NULL, true, 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
+    {PLATE_HOLE, "bond", "0", NULL, true, 0.342, 0, {{0, 0}}},
+    {KALTHOFF, "bond", "3", NULL, true, 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
+    {KALTHOFF_3D, "bond", "1", NULL, true, NAN, 0, {{0, 0}}},
+    {PLATE_CRACK, "ospd", "0", NO_PAPER}, {PLATE_CRACK, "mospd", "0", NO_PAPER},
+    {PLATE_HOLE, "ospd", "0", NO_PAPER},  {PLATE_HOLE, "mospd", "0", NO_PAPER},
+    {KALTHOFF, "ospd", "3", NO_PAPER},    {KALTHOFF, "mospd", "3", NO_PAPER},
+    {KALTHOFF_3D, "ospd", "1", NO_PAPER}, {KALTHOFF_3D, "mospd", "1", NO_PAPER},
+    {PLATE_CRACK, "bond", "0", FINER("0.25 mm")},      {PLATE_HOLE, "bond", "0", FINER("0.25 mm")},
+    {KALTHOFF, "bond", "3", FINER("0.5 mm")},          {KALTHOFF_3D, "bond", "1", FINER("1 mm")},
+    {KALTHOFF_3D, "ospd", "1", FINER("1 mm")},         {KALTHOFF_3D, "mospd", "1", FINER("1 mm")},
+};
+
+const struct way efficiency_way[WAYS] = {
+    {"pd", "-", "current", "true", "false", NULL},
+    {"adaptive", "none", "current", "false", "false", "#b0b0b0"},
+    {"adaptive", "frame", "reference", "false", "false", "#2a6fbb"},
+    {"adaptive", "rest", "current", "true", "false", NULL},
+    {"adaptive", "return", "current", "false", "true", NULL},
+    {"adaptive", "all", "reference", "true", "true", "#d1603d"},
+};
+
+status efficiency_make(struct engine *e, struct scene *s, const struct scene_case *c, int way, double dt)
+{
+    char step[32], samples[16];
+    const struct way *w = &efficiency_way[way];
+    struct scene_override override[10] = {{"method", w->method},
+                                          {"output.samples", samples},
+                                          {"model", c->model},
+                                          {"mpm.frame", w->frame},
+                                          {"time.rest", w->rest},
+                                          {"pd.surface", !strcmp(c->model, "bond") ? "volume" : "none"}};
+    int n = 6;
+    snprintf(step, sizeof step, "%.17g", dt);
+    snprintf(samples, sizeof samples, "%d", EFFICIENCY_SAMPLES);
+    if (way > 0) override[n++] = (struct scene_override){"conversion.return", w->back};
+    if (way > 0) override[n++] = (struct scene_override){"conversion.tips", c->tips};
+    if (c->spacing) override[n++] = (struct scene_override){"particles.spacing", c->spacing};
+    if (dt > 0) override[n++] = (struct scene_override){"time.step", step};
+    return bench_engine_make(e, s, c->path, NULL, override, n);
+}
+
+const char *efficiency_title(const struct scene_case *c, char *text, size_t room)
+{
+    snprintf(text, room, c->spacing ? "%s at %s" : "%s", c->name, c->spacing);
+    return text;
+}
+
+void efficiency_tic(FILE *to, const struct scene_case *scene)
+{
+    fputc('"', to);
+    for (const char *c = scene->name; *c; c++) fputs(*c == '_' ? "\\n" : (char[]){*c, '\0'}, to);
+    fprintf(to, "\\n%s\\n%s\"", scene->model, scene->spacing ? scene->spacing : "");
+}
+
+/* ---- cracks --------------------------------------------------------------------------------------------------- */
+
+void crack_ends_keep(struct crack_ends *c, const struct engine *e)
+{
+    const struct tip *longest = tips_longest(&e->tips);
+    memcpy(c->tip, e->tips.tip, sizeof c->tip);
+    c->tips = e->tips.n;
+    c->longest = longest ? (int)(longest - e->tips.tip) : -1;
+    c->start = e->watch.break_time;
+}
+
+double place_distance(const real *a, const real *b)
+{
+    double sum = 0;
+    for (int d = 0; d < DIM_MAX; d++) sum += square(a[d] - b[d]);
+    return sqrt(sum);
+}
+
+const struct tip *crack_partner(const struct crack_ends *other, const struct tip *tip)
+{
+    const struct tip *best = NULL;
+    for (int k = 0; k < other->tips; k++)
+        if (other->tip[k].growth > 0 &&
+            (!best || place_distance(other->tip[k].origin, tip->origin) < place_distance(best->origin, tip->origin)))
+            best = &other->tip[k];
+    return best;
+}
