@@ -236,7 +236,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
         w[l] = f->shell_weight[0];
         for (int d = 0; d < dim; d++) xi[d][l] = p->X[d][j + l] - p->X[d][i + l], same &= xi[d][l] == xi[d][0];
     }
-    for (int l = 0; l < LANES; l++) {    /* on a lattice of exact places one root will do */
+    for (int l = 0; l < LANES; l++) {    /* on a lattice of exact places one root will do, and one weight */
         real r2 = 0;
         for (int d = 0; d < dim; d++) r2 += square(xi[d][l]);
         r[l] = same && l > 0 ? r[0] : sqrt(r2);
@@ -245,7 +245,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
     for (int l = 0; l < LANES && !family_plain(f); l++) {
         real one[DIM_MAX];
         for (int d = 0; d < dim; d++) one[d] = xi[d][l];
-        w[l] = family_weight(f, one, r[l]);
+        w[l] = same && l > 0 ? w[0] : family_weight(f, one, r[l]);
     }
     for (int l = 0; l < LANES; l++) w[l] *= (volume[i + l] * volume[j + l]) / square(f->cell_volume);
     if (pairs->materials == 1)

@@ -88,8 +88,11 @@ static bool meets_points(const struct bonds *b, const struct particles *p, int64
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p, const struct bonds *b)
 {
     if (!s->modulus || !s->local) return;
-    for (int64_t i = 0; i < p->n; i++)
-        if (p->kind[i] == KIND_PD && p->flag[i] & FLAG_CUT && meets_points(b, p, i)) list_add(l, i);
+    for (int64_t first = 0; first < p->n; first += LANES) {
+        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_CUT))) continue;
+        for (int64_t i = first; i < first + LANES && i < p->n; i++)
+            if (p->kind[i] == KIND_PD && p->flag[i] & FLAG_CUT && meets_points(b, p, i)) list_add(l, i);
+    }
 }
 
 static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)

@@ -229,6 +229,20 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     memory_free(near.at);
 }
 
+/* Lists who has a mark, ascending, and returns how many; `list` NULL: only that. */
+static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
+{
+    int64_t found = 0;
+    for (int64_t first = 0; first < n; first += LANES) {
+        if (!eight_bytes(mark + first)) continue;
+        for (int64_t i = first; i < first + LANES; i++) {
+            if (mark[i] && list) list[found] = (int32_t)i;
+            found += mark[i] != 0;
+        }
+    }
+    return found;
+}
+
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                          const struct partial_table *table, const int32_t *changed, int64_t n)
 {
@@ -236,19 +250,21 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
      * own length: the middle of the cell lies in the box that it spans */
     const bool strange = !partial_table_serves_all(table);
     const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
-    uint8_t *mark = NEW("partial.mark", p->n, uint8_t);
-    int64_t rows = 0, dirties = 0;
+    uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t);            /* nobody marks who is behind the body */
     mark_dirty(mark, p, s, radius, strange ? radius : 0, changed, n);
-    for (int64_t i = 0; i < p->n; i++) rows += mark[i] & OTHERS_ROW, dirties += (mark[i] & DIRTY) > 0;
-    *r = (struct renewal){.list = NEW("partial.list", dirties, int32_t), .row = NEW("partial.row", rows, int32_t),
-                          .own = NEW("partial.own", dirties, bool)};
-    for (int64_t i = 0; i < p->n; i++) {
-        const int32_t row = mark[i] ? b->row_of[i] : -1;
+    const int64_t most = marked(mark, p->n, NULL);
+    int32_t *list = NEW("partial.marked", most, int32_t);
+    marked(mark, p->n, list);
+    *r = (struct renewal){.list = NEW("partial.list", most, int32_t), .row = NEW("partial.row", strange ? most : 0, int32_t),
+                          .own = NEW("partial.own", most, bool)};
+    for (int64_t k = 0; k < most; k++) {
+        const int32_t i = list[k], row = b->row_of[i];
         if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->made[row / LANES] > 0) r->row[r->rows++] = row;
         if (!(mark[i] & DIRTY)) continue;
         r->own[r->n] = !changed || mark[i] & OWN;
-        r->list[r->n++] = (int32_t)i;
+        r->list[r->n++] = i;
     }
+    memory_free(list);
     memory_free(mark);
 }
 

@@ -10,6 +10,7 @@
 
 #define WHOLE 1e-12                      /* of a cell: a particle's volume is one but for round-off */
 enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
+enum { ROWS_AHEAD = 6 };                 /* answers lie in farther caches */
 
 /* A bond of this vector, from the place in question, crosses the cell of the point by this share of its length. */
 struct crossing { int16_t vector, direction; real share; };
@@ -324,6 +325,10 @@ void partial_table_ask(struct partial_table *t, const struct particles *p, const
 
 /* ---- one point --------------------------------------------------------------------------------------- */
 
+/* A row that may cross the cell of a point: of a particle or an image, its place, and what it answers. A bond starts within its
+ * length of any cell that it crosses. */
+struct crosser { int32_t j, place, answer; };
+
 /* Adds what the row of a point or image at a place leaves in the cell, by direction. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *answer, int signs, const int parts)
 {
@@ -333,6 +338,14 @@ static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int6
         const real *part = answer + mirror[x->vector] * parts;
         for (int k = 0; k < parts; k++) sum[x->direction * parts + k] += x->share * part[k];
     }
+}
+
+/* Asks memory for what sum_row will read. */
+static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crosser *row)
+{
+    const real *answer = answer_at(t, row->answer);
+    for (int32_t c = t->start[row->place]; c < t->start[row->place + 1]; c++)
+        __builtin_prefetch(answer + t->crossing[c].vector * t->parts);
 }
 
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
@@ -348,10 +361,6 @@ bool partial_table_knows(const struct particles *p, const struct bond_source *s,
 {
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
-
-/* A row that may cross the cell of a point: of a particle or an image, its place, and what it answers. A bond starts within its
- * length of any cell that it crosses. */
-struct crosser { int32_t j, place, answer; };
 
 /* Puts j among n others, ascending, if it is a material point's and answers; returns how many there are. */
 static int crosser_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int32_t j,
@@ -406,6 +415,7 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
     memset(sum, 0, sizeof *sum * (size_t)(t->directions * t->parts));
     for (int k = 0; k < rows; k++) {
         const real *answer = answer_at(t, row[k].answer);
+        if (k + ROWS_AHEAD < rows) row_fetch(t, &row[k + ROWS_AHEAD]);
         int signs = 0;
         if (row[k].j >= p->n) {
             const struct reflection r = reflection_of(s, p, row[k].j);
