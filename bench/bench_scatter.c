@@ -1,7 +1,7 @@
 /* floor 5: `cleave bench scatter`: cracks choose among paths that are nearly as good, and anything decides: a step a percent longer
  * leads them elsewhere. The scenes of `cleave bench efficiency` with steps from 0.9 to 1.1 of their own, by full peridynamics and
- * adaptively: how far ends of cracks, their angles and starts scatter in each, beside how far the means lie apart. What differs by less
- * than a method scatters is no difference of methods. */
+ * adaptively: how far ends of cracks, their angles and starts scatter in each, beside how far the means lie apart. What differs by
+ * less than a method scatters is no difference of methods. */
 #include <math.h>
 #include <stdio.h>
 
@@ -113,20 +113,26 @@ static void print_scatter(const struct scatter *x)
     fflush(stdout);
 }
 
-static void add_rows(struct bench_table *table, const struct scatter *x)
+static void add_names(struct bench_table *t, const struct scatter *x, int method)
 {
     char title[48];
-    efficiency_title(x->scene, title, sizeof title);
+    bench_text(t, efficiency_title(x->scene, title, sizeof title));
+    bench_text(t, x->scene->model);
+    bench_text(t, efficiency_way[way_of[method]].method);
+}
+
+static void add_rows(struct bench_table *table, const struct scatter *x)
+{
     for (int m = 0; m < METHODS; m++) {
         const struct spread *s = &x->spread[m];
-        const double row[] = {(double)x->runs,     s->start,         s->start_scatter, s->angle, s->angle_scatter, s->place[0], s->place[1],
-                              s->place[2], s->place_scatter, x->spacing};
-        bench_text(&table[0], title), bench_text(&table[0], x->scene->model), bench_text(&table[0], efficiency_way[way_of[m]].method);
+        const double row[] = {(double)x->runs, s->start,    s->start_scatter, s->angle,         s->angle_scatter,
+                              s->place[0],     s->place[1], s->place[2],      s->place_scatter, x->spacing};
+        add_names(&table[0], x, m);
         for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&table[0], row[c]);
         for (int r = 0; r < x->runs; r++) {
             const struct end *end = &x->end[m][r];
             const double run[] = {end->dt, end->start, end->angle, end->place[0], end->place[1], end->place[2]};
-            bench_text(&table[1], title), bench_text(&table[1], x->scene->model), bench_text(&table[1], efficiency_way[way_of[m]].method);
+            add_names(&table[1], x, m);
             for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[1], run[c]);
         }
     }
@@ -135,7 +141,8 @@ static void add_rows(struct bench_table *table, const struct scatter *x)
 static status write_tables(const struct all_scatters *all)
 {
     struct bench_table table[2];
-    bench_table_make(&table[0], "", "scene,model,method,runs,start,start_scatter,angle_deg,angle_scatter_deg,x,y,z,place_scatter,spacing");
+    bench_table_make(&table[0], "",
+                     "scene,model,method,runs,start,start_scatter,angle_deg,angle_scatter_deg,x,y,z,place_scatter,spacing");
     bench_table_make(&table[1], "runs", "scene,model,method,time_step,start,angle_deg,x,y,z");
     for (int k = 0; k < all->n; k++) add_rows(table, &all->at[k]);
     status s = bench_write("scatter", table, COUNT_OF(table));
@@ -189,7 +196,8 @@ static status measure_all(struct all_scatters *all, bool quick)
 {
     printf("  %d runs of each, steps from %g to %g of the scene's own; full peridynamics > adaptive; ends of cracks in spacings\n",
            quick ? STEPS_QUICK : STEPS, 1 - STEP_RANGE, 1 + STEP_RANGE);
-    printf("  %-26s %-5s %24s %37s  %6s %8s %6s\n", "", "model", "starts", "angles and their difference", "pd +-", "adapt. +-", "apart");
+    printf("  %-26s %-5s %24s %37s  %6s %8s %6s\n", "", "model", "starts", "angles and their difference", "pd +-", "ad. +-",
+           "apart");
     for (int k = 0; k < EFFICIENCY_CASES; k++) {
         const struct scene_case *c = &efficiency_case[k];
         struct scene s;

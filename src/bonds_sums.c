@@ -9,8 +9,8 @@
 #define WHOLE 1e-12                      /* of a volume: sums of up to some hundred terms in other orders      */
 
 /* Volume of the neighbours of particle i. */
-static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f, const struct lattice *lattice,
-                        int64_t i, int32_t *found, int room)
+static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
+                        const struct lattice *lattice, int64_t i, int32_t *found, int room)
 {
     const int n = family_of(lattice, s, p, (int32_t)i, found, room);
     real volume = 0;
@@ -62,7 +62,8 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
                 else volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
                 continue;
             }
-            for (int64_t i = first; i < first + LANES && i < p->n_all; i++) volume[i] = volume_near(p, s, &plain, &lattice, i, found, most);
+            for (int64_t i = first; i < first + LANES && i < p->n_all; i++)
+                volume[i] = volume_near(p, s, &plain, &lattice, i, found, most);
         }
         lattice_bonds_free(&bonds);
         memory_free(found);

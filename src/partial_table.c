@@ -88,7 +88,8 @@ static void vectors_make(struct partial_table *t, real cutoff)
         real length2 = 0;
         place_to(t, k, at);
         for (int d = 0; d < t->dim; d++) length2 += square(at[d] * t->spacing);
-        t->vector[k] = k != middle && sqrt(length2) <= cutoff * (1 + LATTICE_NEAR) && t->vectors <= VECTORS_MOST ? (int16_t)t->vectors++ : -1;
+        const bool bond = k != middle && sqrt(length2) <= cutoff * (1 + LATTICE_NEAR);
+        t->vector[k] = bond && t->vectors <= VECTORS_MOST ? (int16_t)t->vectors++ : -1;      /* one too many tells */
     }
     t->directions = t->vectors / 2;      /* places k and places - 1 - k are opposite */
     t->near = NEW("partial.near", t->vectors + 1, struct near_place);

@@ -29,7 +29,8 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
             for (int q = 0; q < near.n; q++) {
                 const int32_t j = near.at[q];
                 if (!is_free(p, j) || p->body[j] != p->body[list[k]] || (as == POINT && p->kind[j] != KIND_MPM)) continue;
-                if (__atomic_load_n(&mark[j], __ATOMIC_RELAXED) == OUTSIDE) __atomic_store_n(&mark[j], (uint8_t)as, __ATOMIC_RELAXED);
+                uint8_t *own = mark + j;
+                if (__atomic_load_n(own, __ATOMIC_RELAXED) == OUTSIDE) __atomic_store_n(own, (uint8_t)as, __ATOMIC_RELAXED);
             }
         }
         memory_free(near.at);
@@ -92,7 +93,8 @@ static int64_t pairs_pass(struct rim *r, const struct particles *p, const struct
     return most;
 }
 
-static void pairs_make(struct rim *r, const struct particles *p, const struct bond_source *s, const uint8_t *mark, const int32_t *place)
+static void pairs_make(struct rim *r, const struct particles *p, const struct bond_source *s, const uint8_t *mark,
+                       const int32_t *place)
 {
     const int64_t most = pairs_pass(r, p, s, mark, place, true);
     for (int64_t k = 0; k < r->n; k++) r->start[k + 1] += r->start[k];
