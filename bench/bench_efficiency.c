@@ -16,6 +16,7 @@ enum { CASES = EFFICIENCY_CASES, REPETITIONS = 3, SAMPLES = EFFICIENCY_SAMPLES, 
 struct run {
     double seconds[REPETITIONS];
     double stepping[REPETITIONS]; /* of them without samples: the step's own work */
+    double steady[REPETITIONS];   /* of them without conversion: what kernels alone take, as if rows and cut cells came for nothing */
     struct crack_ends ends;
     double time[SAMPLES + 1], share[SAMPLES + 1];
 };
@@ -27,6 +28,7 @@ struct result {
     struct run run[WAYS];
     double t[WAYS], t_r[WAYS];                                                    /* [s] [1] */
     double t_r_stepping[WAYS];                                                    /* the same of the steps alone [1] */
+    double t_r_bound[WAYS];                                                       /* the same if conversion were free [1] */
     double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS];    /* [m] [degree] [s] */
     double angle[WAYS];                                                           /* of the longest crack [degree] */
 };
@@ -70,6 +72,7 @@ static status run_once(struct result *x, int way, int repetition)
     status ran = bench_engine_run(&e, e.steps, NULL);
     r->seconds[repetition] = e.loop_seconds;
     r->stepping[repetition] = e.loop_seconds - e.laps.spent[LAP_WATCH];
+    r->steady[repetition] = e.loop_seconds - e.laps.spent[LAP_CONVERT];
     x->particles = e.part.n, x->steps = e.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);
     bench_engine_free(&e, &s);
@@ -137,6 +140,7 @@ static status scene_measure(struct result *x, int repetitions)
         x->t[way] = median_of(x->run[way].seconds, repetitions);
         x->t_r[way] = 1 - x->t[way] / x->t[0];
         x->t_r_stepping[way] = 1 - median_of(x->run[way].stepping, repetitions) / median_of(x->run[0].stepping, repetitions);
+        x->t_r_bound[way] = 1 - median_of(x->run[way].steady, repetitions) / x->t[0];
         compare_tips(x, way, dim);
     }
     return OK;
@@ -148,17 +152,17 @@ static void print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
-    printf("  %-30s %-6s %-6s %9s %6s %10s %10s %7s %8s %7s %8s %15s %17s %14s\n", "", "model", "levers", "particles",
-           "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "paper", "tips", "angles", "starts", "PD share");
+    printf("  %-30s %-6s %-6s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s\n", "", "model", "levers", "particles",
+           "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips", "angles", "starts", "PD share");
 }
 
 static void print_way(const struct result *x, int way)
 {
     char paper[16] = "-", title[48];
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
-    printf("  %-30s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7s %5.2f mm", efficiency_title(x->scene, title, sizeof title),
+    printf("  %-30s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7.3f %7s %5.2f mm", efficiency_title(x->scene, title, sizeof title),
            x->scene->model, efficiency_way[way].levers, (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way],
-           x->t_r_stepping[way], paper, 1e3 * x->tip_distance[way]);
+           x->t_r_stepping[way], x->t_r_bound[way], paper, 1e3 * x->tip_distance[way]);
     printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[way], 1e6 * x->run[0].ends.start,
            1e6 * x->run[way].ends.start, 100 * x->run[way].share[0], 100 * x->run[way].share[SAMPLES]);
     fflush(stdout);
@@ -182,7 +186,8 @@ static void print_marks(const struct efficiency *all)
             printf("    %-20s at %4.0f us  %5.2f %%   paper %4.1f %%\n", all->result[k].scene->name, 1e6 * a->time,
                    100 * share_at(&all->result[k].run[SHOWN], a->time), 100 * a->share);
         }
-    printf("  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples\n");
+    printf("  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples;\n"
+           "  bound: if rows, partial stress and cut cells of a conversion came for nothing, what kernels alone allow\n");
 }
 
 /* Rows of one adaptive run in the tables of figures, shares and runs. */
@@ -191,7 +196,8 @@ static void add_way(struct bench_table *table, const struct result *x, int way)
     const double main[] = {x->t[way],           x->t[0], x->t_r[way], x->tip_distance[way], x->angle_difference[way],
                            x->start_difference[way]};
     const double run[] = {(double)x->particles, (double)x->steps,  x->dt,       x->scene->paper_t_r,
-                          x->run[0].ends.start,      x->run[way].ends.start, x->angle[0], x->angle[way], x->t_r_stepping[way]};
+                          x->run[0].ends.start,      x->run[way].ends.start, x->angle[0], x->angle[way], x->t_r_stepping[way],
+                          x->t_r_bound[way]};
     char title[48];
     efficiency_title(x->scene, title, sizeof title);
     bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
@@ -214,7 +220,7 @@ static status write_tables(const struct efficiency *all)
     bench_table_make(&table[1], "share", "scene,model,levers,time,pd_share");
     bench_table_make(&table[2], "runs",
                      "scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,"
-                     "angle_adaptive_deg,t_r_stepping");
+                     "angle_adaptive_deg,t_r_stepping,t_r_bound");
     for (int k = 0; k < all->n; k++)
         for (int way = 1; way < WAYS; way++)
             if (is_run(&all->result[k], way)) add_way(table, &all->result[k], way);
