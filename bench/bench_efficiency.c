@@ -38,11 +38,6 @@ struct efficiency {
     struct result *result;
 };
 
-/* Finer scenes are long, and one way is enough to see what finer means. */
-static bool is_run(const struct result *x, int way) { return !x->scene->spacing || way == 0 || way == SHOWN; }
-
-static bool of_bonds(const struct result *x) { return strcmp(x->scene->model, "bond") == 0; }
-
 static status make(struct engine *e, struct scene *s, const struct result *x, int way)
 {
     return efficiency_make(e, s, x->scene, way, x->dt);
@@ -90,22 +85,6 @@ static status run_shares(struct result *x, int way)
     return ran;
 }
 
-/* The smaller of both methods' own steps. */
-static status find_step(struct result *x)
-{
-    double least = INFINITY;
-    for (int way = 0; way < WAYS; way++) {
-        struct scene s;
-        struct engine e;
-        if (!is_run(x, way)) continue;
-        TRY(make(&e, &s, x, way));
-        least = fmin(least, e.dt);
-        bench_engine_free(&e, &s);
-    }
-    x->dt = least;
-    return OK;
-}
-
 /* ---- figures of a scene ----------------------------------------------------------------------------------- */
 
 /* The longest crack of full peridynamics and its partner of an adaptive run. */
@@ -129,13 +108,13 @@ static status scene_measure(struct result *x, int repetitions)
     TRY(scene_read(&s, x->scene->path, NULL, 0));
     const int dim = s.dim;
     scene_free(&s);
-    TRY(find_step(x));
+    TRY(efficiency_step(x->scene, &x->dt));
     for (int r = 0; r < repetitions; r++)
         for (int k = 0; k < WAYS; k++)          /* none is always first */
-            if (is_run(x, (r + k) % WAYS)) TRY(run_once(x, (r + k) % WAYS, r));
+            if (efficiency_is_run(x->scene, (r + k) % WAYS)) TRY(run_once(x, (r + k) % WAYS, r));
     x->t[0] = median_of(x->run[0].seconds, repetitions);
     for (int way = 1; way < WAYS; way++) {
-        if (!is_run(x, way)) continue;
+        if (!efficiency_is_run(x->scene, way)) continue;
         TRY(run_shares(x, way));
         x->t[way] = median_of(x->run[way].seconds, repetitions);
         x->t_r[way] = 1 - x->t[way] / x->t[0];
@@ -223,7 +202,7 @@ static status write_tables(const struct efficiency *all)
                      "angle_adaptive_deg,t_r_stepping,t_r_bound");
     for (int k = 0; k < all->n; k++)
         for (int way = 1; way < WAYS; way++)
-            if (is_run(&all->result[k], way)) add_way(table, &all->result[k], way);
+            if (efficiency_is_run(all->result[k].scene, way)) add_way(table, &all->result[k], way);
     status s = bench_write("efficiency", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s;
@@ -241,8 +220,9 @@ static void draw_bars(FILE *to, const struct efficiency *all)
         const struct result *x = &all->result[k];
         efficiency_tic(to, x->scene);
         for (int way = 1; way < WAYS; way++)
-            if (efficiency_way[way].colour && is_run(x, way)) fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
-            else if (efficiency_way[way].colour) fputs(" NaN NaN", to);
+            if (!efficiency_way[way].colour) continue;
+            else if (!efficiency_is_run(x->scene, way)) fputs(" NaN NaN", to);
+            else fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
         if (isfinite(x->scene->paper_t_r)) fprintf(to, " %.6g\n", x->scene->paper_t_r);
         else fputs(" NaN\n", to);
     }
@@ -274,7 +254,7 @@ static void draw_bars(FILE *to, const struct efficiency *all)
 static int panels(const struct efficiency *all)
 {
     int n = 0;
-    while (n < all->n && of_bonds(&all->result[n]) && !all->result[n].scene->spacing) n++;
+    while (n < all->n && efficiency_of_bonds(all->result[n].scene) && !all->result[n].scene->spacing) n++;
     return n;
 }
 
@@ -323,7 +303,7 @@ static status measure_all(struct efficiency *all, bool quick)
         x->scene = &efficiency_case[k];
         TRY(scene_measure(x, repetitions));
         for (int way = 1; way < WAYS; way++)
-            if (is_run(x, way)) print_way(x, way);
+            if (efficiency_is_run(x->scene, way)) print_way(x, way);
         all->n++;
     }
     if (all->n == 0)

@@ -48,20 +48,6 @@ static status run_once(struct scatter *x, int method, double dt, struct crack_en
     return ran;
 }
 
-/* The smaller of both methods' own steps. */
-static status find_step(const struct scene_case *c, double *dt)
-{
-    *dt = INFINITY;
-    for (int m = 0; m < METHODS; m++) {
-        struct scene s;
-        struct engine e;
-        TRY(efficiency_make(&e, &s, c, way_of[m], 0));
-        *dt = fmin(*dt, e.dt);
-        bench_engine_free(&e, &s);
-    }
-    return OK;
-}
-
 /* All runs follow the crack that starts where the longest of the first did. */
 static status run_all(struct scatter *x, double dt)
 {
@@ -186,7 +172,7 @@ static status measure(struct scatter *x, bool quick)
 {
     double dt;
     x->runs = quick ? STEPS_QUICK : STEPS;
-    TRY(find_step(x->scene, &dt));
+    TRY(efficiency_step(x->scene, &dt));
     TRY(run_all(x, dt));
     for (int m = 0; m < METHODS; m++) spread_find(&x->spread[m], x->end[m], x->runs);
     return OK;

@@ -33,6 +33,11 @@ extern const struct way efficiency_way[WAYS];
 /* Scene and engine of a method; time step 0: its own. The correction of surfaces is for bonds alone: state-based
  * families know what they have left. */
 status efficiency_make(struct engine *e, struct scene *s, const struct scene_case *c, int way, double dt);
+bool efficiency_of_bonds(const struct scene_case *c);
+/* Finer scenes are long, and one way is enough to see what finer means. */
+bool efficiency_is_run(const struct scene_case *c, int way);
+/* The smallest of the own steps of all ways that are run [s]. */
+status efficiency_step(const struct scene_case *c, double *dt);
 /* `kalthoff_winkler`, `kalthoff_winkler at 0.5 mm`. */
 const char *efficiency_title(const struct scene_case *c, char *text, size_t room);
 
