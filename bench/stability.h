@@ -19,7 +19,14 @@ struct stability_case {
     int offsets;             /* how many are tried between 0 and 1, 0: `offset` alone                   */
     double horizon, poisson, irregularity;
     double heavier;          /* density of the other half over that of the first; 0: one material       */
-    enum { HALF, ISLANDS, SPOTS } region; /* peridynamic: one half; all but scattered balls; these balls (adaptive) */
+    enum stability_region { HALF, ISLANDS, SPOTS, STRIP, SQUARE, DISC, CORNER, NOTCH } region;
+                             /* peridynamic (adaptive): one half; all but scattered balls; these balls; the middle half; of each
+                              * axis the middle half; a ball; the lower half of each axis; three quarters of the middle half,
+                              * with a crack up to the middle                                            */
+    enum stability_support { FREE, MIRROR, MIRROR_ACROSS, MIRRORS, CLAMP, CLAMP_ACROSS, CLAMP_MIRROR, FIXED } support;
+                             /* nothing; a plane of symmetry at x = 0, at y = 0, both; the same clamped; a clamp at x = 0 and a
+                              * symmetry at y = 0; two rows of the far end in x held                     */
+    const char *strain, *constants;  /* of the reference frame                                           */
     int edge;                /* particles along it; 0: few                                              */
     const char *text;        /* another scene than this block, at rest: the rest is not looked at; NULL: none */
     double quoted_low, quoted_high; /* limit of the design sheets in the case's unit, 0: none           */

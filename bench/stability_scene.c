@@ -105,10 +105,29 @@ static void put_balls(FILE *to, const struct stability_case *c, double edge, con
     }
 }
 
+/* A box from and until shares of the edge, along x and along the other axes. */
+static void put_shares(FILE *to, const struct stability_case *c, double edge, const double (*share)[2])
+{
+    for (int end = 0; end < 2; end++) {
+        fputs(end ? ", to: " : "{box: {from: ", to);
+        put_point(to, c->dim, share[0][end] * edge, share[1][end] * edge);
+    }
+    fputs("}}", to);
+}
+
 static void put_region(FILE *to, const struct stability_case *c, double edge)
 {
-    if (c->region == HALF) {
-        put_box(to, c->dim, 0, edge / 2, edge);
+    static const double share[][2][2] = {[HALF] = {{0, 0.5}, {0, 1}}, [STRIP] = {{0.25, 0.75}, {0, 1}},
+                                         [SQUARE] = {{0.25, 0.75}, {0.25, 0.75}}, [CORNER] = {{0, 0.5}, {0, 0.5}},
+                                         [NOTCH] = {{0.25, 0.75}, {0, 0.75}}};
+    if (c->region == DISC) {
+        fputs("{ball: {centre: ", to);
+        put_point(to, c->dim, 0.5 * edge, 0.5 * edge);
+        fprintf(to, ", radius: %.9g}}", 0.27 * edge);
+        return;
+    }
+    if (c->region != ISLANDS && c->region != SPOTS) {
+        put_shares(to, c, edge, share[c->region]);
         return;
     }
     fputc('[', to);
@@ -118,6 +137,27 @@ static void put_region(FILE *to, const struct stability_case *c, double edge)
     }
     put_balls(to, c, edge, c->region == ISLANDS ? "{subtract: " : "", c->region == ISLANDS ? "}" : "");
     fputc(']', to);
+}
+
+/* ---- supports --------------------------------------------------------------------------------------------------- */
+
+static void put_support(FILE *to, const struct stability_case *c, double edge)
+{
+    static const char *const text[] = {
+        [MIRROR] = "  - {mirror: {axis: x, at: 0}}\n", [MIRROR_ACROSS] = "  - {mirror: {axis: y, at: 0}}\n",
+        [MIRRORS] = "  - {mirror: {axis: x, at: 0}}\n  - {mirror: {axis: y, at: 0}}\n",
+        [CLAMP] = "  - {mirror: {axis: x, at: 0, tangential: held}}\n",
+        [CLAMP_ACROSS] = "  - {mirror: {axis: y, at: 0, tangential: held}}\n",
+        [CLAMP_MIRROR] = "  - {mirror: {axis: x, at: 0, tangential: held}}\n  - {mirror: {axis: y, at: 0}}\n"};
+    if (c->support == FREE) return;
+    fputs("boundary:\n", to);
+    if (c->support != FIXED) {
+        fputs(text[c->support], to);
+        return;
+    }
+    fputs("  - {fixed: all, region: ", to);
+    put_box(to, c->dim, edge - 2 * SPACING, edge, edge);
+    fputs("}\n", to);
 }
 
 void stability_text(const struct stability_case *c, char *text, size_t size)
@@ -138,6 +178,8 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
     put_text(&mpm, "shape", c->shape);
     put_text(&mpm, "transfer", c->transfer);
     put_text(&mpm, "frame", c->frame);
+    put_text(&mpm, "strain", c->strain);
+    put_text(&mpm, "constants", c->constants);
     if (c->offset != 0) {
         entry(&mpm);
         fputs("origin: ", to);
@@ -155,6 +197,8 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
     }
     mapping_end(&pd);
     if (is(c->method, "adaptive")) fputs("conversion: {criteria: none}\n", to);
+    if (c->region == NOTCH) fprintf(to, "cracks: [{from: [%.9g, 0], to: [%.9g, %.9g]}]\n", edge / 2, edge / 2, edge / 2);
+    put_support(to, c, edge);
     fputs("output: {frames: 0, samples: 1}\n", to);
     fclose(to);
 }

@@ -118,6 +118,10 @@ void engine_free(struct engine *e);
 void engine_partial_make(struct engine *e);
 /* The time step and the number of steps (engine_time.c). */
 status engine_time_make(struct engine *e);
+/* Internal forces of the places of now, of the nodes of a mesh first of all: of bonds into part.f, of bonds and cells into the
+ * mesh's nodes (engine_mesh.c). What bonds see of the mesh's points and images is brought up to date. The same parts as in a
+ * step, for whoever asks what forces are without moving anybody; bonds beyond their limit break. */
+void engine_forces(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
  * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
  * of some; after conversion; the alarm. */

@@ -108,20 +108,39 @@ real engine_mesh_critical_step(const struct engine *e)
 
 /* ---- in a step ----------------------------------------------------------------------------------------------- */
 
+/* What bonds see of points follows their nodes. */
+static void seen_follow(struct engine *e) { mesh_seen_move(&e->mesh, &e->part); }
+
+/* Of bonds, already in part.f, and cells. */
+static void nodes_force(struct engine *e)
+{
+    mesh_clear(&e->mesh);
+    mesh_seen_force(&e->mesh, &e->part);
+    mesh_force(&e->mesh, e->cell_elastic, !e->scene->small_strain);
+}
+
+void engine_forces(struct engine *e)
+{
+    const bool has_mesh = e->mesh.points > 0;
+    if (has_mesh) seen_follow(e);
+    loads_mirror(&e->loads, &e->part);
+    loads_clear(&e->loads, &e->part);
+    e->kernels.bond_force(&e->bonds, &e->part, &e->source.limit, NULL);
+    if (has_mesh) nodes_force(e);
+}
+
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
 {
     struct mesh *mesh = &e->mesh;
     const bool finite = !e->scene->small_strain;
     if (mesh->points == 0) return;
-    mesh_clear(mesh);
-    mesh_seen_force(mesh, &e->part);
-    mesh_force(mesh, e->cell_elastic, finite);
+    nodes_force(e);
     engine_residual_of(e, &mesh->grid);
     if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->cell_elastic, finite);
     loads_mesh_walls(&e->loads, mesh, middle, e->dt);
     e->mesh_speed = mesh_move(mesh, e->dt, dt_velocity, e->loads.impulse, &e->loads.held_work);
     loads_react(&e->loads, &mesh->grid, dt_velocity);
-    mesh_seen_move(mesh, &e->part);
+    seen_follow(e);
     if (e->scene->rest) rest_mesh(mesh, &e->loads);
 }
 
