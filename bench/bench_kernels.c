@@ -127,7 +127,7 @@ static void job_call(const struct job *j, struct ground *g)
         mesh_clear(&m->mesh);
         break;
     case MESH_FORCE:
-        mesh_force(&m->mesh, m->cell_elastic, j->finite);
+        mesh_force(&m->mesh, &m->part, m->cell_elastic, j->finite);
         break;
     case MESH_MOVE:
         mesh_move(&m->mesh, 1e-12, 1e-12, impulse, &work);

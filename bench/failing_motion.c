@@ -204,7 +204,7 @@ const struct failing_scene failing_shear = {"shear at constant volume", "nu %.4g
 static double energy_of(struct engine *e)
 {
     return watch_kinetic(&e->part) + mesh_kinetic(&e->mesh) + e->kernels.bond_energy(&e->bonds, &e->part) +
-           mesh_strain(&e->mesh, e->cell_elastic, !e->scene->small_strain) +
+           mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain) +
            watch_strain(&e->part, e->scene->material, &e->partial);
 }
 

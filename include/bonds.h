@@ -91,20 +91,20 @@ static inline real spring_bound_of(const struct spring_bound *s, int dim)
     return norm + s->total;
 }
 
-/* State-based materials: A and B of kernels/state_laws.h, and the bulk modulus of the space [Pa]. */
-struct state_modulus { real A, B, bulk; };
+/* State-based materials: A and B of kernels/state_laws.h [Pa]. */
+struct state_modulus { real A, B; };
 static inline struct state_modulus state_modulus_of(const struct material *m, enum space space, bool turns)
 {
     const real D = space_dim(space);
-    return (struct state_modulus){D * D * (turns ? m->c12 : m->c12 - m->shear), (turns ? 2 : D + 2) * D * m->shear, m->bulk};
+    return (struct state_modulus){D * D * (turns ? m->c12 : m->c12 - m->shear), (turns ? 2 : D + 2) * D * m->shear};
 }
 
 /* Where a mirror image comes from, and the axis that its mirror turns round (-1: none, a clamped plane). */
 struct state_image { int32_t source; int axis; };
 
-enum { TURN = 4 };                       /* numbers that hold a rotation */
+enum { TURN = ROTATION };                /* numbers that hold a rotation */
 
-/* What particles know of their families; only state-based models have it. */
+/* What particles know of their families; only state-based models have it. Material points with rows then have particles.end_*. */
 struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bonds know nothing but themselves             */
     bool local;                          /* Q of what a family still has, not of a full one                   */

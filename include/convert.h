@@ -71,11 +71,13 @@ void convert_region(struct region *to, const struct region *given, const struct 
  * `changed`: particles converted since the last call, only their surroundings are made anew; NULL: everything. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
+/* What points on the grid tell the state-based bonds whose ends they are, by their stress: particles.end_strain. */
+void partial_ends_know(const struct partial_stress *partial, struct particles *p, const struct material *material);
 void partial_stress_free(struct partial_stress *partial);
 status conversion_archive(struct conversion *c, struct archive *a);
 
 /* What particles know of their families at the places of now; of bonds that know but themselves there is nothing. */
-static inline void families_know(struct bonds *b, const struct particles *p, const struct bond_source *s)
+static inline void families_know(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     if (s->modulus) state_know_table[p->dim][s->turns ? PD_MOSPD : PD_OSPD](b, p);
 }

@@ -82,7 +82,7 @@ struct engine {
     struct rim rim;                      /* damped beside peridynamic particles (FLIP, partial stress) */
     real damped;                         /* energy that the rim's damping, and conversion of moving cells, took [J] */
     real rim_share;                      /* of a step; 0: not at all                                  */
-    bool uses_partial;                   /* coupling by partial stress                                */
+    bool uses_partial;                   /* points know what bonds carry: partial stress, ends of state-based bonds */
     real *record;                        /* one line of history.csv                                   */
     int optional;                        /* WITH_* arrays of the particles                            */
     int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
@@ -122,6 +122,8 @@ status engine_time_make(struct engine *e);
  * mesh's nodes (engine_mesh.c). What bonds see of the mesh's points and images is brought up to date. The same parts as in a
  * step, for whoever asks what forces are without moving anybody; bonds beyond their limit break. */
 void engine_forces(struct engine *e);
+/* Material points at the end of state-based bonds hear from their cells, or from their stress. */
+void engine_ends_know(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
  * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
  * of some; after conversion; the alarm. */

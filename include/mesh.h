@@ -32,6 +32,9 @@ struct mesh_run {
 /* Points of a cell whose motion is needed in every step, by place. */
 struct mesh_seen { int32_t cell; uint8_t places; };
 
+/* A material point at the end of state-based bonds, and the lane of its cell in the group of cut cells. */
+struct mesh_end { int32_t point, lane; };
+
 struct mesh {
     struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused      */
     int64_t points;                      /* particles in the mesh; 0: there is no mesh                */
@@ -52,10 +55,12 @@ struct mesh {
     int32_t *cut;                        /* [cuts, filled up to whole groups of LANES] cut cells, ascending */
     uint8_t *cut_material;               /* [as cut] of their points, the one that converts first     */
     bool *cut_stressed;                  /* [as cut] as of a run                                      */
-    real *stiffness;                     /* [groups][modes (modes + 1)/2][LANES] half of its symmetric part, by modes
+    real *stiffness;                     /* [groups][modes (modes + 1)/2][LANES] half of it, by modes
                                           * (mesh_cut.h), of all the cell's volume            [Pa]    */
-    real *odd;                           /* [groups][modes (modes - 1)/2][LANES] half of the rest, NULL: none [Pa] */
-    real *skew;                          /* [groups][skews modes][LANES] of forces that bonds off their line leave, NULL: none [Pa] */
+    int32_t *ends;                       /* [groups + 1] points at the end of state-based bonds in the cells of a group: end[ends[group]]
+                                          * .. end[ends[group + 1] - 1]; NULL: there are none         */
+    struct mesh_end *end;
+    real *end_share;                     /* [ends][modes] what a cell's modes add to a point's particles.end_strain [1] */
     int32_t *alike;                      /* [groups] one of the same stiffness to the last bit, still in the cache */
     real *cut_force;                     /* [groups][corners dim][LANES]                      [N]     */
     int64_t seen, seen_room;
@@ -65,11 +70,9 @@ struct mesh {
     real rounding;                       /* displacements lose what its last bit does not hold [m]    */
 };
 
-/* Modes that a cell's energy hangs on: of its mean strain, and what bends it; and what skew stress acts on: the mean rotations
- * instead of the strains. */
+/* Modes that a cell's energy hangs on: of its mean strain, and what bends it. */
 static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }
 static inline int mesh_modes(int dim) { return symmetric_count(dim) + mesh_bends(dim); }
-static inline int mesh_skews(int dim) { return dim * (dim - 1) / 2 + mesh_bends(dim); }
 
 /* Groups of cut cells side by side. */
 static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->cuts + LANES - 1) / LANES; }

@@ -12,6 +12,7 @@
 
 #define LATTICE_NEAR 1e-8                /* a particle of a lattice may be that far from its site [spacings] */
 enum { LANES = 8 };                      /* particles per vector: 8 doubles                      */
+enum { ROTATION = 4 };                   /* numbers that hold a rotation in space                */
 
 enum kind { KIND_MPM, KIND_PD, KINDS };
 
@@ -44,6 +45,13 @@ struct particles {
     real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP              [1]          */
     real *plastic_strain;                /* accumulated, equivalent; only where a material yields [1] */
     real *out_of_plane;                  /* sigma_zz - nu (sigma_xx + sigma_yy), only plane strain with it [Pa] */
+    real *end_strain;                    /* material points at the end of state-based bonds: what their cells add to the mean
+                                            strain S of their family, and ...                    [1] */
+    real *end_turn[ROTATION];            /* ... their rotation R: in the plane cos - 1 and sin, in space its quaternion,
+                                            the scalar last; only models with rotations          [1] */
+    real *end_pull;                      /* what bonds tell them in turn: derivative of their family's energy by end_strain,
+                                            and ...                                              [J] */
+    real *end_moment[DIM_MAX];           /* ... moment of their bonds about them, in axes that turn with them [N m] */
     real *quiet;                         /* peridynamic: since when its stress is low, infinite: it is not; only with return [s] */
     real *damage;                        /* share of broken bonds, 0..1             [1]          */
     uint8_t *kind, *material, *body, *flag;  /* enum kind; indices; enum particle_flag           */
@@ -76,7 +84,8 @@ static inline int64_t image_root(const struct particles *p, const struct image *
 }
 
 /* Which optional arrays exist. */
-enum { WITH_GRADIENT = 1, WITH_STRETCH = 2, WITH_PLASTIC = 4, WITH_OUT_OF_PLANE = 8, WITH_RETURN = 16, WITH_EVERYTHING = 31 };
+enum { WITH_GRADIENT = 1, WITH_STRETCH = 2, WITH_PLASTIC = 4, WITH_OUT_OF_PLANE = 8, WITH_RETURN = 16, WITH_ENDS = 32, WITH_TURNS = 64,
+       WITH_EVERYTHING = 127 };
 
 /* One line per array: name, unit, what it is, where it lives. `size` is the bytes of one entry; `count` the
  * number of component arrays for a dimension. The table makes, frees, sorts, checkpoints and restores. */

@@ -51,6 +51,31 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
     }
 }
 
+/* Rotations of points that may be ends of bonds, by the spin of the step (Cayley). */
+static ALWAYS_INLINE void points_turn(struct particles *p, const int32_t *point, const row_of_points *L, real dt, const int dim)
+{
+    if (dim == 2) {
+        const row_of_points half = 0.25 * dt * (L[2] - L[1]), scale = 2.0 / (1.0 + half * half);
+        const row_of_points less = -half * half * scale, sine = half * scale;          /* cos - 1, sin */
+        const row_of_points a = points_load(p->end_turn[0], point, dim), b = points_load(p->end_turn[1], point, dim);
+        points_store(p->end_turn[0], point, a + less + a * less - b * sine, dim);
+        points_store(p->end_turn[1], point, b + b * less + (1.0 + a) * sine, dim);
+        return;
+    }
+    const row_of_points w[3] = {0.25 * dt * (L[7] - L[5]), 0.25 * dt * (L[2] - L[6]), 0.25 * dt * (L[3] - L[1])};
+    row_of_points q[ROTATION], next[ROTATION];
+    for (int c = 0; c < ROTATION; c++) q[c] = points_load(p->end_turn[c], point, dim);
+    for (int k = 0; k < 3; k++) next[k] = q[k] + q[3] * w[k] + w[(k + 1) % 3] * q[(k + 2) % 3] - w[(k + 2) % 3] * q[(k + 1) % 3];
+    next[3] = q[3] - w[0] * q[0] - w[1] * q[1] - w[2] * q[2];
+    row_of_points size2 = points_of(0);
+    for (int c = 0; c < ROTATION; c++) size2 += next[c] * next[c];
+    for (int k = 0; k < AT_ONCE(dim); k++) {
+        const real inverse = 1 / sqrt(size2[k]);
+        for (int c = 0; c < ROTATION; c++) next[c][k] *= inverse;
+    }
+    for (int c = 0; c < ROTATION; c++) points_store(p->end_turn[c], point, next[c], dim);
+}
+
 /* What the trial stress has beyond the yield surface becomes plastic strain; the mark is that of the stress that stays.
  * Last of all and on what is stored, so that points that cannot yield keep their registers. */
 static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, const int dim)
@@ -123,6 +148,7 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     }
     const struct elastic_points m = elastic_of(p, t, s.point, dim);
     if (!t->bare) points_strain(p, t, &m, s.point, L, dim, shape);
+    if (dim > 1 && __builtin_expect(p->end_turn[0] != NULL, 0)) points_turn(p, s.point, L, t->dt, dim);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
     const int moved = points_move(g, c, p, &s, velocity, dim);
     if (__builtin_expect(points_signs(-m.yield), 0))

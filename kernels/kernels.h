@@ -31,17 +31,28 @@ struct elastic {
 };
 
 /* Partial stress (src/partial_stress.c): the share of its stress that a material point leaves to the crossing
- * bonds. sigma_given = sigma - M sigma, M = T C^-1 over symmetric components, and minus the skew part where bonds carry
- * forces off their line. */
+ * bonds: sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. A point at the end of state-based bonds gives P Q local
+ * besides, P Q what its bonds tell it (particles.end_pull) over its volume. */
 struct partial_stress {
     int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does   */
     real *matrix;                        /* [entries][symmetric^2], row major                         */
-    real *skew;                          /* [entries][skew symmetric], row major; NULL: there is none */
+    real *local;                         /* [entries][symmetric] mean strain by strain of what its own bonds do not see, 0 of
+                                            points without bonds; NULL: bonds know nothing of families [1] */
+    bool gives_all;                      /* hand-shake: M and local are 0                             */
     int64_t entries, room;
     int32_t *touched;                    /* particles whose entry was made anew; whoever follows them sets touches = 0 */
     int64_t touches, touched_room;
     struct partial_table *table;         /* src/partial_table.c                                       */
 };
+
+/* Is point i an end of state-based bonds? Others leave stress to bonds that only cross their cell. */
+static inline bool partial_end(const struct partial_stress *partial, int64_t i, int dim)
+{
+    if (!partial->local || partial->index[i] < 0) return false;
+    bool any = partial->gives_all;
+    for (int k = 0; k < symmetric_count(dim) && !any; k++) any = partial->local[partial->index[i] * symmetric_count(dim) + k] != 0;
+    return any;
+}
 
 /* What the transfers need besides particles and grid. */
 struct transfer_data {
@@ -73,8 +84,9 @@ struct pd_motion {
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *motion);
 
 /* What particles know of their families, into b->state: the first half of a state-based force. Whoever breaks bonds of rows
- * just made calls it before, if bond_break_asks. */
-typedef void state_know_fn(struct bonds *b, const struct particles *p);
+ * just made calls it before, if bond_break_asks. Material points at the end of bonds are told what it means to their cells
+ * (particles.end_pull, end_moment). */
+typedef void state_know_fn(struct bonds *b, struct particles *p);
 
 /* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then
  * may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
@@ -170,8 +182,9 @@ KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 KERNEL(void, mesh_clear, (struct mesh *mesh));
 
 /* Adds the internal forces of its cells that are awake (rest.h) to its nodes; runs whose points may be past their trigger are marked `stressed`.
- * `finite`: strain of Biot in axes that turn with the cell, else the symmetric gradient (mesh_law.h). */
-KERNEL(void, mesh_force, (struct mesh *mesh, const struct elastic *m, bool finite));
+ * `finite`: strain of Biot in axes that turn with the cell, else the symmetric gradient (mesh_law.h). Of the particles only what
+ * bonds told the points at their ends is read. */
+KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* v += dt_velocity f/m, u += dt v of the nodes that are awake, u to the multiples that mesh->rounding leaves; walls prescribe their velocity, and what they gave joins impulse [N s] and
  * work [J]. f becomes m dv/dt_velocity of each node. Returns the largest component of a velocity, infinite where one is no
@@ -192,7 +205,9 @@ KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, co
 /* Sum of 1/2 m v^2 of the nodes, and of 1/4 (dt f)^2/m [J]. */
 KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
-/* Elastic energy of the cells [J]. */
-KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct elastic *m, bool finite));
+/* Elastic energy of the cells, with their part in that of the families of points at the ends of bonds [J]. */
+KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
+/* What cells tell the points at the ends of state-based bonds: particles.end_strain, end_turn. */
+KERNEL(void, mesh_ends_know, (const struct mesh *mesh, struct particles *p, bool finite));
 
 #endif

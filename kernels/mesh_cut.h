@@ -1,9 +1,9 @@
 /* floor 2: eight cut cells: what is left of the points of each answers by a stiffness of its own.
  *
  * A cell's energy hangs on its mean strain and on what bends it (mesh_law.h), not on its translation and rotation: in 3D on
- * 18 modes, not on 24 displacements. The stiffness is that of these modes, eight cells side by side: of its symmetric part
- * one half is stored, 171 numbers in 3D and 15 in the plane, and the odd part only where partial stress has one (state-based
- * models). Shear strains count by their angle, so that what belongs to them is their stress. */
+ * 18 modes, not on 24 displacements. The stiffness is that of these modes, eight cells side by side, and symmetric: one half
+ * is stored, 171 numbers in 3D and 15 in the plane. Shear strains count by their angle, so that what belongs to them is their
+ * stress. */
 #ifndef CLEAVE_MESH_CUT_H
 #define CLEAVE_MESH_CUT_H
 
@@ -44,22 +44,36 @@ static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, co
     }
 }
 
-/* f += K v of the odd part, stored the same way without its diagonal. */
-static ALWAYS_INLINE void cut_add_odd(const lanes *K, const lanes *v, lanes *f, const int n)
+/* Forces on the modes and moments of points that are ends of bonds, in the cells of a group (struct mesh_ends): f += share^T pull. */
+static ALWAYS_INLINE void cut_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f, const int dim)
 {
-    for (int a = 0; a < n; a++)
-        for (int b = a + 1; b < n; b++, K++) f[a] += *K * v[b], f[b] -= *K * v[a];
+    const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
+    const int n = mesh_modes(dim);
+    const real inverse = 1 / (mesh->volume * (1 << dim));
+    for (; end < last; end++) {
+        const real pull = p->end_pull[end->point] * inverse;
+        const real *share = mesh->end_share + (end - mesh->end) * n;
+        for (int k = 0; k < n; k++) f[k][end->lane] += share[k] * pull;
+    }
 }
 
-/* Stress and forces of the modes; v keeps the modes. */
-static ALWAYS_INLINE void cut_law(const struct mesh *mesh, int64_t group, struct mesh_cell *s, lanes *v, const int dim)
+static ALWAYS_INLINE void cut_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *moment, const int dim)
 {
-    const int n = mesh_modes(dim), half = n * (n + 1) / 2, odd = half - n;
-    const int64_t alike = mesh->alike[group];
-    lanes f[MODES_MAX];
+    const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
+    const real inverse = 1 / (mesh->volume * (1 << dim));
+    for (; end < last; end++)
+        for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) moment[k][end->lane] += p->end_moment[c][end->point] * inverse;
+}
+
+/* Stress and forces of the modes. */
+static ALWAYS_INLINE void cut_law(const struct mesh *mesh, const struct particles *p, int64_t group, struct mesh_cell *s,
+                                  const int dim)
+{
+    const int n = mesh_modes(dim), half = n * (n + 1) / 2;
+    lanes v[MODES_MAX], f[MODES_MAX];
     cut_modes(s, v, dim);
-    cut_times((const lanes *)mesh->stiffness + alike * half, v, f, n);
-    if (mesh->odd) cut_add_odd((const lanes *)mesh->odd + alike * odd, v, f, n);
+    cut_times((const lanes *)mesh->stiffness + mesh->alike[group] * half, v, f, n);
+    if (mesh->ends) cut_add_ends(mesh, p, group, f, dim);
     int k = symmetric_count(dim);
     for (int t = 0; t < k; t++) {
         int a, b;
@@ -68,26 +82,6 @@ static ALWAYS_INLINE void cut_law(const struct mesh *mesh, int64_t group, struct
     }
     SETS for (int M = 3; M < 1 << dim; M++)
         if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = f[k++];
-}
-
-/* Adds the skew stress that bonds off their line leave: it balances their torque, and is not balanced itself. */
-static ALWAYS_INLINE void cut_add_skew(const struct mesh *mesh, int64_t group, struct mesh_cell *s, const lanes *v, const int dim)
-{
-    const int n = mesh_modes(dim), count = mesh_skews(dim);
-    const lanes *K = (const lanes *)mesh->skew + mesh->alike[group] * count * n;
-    lanes f[MODES_MAX];
-    int k = dim * (dim - 1) / 2;
-    for (int a = 0; a < count; a++) {
-        f[a] = lanes_of(0);
-        for (int b = 0; b < n; b++, K++) f[a] += *K * v[b];
-    }
-    for (int t = 0; t < k; t++) {
-        int a, b;
-        symmetric_axes(dim, dim + t, &a, &b);
-        s->P[a][b] += f[t], s->P[b][a] -= f[t];
-    }
-    SETS for (int M = 3; M < 1 << dim; M++)
-        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] += f[k++];
 }
 
 #endif

@@ -41,7 +41,7 @@ real mesh_kick(const struct mesh *mesh, real dt)
     return dt * dt * sum;
 }
 
-struct strain_sum { const struct mesh *mesh; const struct elastic *elastic; bool finite; };
+struct strain_sum { const struct mesh *mesh; const struct particles *p; const struct elastic *elastic; bool finite; };
 
 static ALWAYS_INLINE real lanes_sum(lanes a)
 {
@@ -55,10 +55,10 @@ static ALWAYS_INLINE real cut_energy(const struct strain_sum *s, int64_t group, 
 {
     const struct mesh *mesh = s->mesh;
     struct mesh_cell cell;
-    lanes u[CORNERS_MAX][3], v[MODES_MAX];
+    lanes u[CORNERS_MAX][3];
     mesh_cut_load(mesh, group, u, dim);
     cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
-    cut_law(mesh, group, &cell, v, dim);
+    cut_law(mesh, s->p, group, &cell, dim);
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
@@ -94,13 +94,13 @@ TERM(2, 1)
 TERM(3, 0)
 TERM(3, 1)
 
-real mesh_strain(const struct mesh *mesh, const struct elastic *m, bool finite)
+real mesh_strain(const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite)
 {
     static real (*const run[DIM_MAX + 1][2])(const void *, int64_t) = {
         {NULL, NULL}, {run_term_1_0, run_term_1_0}, {run_term_2_0, run_term_2_1}, {run_term_3_0, run_term_3_1}};
     static real (*const cut[DIM_MAX + 1][2])(const void *, int64_t) = {
         {NULL, NULL}, {cut_term_1_0, cut_term_1_0}, {cut_term_2_0, cut_term_2_1}, {cut_term_3_0, cut_term_3_1}};
-    struct strain_sum s = {mesh, m, finite};
+    struct strain_sum s = {mesh, p, m, finite};
     const int dim = mesh->grid.dim;
     if (mesh->points == 0) return 0;
     return team_sum(mesh_groups(mesh), cut[dim][finite], &s) + team_sum(mesh->runs, run[dim][finite], &s);

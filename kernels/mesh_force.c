@@ -91,17 +91,19 @@ static ALWAYS_INLINE void cut_mark(struct mesh *mesh, const struct elastic *m, i
     }
 }
 
-static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct elastic *m, int64_t group, const int dim, const bool finite)
+static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct particles *p, const struct elastic *m, int64_t group,
+                                    const int dim, const bool finite)
 {
     const bool turns = finite && dim > 1;
     struct mesh_cell s;
-    lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], v[MODES_MAX];
+    lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], moment[3] = {{0}};
     mesh_cut_load(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, turns);
     cut_mark(mesh, m, group, &s, dim);
-    cut_law(mesh, group, &s, v, dim);
-    if (turns) cell_balance(&s, dim);
-    if (mesh->skew) cut_add_skew(mesh, group, &s, v, dim);
+    cut_law(mesh, p, group, &s, dim);
+    if (mesh->ends && p->end_turn[0]) cut_add_moments(mesh, p, group, moment, dim);
+    if (turns) cell_balance(&s, moment, dim);
+    else if (dim > 1 && mesh->ends && p->end_turn[0]) cell_skew(&s, moment, dim);
     cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, turns);
     lanes *out = (lanes *)mesh->cut_force + group * (1 << dim) * dim;
     for (int c = 0; c < 1 << dim; c++)
@@ -130,10 +132,10 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 enum { FEW = 16 };                       /* groups that one thread computes in less time than a team */
 
 #define CUTS(D, FINITE)                                                                                              \
-    static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                \
+    static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)     \
     {                                                                                                                \
         TEAM_LOOP(mesh_groups(mesh) > FEW, for (int64_t k = 0; k < mesh_groups(mesh); k++)                           \
-            if (!cuts_asleep(mesh, k)) cut_force(mesh, m, k, D, FINITE););                                           \
+            if (!cuts_asleep(mesh, k)) cut_force(mesh, p, m, k, D, FINITE););                                        \
         cuts_add(mesh, D);                                                                                           \
     }
 
@@ -143,12 +145,12 @@ enum { FEW = 16 };                       /* groups that one thread computes in l
 MESH_FORCES(BANDS)
 MESH_FORCES(CUTS)
 
-void mesh_force(struct mesh *mesh, const struct elastic *m, bool finite)
+void mesh_force(struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite)
 {
 #define CASE(D, FINITE)                                                                                              \
     if (mesh->grid.dim == D && (D == 1 || finite == FINITE)) {                                                       \
         bands_force_##D##_##FINITE(mesh, m);                                                                         \
-        cuts_force_##D##_##FINITE(mesh, m);                                                                          \
+        cuts_force_##D##_##FINITE(mesh, p, m);                                                                       \
     }
     MESH_FORCES(CASE)
 #undef CASE

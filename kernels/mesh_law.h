@@ -217,18 +217,26 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
     return energy * (0.5 * volume);
 }
 
-/* Balances the moment of stresses: axial parts of sum P U^T over all modes, U = 1 + e of the mean. */
-static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, const int dim)
+/* Balances the moment of stresses, axial parts of sum P U^T over all modes, U = 1 + e of the mean, and what is in `moment` already
+ * [Pa]: of bonds whose ends turn with the cell. */
+static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const int dim)
 {
-    lanes moment[3];
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        moment[k] = lanes_of(0);
         for (int b = 0; b < dim; b++) moment[k] += s->P[j][b] * s->e[i][b] - s->P[i][b] * s->e[j][b];
         SETS for (int M = 1; M < 1 << dim; M++)
             if (M & (M - 1)) moment[k] += s->force[M][j] * s->mode[M][i] - s->force[M][i] * s->mode[M][j];
     }
     add_skew(s->P, s->e, moment, dim);
+}
+
+/* Moments alone where strain is small: the rotation is the skew part of the gradient. */
+static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, const int dim)
+{
+    lanes none[3][3];
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) none[a][b] = lanes_of(0);
+    add_skew(s->P, none, moment, dim);
 }
 
 /* Forces f [N] on the corners, turned back. */

@@ -2,6 +2,7 @@
 #include "mesh_cut.h"
 #include "mesh_point.h"
 #include "mesh_run.h"
+#include "turn.h"
 
 /* One body for every number of axes; the parallel region stands in each instance. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
@@ -79,6 +80,70 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
     if (p->dim == 1) points_move_1(mesh, p, list, n);
     else if (p->dim == 2) points_move_2(mesh, p, list, n);
     else points_move_3(mesh, p, list, n);
+}
+
+/* ---- what points at the end of bonds know ------------------------------------------------------------------- */
+
+/* Rotations of the cells of a group, as particles.end_turn has them; where strain is small by the skew part of the gradient. */
+static ALWAYS_INLINE void cells_turn(const struct mesh_cell *s, lanes *turn, const int dim, const bool turns)
+{
+    lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_of(0);
+    for (int a = 0; a < dim && turns; a++)
+        for (int b = 0; b < dim; b++) R[a * dim + b] = s->R[a][b];
+    for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        w[k] = 0.25 * (s->mode[1 << i][j] - s->mode[1 << j][i]);     /* half the angle */
+        square += w[k] * w[k];
+    }
+    if (dim == 2) {
+        turn[0] = turns ? R[0] - 1.0 : -2.0 * square / (1.0 + square);
+        turn[1] = turns ? R[2] : 2.0 * w[2] / (1.0 + square);
+        return;
+    }
+    if (turns) {
+        turn_make(turn, R, lanes_of(0.5), 3);
+        return;
+    }
+    turn[3] = lanes_inverse_root(1.0 + square);
+    for (int k = 0; k < 3; k++) turn[k] = w[k] * turn[3];
+}
+
+static ALWAYS_INLINE void group_ends_know(const struct mesh *mesh, struct particles *p, int64_t group, const int dim, const bool finite)
+{
+    struct mesh_cell s;
+    lanes u[CORNERS_MAX][3], v[MODES_MAX], turn[ROTATION];
+    const int n = mesh_modes(dim);
+    if (mesh->ends[group] == mesh->ends[group + 1]) return;
+    mesh_cut_load(mesh, group, u, dim);
+    cell_strain(&s, mesh->grid.h, u, dim, finite);
+    cut_modes(&s, v, dim);
+    if (p->end_turn[0]) cells_turn(&s, turn, dim, finite);
+    for (int32_t k = mesh->ends[group]; k < mesh->ends[group + 1]; k++) {
+        const struct mesh_end *end = &mesh->end[k];
+        const real *share = mesh->end_share + (int64_t)k * n;
+        real strain = 0;
+        for (int m = 0; m < n; m++) strain += share[m] * v[m][end->lane];
+        p->end_strain[end->point] = strain;
+        for (int c = 0; p->end_turn[0] && c < (dim == 2 ? 2 : ROTATION); c++) p->end_turn[c][end->point] = turn[c][end->lane];
+    }
+}
+
+#define ENDS(D, FINITE)                                                                                              \
+    static void ends_know_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
+    {                                                                                                                \
+        TEAM_LOOP(mesh_groups(mesh) > FEW / LANES, for (int64_t k = 0; k < mesh_groups(mesh); k++)                   \
+            group_ends_know(mesh, p, k, D, FINITE););                                                                \
+    }
+ENDS(2, false)
+ENDS(2, true)
+ENDS(3, false)
+ENDS(3, true)
+
+void mesh_ends_know(const struct mesh *mesh, struct particles *p, bool finite)
+{
+    if (!mesh->ends) return;
+    if (p->dim == 2) (finite ? ends_know_2_true : ends_know_2_false)(mesh, p);
+    if (p->dim == 3) (finite ? ends_know_3_true : ends_know_3_false)(mesh, p);
 }
 
 /* ---- what points take ---------------------------------------------------------------------------------------- */

@@ -34,7 +34,7 @@ static ALWAYS_INLINE void mesh_run_force(const struct elastic *m, real h, real v
     cell_strain(&s, h, u, dim, turns);
     cell_law(m, &s, dim);
     *tension = lanes_max(*tension, cell_tension(m, &s, s.P, dim));
-    if (turns && !balanced) cell_balance(&s, dim);
+    if (turns && !balanced) cell_balance(&s, (lanes[3]){{0}}, dim);
     cell_corners(&s, h, volume, f, dim, turns);
 }
 

@@ -22,7 +22,7 @@ static ALWAYS_INLINE int symmetric_place(int a, int b, const int dim)
     return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
-/* Force of the skew part of the stress given: f_a = -V sum_b skew_ab grad_b. Few points have one (partial_stress.c). */
+/* Force of the skew part of the stress given: f_a = -V sum_b skew_ab grad_b. Only ends of bonds have one (partial_stress.c). */
 static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, const struct transfer_data *t,
                                    const struct stencil *s, const struct touch *row, int at, const int dim,
                                    const enum shape shape)
@@ -87,7 +87,7 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
             sum[1 + dim + d][k] = pushed;
         }
     }
-    if (__builtin_expect(t->partial && t->partial->skew, 0)) p2g_skew(sum, p, t, s, &row, at, dim, shape);
+    if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_skew(sum, p, t, s, &row, at, dim, shape);
 }
 
 static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *list, int k, const int dim,

@@ -19,13 +19,12 @@ struct family_sums { lanes extension, stretch, moment[DIM_MAX * DIM_MAX]; lanes_
 
 /* Adds a slot: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
 static ALWAYS_INLINE void know_slot(struct family_sums *sum, const struct particles *p, const struct slot slot, const lanes *x,
-                                    const lanes *X, const bool knows, const int dim, const enum pd_model model)
+                                    const lanes *X, const int dim, const enum pd_model model)
 {
     struct state_bond s;
     state_bond_make(&s, p, slot, x, X, dim, model);
     const lanes w = slot_weight(slot), stretch = STRETCH_OF(lanes_root(s.distance2), s.inverse_length);
     sum->stretch = slot_largest(slot, sum->stretch, stretch);
-    if (!knows) return;
     sum->extension += state_weight(slot, w, s.inverse_length, true) * stretch;
     if (!state_turns(model)) return;
     for (int c = 0; c < dim; c++) {
@@ -45,8 +44,8 @@ static ALWAYS_INLINE void family_turn(lanes *turn, const lanes *moment, lanes_ma
     turn_make(turn, R, spring, dim);
 }
 
-/* Moduli of eight rows and V/Q [m]; nothing where a family has nothing left. */
-struct own_family { lanes A, B, bulk, inverse, share; };
+/* Moduli of eight rows, 1/Q and V/Q; nothing where a family has nothing left. */
+struct own_family { lanes A, B, inverse, share; };     /* [Pa], [Pa], [1/m^2], [m] */
 
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
@@ -54,50 +53,112 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     const int32_t own = b->aligned[g] ? row[0] : -1;
     const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
     const lanes Q = lanes_load(b->state.weighted + g * LANES), inverse = lanes_choose(Q > 0.0, 1.0 / Q, lanes_of(0));
-    struct own_family f = {lanes_of(m->A), lanes_of(m->B), lanes_of(m->bulk), inverse, lanes_at(p->volume0, own, row) * inverse};
+    struct own_family f = {lanes_of(m->A), lanes_of(m->B), inverse, lanes_at(p->volume0, own, row) * inverse};
     if (own >= 0 && eight_same(p->material + own)) return f;
-    for (int l = 0; l < LANES; l++) m = &b->state.modulus[p->material[row[l]]], f.A[l] = m->A, f.B[l] = m->B, f.bulk[l] = m->bulk;
+    for (int l = 0; l < LANES; l++) m = &b->state.modulus[p->material[row[l]]], f.A[l] = m->A, f.B[l] = m->B;
     return f;
 }
 
 struct knowledge { lanes pressure, spring, turn[TURN]; };
 
-/* What those rows of a group know that are of one kind. */
-static ALWAYS_INLINE void know_store(struct bonds *b, const struct particles *p, int64_t g, const struct knowledge *k,
-                                     const enum kind kind, const enum pd_model model)
+/* What the rows of a group know. */
+static ALWAYS_INLINE void know_store(struct bonds *b, int64_t g, const struct knowledge *k, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    const uint8_t *whole = b->whole + g * LANES;
+    const int rows = eight_at(g * LANES, b->rows);
     struct state *t = &b->state;
-    if (b->aligned[g] && eight_same(whole) && (kind == KIND_PD) == whole[0]) {
-        lanes_store(t->pressure + row[0], k->pressure);
-        lanes_store(t->spring + row[0], k->spring);
-        for (int c = 0; state_turns(model) && c < TURN; c++) lanes_store(t->turn[c] + row[0], k->turn[c]);
-        return;
+    rows_store(t->pressure, row, rows, b->aligned[g], k->pressure, 1);
+    rows_store(t->spring, row, rows, b->aligned[g], k->spring, 1);
+    for (int c = 0; state_turns(model) && c < TURN; c++) rows_store(t->turn[c], row, rows, b->aligned[g], k->turn[c], 1);
+}
+
+/* ---- material points at the end of bonds ----------------------------------------------------------------- */
+
+/* Rows of a group that are material points. */
+static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
+{
+    lanes_mask end;
+    for (int l = 0; l < LANES; l++) end[l] = -(int64_t)(p->kind[b->particle[g * LANES + l]] == KIND_MPM);
+    return end;
+}
+
+/* Their rotation is that of their cells. */
+static ALWAYS_INLINE void ends_turn(const struct particles *p, const int32_t *row, int32_t own, lanes_mask end, lanes spring,
+                                    lanes *turn, const int dim)
+{
+    lanes theirs[TURN];
+    const lanes scale = dim == 2 ? spring : lanes_root(2.0 * spring);
+    for (int c = 0; c < (dim == 2 ? 2 : TURN); c++) theirs[c] = scale * lanes_at(p->end_turn[c], own, row);
+    if (dim == 2) theirs[2] = theirs[1], theirs[1] = -theirs[2], theirs[3] = theirs[0];
+    for (int c = 0; c < TURN; c++) turn[c] = lanes_choose(end, theirs[c], turn[c]);
+}
+
+/* Adds to N its product with R - 1 from the left, transposed: N becomes R^T N. */
+static ALWAYS_INLINE void turned_back(lanes *N, const lanes *turn, const int dim)
+{
+    lanes less[DIM_MAX * DIM_MAX], old[DIM_MAX * DIM_MAX];       /* R - 1 */
+    for (int c = 0; c < dim * dim; c++) old[c] = N[c];
+    if (dim == 2) less[0] = less[3] = turn[0], less[2] = turn[1], less[1] = -turn[1];
+    if (dim == 3) {
+        const lanes *q = turn, square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
+        for (int a = 0; a < 3; a++)
+            for (int c = 0; c < 3; c++) less[3 * a + c] = 2.0 * q[a] * q[c] - (a == c ? 2.0 * square : lanes_of(0));
+        for (int a = 0; a < 3; a++) {
+            const int i = (a + 1) % 3, j = (a + 2) % 3;
+            less[3 * j + i] += 2.0 * q[3] * q[a], less[3 * i + j] -= 2.0 * q[3] * q[a];
+        }
     }
-    for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) {
-        const int32_t i = row[l];
-        if (p->kind[i] != kind) continue;
-        t->pressure[i] = k->pressure[l];
-        t->spring[i] = k->spring[l];
-        for (int c = 0; state_turns(model) && c < TURN; c++) t->turn[c][i] = k->turn[c][l];
+    for (int a = 0; a < dim; a++)
+        for (int c = 0; c < dim; c++)
+            for (int k = 0; k < dim; k++) N[a * dim + c] += less[k * dim + a] * old[k * dim + c];
+}
+
+/* Moment about them, axial: of component ji less ij of g R^T sum w Y (x) xi. */
+static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
+                                      const struct family_sums *sum, lanes spring, const int dim)
+{
+    lanes N[DIM_MAX * DIM_MAX], turn[TURN], moved = lanes_of(0);
+    for (int c = 0; c < dim * dim; c++) N[c] = sum->moment[c];
+    for (int c = 0; c < (dim == 2 ? 2 : TURN); c++) turn[c] = lanes_at(p->end_turn[c], own, row);
+    for (int c = 0; c < (dim == 2 ? 2 : 3); c++) moved += turn[c] * turn[c];
+    turned_back(N, turn, dim);
+    const lanes_mask any = end & ((sum->moved != 0) | (moved != 0.0));      /* of nothing there is none, to the last bit */
+    for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        rows_store(p->end_moment[c], row, rows, own >= 0, lanes_choose(any, spring * (N[j * dim + i] - N[i * dim + j]), lanes_of(0)), 1);
     }
 }
 
-/* What a group's sums tell its peridynamic particles. */
-static ALWAYS_INLINE void know_by_family(struct bonds *b, const struct particles *p, int64_t g, const struct family_sums *sum,
+/* A material point has a family like all others, of which bonds know a part and its cells the rest: S is the sum of both. */
+static ALWAYS_INLINE void ends_know(struct bonds *b, struct particles *p, int64_t g, lanes_mask end, const struct own_family *f,
+                                    const struct family_sums *sum, struct knowledge *k, const int dim, const enum pd_model model)
+{
+    const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
+    const int rows = eight_at(g * LANES, b->rows);
+    k->pressure += f->A * f->share * lanes_choose(end, lanes_at(p->end_strain, own, row), lanes_of(0));
+    const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_of(0));
+    rows_store(p->end_pull, row, rows, own >= 0, pull, 1);
+    if (!state_turns(model)) return;
+    ends_turn(p, row, own, end, k->spring, k->turn, dim);
+    ends_moment(p, row, rows, own, end, sum, k->spring, dim);
+}
+
+/* ---- all rows -------------------------------------------------------------------------------------------- */
+
+/* What a group's sums tell its particles. */
+static ALWAYS_INLINE void know_by_family(struct bonds *b, struct particles *p, int64_t g, const struct family_sums *sum,
                                          const int dim, const enum pd_model model)
 {
     const struct own_family f = own_family_of(b, p, g);
     struct knowledge k;
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
     if (state_turns(model)) family_turn(k.turn, sum->moment, sum->moved, k.spring, dim);
-    know_store(b, p, g, &k, KIND_PD, model);
+    if (!group_whole(b, g) && p->end_strain) ends_know(b, p, g, ends_of(b, p, g), &f, sum, &k, dim, model);
+    know_store(b, g, &k, model);
 }
 
-/* Rows of one group; `knows`: there are peridynamic particles among them. Else only who is past its limit is looked for. */
-static ALWAYS_INLINE void know_group(struct bonds *b, const struct particles *p, int64_t g, const bool knows, const int dim,
-                                     const enum pd_model model)
+/* Rows of one group. */
+static ALWAYS_INLINE void know_group(struct bonds *b, struct particles *p, int64_t g, const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
@@ -109,58 +170,11 @@ static ALWAYS_INLINE void know_group(struct bonds *b, const struct particles *p,
         x[d] = lanes_at(p->x[d], own, row);
         if (state_turns(model)) X[d] = lanes_at(p->X[d], own, row);
     }
-#define VISIT(SLOT) know_slot(&sum, p, SLOT, x, X, knows, dim, model)
+#define VISIT(SLOT) know_slot(&sum, p, SLOT, x, X, dim, model)
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
-    if (knows) know_by_family(b, p, g, &sum, dim, model);
-}
-
-static ALWAYS_INLINE void state_group(struct bonds *b, const struct particles *p, int64_t g, const int dim,
-                                      const enum pd_model model)
-{
-    const uint8_t *whole = b->whole + g * LANES;         /* 0 of padding rows */
-    if (whole[0] || !eight_same(whole)) know_group(b, p, g, true, dim, model);
-    else know_group(b, p, g, false, dim, model);
-}
-
-/* Adds a slot to the mean rotation that neighbours have. */
-static ALWAYS_INLINE void turned_slot(struct turn_sums *sum, const struct slot slot, const int dim)
-{
-    const struct state *t = &slot.b->state;
-    lanes turn[TURN];
-    for (int c = 0; c < TURN; c++)
-        if (turn_reads(c, dim)) turn[c] = slot_at(slot, t->turn[c]);
-    turn_add(sum, turn, slot_at(slot, t->spring), slot_weight(slot), dim);
-}
-
-/* The mean rotation that the neighbours of eight rows have, by their springs. */
-static ALWAYS_INLINE void turned_group(const struct bonds *b, int64_t g, lanes *turn, lanes spring, const int dim)
-{
-    struct turn_sums sum;
-    lanes moment[DIM_MAX * DIM_MAX];
-    turn_sums_make(&sum);
-#define VISIT(SLOT) turned_slot(&sum, SLOT, dim)
-    FOR_SLOTS(b, g, VISIT);
-#undef VISIT
-    const lanes_mask turned = turn_moment(moment, &sum, dim);
-    family_turn(turn, moment, turned, spring, dim);
-}
-
-/* A material point has the mean strain that its stress tells, and the mean rotation of the particles it is bonded to. */
-static ALWAYS_INLINE void state_of_points(struct bonds *b, const struct particles *p, int64_t g, const int dim,
-                                          const enum pd_model model)
-{
-    const int32_t *row = b->particle + g * LANES;
-    const int32_t own = b->aligned[g] ? row[0] : -1;
-    if (group_whole(b, g)) return;
-    const struct own_family f = own_family_of(b, p, g);
-    struct knowledge k;
-    lanes trace = lanes_of(0);
-    for (int d = 0; d < dim; d++) trace += lanes_at(p->stress[d], own, row);
-    k.pressure = f.A * trace / (dim * dim * f.bulk) * f.share, k.spring = f.B * f.share;
-    if (state_turns(model)) turned_group(b, g, k.turn, k.spring, dim);
-    know_store(b, p, g, &k, KIND_MPM, model);
+    know_by_family(b, p, g, &sum, dim, model);
 }
 
 /* Mirror images know what their source knows; a plane of symmetry turns rotations round. */
@@ -250,14 +264,11 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
 }
 
 #define INSTANCE(D, M)                                                                                                \
-    static void state_know_##D##d_##M(struct bonds *b, const struct particles *p)                                     \
+    static void state_know_##D##d_##M(struct bonds *b, struct particles *p)                                           \
     {                                                                                                                 \
         _Pragma("omp parallel for schedule(static)")                                                                  \
         for (int64_t k = 0; k < b->rest.awake; k++)                                                                   \
-            state_group(b, p, b->rest.list[k], D, PD_##M);                                                            \
-        if (state_turns(PD_##M) && p->n_of[KIND_PD] < p->n) state_of_images(b, p, D, true);   /* points look at them */ \
-        _Pragma("omp parallel for schedule(static)")                                                                  \
-        for (int64_t g = 0; g < b->groups; g++) state_of_points(b, p, g, D, PD_##M);                                  \
+            know_group(b, p, b->rest.list[k], D, PD_##M);                                                             \
         state_of_images(b, p, D, state_turns(PD_##M));                                                                \
     }                                                                                                                 \
     static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,       \

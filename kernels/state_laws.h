@@ -12,7 +12,9 @@
  *         f_i = sum_j w {r (P_i + P_j) n + [g_i (Y - R_i xi) + g_j (Y - R_j xi)]},   A = D^2 lambda',  B = 2 D G
  *
  * Since R_i makes its own energy least, the force is the energy's exact gradient in cut families too: energy and angular
- * momentum are kept. A material point at the end of a bond knows its family by its stress: S = tr eps / D. */
+ * momentum are kept. A material point at the end of bonds has a family, too, of which its bonds see a part: its cell adds the rest
+ * of S (particles.end_strain) and gives R (end_turn), and is told in turn what that means to it: P Q (end_pull), and the moment of
+ * the springs about it (end_moment; src/partial_stress.c). */
 #ifndef CLEAVE_STATE_LAWS_H
 #define CLEAVE_STATE_LAWS_H
 

@@ -6,6 +6,7 @@
 
 #include "kernels.h"
 #include "polar.h"
+#include "stress.h"
 #include "state_laws.h"
 #include "team.h"
 #include "variants.h"
@@ -114,7 +115,22 @@ bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIAN
 
 /* ---- a row whose weights change ------------------------------------------------------------------------- */
 
-/* w |Y - R xi|^2 over a row, with the rotation that its weights ask for now [m^2]. */
+/* Rotation of a material point at the end of bonds, row major. */
+static void end_rotation(const struct particles *p, int32_t i, real *R)
+{
+    if (p->dim == 2) {
+        R[0] = R[3] = 1 + p->end_turn[0][i], R[2] = p->end_turn[1][i], R[1] = -R[2];
+        return;
+    }
+    const real q[ROTATION] = {p->end_turn[0][i], p->end_turn[1][i], p->end_turn[2][i], p->end_turn[3][i]};
+    for (int c = 0; c < 3; c++) {
+        real column[3] = {c == 0, c == 1, c == 2};
+        turn_by(q, column);
+        for (int a = 0; a < 3; a++) R[3 * a + c] = column[a];
+    }
+}
+
+/* w |Y - R xi|^2 over a row, with the rotation that its weights ask for now, or that of a point's cell [m^2]. */
 static real row_effective(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -132,18 +148,8 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
                 if (pass == 1) sum += b->w[q] * square(effective);
             }
         }
-        if (pass == 0) polar_rotation(M, R, dim);
-    }
-    return sum;
-}
-
-/* A material point's pressure is that of its stress, whatever its bonds weigh: linear in the weights. */
-static real point_energy(const struct bonds *b, const struct particles *p, int64_t row)
-{
-    real sum = 0, T[DIM_MAX], xi[DIM_MAX];
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        if (b->w[q] != 0) sum += state_own_force(b, p, q, b->particle[row], T, xi, p->dim, b->state.turn[0] != NULL);
+        if (pass == 0 && p->kind[i] == KIND_PD) polar_rotation(M, R, dim);
+        if (pass == 0 && p->kind[i] != KIND_PD) end_rotation(p, i, R);
     }
     return sum;
 }
@@ -153,7 +159,6 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
     real Q = 0, S = 0, e2 = 0;
-    if (p->kind[i] != KIND_PD) return point_energy(b, p, row);
     for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
         const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
@@ -165,5 +170,6 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
     if (!b->state.local || !b->whole[row]) Q = b->state.weighted[row];
     if (!(Q > 0)) return 0;
     if (b->state.turn[0]) e2 = row_effective(b, p, row);
-    return 0.5 * p->volume0[i] * (m->A * square(S / Q) + m->B * e2 / Q);
+    const real mean = S / Q + (p->kind[i] == KIND_PD ? 0 : p->end_strain[i]);
+    return 0.5 * p->volume0[i] * (m->A * square(mean) + m->B * e2 / Q);
 }

@@ -158,19 +158,40 @@ static ALWAYS_INLINE void stress_given(const struct particles *p, const struct p
         for (int b = 0; b < n; b++) carried[a] += M[a * n + b] * stress[b];
     }
     for (int a = 0; a < n; a++) stress[a] -= carried[a];
+    if (!partial->local) return;
+    const real *local = partial->local + (int64_t)partial->index[i] * n, pull = p->end_pull[i] / p->volume[i];
+    for (int a = 0; a < n; a++) stress[a] += pull * local[a];
 }
 
-/* The skew part of what a point gives [Pa]: of sigma_ab in the order xy yz zx. False: there is none. */
+/* v turned by a quaternion. */
+static inline void turn_by(const real *q, real *v)
+{
+    real u[3], old[3] = {v[0], v[1], v[2]};
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        u[k] = q[3] * old[k] + q[i] * old[j] - q[j] * old[i];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        v[k] = old[k] + 2 * (q[i] * u[j] - q[j] * u[i]);
+    }
+}
+
+/* The skew part of what an end of bonds gives [Pa]: it balances the moment of its bonds; of sigma_ab in the order xy yz zx. False:
+ * there is none. */
 static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const struct partial_stress *partial, int64_t i,
                                             real *skew, const int dim)
 {
-    const int n = dim * (dim + 1) / 2, rows = n - dim;
-    if (!partial || !partial->skew || partial->index[i] < 0) return false;
-    const real *M = partial->skew + (int64_t)partial->index[i] * rows * n;
-    for (int a = 0; a < rows; a++) {
-        skew[a] = 0;
-        for (int b = 0; b < n; b++) skew[a] -= M[a * n + b] * p->stress[b][i];
+    if (!partial || !partial->local || !p->end_moment[0] || partial->index[i] < 0) return false;
+    const real half = 0.5 / p->volume[i];
+    if (dim == 2) {
+        skew[0] = half * p->end_moment[0][i];
+        return true;
     }
+    const real turn[ROTATION] = {p->end_turn[0][i], p->end_turn[1][i], p->end_turn[2][i], p->end_turn[3][i]};
+    real moment[3] = {p->end_moment[0][i], p->end_moment[1][i], p->end_moment[2][i]};
+    turn_by(turn, moment);
+    for (int c = 0; c < 3; c++) skew[c] = half * moment[(c + 2) % 3];
     return true;
 }
 

@@ -66,48 +66,6 @@ static ALWAYS_INLINE void turn_off(lanes *f, const lanes *turn, const lanes *arm
 /* Is entry c read by turn_off? */
 static ALWAYS_INLINE bool turn_reads(int c, const int dim) { return dim > 2 || c % 2 == 0; }
 
-/* Sums of w g R over neighbours, in what is kept of them: the mean rotation is the one nearest to it. In space
- * g (R - 1) = s [a] + a a^T - |a|^2, with [a] v = a x v. */
-struct turn_sums { lanes spring, odd[3], even[6]; };     /* in the plane: of turn[0] and turn[2] in odd */
-
-static ALWAYS_INLINE void turn_sums_make(struct turn_sums *sum)
-{
-    sum->spring = lanes_of(0);
-    for (int k = 0; k < 3; k++) sum->odd[k] = lanes_of(0);
-    for (int k = 0; k < 6; k++) sum->even[k] = lanes_of(0);
-}
-
-static ALWAYS_INLINE void turn_add(struct turn_sums *sum, const lanes *turn, lanes spring, lanes w, const int dim)
-{
-    sum->spring += w * spring;
-    if (dim == 2) {
-        sum->odd[0] += w * turn[0], sum->odd[1] += w * turn[2];
-        return;
-    }
-    lanes a[3];
-    for (int k = 0; k < 3; k++) a[k] = w * turn[k], sum->odd[k] += a[k] * turn[3];
-    for (int k = 0; k < 3; k++) sum->even[k] += a[k] * turn[k], sum->even[3 + k] += a[k] * turn[(k + 1) % 3];
-}
-
-/* The sum as a matrix, row major; returns lanes in which somebody has turned. */
-static ALWAYS_INLINE lanes_mask turn_moment(lanes *M, const struct turn_sums *sum, const int dim)
-{
-    lanes_mask turned = (sum->odd[0] != 0.0) | (sum->odd[1] != 0.0);
-    if (dim == 2) {
-        M[0] = M[3] = sum->spring + sum->odd[0];
-        M[2] = sum->odd[1], M[1] = -sum->odd[1];
-        return turned;
-    }
-    const lanes trace = sum->even[0] + sum->even[1] + sum->even[2];
-    for (int k = 0; k < 3; k++) {
-        const int l = (k + 1) % 3, m = (k + 2) % 3;
-        M[4 * k] = sum->spring + sum->even[k] - trace;
-        M[3 * k + l] = sum->even[3 + k] - sum->odd[m];
-        M[3 * l + k] = sum->even[3 + k] + sum->odd[m];
-    }
-    return turned | (sum->odd[2] != 0.0) | (trace != 0.0);
-}
-
 /* Does entry c change its sign in a mirror normal to an axis? A rotation's own axis is not turned round by a mirror across it,
  * but all others are. */
 static inline bool turn_odd(int c, int axis, int dim)

@@ -92,6 +92,7 @@ static void step_grid(struct engine *e, real middle)
     int64_t moved = k->g2p(g, p, t);                                        /* 4, 7: position, strain, stress */
     if (p->n_carried > 0) moved += k->g2p(g, p, &carried);
     e->sort_needed = moved > 0;
+    if (p->end_strain) partial_ends_know(&e->partial, p, e->scene->material);
     lap(&e->laps, LAP_GATHER);
 }
 

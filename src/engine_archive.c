@@ -58,6 +58,7 @@ status engine_archive(void *engine, struct archive *a)
         TRY(engine_mesh_make(e));
     }
     TRY(mesh_archive(&e->mesh, a));
+    if (!a->saving) engine_ends_know(e);
     ARCHIVE_VALUE(a, "engine/t", e->t);
     ARCHIVE_VALUE(a, "engine/step", e->step);
     ARCHIVE_VALUE(a, "engine/steps", e->steps);

@@ -126,7 +126,8 @@ static void make_bonds(struct engine *e)
 void engine_partial_make(struct engine *e)
 {
     e->coupling = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
-    e->uses_partial = e->coupling == COUPLING_PARTIAL_STRESS;
+    e->partial.gives_all = e->coupling != COUPLING_PARTIAL_STRESS;
+    e->uses_partial = !e->partial.gives_all || e->part.end_strain;
     if (e->uses_partial) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
     engine_rim_make(e);
 }
@@ -275,6 +276,7 @@ static int optional_arrays(const struct scene *s)
         if (material_yields(&s->material[m]))
             optional |= WITH_PLASTIC | (s->space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0);
     if (s->method == METHOD_ADAPTIVE && s->conversion.back) optional |= WITH_RETURN;
+    if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND) optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_TURNS : 0);
     return optional;
 }
 
@@ -310,6 +312,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     engine_partial_make(e);
     make_grid(e);
     TRY(named(s, engine_mesh_make(e)));
+    engine_ends_know(e);
     TRY(named(s, engine_time_make(e)));
     make_rim_share(e);
     e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false};

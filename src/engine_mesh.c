@@ -102,21 +102,32 @@ real engine_mesh_critical_step(const struct engine *e)
     const struct scene *s = e->scene;
     real density[UINT8_MAX], step = INFINITY;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    if (e->mesh.points > 0) step = mesh_critical_step(&e->mesh, &e->mesh_source, density, s->method == METHOD_ADAPTIVE && !e->uses_partial);
+    if (e->mesh.points > 0) step = mesh_critical_step(&e->mesh, &e->mesh_source, density, s->method == METHOD_ADAPTIVE && e->coupling != COUPLING_PARTIAL_STRESS);
     return step;
 }
 
 /* ---- in a step ----------------------------------------------------------------------------------------------- */
 
 /* What bonds see of points follows their nodes. */
-static void seen_follow(struct engine *e) { mesh_seen_move(&e->mesh, &e->part); }
+static void seen_follow(struct engine *e)
+{
+    mesh_seen_move(&e->mesh, &e->part);
+    mesh_ends_know(&e->mesh, &e->part, !e->scene->small_strain);
+}
+
+void engine_ends_know(struct engine *e)
+{
+    if (!e->part.end_strain) return;
+    partial_ends_know(&e->partial, &e->part, e->scene->material);
+    if (e->mesh.points > 0) mesh_ends_know(&e->mesh, &e->part, !e->scene->small_strain);
+}
 
 /* Of bonds, already in part.f, and cells. */
 static void nodes_force(struct engine *e)
 {
     mesh_clear(&e->mesh);
     mesh_seen_force(&e->mesh, &e->part);
-    mesh_force(&e->mesh, e->cell_elastic, !e->scene->small_strain);
+    mesh_force(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain);
 }
 
 void engine_forces(struct engine *e)
@@ -173,6 +184,7 @@ void engine_mesh_follow(struct engine *e, int64_t converted)
         e->damped += mesh_follow(&e->mesh, &e->part, &e->mesh_source, e->partial.touched, e->partial.touches);
         follow(e);
     }
+    if (converted > 0 || e->partial.touches > 0) engine_ends_know(e);
     e->partial.touches = 0;
 }
 

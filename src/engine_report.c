@@ -142,7 +142,7 @@ static void sample_energy(struct engine *e)
     const struct material *m = e->scene->material;
     e->sampling.energy = (struct energy){
         .strain = e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, m, &e->partial) +
-                  mesh_strain(&e->mesh, e->cell_elastic, !e->scene->small_strain),
+                  mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain),
         .plastic = bond_plastic_work(&e->bonds) + watch_plastic(&e->part, m, &e->partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .damped = e->damped,

@@ -29,7 +29,7 @@ status engine_return_check(const struct engine *e)
 
 void engine_rim_make(struct engine *e)
 {
-    if (e->uses_partial && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0) rim_make(&e->rim, &e->part, &e->source);
+    if (e->coupling == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0) rim_make(&e->rim, &e->part, &e->source);
 }
 
 /* Of now; families of state-based models as they are now. */
@@ -37,7 +37,7 @@ static real energy_now(struct engine *e)
 {
     if (e->source.modulus) engine_stress(e);
     return e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, e->scene->material, &e->partial) +
-           mesh_strain(&e->mesh, e->cell_elastic, !e->scene->small_strain) + watch_kinetic(&e->part) + mesh_kinetic(&e->mesh);
+           mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain) + watch_kinetic(&e->part) + mesh_kinetic(&e->mesh);
 }
 
 static void give_back(struct engine *e, const int32_t *list, int64_t n)

@@ -247,6 +247,7 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
             p->X[a][i] = p->x[a][i] = d->X[a][i];
             p->v[a][i] = s->body[d->body[i]].velocity[a];
             if (optional & WITH_STRETCH) p->stretch[a][i] = 1;
+            if (optional & WITH_TURNS && s->dim == 3) p->end_turn[ROTATION - 1][i] = 1;
         }
         p->volume0[i] = p->volume[i] = d->volume[i];
         p->material[i] = d->material[i];

@@ -319,7 +319,7 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
         dirty[cell] = 1;
         same = mesh->kind[cell] == CELL_CUT && cell_kind(mesh, p, source, cell) == CELL_CUT;
     }
-    same = same && mesh_cuts_again(mesh, p, source, dirty);
+    if (same) mesh_cuts_again(mesh, p, source, dirty);
     memory_free(dirty);
     return same;
 }

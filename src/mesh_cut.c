@@ -10,11 +10,10 @@
 #include "mesh_parts.h"
 #include "mesh_point.h"
 
-enum { ROWS_MAX = SYM_MAX + DIM_MAX, TERMS_MAX = 3 };
-#define ODD_LEAST 1e-12                  /* of the largest number: below it is round-off */
+enum { TERMS_MAX = 3 };
 
-/* One way in which a mode shows in a component of strain, or a component of stress acts on a mode: times the coordinates of
- * the axes in `set`, and a sign. Rows are symmetric components, then skew ones. */
+/* One way in which a mode shows in a component of strain: times the coordinates of the axes in `set`. Rows are symmetric
+ * components. */
 struct mode_term { uint8_t row, set; real factor; };
 struct mode_terms { int n; struct mode_term at[TERMS_MAX]; };
 
@@ -31,28 +30,25 @@ static int component(int dim, int i, int j)
 }
 
 /* A mode M of component i is, in the slope of u_i along each axis of M, the product of the other coordinates of M. */
-static void bends_terms(struct mode_terms *t, int dim, bool skew)
+static void bends_terms(struct mode_terms *t, int dim)
 {
-    const int symmetric = symmetric_count(dim);
     for (int M = 3; M < 1 << dim; M++)
         for (int i = 0; i < dim && M & (M - 1); i++, t++)
             for (int j = 0; j < dim; j++) {
-                int a, b;
-                if (!(M >> j & 1) || (skew && i == j)) continue;
-                const int k = component(dim, i, j), set = M & ~(1 << j);
-                symmetric_axes(dim, k, &a, &b);
-                t->at[t->n++] = (struct mode_term){(uint8_t)(skew ? symmetric + k - dim : k), (uint8_t)set,
-                                                   (skew && i != a ? -1 : 1) * pow(0.25, __builtin_popcount((unsigned)set))};
+                const int set = M & ~(1 << j);
+                if (!(M >> j & 1)) continue;
+                t->at[t->n++] = (struct mode_term){(uint8_t)component(dim, i, j), (uint8_t)set,
+                                                   pow(0.25, __builtin_popcount((unsigned)set))};
             }
 }
 
 /* In the order of kernels/mesh_cut.h. */
-static void modes_terms(struct mode_terms *t, int dim, bool skew)
+static void modes_terms(struct mode_terms *t, int dim)
 {
-    const int symmetric = symmetric_count(dim), first = skew ? symmetric - dim : symmetric;
+    const int symmetric = symmetric_count(dim);
     memset(t, 0, sizeof *t * MODES_MAX);
-    for (int k = 0; k < first; k++) t[k] = (struct mode_terms){1, {{(uint8_t)(skew ? symmetric + k : k), 0, 1}}};
-    bends_terms(t + first, dim, skew);
+    for (int k = 0; k < symmetric; k++) t[k] = (struct mode_terms){1, {{(uint8_t)k, 0, 1}}};
+    bends_terms(t + symmetric, dim);
 }
 
 /* ---- one cell --------------------------------------------------------------------------------------------------- */
@@ -62,9 +58,9 @@ struct cell_maker {
     const struct mesh *mesh;
     const struct particles *p;
     const struct mesh_source *source;
-    int dim, modes, rows, columns;       /* rows of D: symmetric components, and skew ones where there are any */
+    int dim, modes, columns;             /* columns of D: symmetric components                        */
     real (*whole)[SYM_MAX * SYM_MAX], (*isotropic)[SYM_MAX * SYM_MAX];   /* [materials] stress by strain     */
-    struct mode_terms in[MODES_MAX], skew[MODES_MAX];
+    struct mode_terms in[MODES_MAX];
 };
 
 /* Stress by strain, shears by their angle. */
@@ -81,27 +77,26 @@ static void constants(const struct elastic *m, real *C, int dim)
     }
 }
 
-/* D of a point: the whole stress less what bonds carry, and the skew part that goes with it. */
+/* D of a point: the whole stress less what bonds carry. */
 static void point_constants(const struct cell_maker *c, int32_t i, real *D)
 {
     const int n = c->columns;
     const struct partial_stress *partial = c->source->partial;
     const int64_t entry = partial && partial->index ? partial->index[i] : -1;
     const real *isotropic = c->isotropic[c->p->material[i]];
-    memset(D, 0, sizeof *D * (size_t)(c->rows * n));
     memcpy(D, c->whole[c->p->material[i]], sizeof *D * (size_t)(n * n));
     if (entry < 0) return;
-    for (int row = 0; row < c->rows; row++) {
-        const real *M = row < n ? partial->matrix + (entry * n + row) * n : partial->skew + (entry * (c->rows - n) + row - n) * n;
+    for (int row = 0; row < n; row++) {
+        const real *M = partial->matrix + (entry * n + row) * n;
         for (int k = 0; k < n; k++)
             for (int t = 0; t < n; t++) D[row * n + t] -= M[k] * isotropic[k * n + t];
     }
 }
 
 /* sum D/corners times the signs of the axes of each set: butterflies along one axis after the other. */
-static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][ROWS_MAX * SYM_MAX])
+static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
-    const int corners = 1 << c->dim, size = c->rows * c->columns;
+    const int corners = 1 << c->dim, size = c->columns * c->columns;
     for (int q = 0; q < corners; q++) {
         const int32_t i = c->mesh->point[(I << c->dim) + q];
         if (i >= 0) point_constants(c, i, sum[q]);
@@ -116,7 +111,7 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
 }
 
 /* Force on one mode by another. */
-static real entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][ROWS_MAX * SYM_MAX], const struct mode_terms *to,
+static real entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX], const struct mode_terms *to,
                      const struct mode_terms *by)
 {
     real value = 0;
@@ -127,37 +122,72 @@ static real entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][ROWS_MAX 
     return value;
 }
 
-/* Is D symmetric, but for round-off? Then so is the stiffness. */
-static bool sums_symmetric(const struct cell_maker *c, real sum[CORNERS_MAX][ROWS_MAX * SYM_MAX])
-{
-    const int n = c->columns;
-    real most = 0, odd = 0;
-    for (int q = 0; q < 1 << c->dim; q++)
-        for (int a = 0; a < n; a++)
-            for (int b = 0; b <= a; b++) {
-                most = real_max(most, fabs(sum[q][a * n + b]));
-                odd = real_max(odd, fabs(sum[q][a * n + b] - sum[q][b * n + a]));
-            }
-    return odd <= ODD_LEAST * most;
-}
-
-/* One lane of a group; K, odd (NULL: not wanted) and skew where that begins. Returns whether there is an odd part. */
-static bool cell_make(const struct cell_maker *c, int64_t I, real *K, real *odd, real *skew)
+/* One lane of a group. D is symmetric but for round-off; K is to the last bit. */
+static void cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
-    real sum[CORNERS_MAX][ROWS_MAX * SYM_MAX];
+    real sum[CORNERS_MAX][SYM_MAX * SYM_MAX];
     cell_sums(c, I, sum);
-    const bool symmetric = sums_symmetric(c, sum);
     for (int a = 0; a < n; a++)
-        for (int b = a; b < n; b++, K += LANES) {
-            const real upper = entry_of(c, sum, &c->in[a], &c->in[b]);
-            const real lower = symmetric ? upper : entry_of(c, sum, &c->in[b], &c->in[a]);
-            *K = 0.5 * (upper + lower);
-            if (odd && a < b) *odd = 0.5 * (upper - lower), odd += LANES;
+        for (int b = a; b < n; b++, K += LANES) *K = entry_of(c, sum, &c->in[a], &c->in[b]);
+}
+
+/* ---- ends of bonds ----------------------------------------------------------------------------------------------- */
+
+static void ends_free(struct mesh *mesh)
+{
+    memory_free(mesh->ends);
+    memory_free(mesh->end);
+    memory_free(mesh->end_share);
+    mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
+}
+
+/* What each mode adds to the mean strain of a point at a place of its cell: of what its own bonds do not see. */
+static void end_share(const struct cell_maker *c, const real *local, int place, real *share)
+{
+    for (int k = 0; k < c->modes; k++) {
+        share[k] = 0;
+        for (int t = 0; t < c->in[k].n; t++) {
+            const struct mode_term *term = &c->in[k].at[t];
+            const int below = __builtin_popcount((unsigned)(term->set & ~place));        /* coordinates -1/4 */
+            share[k] += (below % 2 ? -1 : 1) * term->factor * local[term->row];
         }
-    for (int a = 0; a < mesh_skews(c->dim) && skew; a++)
-        for (int b = 0; b < n; b++, skew += LANES) *skew = entry_of(c, sum, &c->skew[a], &c->in[b]);
-    return !symmetric;
+    }
+}
+
+/* Entry of a point that is an end of state-based bonds, -1: it is none. */
+static int64_t end_entry(const struct cell_maker *c, int32_t i)
+{
+    return i >= 0 && partial_end(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
+}
+
+static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
+{
+    const struct partial_stress *partial = c->source->partial;
+    for (int q = 0; q < 1 << c->dim; q++) {
+        const int32_t i = mesh->point[((int64_t)mesh->cut[k] << c->dim) + q];
+        const int64_t entry = end_entry(c, i);
+        if (entry < 0) continue;
+        mesh->end[*n] = (struct mesh_end){i, (int32_t)(k % LANES)};
+        end_share(c, partial->local + entry * c->columns, q, mesh->end_share + (int64_t)(*n)++ * c->modes);
+    }
+}
+
+static void ends_make(struct mesh *mesh, const struct cell_maker *c)
+{
+    const struct partial_stress *partial = c->source->partial;
+    int32_t n = 0;
+    if (!partial || !partial->index || !partial->local) return;
+    mesh->ends = NEW("mesh.ends", mesh_groups(mesh) + 1, int32_t);
+    for (int64_t k = 0; k < mesh->cuts; k++)
+        for (int q = 0; q < 1 << c->dim; q++) n += end_entry(c, mesh->point[((int64_t)mesh->cut[k] << c->dim) + q]) >= 0;
+    mesh->end = NEW("mesh.end", n, struct mesh_end);
+    mesh->end_share = NEW("mesh.end_share", (int64_t)n * c->modes, real);
+    n = 0;
+    for (int64_t k = 0; k < mesh->cuts; k++) {
+        ends_of_cell(mesh, c, k, &n);
+        mesh->ends[k / LANES + 1] = n;
+    }
 }
 
 /* ---- all cut cells -------------------------------------------------------------------------------------------- */
@@ -174,8 +204,8 @@ void mesh_cuts_add(struct mesh *mesh, int64_t I)
 
 struct mesh_cuts mesh_cuts_keep(struct mesh *mesh)
 {
-    const struct mesh_cuts old = {mesh->cuts, mesh->cut, mesh->stiffness, mesh->odd, mesh->skew};
-    mesh->cut = NULL, mesh->stiffness = mesh->odd = mesh->skew = NULL;
+    const struct mesh_cuts old = {mesh->cuts, mesh->cut, mesh->stiffness};
+    mesh->cut = NULL, mesh->stiffness = NULL;
     mesh->cuts = mesh->cuts_room = 0;
     mesh_cuts_free(mesh);
     return old;
@@ -185,14 +215,13 @@ void mesh_cuts_free(struct mesh *mesh)
 {
     memory_free(mesh->cut);
     memory_free(mesh->stiffness);
-    memory_free(mesh->odd);
-    memory_free(mesh->skew);
+    ends_free(mesh);
     memory_free(mesh->alike);
     memory_free(mesh->cut_force);
     memory_free(mesh->cut_stressed);
     memory_free(mesh->cut_material);
     mesh->cut = NULL, mesh->cut_force = NULL, mesh->cut_stressed = NULL, mesh->cut_material = NULL, mesh->alike = NULL;
-    mesh->stiffness = mesh->odd = mesh->skew = NULL;
+    mesh->stiffness = NULL;
 }
 
 /* Of the points of a cell, that with the lowest trigger. */
@@ -210,16 +239,14 @@ static uint8_t cut_material(const struct mesh *mesh, const struct particles *p, 
 static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
 {
     const int dim = p->dim, n = symmetric_count(dim);
-    struct cell_maker c = {.mesh = mesh, .p = p, .source = s, .dim = dim, .modes = mesh_modes(dim), .columns = n,
-                           .rows = s->partial && s->partial->skew ? 2 * n - dim : n};
+    struct cell_maker c = {.mesh = mesh, .p = p, .source = s, .dim = dim, .modes = mesh_modes(dim), .columns = n};
     c.whole = memory_new("mesh.constants", 2 * s->materials, sizeof *c.whole);
     c.isotropic = c.whole + s->materials;
     for (int m = 0; m < s->materials; m++) {
         constants(&s->elastic[m], c.whole[m], dim);
         constants(&s->isotropic[m], c.isotropic[m], dim);
     }
-    modes_terms(c.in, dim, false);
-    modes_terms(c.skew, dim, true);
+    modes_terms(c.in, dim);
     return c;
 }
 
@@ -261,35 +288,21 @@ static real *numbers_make(const char *label, const struct mesh *mesh, int64_t ea
     return numbers;
 }
 
-/* The odd part of all cells, where there is one. */
-static void odds_make(struct mesh *mesh, const struct cell_maker *c, struct mesh_cuts *old, const int64_t *from, bool any)
-{
-    const int half = c->modes * (c->modes + 1) / 2, odd = half - c->modes, skews = mesh_skews(c->dim) * c->modes;
-    if (!any && !old->odd) return;
-    mesh->odd = numbers_make("mesh.odd", mesh, odd);
-#pragma omp parallel for schedule(dynamic, 16)
-    for (int64_t k = 0; k < mesh->cuts; k++)
-        if (from[k] >= 0) lane_copy(lane_of(mesh->odd, k, odd), lane_of(old->odd, from[k], odd), odd);
-        else cell_make(c, mesh->cut[k], lane_of(mesh->stiffness, k, half), lane_of(mesh->odd, k, odd), lane_of(mesh->skew, k, skews));
-}
-
 static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 {
     const size_t size = (size_t)each * LANES;
-    return !of || memcmp(of + g * (int64_t)size, of + h * (int64_t)size, size * sizeof *of) == 0;
+    return memcmp(of + g * (int64_t)size, of + h * (int64_t)size, size * sizeof *of) == 0;
 }
 
 /* Cells that an edge of the body cuts the same way follow each other. */
-static void alike_find(struct mesh *mesh, int modes, int skews)
+static void alike_find(struct mesh *mesh, int modes)
 {
     const int64_t groups = mesh_groups(mesh);
     const int half = modes * (modes + 1) / 2;
     mesh->alike = NEW("mesh.alike", groups, int32_t);
     for (int64_t g = 0; g < groups; g++) {
         const int32_t before = g > 0 ? mesh->alike[g - 1] : 0;
-        const bool same = numbers_alike(mesh->stiffness, before, g, half) && numbers_alike(mesh->odd, before, g, half - modes) &&
-                          numbers_alike(mesh->skew, before, g, skews);
-        mesh->alike[g] = same ? before : (int32_t)g;
+        mesh->alike[g] = numbers_alike(mesh->stiffness, before, g, half) ? before : (int32_t)g;
     }
 }
 
@@ -297,35 +310,27 @@ void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct m
                     struct mesh_cuts *old)
 {
     struct cell_maker c = maker_of(mesh, p, s);
-    const int half = c.modes * (c.modes + 1) / 2, skews = mesh_skews(c.dim) * c.modes, unknowns = (1 << c.dim) * c.dim;
+    const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
     const int64_t groups = mesh_groups(mesh);
-    bool any = false;
     groups_fill(mesh);
     mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
-    mesh->skew = c.rows > c.columns ? numbers_make("mesh.skew", mesh, skews) : NULL;
     mesh->cut_force = NEW("mesh.cut_force", groups * unknowns * LANES, real);
     mesh->cut_stressed = NEW("mesh.cut_stressed", groups * LANES, bool);
     mesh->cut_material = NEW("mesh.cut_material", groups * LANES, uint8_t);
     for (int64_t k = 0; k < groups * LANES; k++) mesh->cut_material[k] = cut_material(mesh, p, s, mesh->cut[k]);
     int64_t *from = origins(mesh, old, dirty);
-#pragma omp parallel for schedule(dynamic, 16) reduction(|| : any)
+#pragma omp parallel for schedule(dynamic, 16)
     for (int64_t k = 0; k < mesh->cuts; k++) {
-        real *K = lane_of(mesh->stiffness, k, half), *skew = lane_of(mesh->skew, k, skews);
-        if (from[k] < 0) {
-            any = cell_make(&c, mesh->cut[k], K, NULL, skew) || any;
-            continue;
-        }
-        lane_copy(K, lane_of(old->stiffness, from[k], half), half);
-        lane_copy(skew, lane_of(old->skew, from[k], skews), skews);      /* none before: 0 */
+        real *K = lane_of(mesh->stiffness, k, half);
+        if (from[k] < 0) cell_make(&c, mesh->cut[k], K);
+        else lane_copy(K, lane_of(old->stiffness, from[k], half), half);
     }
-    odds_make(mesh, &c, old, from, any);
-    alike_find(mesh, c.modes, skews);
+    alike_find(mesh, c.modes);
+    ends_make(mesh, &c);
     memory_free(from);
     memory_free(c.whole);
     memory_free(old->cut);
     memory_free(old->stiffness);
-    memory_free(old->odd);
-    memory_free(old->skew);
 }
 
 /* Place of a cell among the cut ones, -1: it is none. */
@@ -347,23 +352,20 @@ static void alike_part(struct mesh *mesh, const uint8_t *changed)
         if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
 }
 
-bool mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+void mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
 {
     struct cell_maker c = maker_of(mesh, p, s);
-    const int half = c.modes * (c.modes + 1) / 2, skews = mesh_skews(c.dim) * c.modes;
-    bool fit = (c.rows > c.columns) == (mesh->skew != NULL);
+    const int half = c.modes * (c.modes + 1) / 2;
     uint8_t *changed = NEW("mesh.changed", mesh_groups(mesh), uint8_t);
     for (int64_t k = 0; k < mesh->cuts; k++) changed[k / LANES] |= dirty[mesh->cut[k]];
     alike_part(mesh, changed);
     memory_free(changed);
-#pragma omp parallel for schedule(dynamic, 16) reduction(&& : fit)
+#pragma omp parallel for schedule(dynamic, 16)
     for (int64_t I = 0; I < mesh->grid.n; I++) {
-        const int64_t k = dirty[I] && fit ? cut_find(mesh, I) : -1;
-        if (k < 0) continue;
-        const bool odd = cell_make(&c, I, lane_of(mesh->stiffness, k, half), lane_of(mesh->odd, k, half - c.modes),
-                                   lane_of(mesh->skew, k, skews));
-        fit = fit && (mesh->odd || !odd);
+        const int64_t k = dirty[I] ? cut_find(mesh, I) : -1;
+        if (k >= 0) cell_make(&c, I, lane_of(mesh->stiffness, k, half));
     }
+    ends_free(mesh);
+    ends_make(mesh, &c);
     memory_free(c.whole);
-    return fit;
 }

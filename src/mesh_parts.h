@@ -8,13 +8,13 @@ enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_CUT };
 
 /* Cut cells with their stiffness (mesh_cut.c): taken off the mesh before cells are sorted out anew, put back where nothing has
  * changed (`dirty` by cell, NULL: everywhere), else made; frees `old`. */
-struct mesh_cuts { int64_t cuts; int32_t *cut; real *stiffness, *odd, *skew; };
+struct mesh_cuts { int64_t cuts; int32_t *cut; real *stiffness; };
 struct mesh_cuts mesh_cuts_keep(struct mesh *mesh);
 void mesh_cuts_add(struct mesh *mesh, int64_t I);
 void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
                     struct mesh_cuts *old);
-/* The stiffness of marked cells anew, where they are; false: cells now have parts that there is no room for. */
-bool mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
+/* The stiffness of marked cells anew, where they are. */
+void mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
 void mesh_cuts_free(struct mesh *mesh);
 
 /* Nodal values of a field that the points sample: least squares by mass, from the lumped projection. */

@@ -19,6 +19,10 @@ struct response response_of(const struct particles *p, const struct bonds *b, co
 /* Adds the part of one bond, from p (a material point) to m, in the cell round X: T_abcd = l e_b dF_a/deps_cd, symmetric in cd. */
 void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim);
 
+/* Of a point under state-based bonds: T [J] becomes the symmetric T' of partial_stress.c, L [symmetric] what its own bonds do not see of
+ * its mean strain, 0 where it has none; returns whether it has (partial_positive.c). */
+bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i);
+
 /* Half the edge of a particle's cell [m]. */
 real half_edge(const struct particles *p, const struct bond_source *s, int64_t i);
 

@@ -1,18 +1,25 @@
 /* floor 3: partial stress: the share of its stress that a material point leaves to the bonds that cross its cell.
  * The bonds between a peridynamic particle and a material point already carry, in uniform strain,
  *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
- * with l_q the share of the bond's reference segment inside the cell of point q and e its direction; bonds of state-based
- * models answer to the strain's trace and in other directions, too (struct response). The point gives the
- * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Geometric, exact in one dimension. Forces off the
- * bond's line (models with rotations) make T_q : eps unsymmetric: its first index is the force's, its second the bond's,
- * and its skew part goes to the grid too. The torque of such forces on a point is the one its skew stress takes away, so
- * uniform strain leaves neither force nor torque behind. */
+ * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives the
+ * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Geometric, exact in one dimension, and the Hessian of an
+ * energy: C - T_q is the stiffness of the bonds that cells stand for.
+ *
+ * State-based bonds answer to the strain's trace and in other directions, too (struct response): their T_q is not symmetric, and
+ * taken as it is it flutters at every time step. So a point j at the end of such bonds has the energy of one family,
+ *     E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q) sum w xi (x) xi
+ * of whose mean strain S its own bonds know a part and its cell the rest; R is the cell's rotation (kernels/mesh_law.h), for ordinary
+ * models the second term is that of the bonds' stretch. What S and R owe to the cell acts back on it (particles.end_pull, end_moment).
+ * Its cell keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which leaves of the patch test the part of T that no energy has:
+ * 1 to 4 % of S h at flat interfaces. T' is taken as far as the energy of the point stays positive (partial_positive.c). */
 #include <math.h>
 #include <string.h>
 
 #include "convert.h"
 #include "memory.h"
 #include "partial_parts.h"
+
+enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------- */
 
@@ -51,28 +58,6 @@ struct reflection reflection_of(const struct bond_source *s, const struct partic
 
 static bool same(int a, int b) { return a == b; }
 
-/* Rows of a matrix from symmetric stress: its symmetric components, then those of its skew part (partial_stress_skew). */
-enum { ROWS_MAX = SYM_MAX + DIM_MAX };
-static int skew_count(int dim) { return dim * (dim - 1) / 2; }
-static int rows_of(const struct bond_source *s, int dim)
-{
-    return symmetric_count(dim) + (s->modulus && s->turns ? skew_count(dim) : 0);
-}
-
-/* Adds to the skew part (T_ab - T_ba)/2 of one bond; only forces along eps e have one. */
-static void tensor_add_skew(real *T, const real *e, real vector, int dim)
-{
-    const int n = symmetric_count(dim);
-    for (int s = n; s < n + skew_count(dim); s++)
-        for (int t = 0; t < n; t++) {
-            int a, b, c, d;
-            symmetric_axes(dim, s - skew_count(dim), &a, &b);
-            symmetric_axes(dim, t, &c, &d);
-            T[s * n + t] += 0.25 * vector * (e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) -
-                                             e[a] * e[d] * same(b, c) - e[a] * e[c] * same(b, d));
-        }
-}
-
 void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim)
 {
     real share = segment_share(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
@@ -91,7 +76,6 @@ void tensor_add(real *T, const real *xp, const real *xm, const real *X, real hal
             T[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] + k.pressure * e[a] * e[b] * same(c, d) +
                                      0.25 * k.vector * turned);
         }
-    if (k.vector != 0) tensor_add_skew(T, e, share * k.vector, dim);
 }
 
 /* V/Q of a particle of a row: of a full family where it has no row of its own [m]. */
@@ -184,11 +168,11 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
 /* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). False if no bond crosses. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    const int dim = p->dim, n = symmetric_count(dim), rows = rows_of(s, dim);
+    const int dim = p->dim, n = symmetric_count(dim);
     real compliance[SYM_MAX * SYM_MAX];
     material_compliance(&s->material[p->material[i]], dim, compliance);
     real largest = 0;
-    for (int a = 0; a < rows; a++)
+    for (int a = 0; a < n; a++)
         for (int c = 0; c < n; c++) {
             M[a * n + c] = 0;
             for (int k = 0; k < n; k++)
@@ -196,6 +180,24 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
             largest = real_max(largest, fabs(M[a * n + c]));
         }
     return largest > 0;
+}
+
+/* Numbers of an entry: M, and L of state-based models. */
+static int entry_size(const struct bond_source *s, int dim)
+{
+    const int n = symmetric_count(dim);
+    return n * n + (s->modulus ? n : 0);
+}
+
+/* An entry of state-based models from T V. Hand-shake leaves nothing, but tells who is an end of bonds. */
+static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p, const struct bonds *b,
+                        const struct bond_source *s, int64_t i)
+{
+    const int n = symmetric_count(p->dim);
+    const bool end = partial_positive(T, entry + n * n, p, b, s, i);
+    if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
+    memset(entry, 0, sizeof *entry * (size_t)entry_size(s, p->dim));
+    return end;
 }
 
 /* ---- who needs one ----------------------------------------------------------------------------------- */
@@ -277,49 +279,49 @@ static void renewal_free(struct renewal *r)
 
 /* ---- entries ----------------------------------------------------------------------------------------- */
 
-static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int skew)
+static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
         if (partial->entries == partial->room) {
             const int64_t had = partial->room, room = had ? 2 * had : 256;
             partial->matrix = memory_resize("partial.matrix", partial->matrix, had * size, room * size, sizeof(real));
-            if (skew) partial->skew = memory_resize("partial.skew", partial->skew, had * skew, room * skew, sizeof(real));
+            if (local) partial->local = memory_resize("partial.local", partial->local, had * local, room * local, sizeof(real));
             partial->room = room;
         }
         partial->index[i] = (int32_t)partial->entries++;
     }
     memcpy(partial->matrix + (int64_t)partial->index[i] * size, M, (size_t)size * sizeof *M);
-    if (skew) memcpy(partial->skew + (int64_t)partial->index[i] * skew, M + size, (size_t)skew * sizeof *M);
+    if (local) memcpy(partial->local + (int64_t)partial->index[i] * local, M + size, (size_t)local * sizeof *M);
 }
 
 /* Entries that nobody has any more are squeezed out once they are the most: points that return come and go. */
-static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int skew)
+static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
     for (int64_t i = 0; i < p->n; i++) live += partial->index[i] >= 0;
     if (partial->entries <= 2 * live + 256) return;
     struct partial_stress old = *partial;
-    partial->matrix = NULL, partial->skew = NULL;
+    partial->matrix = NULL, partial->local = NULL;
     partial->entries = partial->room = 0;
     for (int64_t i = 0; i < p->n; i++) {
         const int64_t at = partial->index[i];
-        real M[(SYM_MAX + DIM_MAX) * SYM_MAX];
+        real M[ENTRY_MOST];
         if (at < 0) continue;
         memcpy(M, old.matrix + at * size, (size_t)size * sizeof *M);
-        if (skew) memcpy(M + size, old.skew + at * skew, (size_t)skew * sizeof *M);
+        if (local) memcpy(M + size, old.local + at * local, (size_t)local * sizeof *M);
         partial->index[i] = -1;
-        entry_put(partial, i, M, size, skew);
+        entry_put(partial, i, M, size, local);
     }
     memory_free(old.matrix);
-    memory_free(old.skew);
+    memory_free(old.local);
 }
 
 /* Is the entry of point i this matrix already, bit by bit? */
-static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int skew)
+static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     const int64_t at = partial->index[i];
     return at >= 0 && memcmp(partial->matrix + at * size, M, (size_t)size * sizeof *M) == 0 &&
-           (skew == 0 || memcmp(partial->skew + at * skew, M + size, (size_t)skew * sizeof *M) == 0);
+           (local == 0 || memcmp(partial->local + at * local, M + size, (size_t)local * sizeof *M) == 0);
 }
 
 static void touch(struct partial_stress *partial, int64_t i)
@@ -332,11 +334,12 @@ static void touch(struct partial_stress *partial, int64_t i)
     partial->touched[partial->touches++] = (int32_t)i;
 }
 
-/* M of all points of the renewal. */
-static void matrices_make(real *M, bool *crossed, int whole, const struct partial_table *table, const struct renewal *r,
-                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
+/* Entries of all points of the renewal. */
+static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
+                         const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
-    const bool served = partial_table_serves(table);
+    const bool served = partial_table_serves(partial->table);
+    const int each = entry_size(s, p->dim);
     struct box *box = NEW("partial.box", r->rows > 0 ? b->rows : 0, struct box);
 #pragma omp parallel
     {
@@ -346,11 +349,11 @@ static void matrices_make(real *M, bool *crossed, int whole, const struct partia
 #pragma omp for schedule(dynamic, 16)
         for (int64_t k = 0; k < r->n; k++) {
             const int64_t i = r->list[k];
-            real T[ROWS_MAX * SYM_MAX] = {0};
+            real T[SYM_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
-            if (served && partial_table_knows(p, s, i)) partial_table_sum(table, p, b, s, i, &near, T);
+            if (served && partial_table_knows(p, s, i)) partial_table_sum(partial->table, p, b, s, i, &near, T);
             else tensor_sum(T, p, b, s, box, i, &near);
-            crossed[k] = partial_matrix(M + k * whole, T, p, s, i);
+            crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i) : partial_matrix(entry + k * each, T, p, s, i);
         }
         memory_free(near.at);
     }
@@ -361,39 +364,57 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
                          const struct bond_source *source, const int32_t *changed, int64_t n)
 {
     const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
-    const int whole = rows_of(source, p->dim) * n_symmetric, skew = whole - size;
+    const int whole = entry_size(source, p->dim), local = whole - size;
     const bool all = !changed || !partial->index;
     struct renewal r;
     if (!partial->index) {
         partial->index = NEW("partial.index", p->n, int32_t);
         for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
-        partial->table = partial_table_make(p, source, whole);
+        partial->table = partial_table_make(p, source, size);
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
     if (partial_table_serves(partial->table)) partial_table_ask(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = NEW("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
-    matrices_make(M, crossed, whole, partial->table, &r, p, b, source);
+    entries_make(M, crossed, partial, &r, p, b, source);
     for (int64_t k = 0; k < r.n; k++) {
         const int64_t i = r.list[k];
-        const bool same = crossed[k] ? entry_is(partial, i, M + k * whole, size, skew) : partial->index[i] < 0;
+        const bool same = crossed[k] ? entry_is(partial, i, M + k * whole, size, local) : partial->index[i] < 0;
         if (!same || r.own[k]) touch(partial, i);
         if (same) continue;
-        if (crossed[k]) entry_put(partial, i, M + k * whole, size, skew);
+        if (crossed[k]) entry_put(partial, i, M + k * whole, size, local);
         else partial->index[i] = -1;
     }
-    entries_squeeze(partial, p, size, skew);
+    entries_squeeze(partial, p, size, local);
     memory_free(crossed);
     memory_free(M);
     renewal_free(&r);
+}
+
+void partial_ends_know(const struct partial_stress *partial, struct particles *p, const struct material *material)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];
+    bool known[UINT8_MAX + 1] = {false};
+    if (!partial->index || !partial->local) return;
+    for (int64_t k = 0; k < p->n_free; k++) {
+        const int64_t i = p->list_free[k], entry = partial->index[i];
+        const int m = p->material[i];
+        if (entry < 0) continue;
+        if (!known[m]) material_compliance(&material[m], dim, compliance[m]), known[m] = true;
+        p->end_strain[i] = 0;
+        for (int c = 0; c < n; c++)
+            for (int d = 0; d < n; d++)
+                p->end_strain[i] += partial->local[entry * n + c] * (c < dim ? 1 : 2) * compliance[m][c * n + d] * p->stress[d][i];
+    }
 }
 
 void partial_stress_free(struct partial_stress *partial)
 {
     memory_free(partial->index);
     memory_free(partial->matrix);
-    memory_free(partial->skew);
+    memory_free(partial->local);
     memory_free(partial->touched);
     if (partial->table) partial_table_free(partial->table);
-    memset(partial, 0, sizeof *partial);
+    *partial = (struct partial_stress){.gives_all = partial->gives_all};
 }

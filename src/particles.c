@@ -15,6 +15,9 @@ static int if_stretch(int dim, int optional) { return optional & WITH_STRETCH ? 
 static int if_plastic(int dim, int optional) { return (void)dim, optional & WITH_PLASTIC ? 1 : 0; }
 static int if_out_of_plane(int dim, int optional) { return (void)dim, optional & WITH_OUT_OF_PLANE ? 1 : 0; }
 
+static int if_ends(int dim, int optional) { return (void)dim, optional & WITH_ENDS ? 1 : 0; }
+static int if_turns(int dim, int optional) { return optional & WITH_TURNS ? (dim > 2 ? ROTATION : 2) : 0; }
+static int if_moment(int dim, int optional) { return optional & WITH_TURNS ? (dim > 2 ? 3 : 1) : 0; }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_RETURN ? 1 : 0; }
 
 #define FIELD(member, type, count, unit, meaning) \
@@ -33,6 +36,10 @@ const struct particle_field particle_fields[] = {
     FIELD(stretch, real, if_stretch, "1", "axial stretch"),
     FIELD(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
     FIELD(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
+    FIELD(end_strain, real, if_ends, "1", "what cells add to the mean strain of a point at the end of bonds"),
+    FIELD(end_turn, real, if_turns, "1", "rotation of a point at the end of bonds"),
+    FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),
+    FIELD(end_moment, real, if_moment, "N m", "moment of its bonds about it"),
     FIELD(quiet, real, if_return, "s", "since when the stress of a peridynamic particle is low"),
     FIELD(damage, real, one, "1", "share of broken bonds"),
     FIELD(kind, uint8_t, one, "1", "0 material point, 1 peridynamic"),
@@ -44,8 +51,9 @@ const struct particle_field particle_fields[] = {
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, damage, 4 indices, id. */
-_Static_assert(sizeof(struct particles) == offsetof(struct particles, X) + (4 * DIM_MAX + 31) * sizeof(void *),
+/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, damage, 4 indices, id;
+ * 2 scalars, a rotation and a moment of ends. */
+_Static_assert(sizeof(struct particles) == offsetof(struct particles, X) + (5 * DIM_MAX + 33 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
 /* Through bytes: a `real *` must not be read as a `void *`. */

@@ -92,6 +92,7 @@ static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
         p->kind[i] = KIND_PD;
         p->id[i] = (int32_t)i;
         for (int d = 0; d < dim && plan->optional & WITH_STRETCH; d++) p->stretch[d][i] = 1;
+        if (dim == 3 && plan->optional & WITH_TURNS) p->end_turn[ROTATION - 1][i] = 1;
     }
     particles_list(p);
 }

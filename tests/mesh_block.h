@@ -130,7 +130,7 @@ static real plain_energy(const struct block *b, bool finite)
 static void forces(struct block *b, bool finite)
 {
     mesh_clear(&b->mesh);
-    mesh_force(&b->mesh, b->elastic, finite);
+    mesh_force(&b->mesh, &b->c.p, b->elastic, finite);
 }
 
 static real largest_force(const struct block *b)
@@ -141,18 +141,27 @@ static real largest_force(const struct block *b)
     return most;
 }
 
-/* Partial stress of every point: any matrices up to `most`, and with skew rows up to `skew`. */
-static void partial_of(struct partial_stress *partial, const struct particles *p, real most, real skew)
+/* Partial stress of every point: any symmetric T up to `most` of the shear modulus, M = T C^-1. */
+static void partial_of(struct partial_stress *partial, const struct particles *p, const struct material *material, real most)
 {
-    const int n = symmetric_count(p->dim), rows = n - p->dim;
+    const int n = symmetric_count(p->dim);
     uint64_t seed = 17;
+    real compliance[SYM_MAX * SYM_MAX];
     memset(partial, 0, sizeof *partial);
     partial->index = NEW("test.index", p->n, int32_t);
     partial->matrix = NEW("test.matrix", p->n * n * n, real);
-    if (skew > 0) partial->skew = NEW("test.skew", p->n * rows * n, real);
-    for (int64_t i = 0; i < p->n; i++) partial->index[i] = (int32_t)i;
-    for (int64_t k = 0; k < p->n * n * n && most > 0; k++) partial->matrix[k] = cloud_between(&seed, -most, most);
-    for (int64_t k = 0; k < p->n * rows * n && skew > 0; k++) partial->skew[k] = cloud_between(&seed, -skew, skew);
+    for (int64_t i = 0; i < p->n; i++) {
+        real T[SYM_MAX * SYM_MAX];
+        partial->index[i] = (int32_t)i;
+        material_compliance(&material[p->material[i]], p->dim, compliance);
+        for (int a = 0; a < n; a++)
+            for (int c = 0; c <= a; c++)
+                T[a * n + c] = T[c * n + a] = most > 0 ? material->young * cloud_between(&seed, -most, most) : 0;
+        for (int a = 0; a < n; a++)
+            for (int c = 0; c < n; c++)
+                for (int k = 0; k < n; k++)
+                    partial->matrix[(i * n + a) * n + c] += T[a * n + k] * (k < p->dim ? 1 : 2) * compliance[k * n + c];
+    }
 }
 
 #endif

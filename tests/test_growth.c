@@ -30,8 +30,8 @@ static void stage_lay(struct stage *s, enum pd_model model, bool local)
         struct material *m = &s->c.material[k];
         m->poisson = 0.3;
         material_derive(m, SPACE_PLANE_STRAIN);
-        s->modulus[k] = model == PD_OSPD ? (struct state_modulus){4 * (m->c12 - m->shear), 8 * m->shear, m->bulk}
-                                         : (struct state_modulus){4 * m->c12, 4 * m->shear, m->bulk};
+        s->modulus[k] = model == PD_OSPD ? (struct state_modulus){4 * (m->c12 - m->shear), 8 * m->shear}
+                                         : (struct state_modulus){4 * m->c12, 4 * m->shear};
     }
     if (model != PD_BOND) s->c.source.modulus = s->modulus;
     s->c.source.local = local, s->c.source.turns = model == PD_MOSPD;

@@ -28,7 +28,7 @@ static void body_make(struct body *b, const struct cloud_plan *plan, enum pd_mod
         m->poisson = poisson;
         material_derive(m, plan->space);
         b->modulus[k] = (struct state_modulus){D * D * (turns ? m->c12 : m->c12 - m->shear),
-                                               turns ? 2 * D * m->shear : D * (D + 2) * m->shear, m->bulk};
+                                               turns ? 2 * D * m->shear : D * (D + 2) * m->shear};
     }
     b->c.source.modulus = b->modulus;
     b->c.source.local = local, b->c.source.turns = turns;

@@ -19,7 +19,7 @@ static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 
 struct body { struct cloud c; struct state_modulus modulus[CLOUD_MATERIALS]; uint8_t *loaded; };
 
 /* Every third group, but for the first: its particles neither feel nor move, and know of their families what they did. */
-static void put_to_sleep(struct bonds *b, const struct particles *p, enum pd_model model)
+static void put_to_sleep(struct bonds *b, struct particles *p, enum pd_model model)
 {
     if (model >= PD_OSPD) state_know_table[p->dim][model](b, p);
     for (int64_t g = 1; g < b->groups; g += 3) b->rest.level[g] = 0;
@@ -31,6 +31,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
     struct cloud_plan plan = {.space = space_of[dim], .horizon = dim == 3 ? 1.5 : 3.015, .seed = 3, .shake = way & SHAKEN ? 0.3 : 0};
     uint64_t seed = 77 + (uint64_t)way;
     memcpy(plan.count, count_of[dim], sizeof plan.count);
+    plan.optional = model >= PD_OSPD ? WITH_ENDS | (model == PD_MOSPD ? WITH_TURNS : 0) : 0;
     cloud_make(&b->c, &plan);
     struct particles *p = &b->c.p;
     b->loaded = NEW("test.loaded", p->n + LANES, uint8_t);

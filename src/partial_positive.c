@@ -1,0 +1,94 @@
+/* floor 3: what the cell of a point at the end of state-based bonds keeps of its stiffness (partial_stress.c): symmetric, and as
+ * near to what the patch test asks as the energy of the point stays positive.
+ *
+ * With X = (1/Q) sum w r e of the point's own bonds, these hold at least 1/2 V kappa X^2, kappa = B/tr zeta, by Cauchy & Schwarz, and
+ *     1/2 V [A (L : eps + X)^2 + kappa X^2 + eps : K eps] >= 1/2 V eps : (K + q L L) eps,   q = A kappa/(A + kappa).
+ * Negative eigenvalues of K + q L L are set to 0: at a Poisson's ratio of 0.45 and more in plane strain and in space some are. */
+#include <math.h>
+#include <string.h>
+
+#include "partial_parts.h"
+
+/* zeta = (1/Q) sum w xi (x) xi of the point's own bonds [1]; false: it has none. */
+static bool own_bonds(real *zeta, const struct particles *p, const struct bonds *b, int64_t i)
+{
+    const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;
+    bool any = false;
+    for (int64_t k = 0; row >= 0 && k < b->slot_count[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        if (bond.w == 0) continue;
+        for (int c = 0; c < symmetric_count(p->dim); c++) {
+            int a, d;
+            symmetric_axes(p->dim, c, &a, &d);
+            zeta[c] += bond.w * (p->X[a][bond.nbr] - p->X[a][i]) * (p->X[d][bond.nbr] - p->X[d][i]) / b->state.weighted[row];
+        }
+        any = true;
+    }
+    return any;
+}
+
+/* ---- eigenvalues ------------------------------------------------------------------------------------------------ */
+
+/* One rotation of Jacobi: entry pq of the symmetric M becomes 0; columns of Z follow. */
+static void rotate(real *M, real *Z, int n, int p, int q)
+{
+    const real off = M[p * n + q];
+    if (off == 0) return;
+    const real theta = 0.5 * (M[q * n + q] - M[p * n + p]) / off;
+    const real t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1)), c = 1 / sqrt(t * t + 1), s = t * c;
+    for (int k = 0; k < n; k++) {
+        const real a = M[k * n + p], b = M[k * n + q], y = Z[k * n + p], z = Z[k * n + q];
+        M[k * n + p] = c * a - s * b, M[k * n + q] = s * a + c * b;
+        Z[k * n + p] = c * y - s * z, Z[k * n + q] = s * y + c * z;
+    }
+    for (int k = 0; k < n; k++) {
+        const real a = M[p * n + k], b = M[q * n + k];
+        M[p * n + k] = c * a - s * b, M[q * n + k] = s * a + c * b;
+    }
+}
+
+/* M without the part of its negative eigenvalues. */
+static void make_positive(real *M, int n)
+{
+    enum { SWEEPS = 12 };                /* six unknowns: quadratic convergence ends far earlier */
+    real D[SYM_MAX * SYM_MAX], Z[SYM_MAX * SYM_MAX] = {0};
+    memcpy(D, M, sizeof *M * (size_t)(n * n));
+    for (int a = 0; a < n; a++) Z[a * n + a] = 1;
+    for (int sweep = 0; sweep < SWEEPS; sweep++)
+        for (int a = 0; a < n; a++)
+            for (int b = a + 1; b < n; b++) rotate(D, Z, n, a, b);
+    for (int k = 0; k < n; k++)
+        for (int a = 0; a < n && D[k * n + k] < 0; a++)
+            for (int b = 0; b < n; b++) M[a * n + b] -= D[k * n + k] * Z[a * n + k] * Z[b * n + k];
+}
+
+/* ---- one point ---------------------------------------------------------------------------------------------------- */
+
+/* Symmetric components count twice off the diagonal: a matrix over them has the eigenvalues of its tensor with a root of that. */
+static real root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
+
+bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    const struct state_modulus *m = &s->modulus[p->material[i]];
+    const struct material *material = &s->material[p->material[i]];
+    const real V = p->volume0[i];
+    real zeta[SYM_MAX] = {0}, H[SYM_MAX * SYM_MAX] = {0}, kept[SYM_MAX * SYM_MAX], wanted[SYM_MAX * SYM_MAX], trace = 0;
+    const bool end = own_bonds(zeta, p, b, i);
+    for (int d = 0; d < dim; d++) trace += zeta[d];
+    const real kappa = end ? m->B / trace : 0, q = end ? V * m->A * kappa / (m->A + kappa) : 0;
+    for (int c = 0; c < n; c++) L[c] = end ? (c < dim ? 1.0 / dim : 0) - zeta[c] : 0;
+    for (int c = 0; c < n; c++)
+        for (int d = 0; d < n; d++) {
+            const real one = c < dim ? 1.0 / dim : 0, other = d < dim ? 1.0 / dim : 0;
+            const real C = c < dim && d < dim ? (c == d ? material->c11 : material->c12) : c == d ? material->shear : 0;
+            wanted[c * n + d] = 0.5 * (T[c * n + d] + T[d * n + c]) + 0.5 * V * m->A * (L[c] * other + one * L[d]);
+            H[c * n + d] = root_of(c, dim) * root_of(d, dim) * (V * C - wanted[c * n + d] + q * L[c] * L[d]);
+        }
+    memcpy(kept, H, sizeof kept);
+    make_positive(H, n);
+    for (int c = 0; c < n; c++)
+        for (int d = 0; d < n; d++)
+            T[c * n + d] = wanted[c * n + d] - (H[c * n + d] - kept[c * n + d]) / (root_of(c, dim) * root_of(d, dim));
+    return end;
+}
