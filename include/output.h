@@ -63,10 +63,12 @@ struct frame {
     int dim;
     real t;
     int64_t step;
-    float *X[DIM_MAX], *u[DIM_MAX], *v[DIM_MAX], *stress[SYM_MAX], *damage;
+    float *X[DIM_MAX], *u[DIM_MAX], *v[DIM_MAX], *damage;
+    float *stress[SYM_MAX];              /* as in struct particles; in the plane zz comes last        */
     uint8_t *kind, *material, *body;
     int32_t *id;
 };
+static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
 status frame_read(struct frame *f, const char *path);
 void frame_free(struct frame *f);
 /* Times of a run's frames from frames.hdf.series; returns their number through `n`. */

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base.h"
+#include "material.h"
 
 #define LATTICE_NEAR 1e-8                /* a particle of a lattice may be that far from its site [spacings] */
 enum { LANES = 8 };                      /* particles per vector: 8 doubles                      */
@@ -28,6 +29,7 @@ enum particle_flag {
 struct particles {
     int64_t n, n_all;                    /* body; body and images                                */
     int dim;
+    const struct material *plane_strain; /* the materials of a body in plane strain, borrowed; in other spaces NULL */
     int64_t n_of[KINDS];                 /* of the body                                          */
     int64_t n_carried;                   /* peridynamic particles that the grid moves            */
     int32_t *list[KINDS];                /* their indices, ascending; rebuilt by particles_list  */
@@ -110,6 +112,16 @@ static inline void particle_place(const struct particles *p, int64_t i, real *X)
 static inline bool particle_on_grid(const struct particles *p, int64_t i)
 {
     return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_CARRIED);
+}
+
+/* Stress across the plane, sigma_zz = nu (sigma_xx + sigma_yy) and what flow adds; 0 unless in plane strain [Pa]. Bonds have nu =
+ * 1/4, as their material is made to have; what they had as points that flowed they keep, and their own yielding adds nothing.
+ * Exact for small strain and in the current frame, in the reference frame to a share of the size of the strain. */
+static inline real particle_stress_across(const struct particles *p, int64_t i)
+{
+    if (!p->plane_strain) return 0;
+    const real flow = p->out_of_plane ? p->out_of_plane[i] : 0;
+    return p->plane_strain[p->material[i]].poisson * (p->stress[0][i] + p->stress[1][i]) + flow;
 }
 
 /* Makes n zeroed particles with room for `images` more; optional is a sum of WITH_*. */

@@ -122,13 +122,12 @@ static void print_field(const char *label, const char *unit, const struct frame 
 
 static void print_fields(const struct frame *a, const struct frame *b)
 {
-    int symmetric = symmetric_count(a->dim);
     int64_t other_kind = 0;
     for (int64_t i = 0; i < a->n; i++) other_kind += a->kind[i] != b->kind[i];
     printf("\n%-30s %14s %14s %14s   %s\n", "fields, |B - A|", "largest", "rms", "largest |A|", "largest at X [m]");
     print_field("displacement", "m", a, field_difference(a->u, b->u, a->dim, a->n));
     print_field("velocity", "m/s", a, field_difference(a->v, b->v, a->dim, a->n));
-    print_field("stress", "Pa", a, field_difference(a->stress, b->stress, symmetric, a->n));
+    print_field("stress", "Pa", a, field_difference(a->stress, b->stress, frame_stresses(a->dim), a->n));
     print_field("damage", "", a, field_difference(&a->damage, &b->damage, 1, a->n));
     printf("  %-28s %14lld of %lld\n", "particles of another kind", (long long)other_kind, (long long)a->n);
 }

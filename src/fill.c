@@ -241,6 +241,7 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
 {
     const struct scene *s = d->scene;
     particles_make(p, s->dim, d->n, optional);
+    p->plane_strain = s->space == SPACE_PLANE_STRAIN ? s->material : NULL;
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < d->n; i++) {
         for (int a = 0; a < s->dim; a++) {

@@ -2,7 +2,7 @@
  *
  * Written for the reader of VTK 9.1 (ParaView 5.11): a static UnstructuredGrid with one vertex cell per particle.
  * Our own data live in /Cleave. A symmetric tensor has VTK's order xx yy zz xy yz xz; components that the
- * dimension does not have are 0. */
+ * space does not have are 0, plane strain has zz. */
 #include <errno.h>
 #include <pthread.h>
 #include <signal.h>
@@ -65,6 +65,7 @@ static void copy_stress(const struct particles *p, int64_t first, int64_t end, v
     memset(out + SYM_MAX * first, 0, (size_t)(SYM_MAX * (end - first)) * sizeof *out);
     for (int k = 0; k < symmetric_count(p->dim); k++)
         copy_scalars(out + place[p->dim][k], first, end, p->stress[k], SYM_MAX);
+    for (int64_t i = first; i < end && p->plane_strain; i++) out[SYM_MAX * i + 2] = (float)particle_stress_across(p, i);
 }
 
 static void copy_damage(const struct particles *p, int64_t first, int64_t end, void *rows)

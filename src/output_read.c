@@ -35,12 +35,12 @@ static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int6
 
 static void read_fields(struct frame *f, struct hdf *h)
 {
-    static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3};
+    static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
     int dim = f->dim;
     read_columns(h, "/Cleave/reference", f->n, dim, dim, plain, f->X);
     read_columns(h, "/VTKHDF/PointData/displacement", f->n, 3, dim, plain, f->u);
     read_columns(h, "/VTKHDF/PointData/velocity", f->n, 3, dim, plain, f->v);
-    read_columns(h, "/VTKHDF/PointData/stress", f->n, 6, symmetric_count(dim), dim == 2 ? plane : plain, f->stress);
+    read_columns(h, "/VTKHDF/PointData/stress", f->n, 6, frame_stresses(dim), dim == 2 ? plane : plain, f->stress);
     f->damage = read_list(h, "/VTKHDF/PointData/damage", HDF_F32, f->n);
     f->kind = read_list(h, "/VTKHDF/PointData/kind", HDF_U8, f->n);
     f->material = read_list(h, "/VTKHDF/PointData/material", HDF_U8, f->n);

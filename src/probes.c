@@ -30,8 +30,9 @@ static void columns_by_axis(struct probes *s, struct probe *q, const char *prefi
     }
 }
 
-static void columns_add(struct probes *s, struct probe *q, int dim)
+static void columns_add(struct probes *s, struct probe *q, const struct particles *p)
 {
+    const int dim = p->dim;
     q->first = s->columns;
     switch (q->request.kind) {
     case PROBE_TIP:
@@ -40,8 +41,8 @@ static void columns_add(struct probes *s, struct probe *q, int dim)
         break;
     case PROBE_REACTION: columns_by_axis(s, q, "force_", dim, "N"); break;
     case PROBE_POINT:
-        for (int k = 0; k < readings_count(dim); k++) {
-            struct column c = reading_column(dim, k);
+        for (int k = 0; k < readings_count(p); k++) {
+            struct column c = reading_column(p, k);
             column_add(s, q, c.name, c.unit);
         }
         break;
@@ -205,7 +206,7 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
             probes_free(s);
             return fault;
         }
-        columns_add(s, q, o->part->dim);
+        columns_add(s, q, o->part);
     }
     s->value = NEW("probes.value", s->columns, real);
     return OK;

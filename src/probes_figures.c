@@ -13,14 +13,18 @@
 
 static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [1] = {"xx"},
-    [2] = {"xx", "yy", "xy"},
+    [2] = {"xx", "yy", "xy", "zz"},
     [3] = {"xx", "yy", "zz", "xy", "yz", "zx"},
 };
 
-int readings_count(int dim) { return 2 * dim + symmetric_count(dim) + 1; }
+/* In plane strain zz follows the others. */
+static int stresses_count(const struct particles *p) { return symmetric_count(p->dim) + (p->plane_strain != NULL); }
 
-struct column reading_column(int dim, int k)
+int readings_count(const struct particles *p) { return 2 * p->dim + stresses_count(p) + 1; }
+
+struct column reading_column(const struct particles *p, int k)
 {
+    const int dim = p->dim;
     struct column c = {.name = "damage", .unit = "1"};
     int stress = k - 2 * dim;
     if (k < dim) {
@@ -29,7 +33,7 @@ struct column reading_column(int dim, int k)
     } else if (stress < 0) {
         snprintf(c.name, sizeof c.name, "velocity_%s", axis_name[k - dim]);
         snprintf(c.unit, sizeof c.unit, "m/s");
-    } else if (stress < symmetric_count(dim)) {
+    } else if (stress < stresses_count(p)) {
         snprintf(c.name, sizeof c.name, "stress_%s", symmetric_name[dim][stress]);
         snprintf(c.unit, sizeof c.unit, "Pa");
     }
@@ -41,6 +45,7 @@ void readings_of(const struct particles *p, int64_t i, real *value)
     for (int d = 0; d < p->dim; d++) *value++ = p->x[d][i] - p->X[d][i];
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
     for (int a = 0; a < symmetric_count(p->dim); a++) *value++ = p->stress[a][i];
+    if (p->plane_strain) *value++ = particle_stress_across(p, i);
     *value = p->damage[i];
 }
 
@@ -236,26 +241,26 @@ static void figures_spall(const struct emitter *e)
 
 static void figures_point(const struct emitter *e)
 {
+    const struct particles *p = e->o->part;
     real value[READINGS_MAX];
-    int dim = e->o->part->dim;
-    readings_of(e->o->part, e->q->list[0], value);
-    for (int k = 0; k < readings_count(dim); k++) put(e, reading_column(dim, k).name, value[k]);
+    readings_of(p, e->q->list[0], value);
+    for (int k = 0; k < readings_count(p); k++) put(e, reading_column(p, k).name, value[k]);
 }
 
 static void figures_line(const struct emitter *e)
 {
+    const struct particles *p = e->o->part;
     real value[READINGS_MAX], low[READINGS_MAX], high[READINGS_MAX];
-    int dim = e->o->part->dim;
     for (int k = 0; k < READINGS_MAX; k++) low[k] = INFINITY, high[k] = -INFINITY;
     for (int64_t m = 0; m < e->q->n; m++) {
         if (e->q->list[m] < 0) continue;
-        readings_of(e->o->part, e->q->list[m], value);
-        for (int k = 0; k < readings_count(dim); k++)
+        readings_of(p, e->q->list[m], value);
+        for (int k = 0; k < readings_count(p); k++)
             low[k] = real_min(low[k], value[k]), high[k] = real_max(high[k], value[k]);
     }
-    for (int k = 0; k < readings_count(dim); k++) {
+    for (int k = 0; k < readings_count(p); k++) {
         char name[NAME_MAX_LENGTH];
-        struct column c = reading_column(dim, k);
+        struct column c = reading_column(p, k);
         snprintf(name, sizeof name, "%.32s_min", c.name);
         put(e, name, low[k]);
         snprintf(name, sizeof name, "%.32s_max", c.name);

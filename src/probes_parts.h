@@ -40,10 +40,10 @@ struct probe {
 
 /* ---- what a single particle tells: POINT and LINE ------------------------------------------------ */
 
-/* displacement, velocity, stress, damage */
+/* displacement, velocity, stress (in plane strain also zz), damage */
 enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 1 };
-int readings_count(int dim);
-struct column reading_column(int dim, int k);
+int readings_count(const struct particles *p);
+struct column reading_column(const struct particles *p, int k);
 void readings_of(const struct particles *p, int64_t i, real *value);
 
 /* ---- the rest by kind ------------------------------------------------------------------------------ */

@@ -8,12 +8,12 @@
 #include "probes.h"
 #include "probes_parts.h"
 
-static void profile_header(FILE *file, int dim)
+static void profile_header(FILE *file, const struct particles *p)
 {
     fprintf(file, "s [m]");
-    for (int d = 0; d < dim; d++) fprintf(file, ",%s [m]", axis_name[d]);
-    for (int k = 0; k < readings_count(dim); k++) {
-        struct column c = reading_column(dim, k);
+    for (int d = 0; d < p->dim; d++) fprintf(file, ",%s [m]", axis_name[d]);
+    for (int k = 0; k < readings_count(p); k++) {
+        struct column c = reading_column(p, k);
         fprintf(file, ",%s [%s]", c.name, c.unit);
     }
     fputc('\n', file);
@@ -32,7 +32,7 @@ static void profile_rows(FILE *file, const struct probe *q, const struct particl
         fprintf(file, "%.9g", sqrt(s2));
         for (int d = 0; d < p->dim; d++) fprintf(file, ",%.9g", X[d]);
         readings_of(p, q->list[k], value);
-        for (int m = 0; m < readings_count(p->dim); m++) fprintf(file, ",%.9g", value[m]);
+        for (int m = 0; m < readings_count(p); m++) fprintf(file, ",%.9g", value[m]);
         fputc('\n', file);
     }
 }
@@ -57,7 +57,7 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
         bar_rows(file, q, o);
         return;
     }
-    profile_header(file, o->part->dim);
+    profile_header(file, o->part);
     profile_rows(file, q, o->part);
 }
 

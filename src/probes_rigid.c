@@ -62,7 +62,7 @@ status rigid_bind(struct probe *q, const struct observed *o)
     return OK;
 }
 
-/* Largest |principal stress| and shear stress in the plane of any particle. */
+/* Largest |principal stress| and largest shear stress in the plane of any particle. */
 static void stresses(const struct probe *q, const struct particles *p, real *stress, real *shear)
 {
     *stress = *shear = 0;
@@ -70,7 +70,7 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
         const int32_t i = q->list[k];
         const real mean = 0.5 * (p->stress[0][i] + p->stress[1][i]);
         const real radius = hypot(0.5 * (p->stress[0][i] - p->stress[1][i]), p->stress[2][i]);
-        *stress = real_max(*stress, fabs(mean) + radius);
+        *stress = real_max(*stress, real_max(fabs(mean) + radius, fabs(particle_stress_across(p, i))));
         *shear = real_max(*shear, radius);
     }
 }

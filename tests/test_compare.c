@@ -205,6 +205,27 @@ static void runs_are_compared(void **state)
     assert_non_null(strstr(printed, "comparable particle by particle: yes"));
 }
 
+/* In plane strain runs may differ in the stress across the plane alone. */
+static void stress_across_is_compared(void **state)
+{
+    (void)state;
+    static const struct material m[2] = {{.poisson = 0.25}, {.poisson = 0.35}};
+    char printed[TEXT], *words[] = {"compare", "quarter", "more"};
+    for (int k = 0; k < 2; k++) {
+        struct output o;
+        struct particles p;
+        fill_plate(&p, 0, 0);
+        p.plane_strain = &m[k];
+        for (int64_t i = 0; i < p.n; i++) p.stress[0][i] = 1e6, p.stress[1][i] = 2e6;
+        assert_int_equal(output_open(&o, words[1 + k], "name: test\n", false, false), OK);
+        assert_int_equal(output_frame(&o, &p, 0, 0, "name: test\n"), OK);
+        output_close(&o);
+        particles_free(&p);
+    }
+    assert_int_equal(run(command_compare, 3, words, printed), OK);
+    assert_true(fabs(number_after(printed, "stress [Pa]") - 0.1 * 3e6) < 1);
+}
+
 static void unequal_runs_are_told_apart(void **state)
 {
     (void)state;
@@ -372,6 +393,7 @@ int main(void)
         cmocka_unit_test(figures_are_found),          cmocka_unit_test(absent_figures_are_refused),
         cmocka_unit_test(unsound_files_are_refused),  cmocka_unit_test(history_is_read_by_name),
         cmocka_unit_test(runs_are_compared),          cmocka_unit_test(unequal_runs_are_told_apart),
+        cmocka_unit_test(stress_across_is_compared),
         cmocka_unit_test(damaged_files_are_refused),  cmocka_unit_test(wrong_words_are_refused),
         cmocka_unit_test(missing_gnuplot_is_named),   cmocka_unit_test(pictures_are_drawn),
         cmocka_unit_test(bodies_are_closed_and_gaps_open),
