@@ -28,6 +28,8 @@
 #include "region.h"
 #include "rest.h"
 
+#define BYTES_PER_BOND 24.0              /* stored, with padding; measured on blocks of 10^6 particles */
+
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
 enum surface_rule { SURFACE_NONE, SURFACE_VOLUME };

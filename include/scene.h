@@ -22,11 +22,14 @@ enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
 enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
 
+enum { PLACE_LENGTH = 512 };             /* of how a refusal begins */
+
 struct scene_body {
     char name[NAME_MAX_LENGTH];
     int material;                        /* index into scene.material                                 */
     struct region shape;                 /* filled with a lattice ...                                 */
     char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
+    char place[PLACE_LENGTH];            /* where the scene names that list, `file:line:column: key: `; "": unknown */
     real velocity[DIM_MAX];              /* [m/s]                                                     */
     enum grid_frame frame;                    /* mpm.frame unless it has its own                           */
 };

@@ -185,7 +185,6 @@ static void make_grid(struct engine *e)
 
 /* As measured on blocks of 10^6 particles: */
 #define BYTES_PER_PARTICLE 320.0         /* fields, cells, lists, its part of the grid, a frame on its way              */
-#define BYTES_PER_BOND 24.0              /* stored, with padding                                                        */
 #define BYTES_PER_BOND_LATTICE 3.0       /* of patterns: those of surfaces, and what cracks and ends of lines still store */
 #define EXACT_MOST 6000.0                /* spacings; places of longer bodies may be rounded (fill.c), bonds are stored */
 

@@ -385,6 +385,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     take_draft(p, d, optional);
     TRY(check_values(p, d, spacing));
+    TRY(fill_check_lists(p, s));
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, ON_SURFACE * spacing);
     particles_sort(p, spacing, optional);

@@ -111,6 +111,8 @@ status fault(const struct reader *r, const struct node *at, const char *format, 
     __attribute__((format(printf, 3, 4)));
 status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
+/* How fault begins, for what shows later. */
+void fault_place(const struct reader *r, const struct node *at, char *text, size_t room);
 status fault_missing(struct reader *r, const struct node *map, const struct key *k);
 /* Two keys of which only one may be there; an override is blamed before the file. */
 status fault_both(const struct reader *r, const struct node *a, const struct node *b);

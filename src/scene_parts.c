@@ -116,6 +116,7 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
 {
     const char *slash = strrchr(r->name, '/');
     size_t folder = slash ? (size_t)(slash - r->name) + 1 : 0, length = strlen(n->text);
+    fault_place(r, n, b->place, sizeof b->place);
     bool csv = length > 4 && strcmp(n->text + length - 4, ".csv") == 0;
     bool h5 = length > 3 && strcmp(n->text + length - 3, ".h5") == 0;
     if (n->kind != NODE_SCALAR || (!csv && !h5))

@@ -73,15 +73,23 @@ status fault_mark(const struct reader *r, int origin, int line, int column, cons
     return status_set(REFUSED, "%s: %s", place, what);
 }
 
+void fault_place(const struct reader *r, const struct node *at, char *text, size_t room)
+{
+    char name[100];
+    node_name(at, name, sizeof name);
+    place_text(r, at->origin, at->line, at->column, text, room);
+    snprintf(text + strlen(text), room - strlen(text), ": %s%s", name, *name ? ": " : "");
+}
+
 status fault(const struct reader *r, const struct node *at, const char *format, ...)
 {
-    char what[512], name[100];
+    char what[512], place[PLACE_LENGTH];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    node_name(at, name, sizeof name);
-    return fault_mark(r, at->origin, at->line, at->column, "%s%s%s", name, *name ? ": " : "", what);
+    fault_place(r, at, place, sizeof place);
+    return status_set(REFUSED, "%s%s", place, what);
 }
 
 status fault_both(const struct reader *r, const struct node *a, const struct node *b)

@@ -166,6 +166,114 @@ static void hdf5_lists_are_read(void **state)
     remove(name);
 }
 
+/* ---- lists in another unit than the scene ------------------------------------------------------------- */
+
+/* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` places `apart` from each other; the
+ * first `single` places have one particle alone. */
+struct grains { int side, together, single; real near, apart; };
+
+static void write_grains(const char *name, int dim, const struct grains *g)
+{
+    static const char *const head[DIM_MAX + 1] = {"", "x,volume", "x,y,volume", "x,y,z,volume"};
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    fprintf(file, "%s\n", head[dim]);
+    int64_t places = 1;
+    for (int d = 0; d < dim; d++) places *= g->side;
+    for (int64_t k = 0; k < places; k++)
+        for (int m = 0; m < (k < g->single ? 1 : g->together); m++) {
+            int64_t rest = k;
+            for (int d = 0; d < dim; d++, rest /= g->side)
+                fprintf(file, "%.12g,", (real)(rest % g->side) * g->apart + (d == 0 ? m * g->near : 0));
+            fprintf(file, "1\n");
+        }
+    fclose(file);
+}
+
+static void units_of_lists_are_told(void **state)
+{
+    (void)state;
+    enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
+    static const struct { enum space space; int method; real spacing; struct grains g; const char *says; } c[] = {
+        /* metres meant, millimetres written, and the other way round */
+        {SPACE_PLANE_STRESS, PD, 1e-3, {10, 1, 0, 0, 1}, "100 % of its particles have no neighbour within 3.015 "
+         "spacings of 0.001 m: those of the list are 1 m apart; a list in m is expected "
+         "(is it in mm?), or a particles.spacing of about 1 m"},
+        {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1}, "no neighbour within 2 spacings of 0.001 m"},
+        {SPACE_PLANE_STRESS, BOTH, 1e-3, {20, 1, 0, 0, 1}, "about 100 % of its particles have no neighbour within 3.015 spacings"},
+        {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5}, "(is it in cm?)"},
+        {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1}, "100 % of its particles"},
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1e-3}, "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
+         "particles.spacing of about 0.001 m is expected (is it in mm?), or a list in m"},
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1e-3}, "neighbours of the list are 0.001 m apart"},
+        {SPACE_SOLID, BOTH, 1, {5, 1, 0, 0, 0.1}, "neighbours of the list are 0.1 m apart"},
+        /* what a list may be */
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1}, NULL},
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3}, NULL},         /* neighbours at the rim of the horizon */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 3}, "no neighbour within 2 spacings"},
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2}, NULL},               /* a graded body's fine part */
+        {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50}, NULL},        /* grains of two, far apart */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 0, 1, 50}, NULL},
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50}, NULL},      /* 60 chips beside 40 such grains: 43 % */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 72, 1, 50}, "56 % of its particles"},
+        {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50}, NULL},                 /* seven mass points */
+        {SPACE_LINE, PD, 1, {8, 1, 0, 0, 50}, "100 % of its particles"},
+    };
+    char name[] = "grains.csv";
+    for (size_t k = 0; k < COUNT_OF(c); k++) {
+        struct setting s;
+        struct particles p;
+        setting_make(&s, c[k].space, (real[]){1, 1, 1});
+        s.scene.method = (enum method)c[k].method, s.scene.spacing = c[k].spacing, s.scene.horizon = 3.015, s.scene.cell = 2;
+        s.body[0].file = name;
+        snprintf(s.body[0].place, sizeof s.body[0].place, "a.yaml:7:3: particles: ");
+        write_grains(name, s.scene.dim, &c[k].g);
+        if (c[k].says) {
+            assert_refused(fill_particles(&p, &s.scene, 0), c[k].says);
+            assert_null(p.X[0]);
+            assert_refused(REFUSED, "a.yaml:7:3: particles: body plate: ");
+        } else {
+            assert_ok(fill_particles(&p, &s.scene, 0));
+            particles_free(&p);
+        }
+    }
+    remove(name);
+}
+
+/* Points strewn through another body meet it on the grid; bonds do not leave their body. */
+static void other_bodies_are_neighbours_of_points(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    char name[] = "strewn.csv";
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){20, 20});
+    s.scene.horizon = 3.015, s.scene.cell = 2, s.scene.bodies = 2;
+    s.body[1].file = name;
+    write_grains(name, 2, &(struct grains){5, 1, 0, 0, 4});
+    assert_ok(fill_particles(&p, &s.scene, 0));
+    particles_free(&p);
+    s.scene.method = METHOD_PD;
+    assert_refused(fill_particles(&p, &s.scene, 0), "strewn.csv: body layer: 100 % of its particles have no neighbour");
+    remove(name);
+}
+
+/* 2e5 particles, each the neighbour of all others: 960 GB. */
+static void bonds_beyond_memory_are_refused(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    char name[] = "dense.csv";
+    if ((real)team_memory() > 9e11) skip();
+    setting_make(&s, SPACE_SOLID, (real[]){1, 1, 1});
+    s.scene.method = METHOD_PD, s.scene.spacing = 1, s.scene.horizon = 30;
+    s.body[0].file = name;
+    write_grains(name, 3, &(struct grains){59, 1, 0, 0, 0.2});
+    assert_refused(fill_particles(&p, &s.scene, 0), "whose bonds need some 1e+03 GB");
+    remove(name);
+}
+
 /* Files of the tests live in a folder of their own. */
 static int enter_folder(void **state)
 {
@@ -183,6 +291,9 @@ int main(void)
         cmocka_unit_test(bodies_share_a_list),
         cmocka_unit_test(bad_lists_are_refused),
         cmocka_unit_test(hdf5_lists_are_read),
+        cmocka_unit_test(units_of_lists_are_told),
+        cmocka_unit_test(other_bodies_are_neighbours_of_points),
+        cmocka_unit_test(bonds_beyond_memory_are_refused),
     };
     omp_set_num_threads(2);
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

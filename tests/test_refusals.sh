@@ -228,6 +228,26 @@ list "a volume below 0" "kept/grains.csv:2:" "volume" <<'END'
 x,y,volume
 0.5e-3,0.5e-3,-1e-8
 END
+# In millimetres where metres are meant, and metres where the scene's spacing lacks its unit: `check` says so, too.
+grid() { awk -v apart="$1" 'BEGIN { print "x,y,volume"; for (k = 0; k < 200; k++) print k % 20 * apart "," int(k / 20) * apart ",1e-8" }'; }
+grid 1 >kept/millimetres.csv
+grid 1e-3 >kept/metres.csv
+for method in pd mpm adaptive; do
+    sed -e "s/^method: .*/method: $method/" -e '7,9d' -e '6a\
+bodies: [{name: grains, particles: kept/millimetres.csv}]' good.yaml >bad.yaml
+    sed -e 's/millimetres/metres/' -e 's/spacing: 1 mm/spacing: 1/' bad.yaml >kept/other.yaml
+    for command in check run; do
+        "$cleave" $command bad.yaml >out 2>err
+        ended "$command, $method: a list in mm" $? "bad.yaml:7:25: particles: " "(is it in mm?)"
+    done
+    mv kept/other.yaml bad.yaml
+    for command in check run; do
+        "$cleave" $command bad.yaml >out 2>err
+        ended "$command, $method: a spacing in mm" $? "bad.yaml:7:25: particles: " "a particles.spacing of about 0.001 m is expected"
+    done
+    sed -e 's/spacing: 1,/spacing: 1 mm,/' -e '/^cracks/,/^  - /d' bad.yaml >kept/list.yaml
+    holds "$method: a list in metres" "$cleave" run kept/list.yaml -q -o kept/list_$method -s duration=0.1us -s probes=[]
+done
 list "nan" "kept/grains.csv:2:" "" <<'END'
 x,y,volume
 nan,0.5e-3,1e-8
