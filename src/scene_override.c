@@ -1,4 +1,5 @@
-/* floor 4: `-s key=value` laid over the tree before anything is read: dotted keys, items of lists by number. */
+/* floor 4: `-s key=value` laid over the tree before anything is read: dotted keys, items of lists by number (0 or [0]) or by
+ * name. */
 #include "scene_internal.h"
 
 #include <stdio.h>
@@ -36,6 +37,19 @@ static struct node *new_entry(struct reader *r, struct node *map, const char *ke
     return n;
 }
 
+/* What an item of a list is called: by its `name`, a probe also below its kind, or by that. NULL: it has none. */
+static const char *item_name(const struct node *list, const struct node *item)
+{
+    const bool probe = list->key && strcmp(list->key, "probes") == 0;
+    const struct node *name = item->kind == NODE_MAP ? node_find(item, "name") : NULL;
+    if (probe && item->kind == NODE_SCALAR) return item->text;
+    if (probe && item->n == 1) {
+        name = item->first->kind == NODE_MAP ? node_find(item->first, "name") : NULL;
+        if (!name) return item->first->key;
+    }
+    return name && name->kind == NODE_SCALAR ? name->text : NULL;
+}
+
 static status item_of(struct reader *r, struct node *list, int index, int origin, struct node **out)
 {
     struct node at = {.origin = origin, .key = list->key, .parent = list->parent};
@@ -48,15 +62,80 @@ static status item_of(struct reader *r, struct node *list, int index, int origin
     return OK;
 }
 
+/* The names of a list's items for a message: ` or by name (pull, hold)`. */
+static const char *names_text(struct reader *r, const struct node *list)
+{
+    char text[192] = "";
+    size_t used = 0;
+    for (const struct node *n = list->first; n && used < 100; n = n->next) {
+        const char *name = item_name(list, n);
+        if (!name) continue;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%.40s", used ? ", " : " or by name (", shown_text(r, name));
+    }
+    if (used) snprintf(text + used, sizeof text - used, "%s)", used < 100 ? "" : ", ...");
+    return arena_text(r, text, strlen(text));
+}
+
+/* An item by `0` or by its name; boundary0 is what a boundary without one is called. */
+static status item_called(struct reader *r, struct node *list, const char *key, size_t length, int origin, struct node **out)
+{
+    struct node at = {.origin = origin, .key = list->key, .parent = list->parent};
+    const char *called = arena_text(r, key, length);
+    const size_t stem = list->key && strncmp(called, list->key, strlen(list->key)) == 0 ? strlen(list->key) : 0;
+    const size_t digits = strspn(called + stem, "0123456789");
+    const bool number = digits > 0 && digits <= 6 && stem + digits == length;
+    if (number && atoi(called + stem) < list->n) return item_of(r, list, atoi(called + stem), origin, out);
+    for (struct node *n = list->first; n; n = n->next) {
+        const char *name = item_name(list, n);
+        if (name && strcmp(name, called) == 0) {
+            *out = n;
+            return OK;
+        }
+    }
+    return fault(r, &at, "has %d item%s; %s is %s; they go by number (the first is 0)%s", list->n, list->n == 1 ? "" : "s",
+                 shown_text(r, called), number ? "behind the last" : "the name of none", names_text(r, list));
+}
+
+static bool is_key(const struct node *n, const char *key, size_t length)
+{
+    return strlen(n->key) == length && memcmp(n->key, key, length) == 0;
+}
+
+/* `tip` and `exact: step bar` written out: {tip: {}}, {exact: {form: step bar}}. */
+static void write_out(struct reader *r, struct node *n, const char *key, const char *text, int origin)
+{
+    if (n->kind != NODE_SCALAR || *n->text == '\0') return;
+    n->kind = NODE_MAP, n->text = (char *)"";
+    struct node *entry = new_entry(r, n, key, strlen(key), origin);
+    if (text) entry->kind = NODE_SCALAR, entry->text = (char *)text;
+}
+
+/* A probe's keys stand below its kind, which a path may leave out: probes.0.at is probes.0.point.at. */
+static struct node *probe_keys(struct reader *r, struct node *item, const char *key, size_t length, int origin)
+{
+    const struct node *list = item->parent;
+    if (!list || list->kind != NODE_LIST || !list->key || strcmp(list->key, "probes") != 0) return item;
+    write_out(r, item, item->text, NULL, origin);
+    if (item->kind != NODE_MAP || item->n != 1 || is_key(item->first, key, length)) return item;
+    if (strcmp(item->first->key, "exact") == 0) write_out(r, item->first, "form", item->first->text, origin);
+    return item->first;
+}
+
 static status entry_of(struct reader *r, struct node *map, const char *key, size_t length, int origin,
                        struct node **out)
 {
     struct node at = {.origin = origin, .key = arena_text(r, key, length)};
+    if (map->kind == NODE_LIST) return item_called(r, map, key, length, origin, out);
+    map = probe_keys(r, map, key, length, origin);
     bool empty = map->kind == NODE_SCALAR && *map->text == '\0';
     if (empty) map->kind = NODE_MAP;
     if (map->kind != NODE_MAP)
         return fault(r, &at, "%s holds %s, not keys; `cleave help` shows the path of every key",
                      map->key ? shown_text(r, map->key) : "the item", shown(r, map));
+    if (strspn(at.key, "0123456789") == length) {
+        at.key = map->key;
+        return fault(r, &at, "is no list in this scene; %.*s has no meaning", (int)length, key);
+    }
     *out = node_find(map, at.key);
     if (!*out) *out = new_entry(r, map, key, length, origin);
     return OK;
@@ -93,7 +172,7 @@ static status override_one(struct reader *r, struct node *root, int origin)
     TRY(tree_read(r, o->value, strlen(o->value), origin, &value));
     while (*path) {
         if (!step_of_path(&path, &key, &length, &index))
-            return fault_mark(r, origin, 0, 0, "%s: not a path of keys; material.young or boundary[0].velocity is one",
+            return fault_mark(r, origin, 0, 0, "%s: not a path of keys; material.young or boundary.0.velocity is one",
                               shown_text(r, o->key));
         TRY(index >= 0 ? item_of(r, n, index, origin, &n) : entry_of(r, n, key, length, origin, &n));
     }

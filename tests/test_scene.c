@@ -242,6 +242,21 @@ static void test_overrides(void **state)
     assert_true(s.probe[6].at[1] == 3 && s.conversion.criteria == 0 && s.cracks == 0 && !s.has_pd_region);
     assert_true(s.material[2].critical_stretch == 0.5 && isnan(s.material[2].energy_release_rate));
     scene_free(&s);
+    static const struct scene_override named[] = {       /* the same by plain numbers and by names */
+        {"materials.glass.young", "5 GPa"},         {"bodies.bar.velocity", "[1, 0]"},
+        {"bodies.2.material", "hard"},              {"boundary.impact.velocity.1", "20 m/s"},
+        {"boundary.boundary3.time.table.1.1", "0.25"}, {"boundary.4", "{fixed: [x]}"},
+        {"boundary.7", ""},                         {"cracks.1.to", "[51 mm, -25 mm]"},
+        {"probes.p.at", "[2, 3]"},                  {"probes.7.from", "[3 mm, 0]"},
+        {"probes.0.at", "[1, 4]"},                  {"probes.line.points", "13"},
+    };
+    s = read_ok(plate, named, COUNT_OF(named));
+    assert_true(s.material[1].young == 5e9 && s.body[0].velocity[0] == 1 && s.body[2].material == 3);
+    assert_true(s.boundary[0].components == 3 && s.boundary[0].value[1] == 20 && s.boundary[3].time.value[1] == 0.25);
+    assert_true(s.boundaries == 7 && s.boundary[4].kind == BOUNDARY_VELOCITY && s.boundary[4].components == 1);
+    assert_true(s.crack[0].corner[1][0] == 0.05 && s.crack[1].corner[1][0] == 0.051);
+    assert_true(s.probe[6].at[1] == 3 && s.probe[7].from[0] == 0.003 && s.probe[7].points == 13 && s.probe[0].at[1] == 4);
+    scene_free(&s);
     static const struct scene_override sections[] = {{"pd.volume", "ramp"}, {"method", "pd"}, {"method", "mpm"}};
     s = read_ok(bar, sections, 3);       /* a section the file does not have; the later of two wins */
     assert_true(s.volume == VOLUME_RAMP && s.method == METHOD_MPM);
