@@ -23,6 +23,7 @@
 #include "solver.h"
 #include "team.h"
 #include "tips.h"
+#include "warnings.h"
 #include "watch.h"
 
 /* Frame of a body, and why where the scene does not say current. */
@@ -98,6 +99,7 @@ struct engine {
     status history_status;               /* of the last line written                                  */
     double started, last_progress, last_checkpoint;   /* wall clock [s]                               */
     int64_t step_started;                /* first step of this process                                */
+    struct warnings warnings;            /* what engine_warn and the run found                        */
     bool quiet;
     const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never        */
 };
@@ -151,8 +153,10 @@ real engine_rest(const struct engine *e);
 /* Saves or restores the state between two steps (engine_archive.c); says on standard error where a checkpoint was written
  * with other kernels. */
 status engine_archive(void *engine, struct archive *a);
-/* Prints a line for everything about the scene that is allowed but probably not meant. */
-void engine_warn(const struct engine *e, FILE *out);
+/* Everything about the scene that is allowed but probably not meant, into e->warnings. Call once, before the first step. */
+void engine_warn(struct engine *e);
+/* What shows while a run goes on: into e->warnings and, the first time, on standard error. */
+void engine_say(struct engine *e, const char *text);
 /* What probes may look at. */
 struct observed engine_observed(const struct engine *e);
 

@@ -27,6 +27,15 @@ static void say_frames(const struct engine *e)
         printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n", (long long)e->mesh.points);
 }
 
+static void say_contact(const struct engine *e)
+{
+    int on_grid = 0;
+    for (int b = 0; b < e->scene->bodies; b++) on_grid += e->scene->method != METHOD_PD && !e->frame[b].reference;
+    if (on_grid > 1)
+        printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
+               "cells opens\n");
+}
+
 static void say_time_step(const struct engine *e)
 {
     if (e->scene->solver != SOLVER_EXPLICIT)
@@ -94,10 +103,9 @@ status command_check(int argc, char **argv)
         say_materials(&e);
         say_frames(&e);
         say_time_step(&e);
-        if (s.method != METHOD_PD && s.bodies > 1)
-            printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
-                   "cells opens\n");
-        engine_warn(&e, stdout);
+        say_contact(&e);
+        engine_warn(&e);
+        warnings_print(&e.warnings, 0, stdout);
         advise(&e, stdout);
         result = cost_measure(&cost, &e, &a);
         if (result == OK) say_cost(&e, &cost, threads);

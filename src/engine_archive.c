@@ -30,23 +30,26 @@ static void rebuild(struct engine *e)
 }
 
 /* Sets of kernels agree to round-off only: whoever counts on the bits must hear of it. */
-static status kernels_archive(struct archive *a)
+static status kernels_archive(struct engine *e, struct archive *a)
 {
+    char text[256];
     const struct simd_set *now = simd_in_use();
     char then[16] = {0};
     snprintf(then, sizeof then, "%s", now->name);
     ARCHIVE_VALUE(a, "engine/kernels", then);
     then[sizeof then - 1] = 0;
     if (strcmp(then, now->name) == 0) return OK;
-    fprintf(stderr, "warning: the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, "
-                    "not to the last bit; CLEAVE_SIMD=%s keeps the bits, where the processor runs them\n", then, now->name, then);
+    snprintf(text, sizeof text,
+             "the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, not to the last bit; "
+             "CLEAVE_SIMD=%s keeps the bits, where the processor runs them", then, now->name, then);
+    engine_say(e, text);
     return OK;
 }
 
 status engine_archive(void *engine, struct archive *a)
 {
     struct engine *e = engine;
-    TRY(kernels_archive(a));
+    TRY(kernels_archive(e, a));
     TRY(particles_archive(&e->part, a, e->optional));
     if (!a->saving) rebuild(e);
     TRY(bonds_archive(&e->bonds, &e->part, a));

@@ -362,5 +362,6 @@ void engine_free(struct engine *e)
     mesh_free(&e->mesh);
     memory_free(e->record);
     memory_free(e->pulse);
+    warnings_free(&e->warnings);
     memset(e, 0, sizeof *e);
 }

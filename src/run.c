@@ -61,7 +61,9 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
     TRY(open_folder(out, s, a));
     e->quiet = a->quiet;
-    if (!a->quiet) scene_choice_print(s, stderr), engine_warn(e, stderr);
+    if (!a->quiet) scene_choice_print(s, stderr);
+    engine_warn(e);
+    warnings_print(&e->warnings, 0, stderr);
     e->stop = &stop_asked;
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     status ran = engine_run(e);

@@ -163,7 +163,7 @@ static const char manual_head[] =
     "from 0 (boundary.0 or boundary[0]), or by name. An empty value takes the key, or the item, away.\n"
     ".TP\n.B \\-t \\fIthreads\\fR\nnumber of threads. The results do not depend on it.\n"
     ".TP\n.B \\-\\-resume\ngoes on from the newest checkpoint.\n"
-    ".TP\n.B \\-q\nno progress.\n"
+    ".TP\n.B \\-q\nno progress and no figures at the end; warnings are still said, and stand in summary.json.\n"
     ".SH EXIT STATUS\n"
     ".TP\n.B 0\ndone\n.TP\n.B 1\nthe run failed\n.TP\n.B 2\nthe scene or the command line is wrong\n"
     ".TP\n.B 130\ninterrupted, after a checkpoint\n"

@@ -309,6 +309,14 @@ static int64_t bonds_past_limit(const struct engine *e)
     return past;
 }
 
+static void say_past_limit(struct engine *e)
+{
+    char text[160];
+    snprintf(text, sizeof text, "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
+                                "solver explicit", (long long)e->solver.past_limit);
+    if (e->solver.past_limit > 0) engine_say(e, text);
+}
+
 /* The body at rest at the end of the duration. */
 static void finish(struct engine *e)
 {
@@ -325,9 +333,7 @@ static void finish(struct engine *e)
     e->sampling.kinetic = 0, e->sampling.held_work = e->loads.held_work;
     engine_breaks(e, 0);
     e->solver.past_limit = bonds_past_limit(e);
-    if (e->solver.past_limit > 0 && !e->quiet)
-        fprintf(stderr, "warning: %lld bonds are beyond their critical stretch in the solution, and none broke: smaller "
-                        "loads, or solver explicit\n", (long long)e->solver.past_limit);
+    say_past_limit(e);
 }
 
 static status not_converged(const struct engine *e)

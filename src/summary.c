@@ -104,6 +104,13 @@ static void put_run(struct json *j, const struct engine *e, status s, const char
     json_count(j, "bonds_peak", e->conversion.peak_bonds);
 }
 
+static void put_warnings(struct json *j, const struct warnings *w)
+{
+    json_open(j, "warnings", '[');
+    for (int k = 0; k < w->n; k++) json_text(j, NULL, w->text[k]);
+    json_close(j, ']');
+}
+
 static void put_solver(struct json *j, const struct engine *e)
 {
     static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
@@ -263,6 +270,7 @@ static void summary_print(FILE *file, const struct engine *e, status s, const ch
     struct json j = {.file = file, .depth = 1};
     fputc('{', file);
     put_run(&j, e, s, message);
+    put_warnings(&j, &e->warnings);
     put_solver(&j, e);
     put_choice(&j, &e->scene->choice);
     put_ledger(&j, &e->watch.now);

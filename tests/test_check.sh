@@ -113,4 +113,52 @@ says "uneven loads, even sides" 'own mirror image at x' "$work/uneven.yaml"
 sed 's/to: \[5 mm, 0\]/to: [6 mm, 0]/' inputs/plate_crack.yaml >"$work/uneven.yaml"
 silent "crack to one side" 'own mirror image at x' "$work/uneven.yaml"
 
+# ---- what is wrong without being an error --------------------------------------------------------------------------------
+
+# warned WHAT PATTERN SCENE [ARGUMENT...]: check says it, a quiet run says it on standard error and writes it into the summary.
+warned()
+{
+    says "$@"
+    what=$1 pattern=$2 scene=$3; shift 3
+    "$cleave" run "$scene" -q -o "$work/warned" "$@" >"$work/out" 2>"$work/err" || fail "$what: run: $(cat "$work/err")"
+    holds "$what: -q says so: $(cat "$work/err")" grep -q "^warning: .*$pattern" "$work/err"
+    is "$what: standard output" "$(cat "$work/out")" ""
+    is "$what: in the summary" "$(grep -c "^    \".*$pattern" "$work/warned/summary.json")" 1
+    is "$what: as many as said" "$(sed -n '/"warnings": \[/,/\]/p' "$work/warned/summary.json" | grep -c '^    "')" \
+        "$(grep -c '^warning: ' "$work/err")"
+    rm -rf "$work/warned"
+}
+cat >"$work/two.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 us
+method: mpm
+mpm: {frame: current}
+materials:
+  - {name: steel, young: 200 GPa, poisson: 1/3, density: 7850}
+  - {name: glass, young: 72 GPa, poisson: 1/3, density: 2440}
+bodies:
+  - {name: left, material: steel, shape: {box: {from: [0, 0], to: [6 mm, 6 mm]}}}
+  - {name: right, material: glass, shape: {box: {from: [6 mm, 0], to: [12 mm, 6 mm]}}}
+particles: {spacing: 1 mm}
+output: {frames: 0, samples: 1}
+END
+two=$work/two.yaml apart="-s bodies.right.shape.box.from=[10mm,0]"
+through="left and right are in the reference frame and meet no other body: they pass through"
+says "the grid lets bodies meet" '^contact .*stick' "$two" $apart
+silent "the grid lets bodies meet" '^warning' "$two" $apart
+warned "reference frame" "$through" "$two" $apart -s mpm.frame=reference
+silent "reference frame: none meets" '^contact' "$two" $apart -s mpm.frame=reference
+says "one of two in the reference frame" 'left is in the reference frame and meets' "$two" $apart -s bodies.left.frame=reference
+warned "bonds" 'peridynamic bodies do not meet' "$two" $apart -s method=pd
+warned "adaptive" 'becomes peridynamic meets no other body' "$two" $apart -s method=adaptive
+warned "side by side" 'touch at the start (left with right) and are not joined' "$two" -s method=pd
+says "side by side on the grid" '(left with right) and are not joined: .* they stick until' "$two"
+silent "side by side, about to hit" 'touch at the start' "$two" -s bodies.left.velocity=[1,0]
+silent "two spacings apart" 'touch at the start' "$two" -s bodies.right.shape.box.from=[7mm,0]
+warned "a published coupling" 'coupling pgg .* no energy' inputs/plate_crack.yaml -s coupling=pgg -s duration=1us
+silent "one that is not used" 'no energy' plate_crack -s coupling=pgg -s method=pd
+"$cleave" run "$two" -q -o "$work/warned" $apart
+is "nothing to warn of: an empty list" "$(grep -c '"warnings": \[\]' "$work/warned/summary.json")" 1
+
 finish

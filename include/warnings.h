@@ -1,0 +1,17 @@
+/* floor 0: what a run has to say that is no error: a list of lines, each said once, in the order in which they came. */
+#ifndef CLEAVE_WARNINGS_H
+#define CLEAVE_WARNINGS_H
+
+#include <stdio.h>
+
+#include "base.h"
+
+struct warnings { int n; char **text; };
+
+/* One more, unless it is there. True: it is new. */
+bool warnings_add(struct warnings *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* From the `first` on, a line each: `warning: text`. */
+void warnings_print(const struct warnings *w, int first, FILE *out);
+void warnings_free(struct warnings *w);
+
+#endif

@@ -1,0 +1,36 @@
+/* floor 0: what a run has to say that is no error. */
+#include "warnings.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+#include "memory.h"
+
+enum { WARNING_LONGEST = 1024 };
+
+bool warnings_add(struct warnings *w, const char *format, ...)
+{
+    char text[WARNING_LONGEST];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    for (int k = 0; k < w->n; k++)
+        if (strcmp(w->text[k], text) == 0) return false;
+    w->text = memory_resize("warnings", w->text, w->n, w->n + 1, sizeof *w->text);
+    w->text[w->n] = NEW("warnings.text", strlen(text) + 1, char);
+    strcpy(w->text[w->n++], text);
+    return true;
+}
+
+void warnings_print(const struct warnings *w, int first, FILE *out)
+{
+    for (int k = first; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);
+}
+
+void warnings_free(struct warnings *w)
+{
+    for (int k = 0; k < w->n; k++) memory_free(w->text[k]);
+    memory_free(w->text);
+    *w = (struct warnings){0};
+}
