@@ -19,6 +19,7 @@
 #include "probes.h"
 #include "rest_points.h"
 #include "rim.h"
+#include "rise.h"
 #include "scene.h"
 #include "solver.h"
 #include "team.h"
@@ -71,7 +72,8 @@ struct engine {
     struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
     struct laps laps;
     real t, dt, dt_critical;             /* [s]                                                       */
-    char cure[128];                      /* what to change about dt where a run is unstable           */
+    struct rise speed_rise, excess_rise; /* of the largest speed^2 [m^2/s^2]; of energy from nowhere [J] */
+    real start_speed;                    /* largest at t = 0                                 [m/s]    */
     int64_t step, steps;
     real wave_speed;                     /* fastest of the materials [m/s]                            */
     real residual_step0;                 /* largest nodal force of the first step, for patch probes [N] */
@@ -128,7 +130,7 @@ void engine_forces(struct engine *e);
 void engine_ends_know(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
  * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
- * of some; after conversion; the alarm. */
+ * of some; after conversion. */
 status engine_frames(struct engine *e);
 bool engine_has_mesh(const struct engine *e);
 /* Would `auto` put this body into the reference frame? */
@@ -140,7 +142,6 @@ void engine_mesh_show(struct engine *e);
 void engine_mesh_look(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
 void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n);
-status engine_mesh_alarm(struct engine *e);
 /* Return to material points (engine_return.c): whether the scene allows it; before a step, what is due; the rim of the
  * material points anew. */
 status engine_return_check(const struct engine *e);
@@ -157,6 +158,14 @@ status engine_archive(void *engine, struct archive *a);
 void engine_warn(struct engine *e);
 /* What shows while a run goes on: into e->warnings and, the first time, on standard error. */
 void engine_say(struct engine *e, const char *text);
+/* Runs out of hand (engine_alarm.c). `make`: what the scene starts with. `alarm`, after every step: FAILED with place, step,
+ * cause and cure where something moves faster than waves do; `runaway` is the same, of peridynamic particles and points of a mesh
+ * only if told so. `cure`: what to change, from how `value` has grown and what the loads have done. */
+enum { ENGINE_CURE = 640 };
+void engine_alarm_make(struct engine *e);
+status engine_alarm(struct engine *e);
+status engine_runaway(const struct engine *e, bool peridynamic, bool meshed);
+void engine_cure(const struct engine *e, const struct rise *rise, real value, char *text, size_t room);
 /* What probes may look at. */
 struct observed engine_observed(const struct engine *e);
 

@@ -67,10 +67,13 @@ real watch_energy_change(const struct watch *w);
 /* Books the first break of the run from FLAG_CRACKED. */
 void watch_breaks(struct watch *w, const struct particles *p, int64_t broken, real t);
 
-/* FAILED with place, step, cause and `cure` if a position or velocity is not finite or a particle outruns `limit`
+/* Largest speed among `n` listed particles [m/s]. */
+real watch_fastest(const struct particles *p, const int32_t *list, int64_t n);
+
+/* FAILED with place, step and cause if a position or velocity is not finite or a particle outruns `limit`
  * [m/s] (the fastest wave of the scene). Peridynamic particles and points of a mesh are looked at only if told so: whoever moves
  * them, or their nodes, watches them. */
-status watch_alarm(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step, real t, const char *cure);
+status watch_alarm(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step, real t);
 
 status watch_archive(struct watch *w, struct archive *a);
 

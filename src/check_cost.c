@@ -82,7 +82,7 @@ static double all_steps(struct engine *e)
     if (engine_report_start(e) != OK) return NAN;
     laps_start(&e->laps);
     while (e->step < e->steps) {
-        if (engine_step(e) != OK || engine_mesh_alarm(e) != OK || engine_report(e) != OK) return NAN;
+        if (engine_step(e) != OK || engine_alarm(e) != OK || engine_report(e) != OK) return NAN;
         if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;
     }
     return engine_baseline(e) == OK ? team_clock() - start : NAN;

@@ -34,7 +34,7 @@ static status points_sort(struct engine *e)
         if (k == KIND_MPM) bounds_widen(p, p->list_free, p->n_free, from, to);
         else if (coupling_unified(e->coupling)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
     for (int d = 0; d < p->dim; d++)
-        if (!isfinite(to[d] - from[d])) return watch_alarm(p, true, false, e->wave_speed, e->step, e->t, e->cure);
+        if (!isfinite(to[d] - from[d])) return engine_runaway(e, true, false);
     int64_t most = 64 * p->n + 1000000;          /* far more than any sound run needs; an index is 32 bits */
     TRY(grid_cover(&e->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
     transfer_order_sort(&e->order, p, p->list_free, p->n_free, &e->grid);
@@ -198,7 +198,7 @@ status engine_run(struct engine *e)
     laps_start(&e->laps);
     while (e->step < e->steps) {
         TRY(engine_step(e));
-        TRY(engine_mesh_alarm(e));
+        TRY(engine_alarm(e));
         TRY(engine_report(e));
     }
     return engine_report_end(e);

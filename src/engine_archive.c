@@ -79,6 +79,8 @@ status engine_archive(void *engine, struct archive *a)
     TRY(solver_archive(&e->solver, a));
     TRY(conversion_archive(&e->conversion, a));
     TRY(watch_archive(&e->watch, a));
+    ARCHIVE_VALUE(a, "engine/speed_rise", e->speed_rise);
+    ARCHIVE_VALUE(a, "engine/excess_rise", e->excess_rise);
     TRY(tips_archive(&e->tips, a));
     for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->growth[k], k, a));
     TRY(probes_archive(&e->probes, a));

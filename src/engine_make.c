@@ -322,6 +322,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     for (int k = 0; k < s->growths; k++) growth_make(&e->growth[k], &s->growth[k]);
     if (s->solver != SOLVER_EXPLICIT) TRY(named(s, solver_make(e)));
     watch_make(&e->watch);
+    engine_alarm_make(e);
     make_pulses(e);
     struct observed o = engine_observed(e);
     return named(s, probes_make(&e->probes, s->probe, s->probes, &o));

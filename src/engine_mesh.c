@@ -202,10 +202,3 @@ void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n)
     engine_mesh_follow(e, n);
     engine_mesh_look(e, NULL, e->part.n);
 }
-
-status engine_mesh_alarm(struct engine *e)
-{
-    const bool wild = e->mesh.points > 0 && !(e->mesh_speed <= e->wave_speed / sqrt(e->part.dim));
-    if (wild) mesh_points_move(&e->mesh, &e->part);
-    return watch_alarm(&e->part, e->wild || e->part.n_carried > 0, wild, e->wave_speed, e->step, e->t, e->cure);
-}

@@ -337,21 +337,26 @@ static int64_t fastest_particle(const struct particles *p)
 
 /* watch_alarm sees what moves too fast; a body that shakes itself to dust does not. The first steps are left out, where
  * half a step more or less of a load is much of all energy there is; so is a body at rest, whose energy is round-off. */
-static status energy_alarm(const struct engine *e)
+static status energy_alarm(struct engine *e)
 {
     const struct particles *p = &e->part;
     const struct watch *w = &e->watch;
-    if (!e->sampling.due || w->now.balance_error <= ENERGY_FROM_NOWHERE || e->step < ENERGY_STEPS) return OK;
+    const real excess = w->now.balance_error * w->energy_scale;
+    const bool last = e->step == e->steps && e->scene->solver == SOLVER_EXPLICIT;
+    if (!e->sampling.due && !last) return OK;
+    rise_note(&e->excess_rise, e->step, excess);
+    if (w->now.balance_error <= ENERGY_FROM_NOWHERE || e->step < ENERGY_STEPS) return OK;
     if (w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->wave_speed)) return OK;
     int64_t i = fastest_particle(p);
-    char place[96];
+    char place[96], cure[ENGINE_CURE];
     int used = 0;
+    engine_cure(e, &e->excess_rise, excess, cure, sizeof cure);
     for (int d = 0; d < p->dim; d++)
         used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
     return status_set(FAILED,
                       "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of "
                       "its energy from nowhere; %s",
-                      (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, e->cure);
+                      (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, cure);
 }
 
 real engine_rest(const struct engine *e)

@@ -2,7 +2,6 @@
  *
  * What `bench stability` observes beside it: growth of the largest mode under the step itself. */
 #include <math.h>
-#include <stdio.h>
 
 #include "engine.h"
 
@@ -100,12 +99,6 @@ static real critical_of_bonds(struct engine *e)
 
 #define STEPS_MOST 1e12                  /* as scene_check.c: more than any machine will ever do */
 
-static void make_cure(struct engine *e)
-{
-    snprintf(e->cure, sizeof e->cure, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
-             e->scene->time_step > 0 ? "step" : "safety", e->dt, e->dt / e->dt_critical, e->dt_critical);
-}
-
 static status make_steps(struct engine *e, real dt)
 {
     const struct scene *s = e->scene;
@@ -126,6 +119,5 @@ status engine_time_make(struct engine *e)
     const real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
     if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e, dt));
     else e->steps = s->solver_steps, e->dt = dt;
-    make_cure(e);
     return OK;
 }

@@ -90,7 +90,7 @@ static void slow_down(struct engine *e)
 status grid_relaxation_step(struct engine *e, bool *done)
 {
     TRY(engine_step(e));
-    TRY(engine_mesh_alarm(e));
+    TRY(engine_alarm(e));
     if (e->step % LOOK_STEPS == 0) look(e, done);
     slow_down(e);
     return OK;

@@ -281,7 +281,7 @@ static bool out_of_hand(const struct particles *p, int64_t i, real limit)
     return particles_out_of_hand(p, alone, 1, limit);
 }
 
-static status alarm_raise(const struct particles *p, int64_t i, real limit, int64_t step, real t, const char *cure)
+static status alarm_raise(const struct particles *p, int64_t i, real limit, int64_t step, real t)
 {
     char place[128];
     real speed2 = 0;
@@ -294,8 +294,20 @@ static status alarm_raise(const struct particles *p, int64_t i, real limit, int6
     if (isfinite(speed2) && speed2 > limit * limit)
         snprintf(what, sizeof what, "moves at %.3g m/s, faster than the wave speed %.4g m/s", sqrt(speed2), limit);
     else snprintf(what, sizeof what, "has a position or velocity that is no finite number");
-    return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s; %s", (long long)step, t,
-                      (int)p->id[i], place, what, cure);
+    return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s", (long long)step, t,
+                      (int)p->id[i], place, what);
+}
+
+real watch_fastest(const struct particles *p, const int32_t *list, int64_t n)
+{
+    real most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most)
+    for (int64_t k = 0; k < n; k++) {
+        real speed2 = 0;
+        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][list[k]]);
+        most = real_max(most, speed2);
+    }
+    return sqrt(most);
 }
 
 /* First of the listed particles that is out of hand, n_all if none is. */
@@ -307,14 +319,14 @@ static int64_t first_out_of_hand(const struct particles *p, const int32_t *list,
     return list[k];
 }
 
-status watch_alarm(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step, real t, const char *cure)
+status watch_alarm(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step, real t)
 {
     assert(limit > 0);
     int64_t first = peridynamic ? first_out_of_hand(p, p->list[KIND_PD], p->n_of[KIND_PD], limit) : p->n_all;
     const int64_t free = meshed ? first_out_of_hand(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
                                     : first_out_of_hand(p, p->list_free, p->n_free, limit);
     if (free < first) first = free;
-    return first < p->n ? alarm_raise(p, first, limit, step, t, cure) : OK;
+    return first < p->n ? alarm_raise(p, first, limit, step, t) : OK;
 }
 
 status watch_archive(struct watch *w, struct archive *a)
