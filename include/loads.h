@@ -12,7 +12,7 @@
 
 enum boundary_kind {
     BOUNDARY_VELOCITY,       /* holds components of the velocity (`fixed` is this with value 0)          */
-    BOUNDARY_TRACTION,       /* surface force on the outermost layer of a flat face       [Pa]           */
+    BOUNDARY_TRACTION,       /* surface force on the face that a body shows along an axis [Pa]           */
     BOUNDARY_BODY_FORCE,     /*                                                            [N/m^3]       */
     BOUNDARY_MIRROR          /* plane of symmetry (roller) or of antisymmetry (fixed end)                */
 };
@@ -38,6 +38,8 @@ struct boundary {
     struct profile profile;              /* BODY_FORCE: factor on value                               */
     int face;                            /* TRACTION: axis of the face's normal                       */
     int side;                            /* TRACTION: +1 upper face, -1 lower face                    */
+    real section;                        /* TRACTION: of all bodies, in line [m^2], in the plane [m], 1 in space; 0: a
+                                            particle's area is its volume over the spacing            */
     int axis;                            /* MIRROR: normal of the plane ...                           */
     real at;                             /*         ... and where it is                   [m]         */
     bool hold_tangential;                /* MIRROR: displacement odd in all components, not only normal */
@@ -48,8 +50,8 @@ struct load {
     const struct boundary *boundary;     /* borrowed from the scene                                   */
     int64_t n;
     int32_t *particle;                   /* ascending                                                 */
-    real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it in the
-                                            outermost layer, -1/2 in the next; BODY_FORCE: volume times profile [m^3].
+    real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
+                                            column's first particle, -1/2 on the next; BODY_FORCE: volume times profile [m^3].
                                             Equal ones are one array, of several components or loads  */
     int leader;                          /* TRACTION, BODY_FORCE: first load of the same particles, which acts for it; -1 */
     real *before[DIM_MAX];               /* [n] of a leader, components with a value: where they were in this step [m] */
@@ -90,12 +92,22 @@ struct loads {
 
 static inline bool is_loaded(const struct loads *l, int64_t i) { return l->loaded && l->loaded[i]; }
 
-/* Finds the particles of one boundary (none of a mirror), ascending, and their shares; marks FLAG_DRIVEN. */
-void load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
+/* Finds the particles of one boundary (none of a mirror), ascending, and their shares; marks FLAG_DRIVEN. Refuses a force on
+ * a region without particles, a traction on one without a free face. */
+status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
+
+/* The face of a traction (loads_columns.c): of each column of particles along the normal the first that nothing hides bears its
+ * area, and that along the face together with the next where `two` are wanted. */
+struct face {
+    real *normal, *along;                /* [particles] area for the component along the normal, and for the others [m^2] */
+};
+void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+               bool two);
+void face_free(struct face *f);
 
 /* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
- * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is the layer thickness of
- * tractions. Refuses forces on a region without particles. */
+ * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is that of the columns that bear
+ * tractions. Refuses what load_select does. */
 status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
                   real reach, int optional);
 void loads_free(struct loads *l);

@@ -32,10 +32,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->n = n;
     l->spacing = spacing;
     l->load = NEW("loads.load", n, struct load);
-    for (int b = 0; b < n; b++) load_select(&l->load[b], &boundary[b], p, spacing);
-    for (int b = 0; b < n; b++)
-        if (l->load[b].n == 0 && (boundary[b].kind == BOUNDARY_TRACTION || boundary[b].kind == BOUNDARY_BODY_FORCE))
-            return status_set(REFUSED, "boundary %s: no particle lies in its region", boundary[b].name);
+    for (int b = 0; b < n; b++) TRY(load_select(&l->load[b], &boundary[b], p, spacing));
     loads_list(l, p);
     loads_join(l, p->dim);
     return loads_mirrors_make(l, p, reach, optional);
