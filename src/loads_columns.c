@@ -159,15 +159,24 @@ static void particle_enter(struct columns *c, const struct boundary *b, const st
 
 static real height(const struct boundary *b, const struct particles *p, int32_t i) { return b->side * p->X[b->face][i]; }
 
-/* Particles come row by row: a column is nearly in order. Equal ones stay in the order they have. */
+/* Of equal ones the first is lower. */
+static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
+{
+    return height(b, p, i) < height(b, p, j) || (height(b, p, i) == height(b, p, j) && i < j);
+}
+
+/* Shell's sort with Knuth's gaps: of a lattice's columns, which are in order, little is asked. */
 static void sort_column(const struct boundary *b, const struct particles *p, int32_t *order, int64_t n)
 {
-    for (int64_t k = 1; k < n; k++) {
-        const int32_t i = order[k];
-        int64_t at = k;
-        for (; at > 0 && height(b, p, order[at - 1]) > height(b, p, i); at--) order[at] = order[at - 1];
-        order[at] = i;
-    }
+    int64_t gap = 1;
+    while (gap < n / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3)
+        for (int64_t k = gap; k < n; k++) {
+            const int32_t i = order[k];
+            int64_t at = k;
+            for (; at >= gap && is_lower(b, p, i, order[at - gap]); at -= gap) order[at] = order[at - gap];
+            order[at] = i;
+        }
 }
 
 static void columns_fill(struct columns *c, const struct boundary *b, const struct particles *p)
@@ -179,7 +188,7 @@ static void columns_fill(struct columns *c, const struct boundary *b, const stru
     for (int64_t k = 0; k < c->n; k++) c->start[k + 2] = c->start[k + 1] + c->count[k];
     c->order = NEW("loads.order", c->start[c->n + 1], int32_t);
     for (int64_t k = 0; k < p->n; k++) {
-        const int64_t i = b->side > 0 ? k : p->n - 1 - k;
+        const int64_t i = b->side > 0 ? k : p->n - 1 - k;        /* upwards */
         if (p->body[i] == c->body || b->body < 0) particle_enter(c, b, p, i, true);
     }
     for (int64_t k = 0; k < c->n; k++) sort_column(b, p, c->order + c->start[k], c->start[k + 1] - c->start[k]);

@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cloud.h"
 #include "engine.h"
 #include "engine_report.h"
 #include "fill.h"
@@ -91,7 +92,7 @@ static const char overhang[] = "body: [" BOX(0, 0, 30, 30) ", " CUT(10, 10, 31, 
 static const char holed[] = "body: [" BOX(0, 0, 30, 30) ", {subtract: " DISC(15, 15, 6) "}]\n";
 
 /* What the solid shows along x and along y (and z) [m, m^2], and how much one spacing all round changes it. */
-static const struct body {
+static const struct solid_shown {
     const char *name, *space, *body;
     real shows[DIM_MAX], spacing[DIM_MAX];
 } shapes[] = {
@@ -113,7 +114,7 @@ static const struct body {
 };
 
 /* Shaken by less than half a spacing, a lattice has the columns that it had. */
-static void check_shape(const struct body *q, int face, int side)
+static void check_shape(const struct solid_shown *q, int face, int side)
 {
     static const char *const shaken[] = {"", ", irregularity: 0.5", ", irregularity: 0.8, seed: 3"};
     int64_t columns = 0;
@@ -289,11 +290,42 @@ static void test_lists(void **state)
     remove(list_name);
 }
 
+/* In space: balls of radius 8 from a close packing, shaken, with volumes that differ by a half. */
+static void test_packed(void **state)
+{
+    (void)state;
+    static const char *const face[] = {"x+", "x-", "y+", "y-", "z+", "z-"};
+    uint64_t seed = 7;
+    FILE *out = fopen(list_name, "w");
+    assert_non_null(out);
+    fputs("x,y,z,volume\n", out);
+    for (int z = -11; z <= 11; z++)
+        for (int y = -11; y <= 11; y++)
+            for (int x = -11; x <= 11; x++) {
+                const real edge = H * cbrt(4);               /* of the cubic cell of four */
+                const real X[3] = {0.5 * edge * x, 0.5 * edge * y, 0.5 * edge * z};
+                if ((x + y + z) % 2 != 0 || dot(X, X, 3) > square(8 * H)) continue;
+                for (int d = 0; d < 3; d++) fprintf(out, "%.9g,", X[d] + cloud_between(&seed, -0.2, 0.2) * H);
+                fprintf(out, "%.9g\n", 0.25 * pow(edge, 3) * cloud_between(&seed, 0.75, 1.25));
+            }
+    fclose(out);
+    for (int f = 0; f < 6; f++) {
+        struct sample a;
+        char traction[80], body[120];
+        snprintf(traction, sizeof traction, "traction: [1, 1, 1], face: %s", face[f]);
+        snprintf(body, sizeof body, "bodies: [{name: grains, particles: %s}]\n", list_name);
+        sample_make(&a, "solid", body, "", traction);
+        for (int d = 0; d < 3; d++) assert_near(area(&a, d), M_PI * square(8 * H), 2 * M_PI * 8 * H * H);
+        sample_free(&a);
+    }
+    remove(list_name);
+}
+
 /* ---- in a run ----------------------------------------------------------------------------------------------------- */
 
 /* A free body has the momentum t A T after a time T, whatever moves it: the sum of the momenta, not what the loads say they
  * gave. */
-static void check_impulse(const struct body *q, int64_t columns, const char *method, const char *more)
+static void check_impulse(const struct solid_shown *q, int64_t columns, const char *method, const char *more)
 {
     enum { STEPS = 12 };
     struct scene s;
@@ -353,7 +385,7 @@ static void test_impulse(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_shapes), cmocka_unit_test(test_hidden), cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_bodies), cmocka_unit_test(test_along), cmocka_unit_test(test_lists),
+                                       cmocka_unit_test(test_bodies), cmocka_unit_test(test_along), cmocka_unit_test(test_lists), cmocka_unit_test(test_packed),
                                        cmocka_unit_test(test_impulse)};
     snprintf(list_name, sizeof list_name, "faces%ld.csv", (long)getpid());
     return cmocka_run_group_tests(tests, NULL, NULL);
