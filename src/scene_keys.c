@@ -268,8 +268,8 @@ const struct key keys[] = {
     KEY("boundary.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, NONE,
         "components driven; free ones are left alone", .words = "list of number or free"),
     KEY("boundary.traction", KEY_HAND, UNIT_PRESSURE, NOWHERE, ANY, NONE,
-        "force per area across the face, on the first particle of each column: steps and curves too, walls of holes only where "
-        "region leaves out what hides them", .words = "list of number"),
+        "force per area across the face, on the first particle of each column: steps and curves too, walls of holes only "
+        "where region leaves out what hides them", .words = "list of number"),
     KEY("boundary.face", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
         "outward normal of the face (with traction); what region and body show to who looks from there", .words = "x+|x-|y+|y-|z+|z-"),
     KEY("boundary.body_force", KEY_HAND, UNIT_BODY_FORCE, NOWHERE, ANY, NONE,
