@@ -104,6 +104,22 @@ static inline struct state_modulus state_modulus_of(const struct material *m, en
 /* Where a mirror image comes from, and the axis that its mirror turns round (-1: none, a clamped plane). */
 struct state_image { int32_t source; int axis; };
 
+/* Bonds from rows to images in clamped planes (of an image, too). The displacement of such an image is that of its source turned
+ * round, P u, while its place is reflected: no symmetry gives the force on the image, so it is brought back to the source
+ * (kernels/clamp_force.c). */
+struct clamp_end { int32_t bond; int8_t sign[DIM_MAX]; };   /* what a bond's reaction gives to a particle, by component */
+struct clamped {
+    int64_t n;
+    int64_t *entry;                      /* [n] of what bonds store                                       */
+    int32_t *particle_of;                /* [n] of its row                                                */
+    real *w;                             /* [n] before the last sweep                                 [1] */
+    real *reaction[DIM_MAX];             /* [n] on the image, of the energy that the row counts       [N] */
+    int64_t held;                        /* particles at the ends of such bonds, and of those that pull at each: */
+    int32_t *particle;                   /* [held] ascending                                              */
+    int64_t *first;                      /* [held + 1]                                                    */
+    struct clamp_end *end;
+};
+
 enum { TURN = ROTATION };                /* numbers that hold a rotation */
 
 /* What particles know of their families; only state-based models have it. Material points with rows then have particles.end_*. */
@@ -197,6 +213,7 @@ struct bonds {
     real *plastic_work;                  /* [groups 8] half of what its broken bonds had dissipated    [J] */
     int32_t *broken;                     /* [groups 8] bonds broken by load since the start               */
     struct state state;
+    struct clamped clamped;
     struct rest rest;                    /* of blocks of rows                                             */
     real stiffness;                      /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };

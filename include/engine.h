@@ -38,7 +38,7 @@ struct engine {
     struct bond_source source;
     struct bonds bonds;
     struct state_modulus *modulus;       /* [materials] of state-based models, else NULL              */
-    int *mirror_axis;                    /* [boundaries] of state-based models, else NULL             */
+    int *mirror_axis;                    /* [boundaries] -1: clamped                                  */
     real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
     real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
     real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */

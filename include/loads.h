@@ -73,15 +73,15 @@ struct held_set {
 struct loads {
     int n;
     struct load *load;
-    uint8_t *loaded;                     /* [n] 1: something else than bonds and the grid may move it; NULL: nobody */
+    uint8_t *loaded;                     /* [n] LOADED, WAITS; NULL: nobody                           */
     int64_t listed;
-    int32_t *list;                       /* [listed] those, ascending                                 */
+    int32_t *list;                       /* [listed] those that are not 0, ascending                  */
     int64_t images;
     struct image *image;
     real impulse[DIM_MAX];               /* given by loads and supports since the start       [N s]   */
     real work;                           /* done by applied forces, up to where particles are [J]     */
     real held_work;                      /* done by supports, up to the velocities, half a step behind [J] */
-    real spacing;                        /* [m]                                                       */
+    real spacing, reach;                 /* [m]; of bonds                                             */
     real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
                                             loads' moment [1/s^2], 0: none                            */
     real place_step[DIM_MAX];            /* places across mirrors are multiples of it; 0: as they are [m] */
@@ -90,7 +90,14 @@ struct loads {
     struct held_set held, held_mesh;     /* nodes in driven regions and on mirrors; driven ones of the mesh */
 };
 
-static inline bool is_loaded(const struct loads *l, int64_t i) { return l->loaded && l->loaded[i]; }
+/* Something else than bonds and the grid may move a particle; it waits for bonds of others, across a clamped plane nearby. */
+enum { LOADED = 1, WAITS = 2 };
+static inline bool is_loaded(const struct loads *l, int64_t i) { return l->loaded && l->loaded[i] & LOADED; }
+/* Is it a mirror that holds motion along its plane, too? Along a line there is none: it is one of symmetry. */
+static inline bool is_clamp(const struct boundary *b, int dim)
+{
+    return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
+}
 
 /* Finds the particles of one boundary (none of a mirror), ascending, and their shares; marks FLAG_DRIVEN. Refuses a force on
  * a region without particles, a traction on one without a free face. */
@@ -127,6 +134,9 @@ void loads_push_work(struct loads *l, struct particles *p, real t);
 
 /* The part of loads_make that checks mirrors and appends their images. Refuses a mirror that cuts its body. */
 status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional);
+
+/* WAITS of those whose bonds may cross a clamped plane. */
+void loads_mirrors_mark(struct loads *l, const struct particles *p);
 
 /* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. Places of the sources across the
  * mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */

@@ -83,6 +83,11 @@ struct pd_motion {
  * and that are not `loaded` move in the same sweep (sweep.h). */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *motion);
 
+/* The same by the sweep of a model, where some bonds lead to images in clamped planes (bonds.h), whose sources and rows have to be
+ * `loaded`: what such bonds do to their images is brought back to the sources (clamp_force.c). All who want forces ask here. */
+KERNEL(int64_t, bond_forces, (bond_force_fn *sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                              struct pd_motion *motion));
+
 /* What particles know of their families, into b->state: the first half of a state-based force. Whoever breaks bonds of rows
  * just made calls it before, if bond_break_asks. Material points at the end of bonds are told what it means to their cells
  * (particles.end_pull, end_moment). */

@@ -177,16 +177,18 @@ static ALWAYS_INLINE void know_group(struct bonds *b, struct particles *p, int64
     know_by_family(b, p, g, &sum, dim, model);
 }
 
-/* Mirror images know what their source knows; a plane of symmetry turns rotations round. */
+/* Mirror images know what their source knows; a plane of symmetry turns rotations round. What clamped ones would answer is brought
+ * back to their source by clamp_force.c, so they know nothing. */
 static void state_of_images(struct bonds *b, const struct particles *p, int dim, bool turns)
 {
     for (int64_t g = p->n; g < p->n_all; g++) {
         const int32_t i = b->state.image[g - p->n].source;
         const int axis = b->state.image[g - p->n].axis;
-        b->state.pressure[g] = b->state.pressure[i];
-        b->state.spring[g] = b->state.spring[i];
+        const bool knows = axis >= 0;
+        b->state.pressure[g] = knows ? b->state.pressure[i] : 0;
+        b->state.spring[g] = knows ? b->state.spring[i] : 0;
         for (int c = 0; turns && c < TURN; c++)
-            b->state.turn[c][g] = turn_odd(c, axis, dim) ? -b->state.turn[c][i] : b->state.turn[c][i];
+            b->state.turn[c][g] = !knows ? 0 : turn_odd(c, axis, dim) ? -b->state.turn[c][i] : b->state.turn[c][i];
     }
 }
 

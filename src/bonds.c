@@ -320,6 +320,7 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
             p->damage[b->particle[r]] = b->family_volume[r] > 0 ? b->broken_volume[r] / b->family_volume[r] : 0;
     }
     state_make(b, p, s);
+    clamped_make(b, p, s);
 }
 
 void bonds_images_follow(struct particles *p, const struct bond_source *s)
@@ -365,6 +366,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->pair);
     memory_free(b->plastic_work);
     state_free(b);
+    clamped_free(b);
     rest_free(&b->rest);
     memory_free(b->trigger);
     memory_free(b->family_volume);

@@ -163,4 +163,8 @@ void state_start(struct bonds *b, const struct bond_source *s);
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
 void state_free(struct bonds *b);
 
+/* Bonds to images in clamped planes, once all rows are made (bonds_clamped.c). */
+void clamped_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
+void clamped_free(struct bonds *b);
+
 #endif

@@ -43,7 +43,7 @@ void bond_body_stiffness(void *context, const real *u, real *y)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * u[a * p->n + i] / body->root[i];
     if (body->loads) loads_mirror(body->loads, p);
-    body->force(body->b, p, &limit, NULL);
+    bond_forces(body->force, body->b, p, &limit, NULL);
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)

@@ -157,7 +157,7 @@ status engine_step(struct engine *e)
     if (e->rim.points > 0 && e->rim_share > 0) e->damped += rim_damp(&e->rim, p, e->rim_share);
     lap(&e->laps, LAP_GRID);
     loads_clear(&e->loads, p);
-    int64_t broken = k->bond_force(&e->bonds, p, &e->source.limit, now);    /* 2, 5: forces of bonds; breaking */
+    int64_t broken = bond_forces(k->bond_force, &e->bonds, p, &e->source.limit, now);    /* 2, 5: bonds; breaking */
     loads_apply(&e->loads, p, middle, e->dt, dt_velocity);
     lap(&e->laps, LAP_BONDS);
     engine_sample_energy(e);

@@ -54,10 +54,7 @@ static void make_states(struct engine *e)
     e->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
     for (int k = 0; k < s->materials; k++)
         e->modulus[k] = state_modulus_of(&s->material[k], s->space, s->model == MODEL_MOSPD);
-    e->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
-    for (int b = 0; b < s->boundaries; b++)
-        e->mirror_axis[b] = s->boundary[b].hold_tangential ? -1 : s->boundary[b].axis;
-    e->source.modulus = e->modulus, e->source.mirror_axis = e->mirror_axis;
+    e->source.modulus = e->modulus;
     e->source.local = !s->bulk, e->source.turns = s->model == MODEL_MOSPD;
 }
 
@@ -102,9 +99,19 @@ static void make_family(struct engine *e)
     e->source.cracks = has_peridynamics(s) ? s->cracks : 0;
 }
 
+static void make_mirrors(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
+    for (int b = 0; b < s->boundaries; b++)
+        e->mirror_axis[b] = is_clamp(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
+    e->source.mirror_axis = e->mirror_axis;
+}
+
 static void make_bonds(struct engine *e)
 {
     const struct scene *s = e->scene;
+    make_mirrors(e);
     e->source.image = e->loads.image;
     e->source.room = bonds_room(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {

@@ -10,15 +10,16 @@
 
 /* ---- set-up ---------------------------------------------------------------------------------------- */
 
-/* Who is loaded. */
+/* Who is loaded, and who waits for what bonds across clamped planes do to others. */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
-    for (int b = 0; b < l->n; b++) most += l->load[b].n;
+    for (int b = 0; b < l->n; b++) most += l->load[b].n + (is_clamp(l->load[b].boundary, p->dim) ? p->n : 0);
     if (most == 0) return;
     l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
     for (int b = 0; b < l->n; b++)
-        for (int64_t k = 0; k < l->load[b].n; k++) l->loaded[l->load[b].particle[k]] = 1;
+        for (int64_t k = 0; k < l->load[b].n; k++) l->loaded[l->load[b].particle[k]] = LOADED;
+    loads_mirrors_mark(l, p);
     l->list = NEW("loads.list", most < p->n ? most : p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++)
         if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
@@ -33,9 +34,10 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->spacing = spacing;
     l->load = NEW("loads.load", n, struct load);
     for (int b = 0; b < n; b++) TRY(load_select(&l->load[b], &boundary[b], p, spacing));
-    loads_list(l, p);
     loads_join(l, p->dim);
-    return loads_mirrors_make(l, p, reach, optional);
+    TRY(loads_mirrors_make(l, p, reach, optional));
+    loads_list(l, p);
+    return OK;
 }
 
 void loads_free(struct loads *l)

@@ -127,6 +127,17 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int 
         l->load[b].outside = mirror_outside(&boundary[b], p);
         mirror_make(l, b, p, reach, optional);
     }
+    l->reach = reach;
     loads_mirror(l, p);
     return OK;
+}
+
+void loads_mirrors_mark(struct loads *l, const struct particles *p)
+{
+    for (int b = 0; b < l->n; b++) {
+        const struct boundary *clamp = l->load[b].boundary;
+        for (int64_t i = 0; i < p->n && is_clamp(clamp, p->dim); i++)
+            if ((clamp->body < 0 || p->body[i] == clamp->body) && fabs(p->X[clamp->axis][i] - clamp->at) <= l->reach)
+                l->loaded[i] |= WAITS;
+    }
 }

@@ -17,7 +17,7 @@
 void solver_bond_force(struct engine *e)
 {
     loads_mirror(&e->loads, &e->part);
-    e->kernels.bond_force(&e->bonds, &e->part, &e->source.limit, NULL);
+    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
 }
 
 real solver_largest(const struct field *v, int dim, int64_t n)

@@ -1,0 +1,201 @@
+/* floor 5: clamped planes (`mirror: ..., tangential: held`): forces have an energy, in any model, at corners and on scattered
+ * particles; beams run long; supports and loads balance. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "cloud.h"
+#include "engine.h"
+#include "memory.h"
+#include "near.h"
+#include "sets.h"
+
+/* Differences of forces: a step of 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry, and the last bits
+ * of stretches, 2^-49, are 1e-10 of it. */
+#define STEP 2e-5
+#define SYMMETRIC 1e-8                   /* of the largest entry; without the energy it is 0.1 */
+#define NEGATIVE 1e-8                    /* of the largest entry: round-off of zero modes, of which a clamped body has none */
+/* Energies: differences over 2e-4 of a spacing miss by its square, 4e-8, times third derivatives of order one. */
+#define SLIDE 2e-4
+#define GRADIENT 1e-6
+
+#define PLANE "space: plane stress\nthickness: 1 mm\nduration: 1 us\nmethod: pd\n"
+#define STEEL "material: {young: 200 GPa, poisson: 1/3, density: 7850}\n"
+#define SMALL "body: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"
+#define LEFT "boundary:\n  - {mirror: {axis: x, at: 0, tangential: held}}\n"
+#define BELOW_FREE "  - {mirror: {axis: y, at: 0, tangential: free}}\n"
+#define BELOW_HELD "  - {mirror: {axis: y, at: 0, tangential: held}}\n"
+#define FREE_FIRST "boundary:\n" BELOW_FREE "  - {mirror: {axis: x, at: 0, tangential: held}}\n"
+#define BLOCK                                                                                                        \
+    "space: solid\nduration: 1 us\nmethod: pd\nmaterial: {young: 200 GPa, poisson: 1/4, density: 7850}\n"           \
+    "body: {box: {from: [0, 0, 0], to: [4 mm, 5 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 2.015}\n"
+
+struct body { struct scene s; struct engine e; };
+
+/* A scene with the overrides `key=value`, NULL behind the last. */
+static void body_make(struct body *a, const char *text, const char *const *with)
+{
+    enum { MOST = 8 };
+    static char key[MOST][64];
+    struct scene_override override[MOST];
+    int n = 0;
+    for (; with && with[n]; n++) {
+        const char *equal = strchr(with[n], '=');
+        snprintf(key[n], sizeof key[n], "%.*s", (int)(equal - with[n]), with[n]);
+        override[n] = (struct scene_override){key[n], equal + 1};
+    }
+    memset(a, 0, sizeof *a);
+    assert_ok(scene_read_text(&a->s, text, strlen(text), "clamp.yaml", override, n));
+    assert_ok(engine_make(&a->e, &a->s, NULL));
+    a->e.quiet = true;
+}
+
+static void body_free(struct body *a)
+{
+    engine_free(&a->e);
+    scene_free(&a->s);
+}
+
+/* What the engine asks for in a step, nothing breaking. */
+static void forces(struct engine *e)
+{
+    loads_mirror(&e->loads, &e->part);
+    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
+}
+
+static real energy(struct engine *e)
+{
+    forces(e);
+    return e->kernels.bond_energy(&e->bonds, &e->part);
+}
+
+/* ---- the operator ---------------------------------------------------------------------------------------------- */
+
+/* -df/dx at the reference positions, n by n. */
+static real *stiffness_of(struct engine *e)
+{
+    struct particles *p = &e->part;
+    const int64_t n = p->dim * p->n;
+    const real s = STEP * e->scene->spacing;
+    real *K = NEW("test.stiffness", n * n, real);
+    for (int64_t k = 0; k < n; k++) {
+        real *x = &p->x[k / p->n][k % p->n];
+        for (int sign = 1; sign >= -1; sign -= 2) {
+            *x = p->X[k / p->n][k % p->n] + sign * s;
+            forces(e);
+            for (int64_t j = 0; j < n; j++) K[k * n + j] -= sign * p->f[j / p->n][j % p->n] / (2 * s);
+        }
+        *x = p->X[k / p->n][k % p->n];
+    }
+    return K;
+}
+
+/* Pivots of K + shift below 0: as many as it has negative eigenvalues (Sylvester 1852). Symmetric; overwritten. */
+static int64_t negative_pivots(real *K, int64_t n, real shift)
+{
+    int64_t count = 0;
+    for (int64_t k = 0; k < n; k++) K[k * n + k] += shift;
+    for (int64_t k = 0; k < n; k++) {
+        count += K[k * n + k] < 0;
+        for (int64_t i = k + 1; i < n; i++) {
+            const real share = K[i * n + k] / K[k * n + k];
+            for (int64_t j = k + 1; share != 0 && j < n; j++) K[i * n + j] -= share * K[k * n + j];
+        }
+    }
+    return count;
+}
+
+static void check_operator(struct engine *e, const char *name)
+{
+    const int64_t n = e->part.dim * e->part.n;
+    real *K = stiffness_of(e), largest = 0, skew = 0;
+    for (int64_t k = 0; k < n * n; k++) largest = real_max(largest, fabs(K[k]));
+    for (int64_t k = 0; k < n; k++)
+        for (int64_t j = 0; j < k; j++) {
+            skew = real_max(skew, fabs(K[k * n + j] - K[j * n + k]));
+            K[k * n + j] = K[j * n + k] = 0.5 * (K[k * n + j] + K[j * n + k]);
+        }
+    if (!(skew <= SYMMETRIC * largest)) fail_msg("%s: the operator's odd part is %.3g of its largest entry", name, skew / largest);
+    const int64_t negative = negative_pivots(K, n, NEGATIVE * largest);
+    if (negative > 0) fail_msg("%s: %lld modes gain energy", name, (long long)negative);
+    memory_free(K);
+}
+
+/* Far from the reference positions: the energy that rows count changes as forces say, along random motions. */
+static void check_gradient(struct engine *e, const char *name)
+{
+    struct particles *p = &e->part;
+    const real h = e->scene->spacing;
+    real *way = NEW("test.way", p->dim * p->n, real);
+    uint64_t seed = 11;
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = 0; i < p->n; i++) p->x[d][i] = p->X[d][i] + cloud_between(&seed, -0.03, 0.03) * h;
+    for (int round = 0; round < 3; round++) {
+        real work = 0, size = 0, change = 0;
+        forces(e);
+        for (int64_t k = 0; k < p->dim * p->n; k++) {
+            way[k] = cloud_between(&seed, -1, 1) * SLIDE * h;
+            work -= 2 * way[k] * p->f[k / p->n][k % p->n];
+            size += fabs(2 * way[k] * p->f[k / p->n][k % p->n]);
+        }
+        for (int sign = 1; sign >= -1; sign -= 2) {
+            for (int64_t k = 0; k < p->dim * p->n; k++) p->x[k / p->n][k % p->n] += (sign > 0 ? 1 : -2) * way[k];
+            change += sign * energy(e);
+        }
+        for (int64_t k = 0; k < p->dim * p->n; k++) p->x[k / p->n][k % p->n] += way[k];
+        if (!(fabs(change - work) <= GRADIENT * size))
+            fail_msg("%s: energy changes by %.9g J where forces say %.9g", name, change, work);
+    }
+    memory_free(way);
+}
+
+static const struct { const char *name, *text, *with[6]; } body_case[] = {
+    {"bonds", PLANE STEEL SMALL LEFT, {NULL}},
+    {"bonds, plain surface", PLANE STEEL SMALL LEFT, {"pd.surface=none"}},
+    {"bonds, isotropic", PLANE STEEL SMALL LEFT, {"pd.weights=isotropic", "particles.horizon=2.015"}},
+    {"bonds, plane strain", PLANE STEEL SMALL LEFT, {"space=plane strain", "material.poisson=0.25"}},
+    {"bonds, ramp", PLANE STEEL SMALL LEFT, {"pd.volume=ramp"}},
+    {"bonds, scattered", PLANE STEEL SMALL LEFT, {"particles.irregularity=0.4"}},
+    {"bonds, clamp and symmetry", PLANE STEEL SMALL LEFT BELOW_FREE, {NULL}},
+    {"bonds, symmetry and clamp", PLANE STEEL SMALL FREE_FIRST, {NULL}},
+    {"bonds, two clamps", PLANE STEEL SMALL LEFT BELOW_HELD, {NULL}},
+    {"bonds, cracked", PLANE STEEL SMALL "cracks: [{from: [-1 mm, 3 mm], to: [3 mm, 3 mm]}]\n" LEFT, {NULL}},
+    {"ospd", PLANE STEEL SMALL LEFT, {"model=ospd", "material.poisson=0.3"}},
+    {"ospd, nu 0.45", PLANE STEEL SMALL LEFT, {"model=ospd", "material.poisson=0.45", "space=plane strain"}},
+    {"ospd, bulk, scattered", PLANE STEEL SMALL LEFT, {"model=ospd", "pd.normalisation=bulk", "particles.irregularity=0.4"}},
+    {"ospd, clamp and symmetry", PLANE STEEL SMALL LEFT BELOW_FREE, {"model=ospd"}},
+    {"mospd", PLANE STEEL SMALL LEFT, {"model=mospd", "material.poisson=0.2"}},
+    {"mospd, nu 0.45", PLANE STEEL SMALL LEFT, {"model=mospd", "material.poisson=0.45", "space=plane strain"}},
+    {"mospd, local, horizon 1.5", PLANE STEEL SMALL LEFT, {"model=mospd", "pd.normalisation=local", "particles.horizon=1.5"}},
+    {"mospd, scattered", PLANE STEEL SMALL LEFT, {"model=mospd", "particles.irregularity=0.4"}},
+    {"mospd, symmetry and clamp", PLANE STEEL SMALL FREE_FIRST, {"model=mospd"}},
+    {"mospd, two clamps", PLANE STEEL SMALL LEFT BELOW_HELD, {"model=mospd"}},
+    {"block", BLOCK LEFT, {NULL}},
+    {"block, ospd, corner", BLOCK LEFT BELOW_FREE, {"model=ospd"}},
+    {"block, mospd", BLOCK LEFT, {"model=mospd", "material.poisson=0.4"}},
+    {"block, mospd, three planes", BLOCK LEFT BELOW_FREE "  - {mirror: {axis: z, at: 0, tangential: held}}\n", {"model=mospd"}},
+};
+
+static void test_energy(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(body_case); k++) {
+        struct body a;
+        body_make(&a, body_case[k].text, body_case[k].with);
+        assert_true(a.e.bonds.clamped.n > 0);
+        check_operator(&a.e, body_case[k].name);
+        check_gradient(&a.e, body_case[k].name);
+        body_free(&a);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_energy)};
+    team_make(0);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
