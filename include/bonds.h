@@ -109,10 +109,11 @@ struct state_image { int32_t source; int axis; };
  * (kernels/clamp_force.c). */
 struct clamp_end { int32_t bond; int8_t sign[DIM_MAX]; };   /* what a bond's reaction gives to a particle, by component */
 struct clamped {
-    int64_t n;
+    int64_t n;                           /* arrays have room for LANES more, which weigh nothing          */
     int64_t *entry;                      /* [n] of what bonds store                                       */
-    int32_t *particle_of;                /* [n] of its row                                                */
-    real *w;                             /* [n] before the last sweep                                 [1] */
+    int32_t *from, *to;                  /* [n] particle of the row, image                                */
+    real *inverse_length, *w;            /* [n] as stored; before the last sweep                 [1/m], [1] */
+    bool stale;                          /* somebody has changed weights since then                       */
     real *reaction[DIM_MAX];             /* [n] on the image, of the energy that the row counts       [N] */
     int64_t held;                        /* particles at the ends of such bonds, and of those that pull at each: */
     int32_t *particle;                   /* [held] ascending                                              */

@@ -5,50 +5,69 @@
  * pulls along n, that from j to g(i) along R n, and the forces that sweeps find for i and j come from no energy. The energy is
  *
  *     E(u) = sum of the energies W_i of the body's own rows, images following their sources,
- *     f_i  = sum_g T_ig - ...,   f_j += P^T (- T_ig)    for every image g of j in the row of i
+ *     f_i += T_ig,   f_j -= P^T T_ig    for every image g of j in the row of i
  *
  * with T_ig what W_i alone gives. A bond that knows but itself has half its force from either end: half of what the sweep gave i
  * belongs to the row that the image does not have. State-based rows see clamped images that know nothing, so theirs is T_ig. */
-#include <math.h>
-
 #include "bond_laws.h"
-#include "bond_slot.h"
 #include "kernels.h"
+#include "lanes.h"
 #include "state_laws.h"
 
-enum { MANY = 256 };                     /* bonds from which on a team pays */
+enum { MANY = 4096 };                    /* bonds from which on a team pays */
 
-/* Force of the row on the image, of half a bond by weight w [N]. */
-static void bond_reaction(const struct bonds *b, const struct particles *p, int64_t q, real w, int32_t i, real *f)
+/* Eight bonds: where they lead, and 1/|Y| and the stretch. */
+struct across { lanes y[DIM_MAX], w, inverse_length, inverse, stretch; };
+
+static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k, const int dim)
 {
-    const int32_t j = b->nbr[q];
-    real y[DIM_MAX], length2 = 0;
-    for (int d = 0; d < p->dim; d++) y[d] = p->x[d][j] - p->x[d][i], length2 += square(y[d]);
-    const real length = sqrt(length2), stretch = STRETCH_OF(length, fabs(b->inverse_length[q]));
-    const real force = 0.5 * b->stiffness * w * bond_elastic_one(b, q, stretch) / length;
-    for (int d = 0; d < p->dim; d++) f[d] = -force * y[d];
+    struct across a = {.w = lanes_load(c->w + k), .inverse_length = lanes_load(c->inverse_length + k)};
+    lanes distance2 = lanes_of(STATE_TINY);
+    for (int d = 0; d < dim; d++) {
+        a.y[d] = lanes_gather(p->x[d], c->to + k) - lanes_gather(p->x[d], c->from + k);
+        distance2 += a.y[d] * a.y[d];
+    }
+    a.inverse = lanes_inverse_root(distance2);
+    a.stretch = STRETCH_OF(distance2 * a.inverse, a.inverse_length);
+    return a;
 }
 
-static void state_reaction(const struct bonds *b, const struct particles *p, int64_t q, real w, int32_t i, real *f)
+/* Minus the half of the force that the sweep gave the row. */
+static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
 {
-    real xi[DIM_MAX];
-    const bool turns = b->state.turn[0] != NULL;
-    if (p->dim == 2) state_force_by(b, p, q, w, i, f, xi, 2, turns);
-    else state_force_by(b, p, q, w, i, f, xi, 3, turns);
-    for (int d = 0; d < p->dim; d++) f[d] = -f[d];
+    const struct clamped *c = &b->clamped;
+    const struct across a = across_of(c, p, k, dim);
+    lanes elastic = a.stretch;
+    for (int l = 0; b->plastic_stretch && l < LANES && k + l < c->n; l++) elastic[l] -= b->plastic_stretch[c->entry[k + l]];
+    const lanes share = (-0.5 * b->stiffness) * (a.w * elastic * a.inverse);
+    for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, share * a.y[d]);
 }
 
-/* A bond that the sweep broke acts as it does there: with half its force, or with all of it (bond_force_fn). */
-static void reaction(struct bonds *b, const struct particles *p, int64_t k, bool whole_force)
+/* Minus the own force state of the row (state_laws.h). */
+static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim,
+                                          const bool turns)
 {
-    struct clamped *c = &b->clamped;
-    const int64_t q = c->entry[k];
-    const int32_t i = c->particle_of[k];
-    const real w = bits_equal(b->w[q], c->w[k]) ? c->w[k] : whole_force ? c->w[k] : 0.5 * (c->w[k] + b->w[q]);
-    real f[DIM_MAX] = {0};
-    if (w != 0 && b->state.modulus) state_reaction(b, p, q, w, i, f);
-    else if (w != 0) bond_reaction(b, p, q, w, i, f);
-    for (int d = 0; d < p->dim; d++) c->reaction[d][k] = f[d];
+    const struct clamped *c = &b->clamped;
+    const struct state *t = &b->state;
+    const struct across a = across_of(c, p, k, dim);
+    const lanes r = lanes_inverse_root(lanes_choose(a.w > 0.0, a.inverse_length * a.inverse_length, lanes_of(1)));
+    const lanes spring = lanes_gather(t->spring, c->from + k);
+    lanes along = r * lanes_gather(t->pressure, c->from + k), turn[TURN], xi[DIM_MAX], effective[DIM_MAX];
+    if (!turns) along += r * a.stretch * spring;
+    for (int d = 0; d < dim; d++) {
+        xi[d] = lanes_gather(p->X[d], c->to + k) - lanes_gather(p->X[d], c->from + k);
+        effective[d] = turns ? spring * (a.y[d] - xi[d]) : lanes_of(0);
+    }
+    for (int e = 0; turns && e < TURN; e++) turn[e] = lanes_gather(t->turn[e], c->from + k);
+    if (turns) turn_off(effective, turn, xi, dim);
+    for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
+}
+
+static ALWAYS_INLINE void reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
+{
+    if (!b->state.modulus) bond_reactions(b, p, k, dim);
+    else if (b->state.turn[0]) state_reactions(b, p, k, dim, true);
+    else state_reactions(b, p, k, dim, false);
 }
 
 static void give(const struct clamped *c, struct particles *p, int64_t h)
@@ -60,14 +79,26 @@ static void give(const struct clamped *c, struct particles *p, int64_t h)
     }
 }
 
+/* Weights of now; a bond that the sweep broke acts as it does there: with half its force, or with all of it (bond_force_fn). */
+static void weights_follow(struct bonds *b, real of_broken)
+{
+    struct clamped *c = &b->clamped;
+    for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]] == 0 ? of_broken * c->w[k] : b->w[c->entry[k]];
+}
+
 int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
                     struct pd_motion *motion)
 {
     struct clamped *c = &b->clamped;
-    assert(!motion || c->n == 0 || motion->loaded);
-    for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]];
-    const int64_t broken = sweep(b, p, limit, motion);
-    TEAM_LOOP(c->n > MANY, for (int64_t k = 0; k < c->n; k++) reaction(b, p, k, limit->whole_force););
+    if (c->n == 0) return sweep(b, p, limit, motion);
+    assert(p->dim > 1 && (!motion || motion->loaded));
+    if (c->stale) weights_follow(b, 0);
+    c->stale = false;
+    const int64_t broken = sweep(b, p, limit, motion);       /* stale, if one of these bonds is among them */
+    if (c->stale) weights_follow(b, limit->whole_force ? 1 : 0.5);
+    TEAM_LOOP(c->n > MANY, for (int64_t k = 0; k < c->n; k += LANES)
+        if (p->dim == 2) reactions(b, p, k, 2);
+        else reactions(b, p, k, 3););
     TEAM_LOOP(c->n > MANY, for (int64_t h = 0; h < c->held; h++) give(c, p, h););
     return broken;
 }

@@ -69,10 +69,10 @@ static ALWAYS_INLINE lanes state_length(const struct slot s, lanes inverse_lengt
 /* e/|Y| = 1 - |xi|/|Y|, rounded as a stretch is (bond_slot.h). */
 #define SHARE_OF(LENGTH, INVERSE) (9.0 - ((LENGTH) * (INVERSE) + 8.0))
 
-/* Entry q of the row of particle i, by weight w: its own force state times both volumes [N]; returns the bond's energy on this side
+/* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side
  * [J]. */
-static inline real state_force_by(const struct bonds *b, const struct particles *p, int64_t q, real w, int32_t i, real *T, real *xi,
-                                  const int dim, const bool turns)
+static inline real state_own_force(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real *T,
+                                   real *xi, const int dim, const bool turns)
 {
     const struct state *t = &b->state;
     const int32_t j = b->nbr[q];
@@ -81,7 +81,7 @@ static inline real state_force_by(const struct bonds *b, const struct particles 
         y[d] = p->x[d][j] - p->x[d][i], xi[d] = p->X[d][j] - p->X[d][i];
         y2 += square(y[d]);
     }
-    const real length = sqrt(y2), e = r * STRETCH_OF(length, fabs(b->inverse_length[q]));
+    const real length = sqrt(y2), e = r * STRETCH_OF(length, fabs(b->inverse_length[q])), w = b->w[q];
     real along = r * t->pressure[i] + (turns ? 0 : e * t->spring[i]);
     energy = 0.5 * w * along * e;
     for (int d = 0; d < dim; d++) T[d] = w * along * y[d] / length;
@@ -93,13 +93,6 @@ static inline real state_force_by(const struct bonds *b, const struct particles 
     turn_off(effective, turn, arm, dim);
     for (int d = 0; d < dim; d++) T[d] += w * effective[d][0], effective2 += square(effective[d][0]);
     return energy + 0.5 * w * effective2 / t->spring[i];
-}
-
-/* The same by the weight that it has. */
-static inline real state_own_force(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real *T,
-                                   real *xi, const int dim, const bool turns)
-{
-    return state_force_by(b, p, q, b->w[q], i, T, xi, dim, turns);
 }
 
 #endif

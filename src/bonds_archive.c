@@ -39,6 +39,7 @@ status bonds_archive(struct bonds *b, struct particles *p, struct archive *a)
 {
     size_t padded = (size_t)(b->groups * LANES);
     TRY(weights_archive(b, a));
+    b->clamped.stale = true;
     if (b->plastic_stretch) {
         size_t stored = (size_t)b->slots * LANES * sizeof(real);
         TRY(a->exchange(a, "bonds/plastic_stretch", b->plastic_stretch, stored));

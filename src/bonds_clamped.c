@@ -38,7 +38,11 @@ static void slot_note(struct clamped *c, const struct bonds *b, const struct par
     for (int l = 0; l < group_rows(b, g); l++) {
         const struct bond bond = bond_read(b, g, k, l);
         if (bond.w == 0 || bond.nbr < p->n || !is[bond.nbr - p->n]) continue;
-        if (c->entry) c->entry[c->n] = bond_index(b, g, k, l), c->particle_of[c->n] = b->particle[g * LANES + l];
+        if (c->entry) {
+            c->entry[c->n] = bond_index(b, g, k, l);
+            c->from[c->n] = b->particle[g * LANES + l], c->to[c->n] = bond.nbr;
+            c->inverse_length[c->n] = bond.inverse_length, c->w[c->n] = bond.w;
+        }
         c->n++;
     }
 }
@@ -75,18 +79,17 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
 
 /* Bonds that know but themselves have in their row the force of both its ends: the half that belongs to the image's row leaves it.
  * Of state-based ones the row has its own half only (clamped images know nothing), but for the source there is nothing yet. */
-static void ends_make(struct clamped *c, const struct bonds *b, const struct particles *p, const struct bond_source *s)
+static void ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;
     struct clamp_end *end = NEW("clamped.unsorted", each * c->n, struct clamp_end);
     int32_t *of = NEW("clamped.of", each * c->n, int32_t);
     for (int64_t k = 0; k < c->n; k++) {
-        const int32_t j = b->nbr[c->entry[k]];
-        image_turns(s, p, j, end[k].sign);
-        end[k].bond = (int32_t)k, of[k] = (int32_t)image_root(p, s->image, j);
+        image_turns(s, p, c->to[k], end[k].sign);
+        end[k].bond = (int32_t)k, of[k] = (int32_t)image_root(p, s->image, c->to[k]);
         if (each == 1) continue;
         end[c->n + k] = (struct clamp_end){(int32_t)k, {1, 1, 1}};
-        of[c->n + k] = c->particle_of[k];
+        of[c->n + k] = c->from[k];
     }
     c->end = NEW("clamped.end", each * c->n, struct clamp_end);
     ends_sort(c, end, of, each * c->n, p->n);
@@ -101,12 +104,15 @@ void clamped_make(struct bonds *b, const struct particles *p, const struct bond_
     if (!is) return;
     bonds_note(c, b, p, is);
     if (c->n > 0) {
+        const int64_t room = c->n + LANES;
         c->entry = NEW("clamped.entry", c->n, int64_t);
-        c->particle_of = NEW("clamped.particle_of", c->n, int32_t);
-        c->w = NEW("clamped.w", c->n, real);
-        for (int d = 0; d < p->dim; d++) c->reaction[d] = NEW("clamped.reaction", c->n, real);
+        c->from = NEW("clamped.from", room, int32_t);
+        c->to = NEW("clamped.to", room, int32_t);
+        c->inverse_length = NEW("clamped.inverse_length", room, real);
+        c->w = NEW("clamped.w", room, real);
+        for (int d = 0; d < p->dim; d++) c->reaction[d] = NEW("clamped.reaction", room, real);
         bonds_note(c, b, p, is);
-        ends_make(c, b, p, s);
+        ends_make(c, p, s);
     }
     memory_free(is);
 }
@@ -115,7 +121,9 @@ void clamped_free(struct bonds *b)
 {
     struct clamped *c = &b->clamped;
     memory_free(c->entry);
-    memory_free(c->particle_of);
+    memory_free(c->from);
+    memory_free(c->to);
+    memory_free(c->inverse_length);
     memory_free(c->w);
     for (int d = 0; d < DIM_MAX; d++) memory_free(c->reaction[d]);
     memory_free(c->particle);

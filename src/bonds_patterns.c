@@ -189,4 +189,5 @@ void bonds_changed(struct bonds *b, int64_t row, int64_t q)
     b->pattern[row / LANES] = NULL;
     b->changed[row / LANES] = 1;
     bonds_share(b, q / LANES);
+    __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);     /* rows break their bonds side by side */
 }
