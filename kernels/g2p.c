@@ -1,8 +1,11 @@
 /* floor 2: nodes to points at the end of the step: position, velocity gradient, stress, volume, and the mark of a point
  * whose largest principal stress passed the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49, corrected:
  * L from the second map, rotation W sigma - sigma W).
- *     FLIP (MUSL)  x += dt sum N v_I,  L = sum v2_I (x) grad N  with the velocity v2 of the second map
+ *     FLIP (MUSL)  x += dt sum N v2_I,  L = sum v2_I (x) grad N  with the velocity v2 of the second map
  *     APIC         v = sum N v_I, x += dt v,  L = sum v_I (x) grad N
+ * Eq. 40 moves FLIP's points with the first velocity, v_I = v2_I + dt (f_I/m_I - its own second map). Forces of bonds reach
+ * points through N M^-1 N^T, whose adjoint in the mass is the second map: with it the linear step is the leap-frog of
+ * one energy, with the first one dt^2 (1 - N M^-1 N^T m) N M^-1 f is added to every displacement and bonds gain energy.
  * Every point is written by one thread. */
 #include "kernels.h"
 #include "plastic.h"
@@ -118,17 +121,16 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
         const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
         const int64_t I = cell_row(c, g, k1, k2, dim);
         for (int d = 0; d < dim; d++) {
-            const real *moving = g->velocity[d] + I, *straining = transfer == TRANSFER_APIC ? moving : g->momentum[d] + I;
-            row_of_points moved = points_of(0), strained = points_of(0), slope[2] = {points_of(0), points_of(0)};
+            const real *moving = (transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d]) + I;
+            row_of_points moved = points_of(0), slope[2] = {points_of(0), points_of(0)};
             FOR_NODES(dim, shape) {
                 const int64_t node = row_node(g, k, dim, shape);
                 moved += s->N[k] * moving[node];
-                strained += s->N[k] * straining[node];
-                for (int e = 0; e < along; e++) slope[e] += s->D[e][k] * straining[node];
+                for (int e = 0; e < along; e++) slope[e] += s->D[e][k] * moving[node];
             }
             velocity[d] += weight * moved;
             for (int e = 0; e < dim; e++)
-                L[d * dim + e] += e < along ? weight * slope[e] : stencil_slopes(s, k1, k2, e, dim, shape) * strained;
+                L[d * dim + e] += e < along ? weight * slope[e] : stencil_slopes(s, k1, k2, e, dim, shape) * moved;
         }
     }
 }

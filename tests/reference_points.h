@@ -259,7 +259,7 @@ static inline void reference_stress(const struct reference_step *s, int64_t i, r
     for (int a = 0; a < p->dim && s->shape == SHAPE_CPGIMP; a++) p->stretch[a][i] *= 1 + s->dt * L[a][a];
 }
 
-/* Positions with the nodal velocity; gradient from the second map (FLIP) or the nodal velocity itself (APIC). */
+/* Positions and gradient with the velocity of the second map (FLIP) or the nodal velocity itself (APIC). */
 static inline void reference_gather(struct reference_step *s)
 {
     struct particles *p = s->p;
@@ -267,13 +267,14 @@ static inline void reference_gather(struct reference_step *s)
     for (int64_t i = 0; i < p->n; i++) {
         real L[DIM_MAX][DIM_MAX];
         if (p->kind[i] != KIND_MPM) continue;
+        real *const *velocity = affine ? s->velocity : s->momentum;
         for (int a = 0; a < p->dim; a++)
             for (int b = 0; b < p->dim; b++) {
-                L[a][b] = reference_at(s, s->slope[b], affine ? s->velocity[a] : s->momentum[a], i);
+                L[a][b] = reference_at(s, s->slope[b], velocity[a], i);
                 if (affine) p->gradient[a * p->dim + b][i] = L[a][b];
             }
         for (int a = 0; a < p->dim; a++) {
-            real v = reference_at(s, s->value, s->velocity[a], i);
+            real v = reference_at(s, s->value, velocity[a], i);
             if (affine) p->v[a][i] = v;
             p->x[a][i] += s->dt * v;
         }

@@ -51,7 +51,10 @@ for c in handshake partial; do
 done
 landed
 
-# Reflected velocity [%] at 16, 32, 64, 128 spacings: within 15 % or 0.15 points of the reference.
+# Reflected velocity [%] at 16, 32, 64, 128 spacings: within 15 % or 0.15 points of the reference. The independent code moved
+# what is on the grid with the first velocity, as published: pm and pg then lost 1.1 % of the energy at the interface, pmg and pgg
+# 2.4 % (and grew in time, by 1e-3 a step: test_current_frame). With the second velocity nothing is lost and what was
+# comes back: pm, pg 12.65, 5.73 in place of 9.6, 4.4, pmg, pgg 7.66 in place of 6.4; the longer pulses are its own.
 while read -r c references; do
     width=16
     for reference in $references; do
@@ -62,21 +65,21 @@ while read -r c references; do
     done
 done <<'END'
 handshake 1.7 2.4 1.9 0.87
-pm 9.6 4.4 1.8 0.90
-pg 9.6 4.4 1.8 0.90
-pmg 6.4 2.7 2.1 0.96
-pgg 6.4 2.7 2.1 0.96
+pm 12.65 5.73 1.8 0.90
+pg 12.65 5.73 1.8 0.90
+pmg 7.66 2.7 2.1 0.96
+pgg 7.66 2.7 2.1 0.96
 undamped 6.4 1.1 0.42 0.13
 END
-# Energy change [%] at 32: within a digit of the reference's last.
+# Energy change [%] at 32: within a digit of the reference's last; none by any linear coupling.
 while read -r c reference; do
     apart "$c: energy change" "$(compute "100 * $(f "pulse_${c}32" probes.pulse.energy_change)")" "$reference" 0.1
 done <<'END'
 handshake 0.1
-pm -1.1
-pg -1.1
-pmg -2.4
-pgg -2.4
+pm 0
+pg 0
+pmg 0
+pgg 0
 undamped 0.1
 END
 
