@@ -96,6 +96,7 @@ struct engine {
     struct {                             /* a sample in the making (engine_report.h)                  */
         bool due;
         real kinetic, work, held_work;
+        real *before[DIM_MAX];           /* velocities at its begin, where something is on the grid [m/s] */
         struct energy energy;            /* of the positions of t_n; kinetic comes last               */
     } sampling;
     status history_status;               /* of the last line written                                  */

@@ -34,7 +34,9 @@ void rim_make(struct rim *r, const struct particles *p, const struct bond_source
 void rim_free(struct rim *r);
 
 /* One step of damping of strength k = `share` [1], at most 1/16 (motion that alternates from point to point would then
- * stop in one step). Returns the energy taken [J]. */
+ * stop in one step). Impulses J that change velocities from v to v' over a leap-frog step, together with the forces in it, take
+ * -J . (v + v')/2: returns the first half of that, and rim_damped the other once the step has been made [J]. */
 real rim_damp(struct rim *r, struct particles *p, real share);
+real rim_damped(const struct rim *r, const struct particles *p);
 
 #endif

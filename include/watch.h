@@ -52,8 +52,9 @@ real watch_strain_of(const struct particles *p, const struct material *m, const 
 real watch_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* What the mean of 1/2 m v^2 before and after a leap-frog kick has too much over 1/2 m v_before . v_after, the kinetic
- * energy that the scheme conserves: 1/4 sum m (dt f/m)^2 of peridynamic particles, f as it was [J]. */
-real watch_kick(const struct particles *p, real dt);
+ * energy that the scheme conserves: 1/4 sum m (v - before)^2 of the body without points of a mesh; `before` NULL where nothing
+ * is on the grid: 1/4 sum m (dt f/m)^2, f as it was [J]. */
+real watch_kick(const struct particles *p, real *const *before, real dt);
 
 /* Momentum of p, and of the nodes of a mesh for its points (NULL: none), beside the impulse [N s] of loads and supports up to the same velocities. */
 void watch_momentum(struct watch *w, const struct particles *p, const struct grid *mesh, const real *impulse);

@@ -154,7 +154,8 @@ status engine_step(struct engine *e)
     struct pd_motion *now = moves_at_once(e) ? &motion : NULL;
     lap(&e->laps, LAP_WATCH);
     TRY(grid_sort(e));
-    if (e->rim.points > 0 && e->rim_share > 0) e->damped += rim_damp(&e->rim, p, e->rim_share);
+    const bool damps = e->rim.points > 0 && e->rim_share > 0;
+    if (damps) e->damped += rim_damp(&e->rim, p, e->rim_share);
     lap(&e->laps, LAP_GRID);
     loads_clear(&e->loads, p);
     int64_t broken = bond_forces(k->bond_force, &e->bonds, p, &e->source.limit, now);    /* 2, 5: bonds; breaking */
@@ -167,6 +168,7 @@ status engine_step(struct engine *e)
     lap(&e->laps, LAP_BONDS);
     if (p->n_free + p->n_carried > 0) step_grid(e, middle);                 /* 1, 3, 4, 6, 7: material points move */
     else step_without_grid(e);
+    if (damps) e->damped += rim_damped(&e->rim, p);
     engine_mesh_move(e, middle, dt_velocity);                               /* the same in the reference frame */
     loads_hold(&e->loads, &e->grid, p, middle, dt_velocity);
     loads_mirror(&e->loads, p);

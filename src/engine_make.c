@@ -340,7 +340,7 @@ void engine_free(struct engine *e)
     memory_reuse(false);
     if (e->out) (void)output_wait(e->out);   /* a frame on its way still reads the particles */
     probes_free(&e->probes);
-    for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]), memory_free(e->sampling.before[d]);
     tips_free(&e->tips);
     for (int k = 0; e->growth && k < e->scene->growths; k++) growth_free(&e->growth[k]);
     memory_free(e->growth);

@@ -161,6 +161,24 @@ static void sample_write(struct engine *e, real t_velocity, real kinetic, real w
     if (e->out && e->history_status == OK) e->history_status = output_history(e->out, e->record);
 }
 
+/* Of a force on the grid points know but what it did to their velocity. */
+static void keep_velocities(struct engine *e)
+{
+    const struct particles *p = &e->part;
+    if (p->n_free == 0 && !coupling_carries(e->coupling)) return;
+    for (int d = 0; d < p->dim; d++) {
+        if (!e->sampling.before[d]) e->sampling.before[d] = BARE("report.before", p->n, real);
+        memcpy(e->sampling.before[d], p->v[d], (size_t)p->n * sizeof(real));
+    }
+}
+
+/* What the mean of two kinetic energies has too much. */
+static real kick_now(const struct engine *e)
+{
+    const bool grid = e->part.n_free > 0 || coupling_carries(e->coupling);
+    return watch_kick(&e->part, grid ? e->sampling.before : NULL, e->dt) + mesh_kick(&e->mesh, e->dt);
+}
+
 void engine_sample_begin(struct engine *e)
 {
     e->sampling.due = sample_due(e);
@@ -175,6 +193,7 @@ void engine_sample_begin(struct engine *e)
     if (!e->sampling.due && wants_stress(e)) engine_stress(e);
     struct observed o = engine_observed(e);
     probes_keep(&e->probes, &o);
+    keep_velocities(e);
     e->sampling.kinetic = kinetic_now(e);
 }
 
@@ -190,7 +209,7 @@ void engine_sample_end(struct engine *e)
         sample_write(e, e->t + 0.5 * e->dt, e->sampling.kinetic, e->sampling.work);
         return;
     }
-    real kinetic = 0.5 * (e->sampling.kinetic + kinetic_now(e)) - watch_kick(&e->part, e->dt) - mesh_kick(&e->mesh, e->dt);
+    real kinetic = 0.5 * (e->sampling.kinetic + kinetic_now(e)) - kick_now(e);
     sample_write(e, e->t + 0.5 * e->dt, kinetic, e->sampling.work + 0.5 * (e->sampling.held_work + e->loads.held_work));
 }
 

@@ -175,22 +175,17 @@ static void change_make(struct rim *r, const struct particles *p, int64_t k, rea
     }
 }
 
-/* Adds the change to the velocity of a member; returns the kinetic energy that it loses. */
-static real change_apply(const struct rim *r, struct particles *p, int64_t k)
+/* What the changes take from members that go on with the velocities of now. */
+real rim_damped(const struct rim *r, const struct particles *p)
 {
-    const int32_t i = r->particle[k];
-    real lost = 0;
-    for (int d = 0; d < p->dim; d++) {
-        const real before = p->v[d][i];
-        p->v[d][i] += r->change[k * p->dim + d] / p->mass[i];
-        lost += 0.5 * p->mass[i] * (before - p->v[d][i]) * (before + p->v[d][i]);
-    }
+    real lost = 0;                       /* few; the sum must not depend on threads */
+    for (int64_t k = 0; k < r->n; k++)
+        for (int d = 0; d < p->dim; d++) lost -= 0.5 * r->change[k * p->dim + d] * p->v[d][r->particle[k]];
     return lost;
 }
 
 real rim_damp(struct rim *r, struct particles *p, real share)
 {
-    real lost = 0;
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
@@ -198,6 +193,8 @@ real rim_damp(struct rim *r, struct particles *p, real share)
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, share);
     }
-    for (int64_t k = 0; k < r->n; k++) lost += change_apply(r, p, k);    /* few; the sum must not depend on threads */
+    const real lost = rim_damped(r, p);
+    for (int64_t k = 0; k < r->n; k++)
+        for (int d = 0; d < p->dim; d++) p->v[d][r->particle[k]] += r->change[k * p->dim + d] / p->mass[r->particle[k]];
     return lost;
 }

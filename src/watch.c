@@ -86,23 +86,27 @@ real watch_kinetic(const struct particles *p)
     return kinetic;
 }
 
-/* Of a block: a quarter of m (change of velocity)^2 of peridynamic particles. */
+struct kick { const struct particles *p; real *const *before; real dt; };
+
+/* Of a block: a quarter of m (change of velocity)^2. */
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct particles *p = context;
+    const struct kick *k = context;
+    const struct particles *p = k->p;
     for (int64_t i = first; i < end; i++) {
-        if (particle_on_grid(p, i)) continue;
-        real force2 = 0;
-        for (int d = 0; d < p->dim; d++) force2 += square(p->f[d][i]);
-        sum[0] += 0.25 * force2 / p->mass[i];
+        if (k->before ? p->flag[i] & FLAG_MESHED : particle_on_grid(p, i)) continue;
+        real change2 = 0;
+        for (int d = 0; d < p->dim; d++)
+            change2 += square(k->before ? p->v[d][i] - k->before[d][i] : k->dt * p->f[d][i] / p->mass[i]);
+        sum[0] += 0.25 * p->mass[i] * change2;
     }
 }
 
-real watch_kick(const struct particles *p, real dt)
+real watch_kick(const struct particles *p, real *const *before, real dt)
 {
     real sum;
-    team_sums(p->n, 1, kick_block, p, &sum);
-    return sum * dt * dt;
+    team_sums(p->n, 1, kick_block, &(struct kick){p, before, dt}, &sum);
+    return sum;
 }
 
 /* Momentum by component, and behind them the sum of |m v|. */
