@@ -5,8 +5,9 @@
 
 #define PD(...) {{"method", "pd"}, __VA_ARGS__}
 #define MPM(...) {{"method", "mpm"}, __VA_ARGS__}
-#define POINTS(shape, transfer) {{"method", "mpm"}, {"mpm.shape", shape}, {"mpm.transfer", transfer}}
-#define COUPLED(coupling) {{"method", "adaptive"}, {"coupling", coupling}}
+#define CURRENT {"mpm.frame", "current"}
+#define POINTS(shape, transfer) {{"method", "mpm"}, CURRENT, {"mpm.shape", shape}, {"mpm.transfer", transfer}}
+#define COUPLED(coupling) {{"method", "adaptive"}, CURRENT, {"coupling", coupling}}
 #define REFERENCE {"mpm.frame", "reference"}
 #define ISOTROPIC {"pd.weights", "isotropic"}
 

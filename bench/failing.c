@@ -51,6 +51,7 @@ status failing_make(struct engine *e, struct scene *s, const struct failing_row 
     va_start(more, text);
     vsnprintf(whole, sizeof whole, text, more);
     va_end(more);
+    if (!strstr(whole, "frame:")) bench_override(&o, "mpm.frame", "current");     /* rows of the other say so */
     for (const char *const *k = r->set; *k; k += 2) bench_override(&o, k[0], "%s", k[1]);
     return bench_engine_make(e, s, "failing", whole, bench_overrides_ready(&o), o.n);
 }

@@ -177,7 +177,7 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
     put_number(&mpm, "cell", cell);
     put_text(&mpm, "shape", c->shape);
     put_text(&mpm, "transfer", c->transfer);
-    put_text(&mpm, "frame", c->frame);
+    put_text(&mpm, "frame", c->frame ? c->frame : "current");
     put_text(&mpm, "strain", c->strain);
     put_text(&mpm, "constants", c->constants);
     if (c->offset != 0) {

@@ -134,8 +134,10 @@ void engine_ends_know(struct engine *e);
  * of some; after conversion. */
 status engine_frames(struct engine *e);
 bool engine_has_mesh(const struct engine *e);
-/* Would `auto` put this body into the reference frame? */
-bool engine_frame_allowed(const struct scene *s, int body);
+/* Would `auto` put this body into the reference frame, did the scene not ask for the current one? */
+bool engine_frame_allowed(const struct engine *e, int body);
+/* Where the nodes lie, by the frames. */
+void engine_grid_make(struct engine *e);
 status engine_mesh_make(struct engine *e);
 real engine_mesh_critical_step(const struct engine *e);
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity);

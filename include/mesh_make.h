@@ -22,6 +22,8 @@ struct mesh_source {
  * all of one volume, or where two bodies would share a node: they would move as one. */
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source);
 void mesh_free(struct mesh *mesh);
+/* Into how many sets all particles fall that would share no node of such a mesh; 0: they do not lie two a cell and direction. */
+int64_t mesh_pieces(const struct particles *p, const struct grid *like);
 
 /* Takes particles out that are no material points any more, and makes cells anew where `changed` [n] (NULL: everywhere)
  * have converted or leave another part of their stress to bonds. Nodal velocities stay: each particle takes its share of

@@ -31,7 +31,8 @@ struct scene_body {
     char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
     char place[PLACE_LENGTH];            /* where the scene names that list, `file:line:column: key: `; "": unknown */
     real velocity[DIM_MAX];              /* [m/s]                                                     */
-    enum grid_frame frame;                    /* mpm.frame unless it has its own                           */
+    enum grid_frame frame;               /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
+    const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not                 */
 };
 
 /* Initial state of the particles in a region; later entries overwrite earlier ones. */
@@ -96,13 +97,15 @@ struct scene {
     real cell;                           /* grid node distance, in spacings                           */
     enum shape shape;
     enum transfer transfer;
-    enum grid_frame frame;                    /* of the grid, body by body                                 */
+    bool has_shape, has_transfer;        /* the scene says so; frame AUTO rests on it                 */
+    enum grid_frame frame;               /* of the grid, of bodies that do not say theirs             */
     bool small_strain;                   /* of a mesh in the reference frame                          */
     bool lattice_constants;              /* its elastic constants are those of the bonds' lattice     */
     bool has_grid_origin; real grid_origin[DIM_MAX];   /* a node of the grid [m]                      */
 
     enum coupling coupling;
     real rim_damping;                    /* of the rim of the material points (rim.h), in c/h         */
+    bool has_rim_damping;                /* the scene says so                                         */
     struct conversion_rule conversion;
 
     int cracks;     struct crack *crack;
@@ -136,6 +139,13 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
 void scene_free(struct scene *s);
 /* What was chosen and why, in a few lines; nothing where the scene says itself (auto.c). */
 void scene_choice_print(const struct scene *s, FILE *out);
+
+/* Why a body cannot be in the reference frame whatever it does, and why `mpm.frame: auto` would not put it there of its own; NULL: it can,
+ * it would. */
+const char *scene_frame_obstacle(const struct scene *s, int body);
+const char *scene_frame_reluctance(const struct scene *s, int body);
+/* What the scene says that has a meaning in the current frame only; NULL: nothing. */
+const char *scene_frame_wish(const struct scene *s);
 
 /* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
 status scene_help(FILE *out, const char *key);

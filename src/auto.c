@@ -84,6 +84,7 @@ static bool same_value(const char *a, const char *b)
 static void usual_value(const struct key *k, const struct chart_point *p, char *text, size_t room)
 {
     const char *from = k->fallback + (*k->fallback == '(');
+    if (strcmp(k->path, "mpm.frame") == 0) from = "current";      /* charts of before the frame was chosen */
     if (strcmp(k->path, "pd.surface") == 0) from = chart_says(p, "method", "pd") && !has_states(p) ? "volume" : "none";
     if (strcmp(k->path, "pd.influence") == 0) from = has_states(p) ? "inverse" : "one";
     if (strcmp(k->path, "pd.normalisation") == 0) from = chart_says(p, "model", "mospd") ? "bulk" : "local";
@@ -107,6 +108,7 @@ static bool agrees(const struct chart_point *p, const struct node *root)
     for (int i = 0; i < keys_count; i++) {
         const struct node *n = keys[i].type <= KEY_CHOICE ? tree_at(root, keys[i].path) : NULL;
         if (!n || n->kind != NODE_SCALAR || !concerns(keys[i].path, p)) continue;
+        if (strcmp(keys[i].path, "mpm.frame") == 0 && strcmp(n->text, "auto") == 0) continue;
         if (!chart_key(p, keys[i].path, value, sizeof value)) usual_value(&keys[i], p, value, sizeof value);
         if (!same_value(n->text, value)) return false;
     }

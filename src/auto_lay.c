@@ -32,7 +32,8 @@ static status lay_keys(struct reader *r, struct node *root, const struct chart_p
         *value++ = '\0';
         TRY(lay(r, root, key, value));
     }
-    return OK;
+    if (chart_says(p, "method", "pd") || strstr(p->keys, "mpm.frame=")) return OK;
+    return lay(r, root, "mpm.frame", "current");         /* what a chart that says no frame was measured in */
 }
 
 /* There is no static solver for the reference frame: its loads grow by sin^2, to their full size at the end. */

@@ -171,10 +171,11 @@ static void advise_frame(const struct engine *e, FILE *out)
     const real reached = stress_reached(e);
     for (int b = 0; b < e->scene->bodies; b++) {
         const real strain = reached / e->scene->material[e->scene->body[b].material].young;
-        if (e->frame[b].reference || !engine_frame_allowed(e->scene, b)) continue;
+        if (e->frame[b].reference || !engine_frame_allowed(e, b)) continue;
         fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
         if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);
-        fprintf(out, "; its material points cost a tenth to a thirtieth in frame auto\n");
+        fprintf(out, "; its material points cost a tenth to a thirtieth in frame %s\n",
+                scene_frame_wish(e->scene) ? "reference" : "auto");
     }
 }
 

@@ -166,7 +166,7 @@ static real between_particles(const struct engine *e, int axis)
 }
 
 /* The lower corner is that of the first body's shape, of the particles if it comes from a file. */
-static void make_grid(struct engine *e)
+void engine_grid_make(struct engine *e)
 {
     const struct scene *s = e->scene;
     real from[DIM_MAX], to[DIM_MAX];
@@ -316,7 +316,6 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     e->source.cells = &e->cells;
     make_bonds(e);
     engine_partial_make(e);
-    make_grid(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_know(e);
     TRY(named(s, engine_time_make(e)));

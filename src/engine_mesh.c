@@ -9,47 +9,46 @@
 
 /* ---- which frame -------------------------------------------------------------------------------------------- */
 
-/* Why a body cannot be in the reference frame whatever it does; NULL: it can. */
-static const char *obstacle(const struct scene *s, int body)
+/* `auto` of a scene that allows the reference frame: a body on one lattice, midway in the halves of its cells, in one piece. */
+static const char *doubt(const struct engine *e)
 {
-    if (s->method == METHOD_PD) return "method pd has no material points";
-    if (s->solver != SOLVER_EXPLICIT) return "static solvers want frame current";
-    if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
-        return "couplings pm to pgg carry bonds on the grid of frame current";
-    if (s->cell != 2) return "it wants mpm.cell 2";
-    if (s->irregularity > 0) return "it wants a regular lattice";
-    if (material_yields(&s->material[s->body[body].material])) return "materials that yield want frame current";
-    return NULL;
+    const int64_t pieces = mesh_pieces(&e->part, &e->grid);
+    if (pieces == 0) return "its particles do not lie two a cell and direction; mpm.origin or a mirror puts the nodes elsewhere";
+    return pieces > 1 ? "it is in pieces, which meet on the grid of frame current only" : NULL;
 }
 
-/* `auto` leaves bodies that may meet in the frame that lets them. */
-static const char *reluctance(const struct scene *s, int body)
-{
-    const char *why = obstacle(s, body);
-    if (why) return why;
-    if (s->bodies > 1) return "bodies meet on the grid of frame current only";
-    if (s->body[body].file) return "particles from a list need not be a lattice";
-    return NULL;
-}
+static void take_frame(struct frame_choice *f, bool reference, const char *reason) { *f = (struct frame_choice){reference, reason}; }
 
-bool engine_frame_allowed(const struct scene *s, int body) { return !reluctance(s, body); }
+static void mark(struct engine *e)
+{
+    for (int64_t i = 0; i < e->part.n; i++)
+        if (e->frame[e->part.body[i]].reference) e->part.flag[i] |= FLAG_MESHED;
+}
 
 status engine_frames(struct engine *e)
 {
     const struct scene *s = e->scene;
     e->frame = NEW("engine.frame", s->bodies, struct frame_choice);
-    for (int b = 0; b < s->bodies; b++) {
-        struct frame_choice *f = &e->frame[b];
-        const char *why = s->body[b].frame == FRAME_AUTO ? reluctance(s, b) : obstacle(s, b);
-        if (s->body[b].frame == FRAME_CURRENT) continue;
-        if (why && s->body[b].frame == FRAME_REFERENCE && s->method != METHOD_PD)
+    for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++) {
+        const enum grid_frame said = s->body[b].frame;
+        const char *why = scene_frame_obstacle(s, b);
+        if (why && said == FRAME_REFERENCE)
             return status_set(REFUSED, "mpm.frame: body %s cannot be in the reference frame: %s", s->body[b].name, why);
-        f->reference = !why;
-        f->reason = why ? why : s->body[b].frame == FRAME_AUTO ? "it keeps its neighbours and meets no other body" : "the scene says so";
+        take_frame(&e->frame[b], said != FRAME_CURRENT, said == FRAME_REFERENCE ? "the scene says so" : s->body[b].frame_reason);
     }
-    for (int64_t i = 0; i < e->part.n; i++)
-        if (e->frame[e->part.body[i]].reference) e->part.flag[i] |= FLAG_MESHED;
+    engine_grid_make(e);
+    if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
+        const char *why = doubt(e);
+        take_frame(&e->frame[0], !why, why ? why : "it keeps its neighbours and meets no other body");
+        if (why) engine_grid_make(e);
+    }
+    mark(e);
     return OK;
+}
+
+bool engine_frame_allowed(const struct engine *e, int body)
+{
+    return !scene_frame_reluctance(e->scene, body) && mesh_pieces(&e->part, &e->grid) == 1;
 }
 
 bool engine_has_mesh(const struct engine *e)

@@ -81,6 +81,56 @@ static void resolve_defaults(struct reader *r, const struct node *root)
     if (!below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
 }
 
+/* ---- which frame the grid lives in (mpm.frame) ------------------------------------------------------------------- */
+
+const char *scene_frame_obstacle(const struct scene *s, int body)
+{
+    if (s->method == METHOD_PD) return "method pd has no material points";
+    if (s->solver != SOLVER_EXPLICIT) return "static solvers want frame current";
+    if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
+        return "couplings pm to pgg carry bonds on the grid of frame current";
+    if (s->cell != 2) return "it wants mpm.cell 2";
+    if (s->irregularity > 0) return "it wants a regular lattice";
+    if (material_yields(&s->material[s->body[body].material])) return "materials that yield want frame current";
+    return NULL;
+}
+
+const char *scene_frame_reluctance(const struct scene *s, int body)
+{
+    const char *why = scene_frame_obstacle(s, body);
+    if (why) return why;
+    if (s->bodies > 1) return "bodies meet on the grid of frame current only";
+    if (s->body[body].file) return "particles from a list need not be a lattice";
+    return NULL;
+}
+
+const char *scene_frame_wish(const struct scene *s)
+{
+    if (s->has_shape) return "the scene says mpm.shape, which frame reference knows nothing of";
+    if (s->has_transfer) return "the scene says mpm.transfer, which frame reference knows nothing of";
+    if (s->has_rim_damping) return "the scene says rim_damping, which frame reference knows nothing of";
+    return NULL;
+}
+
+/* Bodies that are left to `auto` become current here wherever the scene alone decides. What has a meaning in the current frame only is
+ * written out (scene_echo.c) where no body is left that may be in the other: a scene that says it asks for the current frame. */
+void resolve_frames(struct scene *s)
+{
+    bool open = false;
+    for (int b = 0; b < s->bodies; b++) {
+        struct scene_body *body = &s->body[b];
+        if (body->frame == FRAME_AUTO && s->method != METHOD_PD) {
+            body->frame_reason = scene_frame_reluctance(s, b);
+            if (!body->frame_reason) body->frame_reason = scene_frame_wish(s);
+            if (body->frame_reason) body->frame = FRAME_CURRENT;
+        }
+        open |= body->frame == FRAME_AUTO;
+    }
+    if (open) return;
+    s->has_shape = s->has_transfer = s->has_rim_damping = true;
+    if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;
+}
+
 /* Frames are spread evenly or have their times; a shorter run has those that it reaches. */
 static status check_times(struct reader *r, const struct node *root)
 {

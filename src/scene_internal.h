@@ -151,6 +151,8 @@ status check_scene(struct reader *r, const struct node *root);
 /* Share of the critical step, by whether anything may break: after the materials. */
 void resolve_safety(struct reader *r, const struct node *root);
 status check_size(struct reader *r, const struct node *root);
+/* Frames that are left to auto: after the bodies. */
+void resolve_frames(struct scene *s);
 status check_solver(struct reader *r, const struct node *root);
 
 /* The words of enum space and enum probe_kind. */

@@ -154,14 +154,18 @@ const struct key keys[] = {
     KEY("mpm.cell", KEY_REAL, UNIT_NONE, AT(scene, cell), BETWEEN(1, 8), "2",
         "node distance of the grid, in spacings"),
     KEY("mpm.shape", KEY_CHOICE, UNIT_NONE, AT(scene, shape), ANY,
-        "(gimp; linear with coupling pm and pmg)", "shape functions", .words = "linear|gimp|cpgimp|quadratic|cubic"),
+        "(gimp; linear with coupling pm and pmg)", "shape functions; a scene that says them wants the current frame",
+        .words = "linear|gimp|cpgimp|quadratic|cubic", .has = FLAG(scene, has_shape)),
     KEY("mpm.transfer", KEY_CHOICE, UNIT_NONE, AT(scene, transfer), ANY,
         "(flip; apic with solver relaxation)",
-        "grid to particle; apic not with linear", .words = "flip|apic"),
-    KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, AT(scene, frame), ANY, "current",
+        "grid to particle; apic not with linear; a scene that says it wants the current frame", .words = "flip|apic",
+        .has = FLAG(scene, has_transfer)),
+    KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, AT(scene, frame), ANY, "auto",
         "configuration the grid lives in; reference: linear cells with their state on the nodes and material points as "
-        "their quadrature, for bodies on a lattice that keep their neighbours and do not meet others (shape and transfer "
-        "have no meaning then); auto: reference where that is so", .words = "current|reference|auto"),
+        "their quadrature, for bodies on a lattice that keep their neighbours and do not meet others, a tenth to a thirtieth of "
+        "the cost; auto: reference where the body is one piece on a regular lattice, elastic, the only one and not at rest by a solver, "
+        "with mpm.cell 2 and coupling partial stress or handshake, and the scene says nothing of shape, transfer and rim_damping, "
+        "which have no meaning then; else current (`cleave check` says why)", .words = "current|reference|auto"),
     KEY("mpm.strain", KEY_CHOICE, UNIT_NONE, AT(scene, small_strain), ANY, "finite",
         "frame reference: finite, in axes that turn with each cell; small does not know rotations",
         .words = "finite|small"),
@@ -177,7 +181,8 @@ const struct key keys[] = {
 
     KEY("rim_damping", KEY_REAL, UNIT_NONE, AT(scene, rim_damping), FROM(0), "0.25",
         "coupling partial stress with transfer flip: damping of motion beside peridynamic particles that the grid "
-        "cannot see, in wave speed over cell; 0: none"),
+        "cannot see, in wave speed over cell; 0: none; a scene that says it wants the current frame",
+        .has = FLAG(scene, has_rim_damping)),
 
     KEY("conversion", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE,
         "material point to peridynamic particle (method adaptive)"),
