@@ -97,7 +97,7 @@ struct scene {
     real cell;                           /* grid node distance, in spacings                           */
     enum shape shape;
     enum transfer transfer;
-    bool has_shape, has_transfer;        /* the scene says so; frame AUTO rests on it                 */
+    bool has_shape, has_transfer;        /* to be written out: the scene says so, or no frame hangs on it */
     enum grid_frame frame;               /* of the grid, of bodies that do not say theirs             */
     bool small_strain;                   /* of a mesh in the reference frame                          */
     bool lattice_constants;              /* its elastic constants are those of the bonds' lattice     */
@@ -105,7 +105,8 @@ struct scene {
 
     enum coupling coupling;
     real rim_damping;                    /* of the rim of the material points (rim.h), in c/h         */
-    bool has_rim_damping;                /* the scene says so                                         */
+    bool has_rim_damping;                /* as has_shape                                              */
+    const char *frame_wish;              /* what the scene says that has a meaning in the current frame only; NULL: nothing */
     struct conversion_rule conversion;
 
     int cracks;     struct crack *crack;
@@ -144,8 +145,6 @@ void scene_choice_print(const struct scene *s, FILE *out);
  * it would. */
 const char *scene_frame_obstacle(const struct scene *s, int body);
 const char *scene_frame_reluctance(const struct scene *s, int body);
-/* What the scene says that has a meaning in the current frame only; NULL: nothing. */
-const char *scene_frame_wish(const struct scene *s);
 
 /* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
 status scene_help(FILE *out, const char *key);

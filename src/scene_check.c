@@ -104,7 +104,7 @@ const char *scene_frame_reluctance(const struct scene *s, int body)
     return NULL;
 }
 
-const char *scene_frame_wish(const struct scene *s)
+static const char *frame_wish(const struct scene *s)
 {
     if (s->has_shape) return "the scene says mpm.shape, which frame reference knows nothing of";
     if (s->has_transfer) return "the scene says mpm.transfer, which frame reference knows nothing of";
@@ -117,11 +117,12 @@ const char *scene_frame_wish(const struct scene *s)
 void resolve_frames(struct scene *s)
 {
     bool open = false;
+    s->frame_wish = frame_wish(s);
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
         if (body->frame == FRAME_AUTO && s->method != METHOD_PD) {
             body->frame_reason = scene_frame_reluctance(s, b);
-            if (!body->frame_reason) body->frame_reason = scene_frame_wish(s);
+            if (!body->frame_reason) body->frame_reason = s->frame_wish;
             if (body->frame_reason) body->frame = FRAME_CURRENT;
         }
         open |= body->frame == FRAME_AUTO;

@@ -24,12 +24,12 @@ output: {frames: 1, samples: 100}
 probes: [{line: {name: bar, from: [2.5 mm], to: [997.5 mm], points: 200}}]
 END
 go pulled_linear pulled -s method=mpm -s mpm.shape=linear
-go pulled_gimp pulled -s method=mpm
+go pulled_gimp pulled -s method=mpm -s mpm.frame=current
 go pulled_apic pulled -s method=mpm -s mpm.transfer=apic
 go pulled_pd pulled -s method=pd
 go pulled_vmpd pulled -s method=pd -s pd.calibration=vmpd
 go pulled_plain pulled -s method=pd -s pd.calibration=continuum
-go late_gimp pulled -s method=mpm -s duration=12.5ms
+go late_gimp pulled -s method=mpm -s mpm.frame=current -s duration=12.5ms
 go late_pd pulled -s method=pd -s duration=12.5ms
 landed
 # Stiffness of the lattice over E, N = 3 neighbours a side: 1 where it is calibrated; N (N + 1)/(N + 1/2)^2 = 48/49
@@ -89,7 +89,7 @@ probes:
   - {line: {name: bar, from: [-9.5 mm, 0.5 mm], to: [9.5 mm, 0.5 mm], points: 20}}
 END
 go fall_pd fall -s method=pd
-go fall_flip fall -s method=mpm
+go fall_flip fall -s method=mpm -s mpm.frame=current
 go fall_apic fall -s method=mpm -s mpm.transfer=apic
 landed
 for run in fall_pd fall_flip fall_apic; do
@@ -131,9 +131,9 @@ probes:
   - {line: {name: bar, from: [1.25 mm], to: [498.75 mm], points: 200}}
 END
 go column_pd column -s method=pd
-go column_flip column -s method=mpm
+go column_flip column -s method=mpm -s mpm.frame=current
 go column_apic column -s method=mpm -s mpm.transfer=apic
-go column_whole column -s method=mpm -s duration=20ms
+go column_whole column -s method=mpm -s mpm.frame=current -s duration=20ms
 landed
 for run in column_pd column_flip column_apic column_whole; do forced $run 0.01; done
 for run in column_pd column_flip column_apic; do
@@ -220,7 +220,7 @@ plane stress "plane stress"
 plane strain "plane strain"
 plane solid solid
 for space in stress strain solid; do
-    go wave_${space}_flip $space -s method=mpm
+    go wave_${space}_flip $space -s method=mpm -s mpm.frame=current
     go wave_${space}_apic $space -s method=mpm -s mpm.transfer=apic
     go wave_${space}_pd $space -s method=pd -s pd.weights=isotropic
 done
@@ -308,7 +308,7 @@ output: {frames: 0, samples: 200}
 probes: [{reaction: {boundary: ram}}]
 END
 go driven_pd driven -s method=pd
-go driven_flip driven -s method=mpm
+go driven_flip driven -s method=mpm -s mpm.frame=current
 go driven_apic driven -s method=mpm -s mpm.transfer=apic
 go driven_linear driven -s method=mpm -s mpm.shape=linear
 landed

@@ -168,7 +168,7 @@ static void test_mesh(void **state)
 static void test_points(void **state)
 {
     (void)state;
-    check_same(plate, struck, "", "method: mpm", 0.02);
+    check_same(plate, struck, "", "method: mpm\nmpm: {transfer: flip}", 0.02);
     check_same(plate, pulled, mirror, "method: mpm\nmpm: {transfer: apic}", 0.1);
     check_same(plate, struck, mirror, "method: mpm\nmpm: {shape: linear}", 0.2);
     check_same(plate, pulled, "", "method: mpm\nmpm: {shape: cubic, transfer: apic}", 0.1);

@@ -13,11 +13,11 @@ test_name=test_return
 # 80 spacings long; converted over half of its peak and a horizon to either side, returned five horizons' time later: about 60
 # particles. What bonds smear of a whole pulse is 0.09 %, and it returns where the stress is low; the fit of the mesh's nodes costs as
 # little. Balance: 0.7 % without return, from conversion in the first step; APIC damps 1.7 %.
-start current bar_return
-start reference bar_return -s mpm.frame=reference
+start current bar_return -s mpm.frame=current
+start reference bar_return
 wait
 start apic bar_return -s mpm.transfer=apic
-start never bar_return -s conversion.return=false
+start never bar_return -s mpm.frame=current -s conversion.return=false
 wait
 for run in current reference apic; do
     sound $run $([ $run = apic ] && echo $adaptive_balance || echo 0.01)
@@ -82,10 +82,10 @@ holds "hole: the same history" cmp "$work/hole/history.csv" "$work/hole_never/hi
 kalthoff="kalthoff_winkler -s duration=24us -s output.frames=1"
 tip() { echo "{ball: {centre: [50 mm, $1 mm], radius: 6.03 mm}}"; }
 start pd $kalthoff -s method=pd -s pd.surface=none
-start tips $kalthoff -s mpm.frame=reference -s conversion.tips=2 -s conversion.return=true
+start tips $kalthoff -s conversion.tips=2 -s conversion.return=true
 wait
-start region $kalthoff -s mpm.frame=reference -s conversion.return=true -s "pd.region=[$(tip -25), $(tip 25)]"
-start bare_notch $kalthoff -s mpm.frame=reference
+start region $kalthoff -s conversion.return=true -s "pd.region=[$(tip -25), $(tip 25)]"
+start bare_notch $kalthoff
 wait
 holds "tips: the region" cmp "$work/tips/history.csv" "$work/region/history.csv"
 between "tips: first bond, beside peridynamics" "$(compute "$(f tips crack.start_time) / $(f pd crack.start_time)")" 0.98 1.02

@@ -107,17 +107,17 @@ static double automatic_of(const char *text, const char *key, const char *value)
 static void test_scales(void **state)
 {
     (void)state;
-    static const char *const method[] = {"pd", "mpm", "adaptive"};
+    static const char *const method[] = {"pd", "mpm", "adaptive"}, *const frame[] = {"auto", "current"};
     static const double scale[] = {1e-9, 1e-3, 1e6};
-    for (size_t m = 0; m < COUNT_OF(method); m++) {
+    for (size_t m = 0; m < COUNT_OF(method) * COUNT_OF(frame); m++) {
         double share[COUNT_OF(scale)];
         for (size_t k = 0; k < COUNT_OF(scale); k++) {
             char text[1024];
             const double D = scale[k];
             snprintf(text, sizeof text, "space: plane stress\nthickness: %.9g\nduration: %.9g\nmethod: %s\nmaterial: {young: 72e9, "
                      "density: 2440}\nbody: {box: {from: [0, 0], to: [%.9g, %.9g]}}\nparticles: {spacing: %.9g}\n", D, D,
-                     method[m], 12 * D, 8 * D, D);
-            share[k] = automatic_of(text, NULL, NULL) / D;
+                     method[m / COUNT_OF(frame)], 12 * D, 8 * D, D);
+            share[k] = automatic_of(text, "mpm.frame", frame[m % COUNT_OF(frame)]) / D;
             assert_close(share[k], share[0], 1e-7);     /* strains of the trial motion */
         }
     }

@@ -2,10 +2,12 @@
 # floor 5: what test_trust.sh and long_trust.sh share: small scenes, and runs that are disturbed and must not show it.
 # Sourced after summary.sh.
 
-# A small plate whose notches crack, a bar that spalls, a solid plate: name, scene and the arguments that make it small.
-flat="inputs/kalthoff_winkler.yaml -s particles.spacing=2mm -s time.step=0.1us -s output.frames=10 -s output.samples=100"
+# A small plate whose notches crack, a bar that spalls, a solid plate: name, scene and the arguments that make it small. All on the grid of
+# the current frame; test_frame.sh has them in the other.
+current="-s mpm.frame=current -s mpm.transfer=apic"
+flat="inputs/kalthoff_winkler.yaml $current -s particles.spacing=2mm -s time.step=0.1us -s output.frames=10 -s output.samples=100"
 line="inputs/hopkinson_bar.yaml -s output.frames=10 -s output.samples=200"
-solid="inputs/kalthoff_winkler_3d.yaml -s duration=24us -s output.frames=4 -s output.samples=50"
+solid="inputs/kalthoff_winkler_3d.yaml $current -s duration=24us -s output.frames=4 -s output.samples=50"
 
 # calm FOLDER ARGUMENTS: a run that must succeed and say nothing but its warnings.
 calm()
