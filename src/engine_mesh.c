@@ -90,6 +90,7 @@ status engine_mesh_make(struct engine *e)
 {
     make_constants(e);
     TRY(mesh_make(&e->mesh, &e->part, &e->grid, &e->mesh_source));
+    e->loads.held_mesh.count[0] = 0;             /* a mesh made anew, after a restart, knows no mirror yet, though its box is the same */
     follow(e);
     return OK;
 }

@@ -119,7 +119,7 @@ for space in stress strain solid; do
     go wave_$space $space
     go wave_${space}_apic $space -s mpm.transfer=apic
 done
-go elastic strain -s material.yield_stress=inf
+go elastic strain -s mpm.frame=current -s material.yield_stress=inf
 go never strain -s material.yield_stress=1e30
 landed
 for space in strain solid; do
