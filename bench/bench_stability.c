@@ -1,10 +1,10 @@
 /* floor 5: `cleave bench stability`: the critical time step observed beside the predicted one, for every method; then the scenes
- * in which methods fail (stability_scenes.c). */
+ * in which methods fail (stability_scenes.c), and what becomes of energy in 1e5 steps (lasting.c). */
 #include <math.h>
 #include <string.h>
 
+#include "lasting.h"
 #include "memory.h"
-#include "stability.h"
 
 /* ---- measuring ------------------------------------------------------------------------------------------------- */
 
@@ -117,7 +117,7 @@ status bench_stability(bool quick)
 {
     struct stability_map *map = NEW("bench.stability", 1, struct stability_map);
     struct measuring m = {map, quick ? 300 : 1500, quick ? 0 : 10000};
-    struct bench_table t[2] = {0};
+    struct bench_table t[3] = {0};
     map->n = 0;
     printf("stability: growth of the largest mode in %d steps%s\n", m.steps, quick ? "" : ", runs of 1e4 steps beside the limit");
     bench_print_machine(1);
@@ -131,15 +131,27 @@ status bench_stability(bool quick)
         put_table(&t[0], map);
         s = stability_scenes(&t[1]);
     }
+    if (s == OK) s = lasting_map(&t[2], NULL, quick);
     if (s == OK) {
-        s = bench_write("stability", t, 2);
+        s = bench_write("stability", t, 3);
         if (!quick)
             puts("  a run of APIC that stays above the limit: growth moves points at an edge to where the limit is another");
     }
     if (s == OK) s = bench_draw("stability", 1800, 1150, stability_draw, map);
     if (s == OK) s = stability_scenes_draw(&t[1]);
-    bench_table_free(&t[0]);
-    bench_table_free(&t[1]);
+    if (s == OK) s = lasting_draw(&t[2]);
+    for (int k = 0; k < 3; k++) bench_table_free(&t[k]);
     memory_free(map);
+    return s;
+}
+
+status bench_stability_of(const char *only, bool quick)
+{
+    struct bench_table t = {0};
+    bench_print_machine(1);
+    status s = lasting_map(&t, strcmp(only, "lasting") ? only : NULL, quick);
+    if (s == OK) s = bench_write("stability", &t, 1);
+    if (s == OK) s = lasting_draw(&t);
+    bench_table_free(&t);
     return s;
 }

@@ -23,9 +23,9 @@ struct stability_case {
                              /* peridynamic (adaptive): one half; all but scattered balls; these balls; the middle half; of each
                               * axis the middle half; a ball; the lower half of each axis; three quarters of the middle half,
                               * with a crack up to the middle                                            */
-    enum stability_support { FREE, MIRROR, MIRROR_ACROSS, MIRRORS, CLAMP, CLAMP_ACROSS, CLAMP_MIRROR, FIXED } support;
+    enum stability_support { FREE, MIRROR, MIRROR_ACROSS, MIRRORS, CLAMP, CLAMP_ACROSS, CLAMP_MIRROR, FIXED, DRIVEN } support;
                              /* nothing; a plane of symmetry at x = 0, at y = 0, both; the same clamped; a clamp at x = 0 and a
-                              * symmetry at y = 0; two rows of the far end in x held                     */
+                              * symmetry at y = 0; two rows of the far end in x held; moved along x for a while, then held */
     const char *strain, *constants;  /* of the reference frame                                           */
     int edge;                /* particles along it; 0: few                                              */
     const char *text;        /* another scene than this block, at rest: the rest is not looked at; NULL: none */

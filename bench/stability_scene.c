@@ -151,11 +151,12 @@ static void put_support(FILE *to, const struct stability_case *c, double edge)
         [CLAMP_MIRROR] = "  - {mirror: {axis: x, at: 0, tangential: held}}\n  - {mirror: {axis: y, at: 0}}\n"};
     if (c->support == FREE) return;
     fputs("boundary:\n", to);
-    if (c->support != FIXED) {
+    if (c->support != FIXED && c->support != DRIVEN) {
         fputs(text[c->support], to);
         return;
     }
-    fputs("  - {fixed: all, region: ", to);
+    if (c->support == FIXED) fputs("  - {fixed: all, region: ", to);
+    else fprintf(to, "  - {velocity: [0.2%s], time: {pulse: {from: 0, until: 50 us}}, region: ", &", free, free"[6 * (DIM_MAX - c->dim)]);
     put_box(to, c->dim, edge - 2 * SPACING, edge, edge);
     fputs("}\n", to);
 }
