@@ -6,8 +6,8 @@
 #include "lasting.h"
 
 static const char header[] =
-    "group,case,promise,particles,steps,stopped_at,energy_end,energy_largest,energy_least,rate_per_step,angular_momentum_change,"
-    "converted,verdict,why";
+    "group,case,promise,particles,steps,stopped_at,energy_end,energy_largest,energy_least,energy_loudest,rate_per_step,"
+    "angular_momentum_change,converted,verdict,why";
 
 struct mapping_of { struct bench_table *t; const char *only; int64_t steps; int group, cases, held, refused; };
 
@@ -30,6 +30,7 @@ static void put(struct bench_table *t, const struct lasting_case *l, const struc
     bench_number(t, there ? r->end : NAN);
     bench_number(t, there ? r->largest : NAN);
     bench_number(t, there ? r->least : NAN);
+    bench_number(t, there ? r->loudest : NAN);
     bench_number(t, there ? r->rate : NAN);
     bench_number(t, there ? r->turn : NAN);
     bench_number(t, there && l->converts ? r->converted : NAN);
@@ -73,8 +74,8 @@ status lasting_map(struct bench_table *t, const char *only, bool quick)
 {
     struct mapping_of m = {.t = t, .only = only, .steps = quick ? LASTING_STEPS_QUICK : LASTING_STEPS, .group = -1};
     bench_table_make(t, "lasting", header);
-    printf("\n  %lld steps at the automatic step: energy less the work of loads, over what it was at the start (asked: within %g %%, points "
-           "of the current frame never above it), and its rate\n", (long long)m.steps, 100 * LASTING_ENERGY);
+    printf("\n  %lld steps at the automatic step: energy less the work of loads, over what it was at the start (asked: within %g %%, "
+           "points of the current frame never above it), and its rate\n", (long long)m.steps, 100 * LASTING_ENERGY);
     TRY(lasting_cases(quick, measure, &m));
     printf("\n  %d of %d cases hold, %d are refused; couplings published by others are not counted\n", m.held, m.cases, m.refused);
     return OK;

@@ -32,6 +32,7 @@ struct lasting {
     bool free;                           /* nothing holds it: angular momentum is to be kept                        */
     int64_t particles, steps, stopped;   /* stopped: the step in which the alarm came, 0: never                     */
     double end, largest, least;          /* energy - energy at the start [1]                                        */
+    double loudest;                      /* largest energy with velocities after the step [1]                       */
     double rate;                         /* growth of energy per step, fitted to its logarithm over the second half */
     double turn;                         /* largest change of angular momentum over sum m |x| |v| of the start [1]; NAN: not asked */
     double converted;                    /* share that became peridynamic                                           */
@@ -40,6 +41,9 @@ struct lasting {
 };
 
 #define LASTING_ENERGY 0.005             /* what energy may change by, or exceed its start by */
+/* A stable step of a share s of the critical one leaves motions 1/(1 - s^2) times their energy at the most, 2.8 at 0.8. Beyond it what
+ * steps conserve is no bound any more: it stays while both its parts grow. */
+#define LASTING_LOUDEST 4.0
 #define LASTING_TURN 1e-6                /* of angular momentum, where forces are those of one energy and places are exact */
 enum { LASTING_STEPS = 100000, LASTING_STEPS_QUICK = 10000 };
 

@@ -205,7 +205,7 @@ static const char *const support_name[] = {[MIRROR] = "mirror", [MIRROR_ACROSS] 
 
 void lasting_label(const struct lasting_case *l, char *text, size_t size)
 {
-    static const char *const space[] = {"", "line", "plane stress", "solid"};
+    static const char *const space[] = {"", "line", "plate", "solid"};
     const struct stability_case *c = &l->c;
     if (l->name) {
         snprintf(text, size, "%s", l->name);
@@ -213,11 +213,12 @@ void lasting_label(const struct lasting_case *l, char *text, size_t size)
     }
     FILE *to = fmemopen(text, size, "w");
     const bool coupled = !strcmp(c->method, "adaptive");
-    fprintf(to, "%s, %s", c->space ? c->space : space[c->dim], coupled ? c->coupling : c->method);
+    fprintf(to, "%s, %s", c->space ? c->space : space[c->dim],
+            !coupled ? c->method : strcmp(c->coupling, "partial stress") ? c->coupling : "partial");
     if (c->model) fprintf(to, ", %s", c->model);
     if (c->poisson != 0) fprintf(to, " nu %.2g", c->poisson < 1e-6 ? 0 : c->poisson);
-    if (c->frame) fprintf(to, ", %s", c->frame);
-    if (c->transfer) fprintf(to, " %s", c->transfer);
+    if (c->frame && !strcmp(c->frame, "reference")) fputs(", reference", to);
+    if (c->transfer) fprintf(to, ", %s", c->transfer);
     if (c->shape) fprintf(to, " %s", c->shape);
     if (coupled || c->region == NOTCH) fprintf(to, ", %s", region_name[c->region]);
     if (c->support != FREE) fprintf(to, ", %s", support_name[c->support]);

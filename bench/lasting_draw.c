@@ -7,7 +7,7 @@
 #include "lasting.h"
 
 /* Columns of the table that are drawn. */
-enum { GROUP = 0, LABEL = 1, STOPPED = 5, END = 6, LARGEST = 7, RATE = 9, VERDICT = 12, COLUMNS = 14 };
+enum { GROUP = 0, LABEL = 1, STOPPED = 5, END = 6, LARGEST = 7, RATE = 10, VERDICT = 13, COLUMNS = 15 };
 #define LEAST_RATE 1e-12                 /* drawn as nothing: what round-off and the fit leave */
 #define MOST_RATE 10.0
 enum { WIDTH = 1900, LINE_HEIGHT = 22 };

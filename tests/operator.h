@@ -26,9 +26,11 @@ struct spectrum {
     real asymmetry;                      /* max |K - K^T| over max |K| */
     real lowest, highest;                /* [1/s^2] */
     int64_t zeros;                       /* eigenvalues below OPERATOR_ZERO of the highest */
+    real energy;                         /* |energy that the ledger has/(1/2 u K u) - 1| of a body shaken at random */
     real imaginary;                      /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not asked for */
 };
 #define OPERATOR_ZERO 1e-9
+#define OPERATOR_SHAKE 1e-6              /* displacement [spacings]: terms of third order are as much of the energy */
 #define OPERATOR_STEP 2e-4               /* displacement [spacings]: four-point differences are off by 1e-14, round-off by 1e-11 */
 
 /* ---- unknowns ----------------------------------------------------------------------------------------------------- */
@@ -152,10 +154,30 @@ static inline void operator_free(struct operator *o)
     bench_engine_free(&o->e, &o->s);
 }
 
-static inline struct spectrum operator_spectrum(const struct operator *o, bool imaginary)
+/* The ledger's energy of bonds and cells beside half u K u. */
+static inline real operator_energy(struct operator *o)
+{
+    struct engine *e = &o->e;
+    uint64_t seed = 3;
+    real *u = NEW("test.u", o->n, real), *f = NEW("test.f", o->n, real), half = 0;
+    for (int64_t k = 0; k < o->n; k++) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        u[k] = OPERATOR_SHAKE * o->s.spacing * ((real)(seed >> 11) * 0x1p-52 - 1);
+        operator_place(o, o->unknown[k], u[k]);
+    }
+    operator_forces(o, f);
+    const real W = e->kernels.bond_energy(&e->bonds, &e->part) + mesh_strain(&e->mesh, e->cell_elastic, !o->s.small_strain);
+    for (int64_t k = 0; k < o->n * o->n; k++) half += 0.5 * u[k / o->n] * o->K[k] * u[k % o->n];
+    for (int64_t k = 0; k < o->n; k++) operator_place(o, o->unknown[k], 0);
+    memory_free(u);
+    memory_free(f);
+    return fabs(W / half - 1);
+}
+
+static inline struct spectrum operator_spectrum(struct operator *o, bool imaginary)
 {
     const int64_t n = o->n;
-    struct spectrum s = {.imaginary = NAN};
+    struct spectrum s = {.imaginary = NAN, .energy = operator_energy(o)};
     real *A = NEW("test.A", n * n, real), *d = NEW("test.d", n, real), *scratch = NEW("test.e", n, real), largest = 0, least;
     for (int64_t k = 0; k < n * n; k++) {
         const int64_t i = k / n, j = k % n;

@@ -1,6 +1,6 @@
 /* floor 5: every internal force of bodies of bonds, states, cells of the reference frame and supports is the gradient of one
  * energy that is never negative: the linearised operator is symmetric, has no negative eigenvalue, and nothing but what bonds
- * or cells alone let go costs nothing. A line for each case;
+ * or cells alone let go costs nothing; and that energy is the ledger's. A line for each case;
  *
  *     build/tests/test_operator [part of a case's name] ...
  *
@@ -16,6 +16,7 @@
 #include "operator.h"
 
 #define SYMMETRIC 1e-8                   /* of the largest entry: differences leave 1e-11 */
+#define LEDGER 1e-6                      /* terms of third order at displacements of 1e-6 spacings */
 #define NEGATIVE (-1e-8)                 /* of the highest eigenvalue: differences leave 1e-11 */
 
 /* `loose`: motions that bonds or cells alone let go, besides rigid ones. */
@@ -63,10 +64,11 @@ static void check(const char *name, const struct stability_case *c, int loose)
     }
     const struct spectrum s = operator_spectrum(&o, getenv("OPERATOR_FLUTTER") != NULL);
     const int rigid = rigid_of(c, o.s.bodies);
-    const bool good = s.asymmetry <= SYMMETRIC && s.lowest >= NEGATIVE * s.highest && s.zeros <= rigid + loose;
+    const bool good = s.asymmetry <= SYMMETRIC && s.lowest >= NEGATIVE * s.highest && s.zeros <= rigid + loose &&
+                      s.energy <= LEDGER;
     wrong += !good;
-    printf("%s %-62s %4lld %9.1e %10.1e  %2lld of %d", good ? "  " : "! ", name, (long long)o.n, s.asymmetry, s.lowest / s.highest,
-           (long long)s.zeros, rigid + loose);
+    printf("%s %-62s %4lld %9.1e %10.1e  %2lld of %d %9.1e", good ? "  " : "! ", name, (long long)o.n, s.asymmetry,
+           s.lowest / s.highest, (long long)s.zeros, rigid + loose, s.energy);
     if (getenv("OPERATOR_FLUTTER")) printf("  %8.1e", s.imaginary);
     putchar('\n');
     fflush(stdout);
@@ -84,6 +86,29 @@ static void begin(void)
 {
     omp_set_num_threads(1);              /* bodies are small */
     wrong = 0;
+}
+
+/* ---- the tools ------------------------------------------------------------------------------------------------------- */
+
+/* A free chain of springs has the eigenvalues 2 - 2 cos(k pi/n); a shift in a ring has the n-th roots
+ * of 1. */
+static void test_tools(void **state)
+{
+    (void)state;
+    enum { N = 12 };
+    real A[N * N] = {0}, d[N], scratch[N], least;
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) A[i * N + j] = i == j ? (i == 0 || i == N - 1 ? 1 : 2) : abs(i - j) == 1 ? -1 : 0;
+    eigen_symmetric(A, N, d, scratch);
+    for (int k = 0; k < N; k++) assert_near(d[k], 2 - 2 * cos(k * M_PI / N), 1e-14);
+    for (int i = 0; i < N; i++)          /* a dense one: 1 + n on the diagonal, else 1 */
+        for (int j = 0; j < N; j++) A[i * N + j] = 1 + (i == j) * N;
+    eigen_symmetric(A, N, d, scratch);
+    for (int k = 0; k < N; k++) assert_near(d[k], k < N - 1 ? N : 2 * N, 1e-12);
+    memset(A, 0, sizeof A);
+    for (int i = 0; i < N; i++) A[i * N + (i + 1) % N] = 1;
+    assert_near(eigen_imaginary(A, N, &least), 1, 1e-13);
+    assert_near(least, -1, 1e-13);
 }
 
 /* ---- bonds and states alone ------------------------------------------------------------------------------------------ */
@@ -203,8 +228,8 @@ static void test_coupled_elsewhere(void **state)
     for (int m = 0; m < 3; m++)
         for (int k = 0; k < 3; k++) {
             char name[128];
-            struct stability_case c = {.dim = 3, .edge = 6, .method = "adaptive", .frame = "reference", .model = model[m], .horizon = 2.015,
-                                       .poisson = m ? 0.3 : 0, .region = (const enum stability_region[]){HALF, CORNER, DISC}[k]};
+            struct stability_case c = {.dim = 3, .edge = 6, .method = "adaptive", .frame = "reference", .model = model[m],
+                                       .horizon = 2.015, .poisson = m ? 0.3 : 0, .region = (const enum stability_region[]){HALF, CORNER, DISC}[k]};
             c.coupling = "partial stress";
             snprintf(name, sizeof name, "solid %s, %s", model[m], (const char *[]){"half", "corner", "ball"}[k]);
             check(name, &c, 0);
@@ -238,7 +263,8 @@ static void test_supports(void **state)
                 snprintf(name, sizeof name, "%s %s, %s", coupled_too ? "partial" : "pd", model[m], supports[k].name);
                 check(name, &c, 0);
             }
-    const struct stability_case shaken = {.dim = 2, .edge = 10, .method = "pd", .model = "bond", .irregularity = 0.5, .support = CLAMP_MIRROR};
+    const struct stability_case shaken = {.dim = 2, .edge = 10, .method = "pd", .model = "bond", .irregularity = 0.5,
+                                          .support = CLAMP_MIRROR};
     check("pd bond, irregular, clamp and mirror", &shaken, 0);
     const struct stability_case solid = {.dim = 3, .edge = 5, .method = "pd", .model = "mospd", .poisson = 0.3, .horizon = 2.015,
                                          .support = CLAMP};
@@ -248,10 +274,11 @@ static void test_supports(void **state)
 
 int main(int n, char **words)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_alone), cmocka_unit_test(test_cells), cmocka_unit_test(test_coupled),
-                                       cmocka_unit_test(test_coupled_elsewhere), cmocka_unit_test(test_supports)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_tools), cmocka_unit_test(test_alone), cmocka_unit_test(test_cells),
+                                       cmocka_unit_test(test_coupled), cmocka_unit_test(test_coupled_elsewhere),
+                                       cmocka_unit_test(test_supports)};
     asked = words + 1, asks = n - 1;
-    printf("  %-62s    n asymmetry lowest/highest zeros\n", "case");
+    printf("  %-62s    n asymmetry lowest/highest zeros    energy\n", "case");
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     printf("%d cases\n", done);
     return failed;
