@@ -144,7 +144,7 @@ status bench_peers(bool quick);
 /* bench_stability.c: the critical time step observed beside the predicted one, for every method; scenes in which methods fail,
  * with their thresholds and cures. */
 status bench_stability(bool quick);
-/* Of its long map alone: all of it (`lasting`), or the cases in whose name this is. */
+/* Of its long map alone: all of it (`lasting`), or, on the screen only, the cases in whose name this is. */
 status bench_stability_of(const char *only, bool quick);
 
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */

@@ -148,10 +148,11 @@ status bench_stability(bool quick)
 status bench_stability_of(const char *only, bool quick)
 {
     struct bench_table t = {0};
+    const bool all = !strcmp(only, "lasting");
     bench_print_machine(1);
-    status s = lasting_map(&t, strcmp(only, "lasting") ? only : NULL, quick);
-    if (s == OK) s = bench_write("stability", &t, 1);
-    if (s == OK) s = lasting_draw(&t);
+    status s = lasting_map(&t, all ? NULL : only, quick);
+    if (s == OK && all) s = bench_write("stability", &t, 1);
+    if (s == OK && all) s = lasting_draw(&t);
     bench_table_free(&t);
     return s;
 }
