@@ -76,7 +76,7 @@ status lasting_map(struct bench_table *t, const char *only, bool quick)
     bench_table_make(t, "lasting", header);
     printf("\n  %lld steps at the automatic step: energy less the work of loads, over what it was at the start (asked: within %g %%, "
            "points of the current frame never above it), and its rate\n", (long long)m.steps, 100 * LASTING_ENERGY);
-    TRY(lasting_cases(quick, measure, &m));
+    TRY(lasting_cases(quick && !only, measure, &m));
     if (t->cells == 0) return status_set(REFUSED, "bench stability: no case of the long map has %s in its name", only);
     printf("\n  %d of %d cases hold, %d are refused; couplings published by others are not counted\n", m.held, m.cases, m.refused);
     return OK;

@@ -55,7 +55,7 @@ status lasting_run(const struct lasting_case *l, int64_t steps, struct lasting *
 bool lasting_holds(const struct lasting_case *l, const struct lasting *r);
 void lasting_label(const struct lasting_case *l, char *text, size_t size);
 
-/* All cases, one after the other (lasting_cases.c); those of scenes that once grew (lasting_named.c). */
+/* All cases, with `quick` each fourth of them, one after the other (lasting_cases.c); those of scenes that once grew (lasting_named.c). */
 typedef status lasting_take(void *context, const struct lasting_case *l);
 status lasting_cases(bool quick, lasting_take *take, void *context);
 extern const struct lasting_case lasting_named[];
