@@ -213,6 +213,7 @@ static void judge(const struct course *c, struct lasting *to)
         to->end = (c->energy[k] - c->work[k] - c->energy[0]) / scale;
         if (!isfinite(to->end)) to->end = INFINITY;
         to->largest = fmax(to->largest, to->end), to->least = fmin(to->least, to->end);
+        to->inverted |= c->energy[k] < -LASTING_ENERGY * scale;
         to->loudest = fmax(to->loudest, c->plain[k] / scale);
     }
     to->rate = rate_of(c, to->loudest > LASTING_LOUDEST ? c->plain : c->energy);
@@ -282,8 +283,7 @@ status lasting_run(const struct lasting_case *l, int64_t steps, struct lasting *
 
 bool lasting_holds(const struct lasting_case *l, const struct lasting *r)
 {
-    const bool inverted = r->least < -1 - LASTING_ENERGY;    /* a negative energy is one of points turned inside out */
-    if (r->refused || r->stopped > 0 || inverted || !(r->largest <= LASTING_ENERGY && r->loudest <= LASTING_LOUDEST)) return false;
+    if (r->refused || r->stopped > 0 || r->inverted || !(r->largest <= LASTING_ENERGY && r->loudest <= LASTING_LOUDEST)) return false;
     if (l->converts && r->converted > 0) return false;
     if (!r->keeps) return !(r->rate > LASTING_RATE);
     return r->least >= -LASTING_ENERGY && !(r->free && !l->moves && !(r->turn <= LASTING_TURN));
