@@ -219,8 +219,11 @@ static void judge(const struct course *c, struct lasting *to)
     to->rate = rate_of(c, to->loudest > LASTING_LOUDEST ? c->plain : c->energy);
 }
 
-/* A held body's angular momentum goes into its support. */
-static bool is_free(const struct engine *e) { return e->scene->boundaries == 0 && e->part.dim > 1; }
+/* A held body's angular momentum goes into its support, and small strain knows no rotations. */
+static bool is_free(const struct engine *e)
+{
+    return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->mesh.points > 0 && e->scene->small_strain);
+}
 
 static double turned(const struct engine *e, const real *centre, const real *L, real size)
 {
@@ -283,7 +286,8 @@ status lasting_run(const struct lasting_case *l, int64_t steps, struct lasting *
 
 bool lasting_holds(const struct lasting_case *l, const struct lasting *r)
 {
-    if (r->refused || r->stopped > 0 || r->inverted || !(r->largest <= LASTING_ENERGY && r->loudest <= LASTING_LOUDEST)) return false;
+    const bool within = r->largest <= LASTING_ENERGY && r->loudest <= LASTING_LOUDEST;
+    if (r->refused || r->stopped > 0 || r->inverted || !within) return false;
     if (l->converts && r->converted > 0) return false;
     if (!r->keeps) return !(r->rate > LASTING_RATE);
     return r->least >= -LASTING_ENERGY && !(r->free && !l->moves && !(r->turn <= LASTING_TURN));
