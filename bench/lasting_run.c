@@ -248,7 +248,7 @@ static status run(struct engine *e, const struct lasting_case *l, struct lasting
     while (s == OK && e->step < e->steps) {
         earlier_take(&before, e);
         s = engine_step(e);
-        if (s == OK) s = engine_mesh_alarm(e);
+        if (s == OK) s = engine_alarm(e);
         if (s != OK || !e->sampling.due) continue;
         course_add(c, e, &before);
         if (to->free) to->turn = fmax(to->turn, turned(e, centre, L, size));
