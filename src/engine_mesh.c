@@ -136,7 +136,7 @@ void engine_forces(struct engine *e)
     if (has_mesh) seen_follow(e);
     loads_mirror(&e->loads, &e->part);
     loads_clear(&e->loads, &e->part);
-    e->kernels.bond_force(&e->bonds, &e->part, &e->source.limit, NULL);
+    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
     if (has_mesh) nodes_force(e);
 }
 

@@ -166,7 +166,7 @@ static inline real operator_energy(struct operator *o)
         operator_place(o, o->unknown[k], u[k]);
     }
     operator_forces(o, f);
-    const real W = e->kernels.bond_energy(&e->bonds, &e->part) + mesh_strain(&e->mesh, e->cell_elastic, !o->s.small_strain);
+    const real W = e->kernels.bond_energy(&e->bonds, &e->part) + mesh_strain(&e->mesh, &e->part, e->cell_elastic, !o->s.small_strain);
     for (int64_t k = 0; k < o->n * o->n; k++) half += 0.5 * u[k / o->n] * o->K[k] * u[k % o->n];
     for (int64_t k = 0; k < o->n; k++) operator_place(o, o->unknown[k], 0);
     memory_free(u);
