@@ -205,7 +205,8 @@ void engine_sample_energy(struct engine *e)
 void engine_sample_end(struct engine *e)
 {
     if (!e->sampling.due) return;
-    if (e->step == 0) {                      /* velocities of t = 0, not of half a step before */
+    if (e->step == 0) {                      /* velocities of t = 0, not of half a step before, that nothing has damped yet */
+        e->sampling.energy.damped = 0;
         sample_write(e, e->t + 0.5 * e->dt, e->sampling.kinetic, e->sampling.work);
         return;
     }
