@@ -99,8 +99,8 @@ static inline bool is_clamp(const struct boundary *b, int dim)
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
 }
 
-/* Finds the particles of one boundary (none of a mirror), ascending, and their shares; marks FLAG_DRIVEN. Refuses a force on
- * a region without particles, a traction on one without a free face. */
+/* Finds the particles of one boundary (of a mirror those in its plane, if it is clamped), ascending, and their shares; marks
+ * FLAG_DRIVEN. Refuses a force on a region without particles, a traction on one without a free face. */
 status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
 /* The face of a traction (loads_columns.c): of each column of particles along the normal the first that nothing hides bears its

@@ -61,12 +61,13 @@ void loads_free(struct loads *l)
 static void drive(struct loads *l, struct load *load, struct particles *p, real factor, real dt_velocity)
 {
     const struct boundary *b = load->boundary;
+    const uint8_t components = is_clamp(b, p->dim) ? UINT8_MAX : b->components;
     real given[DIM_MAX] = {0}, work = 0;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
         if (particle_on_grid(p, i)) continue;
         for (int d = 0; d < p->dim; d++) {
-            if (!(b->components >> d & 1)) continue;
+            if (!(components >> d & 1)) continue;
             real target = factor * b->value[d], before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
             load->reaction[d] -= p->f[d][i];     /* without the driven particles' own inertia: what a load cell reads */
@@ -122,7 +123,7 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
     loads_push(l, p, t, dt_velocity);
     for (int c = 0; c < l->n; c++) {         /* after all forces: what holds a particle sees them */
         struct load *load = &l->load[c];
-        if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
+        if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
         real factor = time_function_at(&load->boundary->time, t);
         for (int d = 0; d < p->dim; d++)
             if (load->boundary->components >> d & 1) load->displacement[d] += factor * load->boundary->value[d] * dt;

@@ -43,6 +43,8 @@ static void shares_allocate(struct load *l, int dim)
     for (int d = 0; d < dim; d++) l->share[d] = d > 0 && alike ? l->share[0] : NEW("loads.share", l->n, real);
 }
 
+static bool bears_force(const struct boundary *b) { return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE; }
+
 static void take_particles(struct load *l, const uint8_t *taken, struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) l->n += taken[i] > 0;
@@ -52,7 +54,7 @@ static void take_particles(struct load *l, const uint8_t *taken, struct particle
         l->particle[k++] = (int32_t)i;
         if (l->boundary->kind == BOUNDARY_VELOCITY) p->flag[i] |= FLAG_DRIVEN;
     }
-    if (l->boundary->kind != BOUNDARY_VELOCITY) shares_allocate(l, p->dim);
+    if (bears_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
@@ -69,21 +71,28 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     face_free(&face);
 }
 
+/* Who stands in a clamped plane is its own image: it stays. */
+static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
+{
+    return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;
+}
+
 status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing)
 {
+    const bool clamp = is_clamp(b, p->dim);
     bool any = false;
     l->boundary = b;
-    if (b->kind == BOUNDARY_MIRROR) return OK;
+    if (b->kind == BOUNDARY_MIRROR && !clamp) return OK;
     uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
     for (int64_t i = 0; i < p->n; i++) {
-        selected[i] = selects(b, p, i, spacing);
+        selected[i] = clamp ? is_in_plane(b, p, i, spacing) : selects(b, p, i, spacing);
         any = any || selected[i];
     }
     if (b->kind == BOUNDARY_TRACTION) select_face(l, selected, p, spacing);
     else take_particles(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
-    if (!any && b->kind != BOUNDARY_VELOCITY)
+    if (!any && bears_force(b))
         return status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
     if (l->n > 0 || b->kind != BOUNDARY_TRACTION) return OK;
     return status_set(REFUSED, "boundary %s: every particle in its region has one of its body before it towards %c%c; let the "

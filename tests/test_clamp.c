@@ -268,6 +268,52 @@ static void test_long(void **state)
     }
 }
 
+/* Material points beside bonds at the clamp, in the reference frame, with the plane on nodes and half-way between two, whose mesh moves
+ * nodes as images of others. */
+#define COUPLED                                                                                                      \
+    "space: plane stress\nthickness: 1 mm\nduration: 4 ms\nmethod: adaptive\n" STEEL                               \
+    "body: {box: {from: [0, 0], to: [40 mm, 12 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                 \
+    "pd: {region: {box: {from: [-inf, -inf], to: [16 mm, 6 mm]}}}\n" LEFT                                           \
+    "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
+
+static void test_coupled(void **state)
+{
+    (void)state;
+    static const char *const with[][4] = {{"mpm.frame=reference"},
+                                          {"mpm.frame=reference", "mpm.origin=[1 mm, 0]"},
+                                          {"mpm.frame=reference", "coupling=handshake"}};
+    for (size_t k = 0; k < COUNT_OF(with); k++) {
+        struct body a;
+        body_make(&a, COUPLED, with[k]);
+        assert_true(a.e.bonds.clamped.n > 0 && a.e.part.n_of[KIND_MPM] > 0);
+        const real most = run(&a.e);
+        printf("coupled, case %d: %lld steps, energy balance %.2g\n", (int)k, (long long)a.e.steps, most);
+        assert_true(most < 0.005);
+        body_free(&a);
+    }
+}
+
+/* A clamp through particles: they stay where they are, and the accounts close. */
+static void test_in_plane(void **state)
+{
+    (void)state;
+    static const char beam[] = BEAM;
+    const char *at = strstr(beam, "at: 0,");
+    char text[sizeof beam + 16];
+    snprintf(text, sizeof text, "%.*sat: 0.5 mm,%s", (int)(at - beam), beam, at + strlen("at: 0,"));
+    struct body a;
+    int64_t stay = 0;
+    body_make(&a, text, (const char *const[]){"duration=2 ms", NULL});
+    assert_true(run(&a.e) < 0.005);
+    for (int64_t i = 0; i < a.e.part.n; i++) {
+        const bool in_plane = fabs(a.e.part.X[0][i] - 0.5e-3) < 1e-9;
+        for (int d = 0; d < 2 && in_plane; d++) assert_exact(a.e.part.x[d][i], a.e.part.X[d][i]);
+        stay += in_plane;
+    }
+    assert_int_equal(stay, 4);
+    body_free(&a);
+}
+
 #define STRIP                                                                                                        \
     "space: plane stress\nthickness: 1 mm\nduration: 20 us\nmethod: pd\n" STEEL                                      \
     "body: {box: {from: [0, 0], to: [40 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                   \
@@ -365,6 +411,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_energy),     cmocka_unit_test(test_threads), cmocka_unit_test(test_long),
         cmocka_unit_test(test_reflection), cmocka_unit_test(test_torn),    cmocka_unit_test(test_cantilever),
+        cmocka_unit_test(test_coupled),    cmocka_unit_test(test_in_plane),
     };
     team_make(0);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -50,7 +50,8 @@ done
 # ---- a plane pulse across the interface --------------------------------------------------------------------------------
 
 # Poisson's ratio 1/3 makes the ordinary model the bond-based one, to the round-off of another form of the same sums. With
-# rotations C11 of the bonds is that of the points: less comes back, and of wider pulses less than half as much.
+# rotations C11 of the bonds is that of the points, but what symmetry leaves of the patch test comes on top: 0.83 %, and of pulses
+# twice as wide 0.36 % (an interface that was not symmetric, and gained energy, left 0.69 and 0.2).
 sed 's/width: 32 mm/width: 64 mm/' inputs/plate_pulse.yaml >"$work/wide.yaml"
 start pulse_bond plate_pulse
 start pulse_ospd plate_pulse -s model=ospd
@@ -62,8 +63,8 @@ for run in pulse_bond pulse_ospd pulse_mospd wide_mospd; do
     between "$run: momentum, of a pulse too weak to hide what mirrors round" "$(f $run momentum_error)" 0 1e-13
 done
 apart "pulse: ordinary as bonds" "$(f pulse_ospd probes.pulse.reflected)" "$(f pulse_bond probes.pulse.reflected)" 1e-6
-between "pulse: with rotations" "$(f pulse_mospd probes.pulse.reflected)" 0.004 0.0075
-between "pulse, 64 spacings: with rotations" "$(f wide_mospd probes.pulse.reflected)" 0.001 0.003
+between "pulse: with rotations" "$(f pulse_mospd probes.pulse.reflected)" 0.004 0.009
+between "pulse, 64 spacings: with rotations" "$(f wide_mospd probes.pulse.reflected)" 0.001 0.004
 
 # ---- cracks ------------------------------------------------------------------------------------------------------------
 
