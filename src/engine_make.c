@@ -320,7 +320,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     engine_ends_know(e);
     TRY(named(s, engine_time_make(e)));
     make_rim_share(e);
-    e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false};
+    e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false, NULL};
     e->strain_stress = largest_stress(&e->part);
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);

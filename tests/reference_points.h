@@ -53,6 +53,7 @@ struct reference_step {
     real half_width, dt, dt_velocity, smallest_mass;
     const struct elastic *elastic;
     const struct partial_stress *partial;
+    const int32_t *row_of;               /* below 0: no bond; NULL: none of any            */
     struct particles *p;                 /* overwritten step by step                       */
     const struct grid *g;                /* where nodes are; its values are not touched    */
     real *value, *slope[DIM_MAX];        /* N and grad N, [n][nodes], of the old positions */
@@ -259,7 +260,8 @@ static inline void reference_stress(const struct reference_step *s, int64_t i, r
     for (int a = 0; a < p->dim && s->shape == SHAPE_CPGIMP; a++) p->stretch[a][i] *= 1 + s->dt * L[a][a];
 }
 
-/* Positions and gradient with the velocity of the second map (FLIP) or the nodal velocity itself (APIC). */
+/* Positions with the nodal velocity or, where bonds meet a point, that of the second map; gradient from the second map (FLIP) or
+ * the nodal velocity itself (APIC). */
 static inline void reference_gather(struct reference_step *s)
 {
     struct particles *p = s->p;
@@ -267,14 +269,15 @@ static inline void reference_gather(struct reference_step *s)
     for (int64_t i = 0; i < p->n; i++) {
         real L[DIM_MAX][DIM_MAX];
         if (p->kind[i] != KIND_MPM) continue;
-        real *const *velocity = affine ? s->velocity : s->momentum;
+        real *const *straining = affine ? s->velocity : s->momentum;
+        real *const *moving = s->row_of && s->row_of[i] >= 0 ? straining : s->velocity;
         for (int a = 0; a < p->dim; a++)
             for (int b = 0; b < p->dim; b++) {
-                L[a][b] = reference_at(s, s->slope[b], velocity[a], i);
+                L[a][b] = reference_at(s, s->slope[b], straining[a], i);
                 if (affine) p->gradient[a * p->dim + b][i] = L[a][b];
             }
         for (int a = 0; a < p->dim; a++) {
-            real v = reference_at(s, s->value, velocity[a], i);
+            real v = reference_at(s, s->value, moving[a], i);
             if (affine) p->v[a][i] = v;
             p->x[a][i] += s->dt * v;
         }

@@ -205,7 +205,8 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
     scene_make(&s, k, spin);
     s.smallest_mass = smallest_mass * s.c.p.mass[0];
     struct partial_stress none = {0};
-    if (!partial) s.t.partial = &none;
+    if (partial) s.t.row_of = s.partial.index;           /* bonds meet the same points */
+    else s.t.partial = &none;
     cloud_copy(&p, &s.c.p, s.optional);
     cloud_copy(&before, &s.c.p, s.optional);
     struct reference_step r = {.shape = (enum shape)k->shape,
@@ -216,6 +217,7 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
                                .smallest_mass = s.smallest_mass,
                                .elastic = s.elastic,
                                .partial = s.t.partial,
+                               .row_of = s.t.row_of,
                                .p = &p,
                                .g = &s.g};
     reference_step_make(&r);
