@@ -82,6 +82,7 @@ struct engine {
     real mass;                           /* of the body [kg]                                          */
     bool sort_needed;                    /* material points moved to other cells or converted         */
     enum coupling coupling;              /* of the scene; hand-shake where nothing meets              */
+    uint8_t *bonded;                     /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
     struct rim rim;                      /* damped beside peridynamic particles (FLIP, partial stress) */
     real damped;                         /* energy that the rim's damping, and conversion of moving cells, took [J] */
     real rim_share;                      /* of a step; 0: not at all                                  */
@@ -145,8 +146,8 @@ void engine_mesh_show(struct engine *e);
 void engine_mesh_look(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
 void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n);
-/* Return to material points (engine_return.c): whether the scene allows it; before a step, what is due; the rim of the
- * material points anew. */
+/* Return to material points (engine_return.c): whether the scene allows it; before a step, what is due; anew the rim of the
+ * material points and whom bonds meet. */
 status engine_return_check(const struct engine *e);
 void engine_return(struct engine *e);
 void engine_rim_make(struct engine *e);

@@ -115,8 +115,8 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
 /* -1 of points that bonds meet, 1 of others. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
-    row_of_points bonded = points_of(1);
-    for (int k = 0; t->row_of && k < AT_ONCE(dim); k++) bonded[k] = t->row_of[point[k]] < 0 ? 1 : -1;
+    row_of_points bonded = points_of(t->bare ? -1 : 1);
+    for (int k = 0; t->bonded && k < AT_ONCE(dim); k++) bonded[k] = t->bare || t->bonded[point[k]] ? -1 : 1;
     return bonded;
 }
 

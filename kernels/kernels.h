@@ -63,7 +63,7 @@ struct transfer_data {
     real dt;                             /* [s]                                                       */
     real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
     bool bare;                           /* carried peridynamic particles: no stress to give, none to update */
-    const int32_t *row_of;               /* [n] below 0: no bond meets this particle (bonds.h); NULL: none meets any */
+    const uint8_t *bonded;               /* [n] not 0: bonds meet this material point; NULL: they meet none  */
 };
 
 /* How peridynamic particles move in a step. */

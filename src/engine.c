@@ -147,7 +147,7 @@ status engine_step(struct engine *e)
     const real dt_velocity = e->step == 0 ? 0.5 * e->dt : e->dt;           /* velocities stand half a step behind */
     struct pd_motion motion = {e->dt, dt_velocity, e->wave_speed, e->loads.loaded, false};
     e->transfer.dt_velocity = dt_velocity;
-    e->transfer.row_of = e->bonds.row_of;
+    e->transfer.bonded = e->bonded;
 
     engine_return(e);                                                       /* peridynamic -> material point */
     lap(&e->laps, LAP_CONVERT);

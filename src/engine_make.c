@@ -345,6 +345,7 @@ void engine_free(struct engine *e)
     memory_free(e->growth);
     partial_stress_free(&e->partial);
     rim_free(&e->rim);
+    memory_free(e->bonded);
     transfer_order_free(&e->order);
     rest_points_free(&e->rest_points);
     carry_free(&e->carried);

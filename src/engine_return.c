@@ -27,8 +27,27 @@ status engine_return_check(const struct engine *e)
     return why ? status_set(REFUSED, "conversion.return: true goes with %s", why) : OK;
 }
 
+/* Rows come in eights: some have no bonds. */
+static bool row_has_bonds(const struct bonds *b, int64_t row)
+{
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++)
+        if (bond_read(b, row / LANES, k, (int)(row % LANES)).w != 0) return true;
+    return false;
+}
+
+static void bonded_make(struct engine *e)
+{
+    const struct bonds *b = &e->bonds;
+    if (e->scene->transfer != TRANSFER_FLIP || e->part.n_free == 0 || b->rows == 0) return;
+    if (!e->bonded) e->bonded = NEW("engine.bonded", e->part.n, uint8_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < e->part.n; i++)
+        e->bonded[i] = e->part.kind[i] == KIND_MPM && b->row_of[i] >= 0 && row_has_bonds(b, b->row_of[i]);
+}
+
 void engine_rim_make(struct engine *e)
 {
+    bonded_make(e);
     if (e->coupling == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0) rim_make(&e->rim, &e->part, &e->source);
 }
 

@@ -53,7 +53,7 @@ struct reference_step {
     real half_width, dt, dt_velocity, smallest_mass;
     const struct elastic *elastic;
     const struct partial_stress *partial;
-    const int32_t *row_of;               /* below 0: no bond; NULL: none of any            */
+    const uint8_t *bonded;               /* not 0: bonds meet the point; NULL: none        */
     struct particles *p;                 /* overwritten step by step                       */
     const struct grid *g;                /* where nodes are; its values are not touched    */
     real *value, *slope[DIM_MAX];        /* N and grad N, [n][nodes], of the old positions */
@@ -270,7 +270,7 @@ static inline void reference_gather(struct reference_step *s)
         real L[DIM_MAX][DIM_MAX];
         if (p->kind[i] != KIND_MPM) continue;
         real *const *straining = affine ? s->velocity : s->momentum;
-        real *const *moving = s->row_of && s->row_of[i] >= 0 ? straining : s->velocity;
+        real *const *moving = s->bonded && s->bonded[i] ? straining : s->velocity;
         for (int a = 0; a < p->dim; a++)
             for (int b = 0; b < p->dim; b++) {
                 L[a][b] = reference_at(s, s->slope[b], straining[a], i);

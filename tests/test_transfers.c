@@ -205,7 +205,9 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
     scene_make(&s, k, spin);
     s.smallest_mass = smallest_mass * s.c.p.mass[0];
     struct partial_stress none = {0};
-    if (partial) s.t.row_of = s.partial.index;           /* bonds meet the same points */
+    uint8_t *bonded = NEW("test.bonded", s.c.p.n, uint8_t);
+    for (int64_t i = 0; i < s.c.p.n; i++) bonded[i] = s.partial.index[i] >= 0;
+    if (partial) s.t.bonded = bonded;
     else s.t.partial = &none;
     cloud_copy(&p, &s.c.p, s.optional);
     cloud_copy(&before, &s.c.p, s.optional);
@@ -217,7 +219,7 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
                                .smallest_mass = s.smallest_mass,
                                .elastic = s.elastic,
                                .partial = s.t.partial,
-                               .row_of = s.t.row_of,
+                               .bonded = s.t.bonded,
                                .p = &p,
                                .g = &s.g};
     reference_step_make(&r);
@@ -247,6 +249,7 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
     assert_true(entered > 0 && entered < s.order.n);
     check_particles(&s, &p);
     reference_step_free(&r);
+    memory_free(bonded);
     particles_free(&p);
     particles_free(&before);
     scene_free(&s);
