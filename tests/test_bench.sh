@@ -130,10 +130,10 @@ line()
         $0 ~ pattern { n++; if ($at < from + 0 || $at > to + 0 || $at == "") bad = 1 }
         END { exit n != 1 || bad }' "$1" || fail "$1: $2: column $3 is not within $4 to $5: $(grep "^$2" "$1")"
 }
-# A pulse 32 spacings wide: 2.4 % of the hand-shake, 4.4 % of PM, 2.7 % of PMG; at most 1.5 % of partial
-# stress, and 0.6 % at 64.
+# A pulse 32 spacings wide: 2.4 % of the hand-shake, 2.7 % of PMG; at most 1.5 % of partial stress, and 0.6 % at 64. 4.4 % of PM as
+# published, where the grid moves what lies at the interface with its first velocity; with the second, which has an energy, 5.7 %.
 line coupling.csv handshake,32, 3 0.0207 0.0267
-line coupling.csv pm,32, 3 0.040 0.048
+line coupling.csv pm,32, 3 0.040 0.062
 line coupling.csv pmg,32, 3 0.024 0.030
 line coupling.csv 'partial stress,32,' 3 0.001 0.015
 line coupling.csv 'partial stress,64,' 3 0.0005 0.006
