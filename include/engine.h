@@ -128,6 +128,8 @@ status engine_time_make(struct engine *e);
  * mesh's nodes (engine_mesh.c). What bonds see of the mesh's points and images is brought up to date. The same parts as in a
  * step, for whoever asks what forces are without moving anybody; bonds beyond their limit break. */
 void engine_forces(struct engine *e);
+/* Of those the part of the mesh: forces of bonds, already in part.f, and of cells on its nodes. */
+void engine_nodes_force(struct engine *e);
 /* Material points at the end of state-based bonds hear from their cells, or from their stress. */
 void engine_ends_know(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step

@@ -123,7 +123,7 @@ void engine_ends_know(struct engine *e)
 }
 
 /* Of bonds, already in part.f, and cells. */
-static void nodes_force(struct engine *e)
+void engine_nodes_force(struct engine *e)
 {
     mesh_clear(&e->mesh);
     mesh_seen_force(&e->mesh, &e->part);
@@ -137,7 +137,7 @@ void engine_forces(struct engine *e)
     loads_mirror(&e->loads, &e->part);
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
-    if (has_mesh) nodes_force(e);
+    if (has_mesh) engine_nodes_force(e);
 }
 
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
@@ -145,7 +145,7 @@ void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
     struct mesh *mesh = &e->mesh;
     const bool finite = !e->scene->small_strain;
     if (mesh->points == 0) return;
-    nodes_force(e);
+    engine_nodes_force(e);
     engine_residual_of(e, &mesh->grid);
     if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->cell_elastic, finite);
     loads_mesh_walls(&e->loads, mesh, middle, e->dt);

@@ -221,17 +221,57 @@ void engine_sample_rest(struct engine *e)
     sample_write(e, e->t, 0, 0);
 }
 
-/* After the last step no force follows, but for what energies of state-based models rest on: kinetic energy and the
- * supports' work go on as in that step. */
+/* Sum of v . f of peridynamic particles, of nodes in the reference frame [W]; few calls: serial, in order. */
+static real power_now(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    const struct grid *g = &e->mesh.grid;
+    real power = 0;
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)
+        for (int d = 0; d < p->dim; d++) power += p->v[d][p->list[KIND_PD][k]] * p->f[d][p->list[KIND_PD][k]];
+    for (int64_t I = 0; I < g->n && e->mesh.points > 0; I++)
+        for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
+    return power;
+}
+
+/* Forces at the places after the last step, which nobody will follow: bonds stay, and accounts of loads are put back. */
+static void forces_last(struct engine *e)
+{
+    struct loads account = e->loads;
+    struct load *own = BARE("report.load", e->loads.n, struct load);
+    real never[UINT8_MAX + 1];
+    const struct bond_limit limit = {never, 0, false};   /* one row for all pairs */
+    for (int m = 0; m <= UINT8_MAX; m++) never[m] = INFINITY;
+    if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
+    loads_clear(&e->loads, &e->part);
+    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &limit, NULL);
+    loads_apply(&e->loads, &e->part, e->t + 0.5 * e->dt, e->dt, e->dt);
+    if (e->mesh.points > 0) engine_nodes_force(e);
+    if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
+    e->loads = account;
+    memory_free(own);
+}
+
+/* Kinetic energy at the end of the last step: half of the next kick by the forces there, as at all samples before, 1/2 m v- . v+; of
+ * points on the grid, whose forces would take a step, as it went in that step. */
+static real kinetic_last(struct engine *e)
+{
+    const real kinetic = kinetic_now(e);
+    if (e->scene->solver != SOLVER_EXPLICIT || e->part.n_free > 0 || coupling_carries(e->coupling))
+        return 1.5 * kinetic - 0.5 * e->sampling.kinetic;
+    forces_last(e);
+    return kinetic + 0.5 * e->dt * power_now(e);
+}
+
+/* After the last step no force follows: the supports' work goes on as in that step. */
 static void sample_last(struct engine *e)
 {
     refresh_states(e);
     engine_mesh_show(e);                         /* whoever holds the engine may look at it now */
     sample_state(e);
     sample_energy(e);
-    real kinetic = kinetic_now(e);
     real work = e->loads.work + 1.5 * e->loads.held_work - 0.5 * e->sampling.held_work;
-    sample_write(e, e->t - 0.5 * e->dt, 1.5 * kinetic - 0.5 * e->sampling.kinetic, work);
+    sample_write(e, e->t - 0.5 * e->dt, kinetic_last(e), work);
 }
 
 void engine_breaks(struct engine *e, int64_t broken)
