@@ -81,6 +81,13 @@ void bench_child_free(struct bench_child *c);   /* waits if it still runs, remov
 status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
                            const char *const *key, double *value, int n);
 
+/* Uniform in [-1, 1), the same everywhere: a linear congruence is random enough for shaking bodies. */
+static inline double bench_random(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-52 - 1;
+}
+
 /* ---- bench_blocks.c: blocks of any size ------------------------------------------------------------------ */
 
 /* A method on a square or a cube. */

@@ -87,10 +87,10 @@ static status disc(const struct failing_row *r, double *to)
     return ran;
 }
 
-/* The sheet: 110 MPa, 7e-6, 0.23 %. */
+/* The sheet: 110 MPa, 7e-6, 0.23 %, of points that grow by the square of a step's angle while bonds do not (kernels/stress.h). */
 static const struct failing_row discs[] = {
     {.method = "partial stress, apic", .set = {"mpm.frame", "current", "mpm.transfer", "apic"},
-     .known = {{50, 400}, {0, 1e-4}, {0, 6e-3}}, .cure = "frame: reference"},
+     .known = {{0, 15}, {0, 1e-4}, {0, 6e-3}}},
     {.method = "reference frame", .set = {"mpm.frame", "reference"}, .known = {{0, 15}, {0, 1e-5}, {0, 1e-5}}},
 };
 const struct failing_scene failing_disc = {"a coupled disc turns", NULL, TURNING(6e-3), ROWS(discs), disc};
@@ -274,12 +274,12 @@ static status vibration(const struct failing_row *r, double *to)
     return ran;
 }
 
-/* APIC loses 0.08 % with GIMP, 0.3 % with quadratic shapes. */
+/* APIC loses 0.04 % with GIMP, 0.3 % with quadratic shapes. */
 static const struct failing_row vibrations[] = {
     {.method = "bonds", .set = {"method", "pd"}, .known = {{0, 1e-3}}},
     {.method = "gimp flip", POINTS("gimp", "flip"), .known = {{0, 1e-3}}},
     {.method = "reference frame", REFERENCE, .known = {{0, 1e-3}}},
-    {.method = "gimp apic", POINTS("gimp", "apic"), .known = {{0.5e-3, 1.5e-3}}},
+    {.method = "gimp apic", POINTS("gimp", "apic"), .known = {{2e-4, 1e-3}}},
     {.method = "quadratic apic", POINTS("quadratic", "apic"), .known = {{2e-3, 4e-3}}, .cure = "gimp, or frame: reference"},
 };
 const struct failing_scene failing_vibration = {

@@ -40,6 +40,21 @@
     "particles: {spacing: 0.5 mm}\ncracks:\n  - {from: [20.5 mm, 0], to: [12 mm, 0]}\n" \
     "initial: [{velocity_gradient: [[0, -2500], [2500, 0]]}]\noutput: {frames: 0, samples: 1}\n"
 
+/* A disc with a core of bonds turns round four times, 5000 rad/s. */
+#define CORE_TURNED(transfer, model, coupling) \
+    "space: plane stress\nthickness: 1 mm\nduration: 5.02655 ms\nmethod: adaptive\nmodel: " model "\ncoupling: " coupling "\n" \
+    "mpm: {frame: current, transfer: " transfer "}\nmaterial: {young: 72 GPa, poisson: 1/3, density: 7850}\n" \
+    "body: {disc: {centre: [0, 0], radius: 10 mm}}\nparticles: {spacing: 1 mm}\npd: {region: {disc: {centre: [0, 0], radius: 4 mm}}}\n" \
+    "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -5000], [5000, 0]]}]\noutput: {frames: 0, samples: 1}\n"
+
+/* The strip, of points alone, with nodes on its border. */
+#define STRIP_OF_POINTS(transfer) \
+    "space: plane stress\nthickness: 1 mm\nduration: 2 ms\nmethod: mpm\nmpm: {frame: current, transfer: " transfer ", shape: gimp}\n" \
+    "material: {young: 200 GPa, poisson: 1/4, density: 7850}\nbody: {box: {from: [0, 0], to: [60 mm, 10 mm]}}\n" \
+    "particles: {spacing: 1 mm}\nboundary:\n  - body_force: [0, 1e6]\n" \
+    "    profile: {sine: {wavelength: 60 mm, origin: [-15 mm, 0], direction: [1, 0]}}\n    time: {pulse: {from: 0, until: 60 us}}\n" \
+    "output: {frames: 0, samples: 1}\n"
+
 #define NAMED(label, scene, ...) {.group = LASTING_NAMED, .name = label, .c = {.text = scene}, .moves = true, __VA_ARGS__}
 #define SHAKEN(label, ...) {.group = LASTING_NAMED, .name = label, .c = {__VA_ARGS__}}
 const struct lasting_case lasting_named[] = {
@@ -65,6 +80,13 @@ const struct lasting_case lasting_named[] = {
     SHAKEN("solid, apic, nu 0.4999", .dim = 3, .method = "mpm", .frame = "current", .transfer = "apic", .shape = "gimp",
            .poisson = 0.4999),
     SHAKEN("solid, apic, nu 0.45", .dim = 3, .method = "mpm", .frame = "current", .transfer = "apic", .shape = "gimp", .poisson = 0.45),
+    NAMED("disc with a core of bonds, current apic", CORE_TURNED("apic", "bond", "partial stress")),
+    NAMED("disc with a core of mospd, current apic", CORE_TURNED("apic", "mospd", "partial stress")),
+    NAMED("disc with a core of bonds, current apic, hand-shake", CORE_TURNED("apic", "bond", "handshake")),
+    NAMED("disc with a core of bonds, current flip", CORE_TURNED("flip", "bond", "partial stress")),
+    NAMED("disc with a core of bonds, current flip, hand-shake", CORE_TURNED("flip", "bond", "handshake")),
+    NAMED("strip of points, apic", STRIP_OF_POINTS("apic")),
+    NAMED("strip of points, flip", STRIP_OF_POINTS("flip")),
     NAMED("slotted disc, bonds, current flip", DISC_TURNED("current", "bond"), .converts = true),
     NAMED("slotted disc, bonds, reference", DISC_TURNED("reference", "bond"), .converts = true),
     NAMED("slotted disc, mospd, reference", DISC_TURNED("reference", "mospd"), .converts = true),

@@ -12,7 +12,7 @@ enum { SAMPLES = 400 };
 
 /* ---- motion ------------------------------------------------------------------------------------------------------------- */
 
-/* Whoever has mass and moves by itself: particles, but those of a mesh, then nodes. */
+/* What has mass and moves by itself: particles, but those of a mesh, then nodes. */
 struct mover { real m, x[DIM_MAX], *v[DIM_MAX]; };
 
 static int64_t movers_of(const struct engine *e) { return e->part.n + (e->mesh.points > 0 ? e->mesh.grid.n : 0); }
@@ -68,12 +68,6 @@ static void centre_of(const struct engine *e, real *centre)
     for (int d = 0; d < e->part.dim; d++) centre[d] /= mass;
 }
 
-static double random_of(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-52 - 1;
-}
-
 /* Turns bodies back by the mean of what they turn about each axis: a body that turns on has another energy at small strain. Exact
  * for bodies as symmetric as ours. */
 static void stop_turning(struct engine *e, const real *centre)
@@ -102,7 +96,7 @@ static void shake(struct engine *e, const real *centre)
         for (int64_t k = 0; k < movers_of(e); k++) {
             struct mover m = mover_at(e, k);
             if (m.m == 0) continue;
-            *m.v[d] = LOUD * e->wave_speed * random_of(&seed);
+            *m.v[d] = LOUD * e->wave_speed * bench_random(&seed);
             momentum += m.m * *m.v[d], mass += m.m;
         }
         for (int64_t k = 0; k < movers_of(e); k++) {
@@ -163,8 +157,7 @@ static status body_make(struct engine *e, struct scene *s, const struct lasting_
 {
     struct bench_overrides o = {0};
     char text[4096];
-    if (l->c.text) snprintf(text, sizeof text, "%s", l->c.text);
-    else stability_text(&l->c, text, sizeof text);
+    stability_text(&l->c, text, sizeof text);
     TRY(bench_engine_make(e, s, "body", text, NULL, 0));
     const real dt = s->safety * e->dt_critical;
     bench_engine_free(e, s);

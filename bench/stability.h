@@ -52,7 +52,7 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
 /* Steps until a run at so many times the observed limit was stopped with place, step and cure; infinite if it went on for 1000
  * or said less (failing_beyond.c). */
 status stability_caught(const struct stability_case *c, double times, double *step);
-/* Text of the case's scene (stability_scene.c). */
+/* Text of the case's scene: its own, or that of its block (stability_scene.c). */
 void stability_text(const struct stability_case *c, char *text, size_t size);
 /* Line that names it. */
 void stability_label(const struct stability_case *c, char *text, size_t size);

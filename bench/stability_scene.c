@@ -163,6 +163,10 @@ static void put_support(FILE *to, const struct stability_case *c, double edge)
 
 void stability_text(const struct stability_case *c, char *text, size_t size)
 {
+    if (c->text) {
+        snprintf(text, size, "%s", c->text);
+        return;
+    }
     const double edge = edge_of(c), cell = c->cell > 0 ? c->cell : 2, origin = c->offset * cell * SPACING;
     FILE *to = fmemopen(text, size, "w");
     fprintf(to, "name: block\nspace: %s\nmethod: %s\nduration: 1\n", space_of(c), c->method);

@@ -62,6 +62,9 @@ struct bond_limit {
     bool whole_force;                    /* in the step in which a bond breaks; else half of it                */
 };
 
+/* No bond breaks: one row of stretches for all pairs of materials. */
+extern const struct bond_limit bond_limit_never;
+
 /* When bonds yield, by pair of materials: stretch s_y and hardening modulus over the bond's own, H_b/k_e [materials^2].
  * stretch NULL: no bond ever does. */
 struct bond_yield {
@@ -113,7 +116,7 @@ struct clamped {
     int64_t *entry;                      /* [n] of what bonds store                                       */
     int32_t *from, *to;                  /* [n] particle of the row, image                                */
     real *inverse_length, *w;            /* [n] as stored; before the last sweep                 [1/m], [1] */
-    bool stale;                          /* somebody has changed weights since then                       */
+    bool stale;                          /* weights have changed since then                               */
     real *reaction[DIM_MAX];             /* [n] on the image, of the energy that the row counts       [N] */
     int64_t held;                        /* particles at the ends of such bonds, and of those that pull at each: */
     int32_t *particle;                   /* [held] ascending                                              */
@@ -321,6 +324,13 @@ static inline unsigned bonds_intact(const struct bonds *b, int64_t group)
     if (pattern) return bits;
     for (int64_t slot = b->slot[group]; slot < b->slot[group] + b->slot_count[group]; slot++) bits |= b->common[slot].intact;
     return bits;
+}
+
+/* Has the row of a particle an intact bond? Rows come in eights: some have none. */
+static inline bool bonds_has(const struct bonds *b, int64_t i)
+{
+    const int64_t row = b->row_of[i];
+    return row >= 0 && bonds_intact(b, row / LANES) >> row % LANES & 1;
 }
 
 /* Place of bond k of group g, lane l: slot (b->slot[g] + k) LANES + l. Whoever asks may read what is stored there. */

@@ -58,7 +58,6 @@ struct engine {
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
     struct solver solver;
-    real *pair_never;                    /* [materials^2] infinite, for the solvers                   */
     struct conversion conversion;
     struct region start_region;          /* peridynamic from the start; no solid: none                */
     struct watch watch;
@@ -126,7 +125,7 @@ void engine_partial_make(struct engine *e);
 status engine_time_make(struct engine *e);
 /* Internal forces of the places of now, of the nodes of a mesh first of all: of bonds into part.f, of bonds and cells into the
  * mesh's nodes (engine_mesh.c). What bonds see of the mesh's points and images is brought up to date. The same parts as in a
- * step, for whoever asks what forces are without moving anybody; bonds beyond their limit break. */
+ * step, without any motion; bonds beyond their limit break. */
 void engine_forces(struct engine *e);
 /* Of those the part of the mesh: forces of bonds, already in part.f, and of cells on its nodes. */
 void engine_nodes_force(struct engine *e);
@@ -149,7 +148,7 @@ void engine_mesh_look(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
 void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n);
 /* Return to material points (engine_return.c): whether the scene allows it; before a step, what is due; anew the rim of the
- * material points and whom bonds meet. */
+ * material points, and which of them have bonds. */
 status engine_return_check(const struct engine *e);
 void engine_return(struct engine *e);
 void engine_rim_make(struct engine *e);

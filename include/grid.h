@@ -21,7 +21,15 @@ struct grid {
     struct wall *wall;                   /* prescribed velocities of this step, in order            */
     int64_t folds, folds_room;
     struct fold *fold;                   /* nodes beyond planes of symmetry, for this box           */
+    real light_mass;                     /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
+    int64_t followers;
+    struct follower *follower;           /* [n] those of this step, ascending                       */
+    uint8_t *held;                       /* [n] not 0: a wall of this step holds it                 */
 };
+
+/* A node that points have hardly reached, its neighbour and the one behind that, from which its acceleration is extrapolated; where
+ * none is behind, the neighbour itself. */
+struct follower { int32_t node, leader, behind; };
 
 /* A node beyond a plane of symmetry: it moves as the mirror image of a node on the body's side, which takes what points
  * give to either. */
@@ -56,6 +64,10 @@ void grid_idle(struct grid *g);
  * force, and what it carries would be lost: momentum is kept to 1e-12 only if just empty nodes are left out, and with the
  * re-map light nodes do no harm (their velocity is that of their particle). */
 #define GRID_MASS_SMALLEST 1e-30
+
+/* Nodes lighter than this share of a full one follow a neighbour: below 1e-6 motions of a hundredth of a spacing reach across, above
+ * 1e-3 bodies that turn gain more than 1e-3 in four turns. */
+#define GRID_MASS_LIGHT 1e-5
 
 /* In equilibrium the balance of a node that a point's edge has just reached decides that point's whole stress, which is
  * then none: nodes below this share take no part there, and lose no more of a load. */

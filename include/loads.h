@@ -73,7 +73,7 @@ struct held_set {
 struct loads {
     int n;
     struct load *load;
-    uint8_t *loaded;                     /* [n] LOADED, WAITS; NULL: nobody                           */
+    uint8_t *loaded;                     /* [n] LOADED, WAITS; NULL: no particle is                   */
     int64_t listed;
     int32_t *list;                       /* [listed] those that are not 0, ascending                  */
     int64_t images;

@@ -10,7 +10,7 @@
 
 enum {
     RISE_STEPS = 100,
-    RISE_STRIDE = 64,                    /* steps between two looks of whoever must look for it         */
+    RISE_STRIDE = 64,                    /* steps between two looks at values that no sample has        */
     RISE_CLOSEST = 16,                   /* steps between two values: what comes sooner is left out     */
     RISE_VALUES = 64
 };

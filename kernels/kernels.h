@@ -85,7 +85,7 @@ struct pd_motion {
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *motion);
 
 /* The same by the sweep of a model, where some bonds lead to images in clamped planes (bonds.h), whose sources and rows have to be
- * `loaded`: what such bonds do to their images is brought back to the sources (clamp_force.c). All who want forces ask here. */
+ * `loaded`: what such bonds do to their images is brought back to the sources (clamp_force.c). The only way to forces of bonds. */
 KERNEL(int64_t, bond_forces, (bond_force_fn *sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion));
 

@@ -44,7 +44,7 @@ static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, co
     }
 }
 
-/* Forces on the modes and moments of points that are ends of bonds, in the cells of a group (struct mesh_ends): f += share^T pull. */
+/* Forces on the modes and moments of points that are ends of bonds, in the cells of a group (struct mesh_end): f += share^T pull. */
 static ALWAYS_INLINE void cut_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];

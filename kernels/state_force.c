@@ -82,50 +82,37 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
     return end;
 }
 
-/* Their rotation is that of their cells. */
-static ALWAYS_INLINE void ends_turn(const struct particles *p, const int32_t *row, int32_t own, lanes_mask end, lanes spring,
+/* Rotations of their cells with the spring g, as turn.h keeps them; `back`: the inverse ones. */
+static ALWAYS_INLINE void ends_turn(const struct particles *p, const int32_t *row, int32_t own, lanes spring, const bool back,
                                     lanes *turn, const int dim)
 {
-    lanes theirs[TURN];
-    const lanes scale = dim == 2 ? spring : lanes_root(2.0 * spring);
-    for (int c = 0; c < (dim == 2 ? 2 : TURN); c++) theirs[c] = scale * lanes_at(p->end_turn[c], own, row);
-    if (dim == 2) theirs[2] = theirs[1], theirs[1] = -theirs[2], theirs[3] = theirs[0];
-    for (int c = 0; c < TURN; c++) turn[c] = lanes_choose(end, theirs[c], turn[c]);
-}
-
-/* Adds to N its product with R - 1 from the left, transposed: N becomes R^T N. */
-static ALWAYS_INLINE void turned_back(lanes *N, const lanes *turn, const int dim)
-{
-    lanes less[DIM_MAX * DIM_MAX], old[DIM_MAX * DIM_MAX];       /* R - 1 */
-    for (int c = 0; c < dim * dim; c++) old[c] = N[c];
-    if (dim == 2) less[0] = less[3] = turn[0], less[2] = turn[1], less[1] = -turn[1];
-    if (dim == 3) {
-        const lanes *q = turn, square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
-        for (int a = 0; a < 3; a++)
-            for (int c = 0; c < 3; c++) less[3 * a + c] = 2.0 * q[a] * q[c] - (a == c ? 2.0 * square : lanes_of(0));
-        for (int a = 0; a < 3; a++) {
-            const int i = (a + 1) % 3, j = (a + 2) % 3;
-            less[3 * j + i] += 2.0 * q[3] * q[a], less[3 * i + j] -= 2.0 * q[3] * q[a];
-        }
+    const lanes scale = dim == 2 ? spring : lanes_root(2.0 * spring), axis = back ? -scale : scale;
+    if (dim == 2) {
+        turn[0] = turn[3] = scale * lanes_at(p->end_turn[0], own, row);
+        turn[2] = axis * lanes_at(p->end_turn[1], own, row);
+        turn[1] = -turn[2];
+        return;
     }
-    for (int a = 0; a < dim; a++)
-        for (int c = 0; c < dim; c++)
-            for (int k = 0; k < dim; k++) N[a * dim + c] += less[k * dim + a] * old[k * dim + c];
+    for (int c = 0; c < TURN; c++) turn[c] = (c < 3 ? axis : scale) * lanes_at(p->end_turn[c], own, row);
 }
 
-/* Moment about them, axial: of component ji less ij of g R^T sum w Y (x) xi. */
+/* Moment about them, axial: of component ji less ij of g R^T M, M = sum w Y (x) xi. */
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)
 {
-    lanes N[DIM_MAX * DIM_MAX], turn[TURN], moved = lanes_of(0);
-    for (int c = 0; c < dim * dim; c++) N[c] = sum->moment[c];
-    for (int c = 0; c < (dim == 2 ? 2 : TURN); c++) turn[c] = lanes_at(p->end_turn[c], own, row);
-    for (int c = 0; c < (dim == 2 ? 2 : 3); c++) moved += turn[c] * turn[c];
-    turned_back(N, turn, dim);
-    const lanes_mask any = end & ((sum->moved != 0) | (moved != 0.0));      /* of nothing there is none, to the last bit */
+    lanes N[DIM_MAX][DIM_MAX], turn[TURN], turned = lanes_of(0);
+    ends_turn(p, row, own, spring, true, turn, dim);
+    for (int c = 0; c < TURN; c++) turned += dim == 2 || c < 3 ? turn[c] * turn[c] : lanes_of(0);
+    for (int c = 0; c < dim; c++) {              /* less g (R^T - 1) of a column of M, and g times that column */
+        lanes less[DIM_MAX], column[DIM_MAX];
+        for (int d = 0; d < dim; d++) column[d] = sum->moment[d * dim + c], less[d] = lanes_of(0);
+        turn_off(less, turn, column, dim);
+        for (int d = 0; d < dim; d++) N[d][c] = spring * column[d] - less[d];
+    }
+    const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0));     /* of nothing there is none, to the last bit */
     for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        rows_store(p->end_moment[c], row, rows, own >= 0, lanes_choose(any, spring * (N[j * dim + i] - N[i * dim + j]), lanes_of(0)), 1);
+        rows_store(p->end_moment[c], row, rows, own >= 0, lanes_choose(any, N[j][i] - N[i][j], lanes_of(0)), 1);
     }
 }
 
@@ -139,7 +126,9 @@ static ALWAYS_INLINE void ends_know(struct bonds *b, struct particles *p, int64_
     const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_of(0));
     rows_store(p->end_pull, row, rows, own >= 0, pull, 1);
     if (!state_turns(model)) return;
-    ends_turn(p, row, own, end, k->spring, k->turn, dim);
+    lanes turn[TURN];
+    ends_turn(p, row, own, k->spring, false, turn, dim);
+    for (int c = 0; c < TURN; c++) k->turn[c] = lanes_choose(end, turn[c], k->turn[c]);
     ends_moment(p, row, rows, own, end, sum, k->spring, dim);
 }
 
@@ -153,7 +142,7 @@ static ALWAYS_INLINE void know_by_family(struct bonds *b, struct particles *p, i
     struct knowledge k;
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
     if (state_turns(model)) family_turn(k.turn, sum->moment, sum->moved, k.spring, dim);
-    if (!group_whole(b, g) && p->end_strain) ends_know(b, p, g, ends_of(b, p, g), &f, sum, &k, dim, model);
+    if (p->end_strain && !group_whole(b, g)) ends_know(b, p, g, ends_of(b, p, g), &f, sum, &k, dim, model);
     know_store(b, g, &k, model);
 }
 

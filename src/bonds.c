@@ -8,6 +8,9 @@
 
 #include "memory.h"
 
+static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
+const struct bond_limit bond_limit_never = {never, 0, false};
+
 static bool was_whole(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_root(p, s->image, i);

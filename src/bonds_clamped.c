@@ -1,4 +1,4 @@
-/* floor 1: bonds to images in clamped planes, and whom they pull at: made with the rows. */
+/* floor 1: bonds to images in clamped planes, and the particles that they pull at: made with the rows. */
 #include "bonds_parts.h"
 
 #include <string.h>

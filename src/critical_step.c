@@ -35,15 +35,12 @@ void bond_body_stiffness(void *context, const real *u, real *y)
 {
     const struct bond_body *body = context;
     struct particles *p = body->p;
-    real never[UINT8_MAX + 1];
-    for (int m = 0; m <= UINT8_MAX; m++) never[m] = INFINITY;
-    const struct bond_limit limit = {never, 0, false};  /* one row for all pairs: bond by its neighbour's material */
     const real most = largest_motion(body, u), scale = most > 0 ? STRAIN * body->spacing / most : 0;
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * u[a * p->n + i] / body->root[i];
     if (body->loads) loads_mirror(body->loads, p);
-    bond_forces(body->force, body->b, p, &limit, NULL);
+    bond_forces(body->force, body->b, p, &bond_limit_never, NULL);
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)

@@ -18,10 +18,7 @@ static void make_limits(struct engine *e)
             e->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
     e->source.limit = (struct bond_limit){e->pair_stretch, s->materials, s->whole_force};
-    if (s->solver == SOLVER_EXPLICIT) return;
-    e->pair_never = NEW("engine.pair_never", s->materials * s->materials, real);
-    for (int k = 0; k < s->materials * s->materials; k++) e->pair_never[k] = INFINITY;
-    e->source.limit.critical_stretch = e->pair_never;    /* nothing breaks while an equilibrium is sought */
+    if (s->solver != SOLVER_EXPLICIT) e->source.limit = bond_limit_never;    /* while an equilibrium is sought */
 }
 
 /* A bond yields where the softer of its materials does: s_y = sigma_y/E and H_b/k_e = H/E, which is the material's own
@@ -184,7 +181,9 @@ void engine_grid_make(struct engine *e)
     real section = s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness, lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real smallest = s->solver == SOLVER_EXPLICIT ? GRID_MASS_SMALLEST : GRID_MASS_STATIC;
-    e->smallest_mass = smallest * lightest * pow(e->grid.h, s->dim) * section;
+    const real full = lightest * pow(e->grid.h, s->dim) * section;
+    e->smallest_mass = smallest * full;
+    e->grid.light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
     e->sort_needed = true;
 }
 
@@ -318,6 +317,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_know(e);
+    engine_alarm_make(e);
     TRY(named(s, engine_time_make(e)));
     make_rim_share(e);
     e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false, NULL};
@@ -328,7 +328,6 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     for (int k = 0; k < s->growths; k++) growth_make(&e->growth[k], &s->growth[k]);
     if (s->solver != SOLVER_EXPLICIT) TRY(named(s, solver_make(e)));
     watch_make(&e->watch);
-    engine_alarm_make(e);
     make_pulses(e);
     struct observed o = engine_observed(e);
     return named(s, probes_make(&e->probes, s->probe, s->probes, &o));
@@ -357,7 +356,6 @@ void engine_free(struct engine *e)
     memory_free(e->start_region.solid);
     solver_free(&e->solver);
     memory_free(e->boundary);
-    memory_free(e->pair_never);
     memory_free(e->pair_stretch);
     memory_free(e->modulus);
     memory_free(e->mirror_axis);

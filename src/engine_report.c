@@ -234,17 +234,14 @@ static real power_now(const struct engine *e)
     return power;
 }
 
-/* Forces at the places after the last step, which nobody will follow: bonds stay, and accounts of loads are put back. */
+/* Forces at the places after the last step, which no motion follows: bonds stay, and accounts of loads are put back. */
 static void forces_last(struct engine *e)
 {
     struct loads account = e->loads;
     struct load *own = BARE("report.load", e->loads.n, struct load);
-    real never[UINT8_MAX + 1];
-    const struct bond_limit limit = {never, 0, false};   /* one row for all pairs */
-    for (int m = 0; m <= UINT8_MAX; m++) never[m] = INFINITY;
     if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
     loads_clear(&e->loads, &e->part);
-    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &limit, NULL);
+    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     loads_apply(&e->loads, &e->part, e->t + 0.5 * e->dt, e->dt, e->dt);
     if (e->mesh.points > 0) engine_nodes_force(e);
     if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);

@@ -27,14 +27,6 @@ status engine_return_check(const struct engine *e)
     return why ? status_set(REFUSED, "conversion.return: true goes with %s", why) : OK;
 }
 
-/* Rows come in eights: some have no bonds. */
-static bool row_has_bonds(const struct bonds *b, int64_t row)
-{
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++)
-        if (bond_read(b, row / LANES, k, (int)(row % LANES)).w != 0) return true;
-    return false;
-}
-
 static void bonded_make(struct engine *e)
 {
     const struct bonds *b = &e->bonds;
@@ -42,7 +34,7 @@ static void bonded_make(struct engine *e)
     if (!e->bonded) e->bonded = NEW("engine.bonded", e->part.n, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < e->part.n; i++)
-        e->bonded[i] = e->part.kind[i] == KIND_MPM && b->row_of[i] >= 0 && row_has_bonds(b, b->row_of[i]);
+        e->bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
 }
 
 void engine_rim_make(struct engine *e)

@@ -40,16 +40,11 @@ static real volume_share(const struct engine *e)
 
 static real fastest(const struct engine *e)
 {
-    real speed2 = 0;
-    for (int64_t i = 0; i < e->part.n; i++) {
-        real v2 = 0;
-        for (int d = 0; d < e->part.dim; d++) v2 += square(e->part.v[d][i]);
-        speed2 = real_max(speed2, v2);
-    }
+    real speed = e->start_speed;
     for (int b = 0; b < e->scene->boundaries; b++)
         if (e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
-            speed2 = real_max(speed2, dot(e->scene->boundary[b].value, e->scene->boundary[b].value, e->part.dim));
-    return sqrt(speed2);
+            speed = real_max(speed, sqrt(dot(e->scene->boundary[b].value, e->scene->boundary[b].value, e->part.dim)));
+    return speed;
 }
 
 static real critical_of_points(const struct engine *e)

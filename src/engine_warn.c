@@ -31,9 +31,9 @@ static void warn_of_method(const struct engine *e, struct warnings *to)
     if (coupling_carries(e->coupling))
         warnings_add(to, "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
                          "energy.balance_error, or use partial stress", coupling_name[e->coupling]);
-    if (s->method == METHOD_ADAPTIVE && s->dim > 1 && e->part.n_free > 0 && e->part.n_of[KIND_PD] > 0)
-        warnings_add(to, "bonds beside material points in mpm.frame current gain energy in bodies that turn (2 to 60 %% in some turns), "
-                         "and rim_damping brakes slow turns; the reference frame does neither");
+    if (s->method == METHOD_ADAPTIVE && s->dim > 1 && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && e->part.n_of[KIND_PD] > 0)
+        warnings_add(to, "in bodies that turn, FLIP points beside bonds gain energy (2 to 6 %% in four turns) and rim_damping brakes "
+                         "slow turns; mpm.transfer apic and the reference frame do neither");
     if (s->method != METHOD_PD && s->cell < 1.5)
         warnings_add(to, "one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual",
                      s->cell);

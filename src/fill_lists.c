@@ -1,5 +1,5 @@
 /* floor 4: does a list of particles go with the spacing of the scene? One in another unit is read without a fault: its particles
- * have no neighbours and no forces, or everybody is everybody's neighbour and no memory holds the bonds. */
+ * have no neighbours and no forces, or all are neighbours of all and no memory holds the bonds. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "memory.h"
 #include "team.h"
 
-/* A body of this many particles is believed: mass points that somebody has placed one by one. */
+/* A body of this many particles is believed: mass points placed one by one. */
 enum { FEW = 7 };
 /* So many of a body are looked at, each beside all others: in a long list a share is known to 4 % then, whatever its shape. */
 enum { LOOKED_AT = 128 };
@@ -21,7 +21,7 @@ enum { LOOKED_AT = 128 };
  * coarsest parts of a graded body rarely by more than 4. */
 #define CLOSE_LEAST (1.0 / 6)
 #define CROWDED 0.5                      /* neighbours so much closer than a spacing: bonds are counted before they are made */
-#define ONE_PLACE 1e-9                   /* of the body's longest edge: given twice, and told by whoever looks for that */
+#define ONE_PLACE 1e-9                   /* of the body's longest edge: given twice, and refused elsewhere (fill.c) */
 #define REACH_LEAST 1.5                  /* of a material point, where a cell is no more than one spacing [spacings] */
 
 /* The particles of a body in one piece. */
@@ -135,7 +135,7 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
-    if (!isfinite(v->apart)) return OK;          /* all in one place: told by who looks for that */
+    if (!isfinite(v->apart)) return OK;          /* all in one place: refused elsewhere */
     if (v->lone > LONE_MOST)
         return refuse_list(c, "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: those of the list are "
                               "%.4g m apart; a list in m is expected%s, or a particles.spacing of about %.2g m",

@@ -12,6 +12,8 @@ enum { MARGIN = 3 };
 static void grid_arrays_free(struct grid *g)
 {
     memory_free(g->mass);
+    memory_free(g->follower);
+    memory_free(g->held);
     for (int d = 0; d < g->dim; d++) {
         memory_free(g->momentum[d]);
         memory_free(g->force[d]);
@@ -27,6 +29,9 @@ static void grid_arrays_make(struct grid *g)
         g->n *= g->count[d];
     }
     g->mass = NEW("grid.mass", g->n, real);
+    g->follower = g->light_mass > 0 ? BARE("grid.follower", g->n, struct follower) : NULL;
+    g->held = g->light_mass > 0 ? BARE("grid.held", g->n, uint8_t) : NULL;
+    g->followers = 0;
     for (int d = 0; d < g->dim; d++) {
         g->momentum[d] = NEW("grid.momentum", g->n, real);
         g->force[d] = NEW("grid.force", g->n, real);

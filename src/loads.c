@@ -10,7 +10,7 @@
 
 /* ---- set-up ---------------------------------------------------------------------------------------- */
 
-/* Who is loaded, and who waits for what bonds across clamped planes do to others. */
+/* Particles that are loaded, and those that wait for what bonds across clamped planes do to others. */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;

@@ -1,4 +1,4 @@
-/* floor 3: the face that bodies show to who looks at them along an axis, column by column.
+/* floor 3: the face that bodies show along an axis, column by column.
  *
  * Columns stand along the face's normal. A particle is a cube, or a square, of its volume, and in every column whose middle
  * goes through it. A column shows the first particle of the region that has none within GAP widths before it; particles of
@@ -91,7 +91,7 @@ static void find_middles(struct columns *c, const struct boundary *b, const stru
     for (int k = 0; k < c->axes && !ordered; k++) c->middle[k] = low[k] - 0.5 * c->width + 0.5 * c->step;
 }
 
-/* ---- who is in them ----------------------------------------------------------------------------------- */
+/* ---- particles in columns ----------------------------------------------------------------------------------- */
 
 /* Place of a key in the table, or where it is to go; the multiplier is that of Fibonacci hashing (Knuth, vol. 3). */
 static int64_t table_place(const struct columns *c, int64_t key)

@@ -71,7 +71,7 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     face_free(&face);
 }
 
-/* Who stands in a clamped plane is its own image: it stays. */
+/* A particle in a clamped plane is its own image: it stays. */
 static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;

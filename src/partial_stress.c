@@ -189,7 +189,7 @@ static int entry_size(const struct bond_source *s, int dim)
     return n * n + (s->modulus ? n : 0);
 }
 
-/* An entry of state-based models from T V. Hand-shake leaves nothing, but tells who is an end of bonds. */
+/* An entry of state-based models from T V. Hand-shake leaves nothing, but an entry tells that a point is an end of bonds. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                         const struct bond_source *s, int64_t i)
 {

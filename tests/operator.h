@@ -93,7 +93,7 @@ static inline void operator_place(struct operator *o, struct unknown q, real u)
     else e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
 }
 
-/* Nodes beyond planes of symmetry follow, forces on them go to whom they follow: as mesh_move has it. */
+/* Nodes beyond planes of symmetry follow their images, which take the forces on them: as mesh_move has it. */
 static inline void operator_forces(struct operator *o, real *f)
 {
     struct engine *e = &o->e;
@@ -138,8 +138,7 @@ static inline status operator_make(struct operator *o, const struct stability_ca
 {
     char text[4096];
     *o = (struct operator){.n = 0};
-    if (c->text) snprintf(text, sizeof text, "%s", c->text);
-    else stability_text(c, text, sizeof text);
+    stability_text(c, text, sizeof text);
     TRY(bench_engine_make(&o->e, &o->s, "block", text, NULL, 0));
     operator_unknowns(o);
     operator_fill(o);
@@ -161,8 +160,7 @@ static inline real operator_energy(struct operator *o)
     uint64_t seed = 3;
     real *u = NEW("test.u", o->n, real), *f = NEW("test.f", o->n, real), half = 0;
     for (int64_t k = 0; k < o->n; k++) {
-        seed = seed * 6364136223846793005u + 1442695040888963407u;
-        u[k] = OPERATOR_SHAKE * o->s.spacing * ((real)(seed >> 11) * 0x1p-52 - 1);
+        u[k] = OPERATOR_SHAKE * o->s.spacing * bench_random(&seed);
         operator_place(o, o->unknown[k], u[k]);
     }
     operator_forces(o, f);

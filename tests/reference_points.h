@@ -213,7 +213,7 @@ static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][D
         }
 }
 
-/* sigma + W sigma - sigma W; beyond 1e-3 rad R sigma R^T with R = exp W, summed as its power series. */
+/* sigma + W s - s W, s the stress half-way, to second order; beyond 1e-3 rad R sigma R^T with R = exp W, summed as its power series. */
 static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX][DIM_MAX], int dim)
 {
     real a[DIM_MAX][DIM_MAX], b[DIM_MAX][DIM_MAX], R[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, angle2 = 0;
@@ -222,6 +222,10 @@ static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX
         for (int j = 0; j < i; j++) angle2 += W[i][j] * W[i][j];
     reference_product(W, sigma, a, dim);
     reference_product(sigma, W, b, dim);
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) turned[i][j] = sigma[i][j] + 0.5 * (a[i][j] - b[i][j]);
+    reference_product(W, turned, a, dim);
+    reference_product(turned, W, b, dim);
     for (int i = 0; i < dim && sqrt(angle2) <= 1e-3; i++)
         for (int j = 0; j < dim; j++) sigma[i][j] += a[i][j] - b[i][j];
     if (sqrt(angle2) <= 1e-3) return;
@@ -237,22 +241,22 @@ static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX
     memcpy(sigma, b, sizeof b);
 }
 
-/* Step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain, volume, axial stretch. */
+/* Step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain sym(L) dt - W W/2, volume, axial stretch. */
 static inline void reference_stress(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
 {
     struct particles *p = s->p;
     const struct elastic *c = &s->elastic[p->material[i]];
-    real sigma[DIM_MAX][DIM_MAX] = {{0}}, W[DIM_MAX][DIM_MAX] = {{0}}, old[SYM_MAX], trace = 0;
+    real sigma[DIM_MAX][DIM_MAX] = {{0}}, W[DIM_MAX][DIM_MAX] = {{0}}, WW[DIM_MAX][DIM_MAX], old[SYM_MAX], trace = 0;
     for (int a = 0; a < symmetric_count(p->dim); a++) old[a] = p->stress[a][i];
     reference_tensor(old, p->dim, sigma);
-    for (int a = 0; a < p->dim; a++) {
-        trace += L[a][a] * s->dt;
+    for (int a = 0; a < p->dim; a++)
         for (int b = 0; b < p->dim; b++) W[a][b] = 0.5 * s->dt * (L[a][b] - L[b][a]);
-    }
+    reference_product(W, W, WW, p->dim);
+    for (int a = 0; a < p->dim; a++) trace += L[a][a] * s->dt - 0.5 * WW[a][a];
     reference_rotate(sigma, W, p->dim);
     for (int a = 0; a < p->dim; a++)
         for (int b = 0; b <= a; b++) {
-            real strain = 0.5 * s->dt * (L[a][b] + L[b][a]);
+            real strain = 0.5 * s->dt * (L[a][b] + L[b][a]) - 0.5 * WW[a][b];
             sigma[a][b] += a == b ? (c->c11 - c->c12) * strain + c->c12 * trace : 2 * c->shear * strain;
             p->stress[reference_symmetric(p->dim, a, b)][i] = sigma[a][b];
         }

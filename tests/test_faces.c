@@ -1,5 +1,5 @@
 /* floor 5: tractions: on every body the resultant is the traction times the area that the body shows along the face's normal,
- * whatever its shape, who carries it, and what it gives in a run. */
+ * whatever its shape, which particles carry it, and what it gives in a run. */
 #include <string.h>
 #include <unistd.h>
 
@@ -145,7 +145,7 @@ static void test_shapes(void **state)
             for (int side = -1; side <= 1; side += 2) check_shape(&shapes[k], face, side);
 }
 
-/* ---- who carries it ------------------------------------------------------------------------------------------- */
+/* ---- particles that carry it ------------------------------------------------------------------------------------------- */
 
 /* Steps are seen, what an overhang hides and the bottom of a hole are not; a region that leaves out what hides them loads
  * them, with no more than their own width. */

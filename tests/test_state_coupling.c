@@ -55,7 +55,7 @@ static void stress_set(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
         }
 }
 
-/* Of bonds, who hear from the points at their ends before. */
+/* Of bonds, after the points at their ends have been read. */
 static void forces(struct both *b, enum pd_model model)
 {
     struct cloud *c = &b->s.c;
