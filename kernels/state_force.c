@@ -117,9 +117,11 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
 }
 
 /* A material point has a family like all others, of which bonds know a part and its cells the rest: S is the sum of both. */
-static ALWAYS_INLINE void ends_know(struct bonds *b, struct particles *p, int64_t g, lanes_mask end, const struct own_family *f,
-                                    const struct family_sums *sum, struct knowledge *k, const int dim, const enum pd_model model)
+static __attribute__((noinline)) void ends_know(struct bonds *b, struct particles *p, int64_t g, const struct own_family *f,
+                                                const struct family_sums *sum, struct knowledge *k, const int dim,
+                                                const enum pd_model model)
 {
+    const lanes_mask end = ends_of(b, p, g);
     const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
     const int rows = eight_at(g * LANES, b->rows);
     k->pressure += f->A * f->share * lanes_choose(end, lanes_at(p->end_strain, own, row), lanes_of(0));
@@ -142,7 +144,13 @@ static ALWAYS_INLINE void know_by_family(struct bonds *b, struct particles *p, i
     struct knowledge k;
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
     if (state_turns(model)) family_turn(k.turn, sum->moment, sum->moved, k.spring, dim);
-    if (p->end_strain && !group_whole(b, g)) ends_know(b, p, g, ends_of(b, p, g), &f, sum, &k, dim, model);
+    if (__builtin_expect(p->end_strain && !group_whole(b, g), 0)) {
+        const struct family_sums seen = *sum;    /* what is called elsewhere takes copies: all others stay in registers */
+        const struct own_family own = f;
+        struct knowledge both = k;
+        ends_know(b, p, g, &own, &seen, &both, dim, model);
+        k = both;
+    }
     know_store(b, g, &k, model);
 }
 
