@@ -126,6 +126,7 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
                                         const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
+    const bool any = transfer == TRANSFER_FLIP && points_signs(bonded) != 0;
     for (int d = 0; d < dim; d++) velocity[d] = points_of(0);
     for (int k = 0; k < dim * dim; k++) L[k] = points_of(0);
     FOR_ANY_TOUCHED(s, dim, shape) {
@@ -140,7 +141,7 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
                 strained += s->N[k] * straining[node];
                 for (int e = 0; e < along; e++) slope[e] += s->D[e][k] * straining[node];
             }
-            velocity[d] += weight * points_choose(bonded, strained, moved);
+            velocity[d] += weight * (any ? points_choose(bonded, strained, moved) : moved);
             for (int e = 0; e < dim; e++)
                 L[d * dim + e] += e < along ? weight * slope[e] : stencil_slopes(s, k1, k2, e, dim, shape) * strained;
         }

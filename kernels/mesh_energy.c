@@ -37,7 +37,12 @@ static void kick_block(const void *context, int64_t first, int64_t end, real *su
 real mesh_kick(const struct mesh *mesh, real dt)
 {
     real sum = 0;
-    if (mesh->points > 0) team_sums(mesh->grid.n, 1, kick_block, mesh, &sum);
+    if (mesh->points == 0) return 0;
+    team_sums(mesh->grid.n, 1, kick_block, mesh, &sum);
+    for (int64_t k = 0; k < mesh->grid.walls; k++) {     /* held ones change as they are told, and their work is booked as they move */
+        const struct wall *w = &mesh->grid.wall[k];
+        sum -= 0.25 * square(mesh->grid.force[w->component][w->node]) * mesh->inverse_mass[w->node];
+    }
     return dt * dt * sum;
 }
 

@@ -94,16 +94,20 @@ static void folds_in(struct mesh *mesh, real dt_velocity)
     }
 }
 
-/* The masses as they were, and what the mirror gave: to a component that turns round as much at the node as at its image. */
+/* The masses as they were, of the force to each its own share, and what the mirror gave: to a component that turns round as much at
+ * the node as at its image. */
 static void folds_out(struct mesh *mesh, real impulse[DIM_MAX])
 {
     struct grid *g = &mesh->grid;
     for (int64_t k = g->folds - 1; k >= 0; k--) {        /* the other way round: to the same bits */
         struct fold *f = &g->fold[k];
+        const real both = g->mass[f->image];
         if (f->mass > 0) g->mass[f->image] = f->image_mass, mesh->inverse_mass[f->image] = f->image_inverse;
         for (int d = 0; d < g->dim; d++) {
             f->reaction[d] = 0;
             if (f->mass <= 0) continue;
+            g->force[d][f->node] = f->sign[d] * f->mass / both * g->force[d][f->image];
+            g->force[d][f->image] *= f->image_mass / both;
             g->velocity[d][f->node] = f->sign[d] * g->velocity[d][f->image];
             mesh->displacement[d][f->node] = f->sign[d] * mesh->displacement[d][f->image];
             if (f->sign[d] > 0) continue;

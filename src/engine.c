@@ -1,6 +1,7 @@
 /* floor 5: the step loop. One line for each step of the algorithm of Zeng et al. 2022 (section 4, as corrected: MUSL,
  * leap-frog start); who does the work stands in the kernels and in loads.c, convert.c. */
 #include <math.h>
+#include <string.h>
 
 #include "engine.h"
 #include "engine_report.h"
@@ -64,19 +65,32 @@ static status grid_sort(struct engine *e)
     return OK;
 }
 
+/* Peridynamic particles that the grid moves (coupling pm .. pgg). */
+static struct transfer_data carried_by(const struct engine *e)
+{
+    struct transfer_data carried = e->transfer;
+    carried.order = &e->carried.order, carried.bare = true;
+    return carried;
+}
+
+/* Mass, momentum and force of all that is on the grid, to its nodes. */
+static void grid_take(struct engine *e)
+{
+    const struct transfer_data carried = carried_by(e);
+    grid_clear(&e->grid);
+    e->kernels.p2g(&e->grid, &e->part, &e->transfer);
+    if (e->part.n_carried > 0) e->kernels.p2g(&e->grid, &e->part, &carried);
+}
+
 static void step_grid(struct engine *e, real middle)
 {
     const struct kernels *k = &e->kernels;
     struct particles *p = &e->part;
     struct grid *g = &e->grid;
-    const struct transfer_data *t = &e->transfer;
+    const struct transfer_data *t = &e->transfer, carried = carried_by(e);
     const enum transfer transfer = e->scene->transfer;
-    struct transfer_data carried = *t;           /* peridynamic particles that the grid moves (coupling pm .. pgg) */
-    carried.order = &e->carried.order, carried.bare = true;
 
-    grid_clear(g);
-    k->p2g(g, p, t);                                                        /* 1, 3: mass, momentum, force to nodes */
-    if (p->n_carried > 0) k->p2g(g, p, &carried);
+    grid_take(e);                                                           /* 1, 3: mass, momentum, force to nodes */
     lap(&e->laps, LAP_SCATTER);
     engine_residual(e);
     loads_walls(&e->loads, g, p, k, t->half_width, middle, e->dt);
@@ -94,6 +108,22 @@ static void step_grid(struct engine *e, real middle)
     e->sort_needed = moved > 0;
     if (p->end_strain) partial_ends_know(&e->partial, p, e->scene->material);
     lap(&e->laps, LAP_GATHER);
+}
+
+real engine_grid_power(struct engine *e, real middle)
+{
+    struct grid *g = &e->grid;
+    real power = 0, *momentum;
+    if (e->part.n_free + e->part.n_carried == 0 || grid_sort(e) != OK) return 0;
+    grid_take(e);
+    momentum = BARE("engine.momentum", g->n * g->dim, real);
+    for (int d = 0; d < g->dim; d++) memcpy(momentum + d * g->n, g->momentum[d], (size_t)g->n * sizeof(real));
+    loads_walls(&e->loads, g, &e->part, &e->kernels, e->transfer.half_width, middle, e->dt);
+    grid_move(g, e->scene->transfer, e->dt, e->smallest_mass, e->loads.impulse, &e->loads.held_work);
+    for (int d = 0; d < g->dim; d++)     /* once a run; the sum must not depend on threads */
+        for (int64_t I = 0; I < g->n; I++) power += momentum[d * g->n + I] * g->force[d][I] / e->dt;
+    memory_free(momentum);
+    return power;
 }
 
 /* Nothing is left to move on the grid: its walls hold nobody any more, and residuals are those of particles. */

@@ -172,11 +172,12 @@ static void keep_velocities(struct engine *e)
     }
 }
 
-/* What the mean of two kinetic energies has too much. */
+/* What the mean of two kinetic energies, of before and after a step of velocities, has too much. */
 static real kick_now(const struct engine *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_carries(e->coupling);
-    return watch_kick(&e->part, grid ? e->sampling.before : NULL, e->dt) + mesh_kick(&e->mesh, e->dt);
+    const real dt = e->step == 0 ? 0.5 * e->dt : e->dt;
+    return watch_kick(&e->part, grid ? e->sampling.before : NULL, dt) + mesh_kick(&e->mesh, dt);
 }
 
 void engine_sample_begin(struct engine *e)
@@ -202,12 +203,30 @@ void engine_sample_energy(struct engine *e)
     if (e->sampling.due) sample_energy(e);
 }
 
+/* Is anything driven from the start, so that its first step is a jump? */
+static bool sets_out(const struct scene *s)
+{
+    bool drives = false;
+    for (int b = 0; b < s->boundaries; b++)
+        drives |= s->boundary[b].kind == BOUNDARY_VELOCITY && dot(s->boundary[b].value, s->boundary[b].value, s->dim) > 0;
+    return drives;
+}
+
+/* Leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the start. APIC's first step changes velocities by more
+ * than forces do, and keeps neither. */
+static real start_excess(const struct engine *e)
+{
+    const bool kept = !sets_out(e->scene) && !(e->part.n_free > 0 && e->scene->transfer == TRANSFER_APIC);
+    return kept ? 2 * kick_now(e) : 0;
+}
+
 void engine_sample_end(struct engine *e)
 {
     if (!e->sampling.due) return;
     if (e->step == 0) {                      /* velocities of t = 0, not of half a step before, that nothing has damped yet */
         e->sampling.energy.damped = 0;
         sample_write(e, e->t + 0.5 * e->dt, e->sampling.kinetic, e->sampling.work);
+        e->watch.energy_start -= start_excess(e);
         return;
     }
     real kinetic = 0.5 * (e->sampling.kinetic + kinetic_now(e)) - kick_now(e);
@@ -221,21 +240,23 @@ void engine_sample_rest(struct engine *e)
     sample_write(e, e->t, 0, 0);
 }
 
-/* Sum of v . f of peridynamic particles, of nodes in the reference frame [W]; few calls: serial, in order. */
+/* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; few calls: serial, in order. */
 static real power_now(const struct engine *e)
 {
     const struct particles *p = &e->part;
     const struct grid *g = &e->mesh.grid;
     real power = 0;
-    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)
-        for (int d = 0; d < p->dim; d++) power += p->v[d][p->list[KIND_PD][k]] * p->f[d][p->list[KIND_PD][k]];
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) power += p->v[d][i] * p->f[d][i];
+    }
     for (int64_t I = 0; I < g->n && e->mesh.points > 0; I++)
         for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
     return power;
 }
 
-/* Forces at the places after the last step, which no motion follows: bonds stay, and accounts of loads are put back. */
-static void forces_last(struct engine *e)
+/* Sum of v . f by the forces after the last step, which no motion follows: bonds stay, and accounts of loads are put back [W]. */
+static real power_last(struct engine *e)
 {
     struct loads account = e->loads;
     struct load *own = BARE("report.load", e->loads.n, struct load);
@@ -244,20 +265,19 @@ static void forces_last(struct engine *e)
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     loads_apply(&e->loads, &e->part, e->t + 0.5 * e->dt, e->dt, e->dt);
     if (e->mesh.points > 0) engine_nodes_force(e);
+    const real power = power_now(e) + engine_grid_power(e, e->t + 0.5 * e->dt);
     if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
     e->loads = account;
     memory_free(own);
+    return power;
 }
 
-/* Kinetic energy at the end of the last step: half of the next kick by the forces there, as at all samples before, 1/2 m v- . v+; of
- * points on the grid, whose forces would take a step, as it went in that step. */
+/* Kinetic energy at the end of the last step, as at all samples before: 1/2 m v- . v+, v+ after the kick that the forces there would
+ * give. */
 static real kinetic_last(struct engine *e)
 {
     const real kinetic = kinetic_now(e);
-    if (e->scene->solver != SOLVER_EXPLICIT || e->part.n_free > 0 || coupling_carries(e->coupling))
-        return 1.5 * kinetic - 0.5 * e->sampling.kinetic;
-    forces_last(e);
-    return kinetic + 0.5 * e->dt * power_now(e);
+    return e->scene->solver == SOLVER_EXPLICIT ? kinetic + 0.5 * e->dt * power_last(e) : kinetic;
 }
 
 /* After the last step no force follows: the supports' work goes on as in that step. */

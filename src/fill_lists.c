@@ -20,6 +20,9 @@ enum { LOOKED_AT = 128 };
 /* Refused where the typical neighbour is closer than this share of a spacing: units are apart by 10 and more, the finest and the
  * coarsest parts of a graded body rarely by more than 4. */
 #define CLOSE_LEAST (1.0 / 6)
+/* Refused where the typical particle's volume and the space up to its nearest neighbour are further apart than this: in another unit
+ * they are by 1e3 and more; at random places by 2 on a line, 4 in the plane and 6 in space. */
+#define VOLUME_MOST 100.0
 #define CROWDED 0.5                      /* neighbours so much closer than a spacing: bonds are counted before they are made */
 #define ONE_PLACE 1e-9                   /* of the body's longest edge: given twice, and refused elsewhere (fill.c) */
 #define REACH_LEAST 1.5                  /* of a material point, where a cell is no more than one spacing [spacings] */
@@ -30,7 +33,7 @@ struct crowd {
     const struct scene *s;
     int body;
     int64_t n;
-    real *X[DIM_MAX];                    /* [n] [m]  */
+    real *X[DIM_MAX], *volume;           /* [n] [m], [m^3] */
     real reach;                          /* [m]      */
     real one_place;                      /* [m]      */
 };
@@ -40,13 +43,18 @@ struct verdict {
     real lone;                           /* share without a neighbour                          [1]     */
     real apart;                          /* median distance of the nearest other place         [m]     */
     real family;                         /* mean number of others within reach                 [1]     */
+    real filled;                         /* median volume over the space up to the nearest     [1]     */
 };
 
 static void crowd_take(struct crowd *c)
 {
     const struct particles *p = c->p;
     real longest = 0;
+    int64_t own = 0;
     for (int64_t i = 0; i < p->n; i++) c->n += p->body[i] == c->body;
+    c->volume = NEW("fill.crowd", c->n, real);
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->body[i] == c->body) c->volume[own++] = p->volume0[i];
     for (int d = 0; d < p->dim; d++) {
         real low = INFINITY, high = -INFINITY;
         int64_t k = 0;
@@ -92,7 +100,8 @@ static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
     const int64_t looked = c->n < LOOKED_AT ? c->n : LOOKED_AT;
-    real apart[LOOKED_AT], family = 0;
+    const real section = c->s->dim == 1 ? c->s->section : c->s->dim == 2 ? c->s->thickness : 1;
+    real apart[LOOKED_AT], filled[LOOKED_AT], family = 0;
     int64_t lone = 0, within[LOOKED_AT];
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < looked; k++) {
@@ -101,11 +110,13 @@ static struct verdict crowd_look(const struct crowd *c)
         real X[DIM_MAX];
         for (int d = 0; d < p->dim; d++) X[d] = c->X[d][i];
         apart[k] = sqrt(nearest_of(c, c->X, c->n, X, &within[k]));
+        filled[k] = c->volume[i] / lattice_volume(section, apart[k], p->dim);
         if (within[k] < 2 && c->s->method != METHOD_PD) nearest_of(c, p->X, p->n, X, &within[k]);
     }
     for (int64_t k = 0; k < looked; k++) lone += within[k] < 2, family += (real)(within[k] - 1);
     qsort(apart, (size_t)looked, sizeof *apart, ascending);
-    return (struct verdict){(real)lone / (real)looked, apart[looked / 2], family / (real)looked};
+    qsort(filled, (size_t)looked, sizeof *filled, ascending);
+    return (struct verdict){(real)lone / (real)looked, apart[looked / 2], family / (real)looked, filled[looked / 2]};
 }
 
 /* ---- what is said ------------------------------------------------------------------------------------ */
@@ -118,6 +129,11 @@ static const char *unit_guess(real ratio)
     for (size_t k = 0; k < COUNT_OF(unit); k++)
         if (fabs(log(ratio / unit[k].ratio)) < log(2)) return unit[k].guess;
     return "";
+}
+
+static const char *volume_guess(real ratio)
+{
+    return fabs(log10(ratio) - 9) < 1 ? " (are they in mm^3?)" : fabs(log10(ratio) - 6) < 1 ? " (are they in cm^3, or areas in mm^2?)" : "";
 }
 
 static status refuse_list(const struct crowd *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -144,6 +160,11 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
     if (v->apart < CLOSE_LEAST * spacing)
         return refuse_list(c, "neighbours of the list are %.4g m apart, and the spacing is %.4g m; a particles.spacing of about "
                               "%.2g m is expected%s, or a list in m", v->apart, spacing, v->apart, unit_guess(spacing / v->apart));
+    if (!(v->filled < VOLUME_MOST && v->filled > 1 / VOLUME_MOST))
+        return refuse_list(c, "volumes of its particles are %.2g times the space up to their neighbours, which are %.4g m apart%s; "
+                              "volumes in m^3 are expected%s", v->filled, v->apart,
+                           c->s->dim == 1 ? ", times the section" : c->s->dim == 2 ? ", times the thickness" : "",
+                           volume_guess(v->filled));
     if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && team_memory() > 0 && bytes > (real)team_memory())
         return refuse_list(c, "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need some %.2g "
                               "GB, and this machine has %.2g; those of the list are %.4g m apart: a particles.spacing like that "
@@ -173,6 +194,7 @@ status fill_check_lists(const struct particles *p, const struct scene *s)
             result = crowd_judge(&c, &v);
         }
         for (int d = 0; d < DIM_MAX; d++) memory_free(c.X[d]);
+        memory_free(c.volume);
     }
     return result;
 }

@@ -88,13 +88,13 @@ real watch_kinetic(const struct particles *p)
 
 struct kick { const struct particles *p; real *const *before; real dt; };
 
-/* Of a block: a quarter of m (change of velocity)^2. */
+/* Of a block: a quarter of m (change of velocity)^2; what is driven changes as it is told, and its work is booked as it moves. */
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct kick *k = context;
     const struct particles *p = k->p;
     for (int64_t i = first; i < end; i++) {
-        if (k->before ? p->flag[i] & FLAG_MESHED : particle_on_grid(p, i)) continue;
+        if (p->flag[i] & FLAG_DRIVEN || (k->before ? p->flag[i] & FLAG_MESHED : particle_on_grid(p, i))) continue;
         real change2 = 0;
         for (int d = 0; d < p->dim; d++)
             change2 += square(k->before ? p->v[d][i] - k->before[d][i] : k->dt * p->f[d][i] / p->mass[i]);

@@ -213,7 +213,8 @@ static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][D
         }
 }
 
-/* sigma + W s - s W, s the stress half-way, to second order; beyond 1e-3 rad R sigma R^T with R = exp W, summed as its power series. */
+/* sigma + W s - s W, s the stress of before below 3e-5 rad, half-way up to 1e-3 rad; beyond R sigma R^T with R = exp W, summed as its
+ * power series. */
 static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX][DIM_MAX], int dim)
 {
     real a[DIM_MAX][DIM_MAX], b[DIM_MAX][DIM_MAX], R[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, angle2 = 0;
@@ -223,7 +224,7 @@ static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX
     reference_product(W, sigma, a, dim);
     reference_product(sigma, W, b, dim);
     for (int i = 0; i < dim; i++)
-        for (int j = 0; j < dim; j++) turned[i][j] = sigma[i][j] + 0.5 * (a[i][j] - b[i][j]);
+        for (int j = 0; j < dim; j++) turned[i][j] = sigma[i][j] + (sqrt(angle2) <= 3e-5 ? 0 : 0.5 * (a[i][j] - b[i][j]));
     reference_product(W, turned, a, dim);
     reference_product(turned, W, b, dim);
     for (int i = 0; i < dim && sqrt(angle2) <= 1e-3; i++)

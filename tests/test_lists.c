@@ -169,8 +169,8 @@ static void hdf5_lists_are_read(void **state)
 /* ---- lists in another unit than the scene ------------------------------------------------------------- */
 
 /* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` places `apart` from each other; the
- * first `single` places have one particle alone. */
-struct grains { int side, together, single; real near, apart; };
+ * first `single` places have one particle alone. Volumes fill the space up to the nearest neighbour `times` over, 0: once. */
+struct grains { int side, together, single; real near, apart, times; };
 
 static void write_grains(const char *name, int dim, const struct grains *g)
 {
@@ -179,13 +179,14 @@ static void write_grains(const char *name, int dim, const struct grains *g)
     assert_non_null(file);
     fprintf(file, "%s\n", head[dim]);
     int64_t places = 1;
-    for (int d = 0; d < dim; d++) places *= g->side;
+    real volume = g->times > 0 ? g->times : 1;
+    for (int d = 0; d < dim; d++) places *= g->side, volume *= g->together > 1 ? g->near : g->apart;
     for (int64_t k = 0; k < places; k++)
         for (int m = 0; m < (k < g->single ? 1 : g->together); m++) {
             int64_t rest = k;
             for (int d = 0; d < dim; d++, rest /= g->side)
                 fprintf(file, "%.12g,", (real)(rest % g->side) * g->apart + (d == 0 ? m * g->near : 0));
-            fprintf(file, "1\n");
+            fprintf(file, "%.12g\n", volume);
         }
     fclose(file);
 }
@@ -196,28 +197,33 @@ static void units_of_lists_are_told(void **state)
     enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
     static const struct { enum space space; int method; real spacing; struct grains g; const char *says; } c[] = {
         /* metres meant, millimetres written, and the other way round */
-        {SPACE_PLANE_STRESS, PD, 1e-3, {10, 1, 0, 0, 1}, "100 % of its particles have no neighbour within 3.015 "
+        {SPACE_PLANE_STRESS, PD, 1e-3, {10, 1, 0, 0, 1, 0}, "100 % of its particles have no neighbour within 3.015 "
          "spacings of 0.001 m: those of the list are 1 m apart; a list in m is expected "
          "(is it in mm?), or a particles.spacing of about 1 m"},
-        {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1}, "no neighbour within 2 spacings of 0.001 m"},
-        {SPACE_PLANE_STRESS, BOTH, 1e-3, {20, 1, 0, 0, 1}, "about 100 % of its particles have no neighbour within 3.015 spacings"},
-        {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5}, "(is it in cm?)"},
-        {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1}, "100 % of its particles"},
-        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1e-3}, "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
+        {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1, 0}, "no neighbour within 2 spacings of 0.001 m"},
+        {SPACE_PLANE_STRESS, BOTH, 1e-3, {20, 1, 0, 0, 1, 0}, "about 100 % of its particles have no neighbour within 3.015 spacings"},
+        {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in cm?)"},
+        {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1, 0}, "100 % of its particles"},
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
          "particles.spacing of about 0.001 m is expected (is it in mm?), or a list in m"},
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1e-3}, "neighbours of the list are 0.001 m apart"},
-        {SPACE_SOLID, BOTH, 1, {5, 1, 0, 0, 0.1}, "neighbours of the list are 0.1 m apart"},
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart"},
+        {SPACE_SOLID, BOTH, 1, {5, 1, 0, 0, 0.1, 0}, "neighbours of the list are 0.1 m apart"},
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 1e9}, "volumes of its particles are 1e+09 times the space up to their neighbours, which are 1 m "
+         "apart; volumes in m^3 are expected (are they in mm^3?)"},
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1, 1e-3}, "volumes of its particles are 0.001 times the space up to their neighbours, "
+         "which are 1 m apart, times the thickness; volumes in m^3 are expected"},
         /* what a list may be */
-        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1}, NULL},
-        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3}, NULL},         /* neighbours at the rim of the horizon */
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 3}, "no neighbour within 2 spacings"},
-        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2}, NULL},               /* a graded body's fine part */
-        {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50}, NULL},        /* grains of two, far apart */
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 0, 1, 50}, NULL},
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50}, NULL},      /* 60 chips beside 40 such grains: 43 % */
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 72, 1, 50}, "56 % of its particles"},
-        {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50}, NULL},                 /* seven mass points */
-        {SPACE_LINE, PD, 1, {8, 1, 0, 0, 50}, "100 % of its particles"},
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL},             /* heavy knots of a net */
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1, 0}, NULL},
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3, 0}, NULL},         /* neighbours at the rim of the horizon */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 3, 0}, "no neighbour within 2 spacings"},
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2, 0}, NULL},               /* a graded body's fine part */
+        {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50, 0}, NULL},        /* grains of two, far apart */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 0, 1, 50, 0}, NULL},
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50, 0}, NULL},      /* 60 chips beside 40 such grains: 43 % */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 72, 1, 50, 0}, "56 % of its particles"},
+        {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50, 0}, NULL},                 /* seven mass points */
+        {SPACE_LINE, PD, 1, {8, 1, 0, 0, 50, 0}, "100 % of its particles"},
     };
     char name[] = "grains.csv";
     for (size_t k = 0; k < COUNT_OF(c); k++) {
@@ -250,7 +256,7 @@ static void other_bodies_are_neighbours_of_points(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){20, 20});
     s.scene.horizon = 3.015, s.scene.cell = 2, s.scene.bodies = 2;
     s.body[1].file = name;
-    write_grains(name, 2, &(struct grains){5, 1, 0, 0, 4});
+    write_grains(name, 2, &(struct grains){5, 1, 0, 0, 4, 0});
     assert_ok(fill_particles(&p, &s.scene, 0));
     particles_free(&p);
     s.scene.method = METHOD_PD;
@@ -269,7 +275,7 @@ static void bonds_beyond_memory_are_refused(void **state)
     setting_make(&s, SPACE_SOLID, (real[]){1, 1, 1});
     s.scene.method = METHOD_PD, s.scene.spacing = 1, s.scene.horizon = 30;
     s.body[0].file = name;
-    write_grains(name, 3, &(struct grains){59, 1, 0, 0, 0.2});
+    write_grains(name, 3, &(struct grains){59, 1, 0, 0, 0.2, 0});
     assert_refused(fill_particles(&p, &s.scene, 0), "whose bonds need some 1e+03 GB");
     remove(name);
 }
