@@ -67,7 +67,7 @@ $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(ENGINE)
 # The main job: installs what is missing, builds, breaks a steel plate, draws it.
 run: packages
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) all
-	$(BUILD)/cleave run inputs/kalthoff_winkler.yaml
+	$(BUILD)/cleave run inputs/kalthoff_winkler.yaml --overwrite
 	$(BUILD)/cleave plot results/kalthoff_winkler
 
 test: packages

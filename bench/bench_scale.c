@@ -62,7 +62,7 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     TRY(bench_folder_make());
     strcpy(folder.folder, BENCH_FOLDER "/run-scale");
     TRY(bench_block_make(&e, &s, block, particles, FRAMES * FRAME_EVERY, FRAMES, &out));
-    status ran = output_open(&out, folder.folder, s.text, false, false);
+    status ran = output_open(&out, folder.folder, s.text, OUTPUT_OVERWRITE, false);
     if (ran == OK) {
         ran = engine_run(&e);
         r->frame = e.laps.spent[LAP_OUTPUT] / FRAMES;

@@ -8,10 +8,14 @@
 #include <stdio.h>
 
 #include "archive.h"
+#include "output_lock.h"
 #include "particles.h"
 #include "probes.h"
 
+enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE };    /* what to do with an older run */
+
 struct output {
+    struct folder_lock lock;             /* nobody else runs in the folder                            */
     char *folder;                        /* DIR                                                       */
     int frames, frames_room;             /* frames written                                            */
     real *frame_time;                    /* [s]                                                       */
@@ -32,11 +36,13 @@ struct output {
  * SIGPIPE ignored (a full disk must be an error, not a death). */
 void output_start(void);
 
-/* Makes DIR and DIR/frames. REFUSED if DIR holds another run (a scene.yaml with other text, or any frame or
- * checkpoint when `resume` is false and the scene differs); a finished or interrupted run of the same scene is
- * overwritten without --resume. Removes stale temporary files, and without `resume` what the older run left; writes
- * scene.yaml. FAILED if it cannot be made. On a fault nothing is left to close. */
-status output_open(struct output *o, const char *folder, const char *scene_text, bool resume, bool compress);
+/* Makes DIR and DIR/frames, and takes them for this process. REFUSED while another process runs there; if DIR holds files
+ * that are no run's; without OUTPUT_OVERWRITE if it holds the run of another scene (a scene.yaml with other text); and in mode
+ * OUTPUT_FIRST if it holds a run of the same one. To resume
+ * where nothing has run is to begin, with a line that says so; REFUSED where a run has lost its checkpoints. Removes temporary files
+ * of runs, and without OUTPUT_RESUME what the older run left; writes scene.yaml. FAILED if it cannot be made. On a fault nothing is
+ * left to close. */
+status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 void output_close(struct output *o);
 
 /* Writes `text` to DIR/name (aside, sync, rename). */

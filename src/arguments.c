@@ -38,12 +38,14 @@ static status read_all(struct run_arguments *a, int argc, char **argv, const cha
         else if (!strcmp(word, "-s")) TRY(add_override(a, argv[++k]));
         else if (!strcmp(word, "-t")) TRY(read_threads(a, argv[++k]));
         else if (!strcmp(word, "--resume")) a->resume = true;
+        else if (!strcmp(word, "--overwrite")) a->overwrite = true;
         else if (!strcmp(word, "-q")) a->quiet = true;
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->scene) return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
         else a->scene = word;
     }
+    if (a->resume && a->overwrite) return status_set(REFUSED, "--resume goes on with a run and --overwrite replaces it: one of them");
     return a->scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
 }
 

@@ -9,7 +9,7 @@ struct run_arguments {
     struct scene_override *override;     /* owned; strings point into copies of argv    */
     int overrides;
     int threads;                         /* 0: automatic                                */
-    bool resume, quiet;
+    bool resume, overwrite, quiet;
 };
 
 /* argv[0] is the command. REFUSED with the usage line on anything else. */

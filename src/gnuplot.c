@@ -108,7 +108,8 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     *g = (struct gnuplot){0};
     if (strchr(path, '\n') != NULL) return status_set(REFUSED, "a picture's name cannot hold a line break: %s", path);
     g->path = strdup(path);
-    if (g->path == NULL || asprintf(&g->aside, "%s.tmp", path) < 0) {
+    /* gnuplot takes a name that begins with a bar for a command */
+    if (g->path == NULL || asprintf(&g->aside, "%s%s.tmp", path[0] == '/' ? "" : "./", path) < 0) {
         g->aside = NULL;
         release(g);
         return status_set(FAILED, "%s: out of memory", path);

@@ -184,6 +184,8 @@ status loads_archive(struct loads *l, struct archive *a)
         char name[48];
         snprintf(name, sizeof name, "loads/displacement%d", b);
         ARCHIVE_VALUE(a, name, l->load[b].displacement);
+        snprintf(name, sizeof name, "loads/reaction%d", b);
+        ARCHIVE_VALUE(a, name, l->load[b].reaction);         /* of the last step: a sample before the next one shows it */
     }
     return OK;
 }

@@ -1,4 +1,5 @@
 /* floor 5: the program: one command, one exit status. */
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
 
 static const struct command commands[] = {
-    {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume] [-q]", "runs a scene", command_run},
+    {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]", "runs a scene", command_run},
     {"check", "SCENE [-s KEY=VALUE]...", "what the scene would cost and whether it is sound", command_check},
     {"plot", "DIR", "pictures of a finished or running run", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
@@ -26,7 +27,7 @@ static status usage(status result)
     FILE *to = result == OK ? stdout : stderr;
     fprintf(to, "cleave: dynamic fracture by peridynamics and the material point method\n");
     for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)
-        fprintf(to, "  cleave %-8s %-66s %s\n", c->name, c->words, c->meaning);
+        fprintf(to, "  cleave %-8s %-78s %s\n", c->name, c->words, c->meaning);
     return result;
 }
 
@@ -57,8 +58,18 @@ static void wait_politely(char **argv)
     if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv);   /* where there is none: as it was */
 }
 
+/* Whoever starts a program may have closed its first descriptors; the next file opened would get one, and what is printed. */
+static void keep_descriptors(void)
+{
+    int fd;
+    do fd = open("/dev/null", O_RDWR);
+    while (fd >= 0 && fd <= STDERR_FILENO);
+    if (fd > STDERR_FILENO) close(fd);
+}
+
 int main(int argc, char **argv)
 {
+    keep_descriptors();
     wait_politely(argv);
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);

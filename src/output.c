@@ -24,10 +24,15 @@ void output_start(void)
 
 /* ---- folders --------------------------------------------------------------------------------------- */
 
-static bool ends_with(const char *name, const char *end)
+/* Files of a run, in the order in which they go: checkpoints first, for none may outlive the frames it counts on. */
+static const char *const made[] = {"checkpoint.h5", "checkpoint.previous.h5", "checkpoint.damaged.h5", "summary.json", "history.csv",
+                                   "frames.hdf.series", "frames.xdmf"};
+
+/* 123456.hdf: a name that a run gives to a frame, with `end` behind it. */
+static bool is_frame(const char *name, const char *end)
 {
-    size_t a = strlen(name), b = strlen(end);
-    return a >= b && strcmp(name + a - b, end) == 0;
+    const size_t digits = strspn(name, "0123456789");
+    return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
 }
 
 /* Makes one folder unless it is there. */
@@ -50,19 +55,33 @@ static status folder_make(const char *path)
     return folder_make_one(part.text);
 }
 
-/* Removes the regular files of a folder whose names end so. */
-static void folder_remove(const char *folder, const char *end)
+static bool path_is_link(const char *path)
+{
+    struct stat s;
+    return lstat(path, &s) == 0 && S_ISLNK(s.st_mode);
+}
+
+/* Removes frames with `end` behind their names. */
+static void frames_remove(const char *folder, const char *end)
 {
     DIR *d = opendir(folder);
     if (!d) return;
-    for (struct dirent *e; (e = readdir(d));) {
-        struct path file = path_join(folder, e->d_name);
-        if (ends_with(e->d_name, end) && path_is_file(file.text)) unlink(file.text);
-    }
+    for (struct dirent *e; (e = readdir(d));)
+        if (is_frame(e->d_name, end)) unlink(path_join(folder, e->d_name).text);
     closedir(d);
 }
 
-/* Does the folder hold nothing but hidden files, temporary files and folders named `allowed`? Puts the name of
+static bool has_frames(const char *folder)
+{
+    bool any = false;
+    DIR *d = opendir(folder);
+    if (!d) return false;
+    for (struct dirent *e; !any && (e = readdir(d));) any = is_frame(e->d_name, "");
+    closedir(d);
+    return any;
+}
+
+/* Does the folder hold nothing but hidden files, temporary files and a folder named `allowed`? Puts the name of
  * the first other thing into `found`. */
 static bool folder_is_bare(const char *folder, const char *allowed, char *found, size_t room)
 {
@@ -70,9 +89,10 @@ static bool folder_is_bare(const char *folder, const char *allowed, char *found,
     DIR *d = opendir(folder);
     if (!d) return true;
     for (struct dirent *e; bare && (e = readdir(d));) {
-        struct path entry = path_join(folder, e->d_name);
-        bool is_allowed = allowed && strcmp(e->d_name, allowed) == 0 && path_is_folder(entry.text);
-        if (e->d_name[0] == '.' || ends_with(e->d_name, ".tmp") || is_allowed) continue;
+        const size_t length = strlen(e->d_name);
+        const bool temporary = length > 4 && strcmp(e->d_name + length - 4, ".tmp") == 0;
+        const bool is_allowed = allowed && strcmp(e->d_name, allowed) == 0 && path_is_folder(path_join(folder, allowed).text);
+        if (e->d_name[0] == '.' || temporary || is_allowed) continue;
         snprintf(found, room, "%s", e->d_name);
         bare = false;
     }
@@ -83,56 +103,104 @@ static bool folder_is_bare(const char *folder, const char *allowed, char *found,
 /* ---- whose folder is it ---------------------------------------------------------------------------- */
 
 /* Refuses a folder that belongs to something else than a run of this scene. */
-static status folder_check(const char *folder, const char *scene_text)
+static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
     struct path scene = path_join(folder, "scene.yaml"), frames = path_join(folder, "frames");
     char found[PATH_NAME_ROOM], *text = NULL;
     size_t length = 0;
+    if (path_is_link(frames.text))
+        return status_set(REFUSED, "%s is a link: what a run removes and makes there would be somewhere else; choose another -o",
+                          frames.text);
     if (path_exists(scene.text)) {
         TRY(file_get(scene.text, &text, &length));
         bool same = length == strlen(scene_text) && memcmp(text, scene_text, length) == 0;
         memory_free(text);
-        if (same) return OK;
-        return status_set(REFUSED, "%s holds the run of another scene (see its scene.yaml); choose another -o or "
-                                   "remove it", folder);
+        if (same || mode == OUTPUT_OVERWRITE) return OK;
+        return status_set(REFUSED, "%s holds the run of another scene (see its scene.yaml); choose another -o or replace it with "
+                                   "--overwrite", folder);
     }
     if (folder_is_bare(folder, "frames", found, sizeof found) &&
         folder_is_bare(frames.text, NULL, found, sizeof found)) return OK;
     return status_set(REFUSED, "%s holds files, for instance %s, but no run; choose another -o", folder, found);
 }
 
-/* Removes what an older run left. Checkpoints first: none may outlive the frames it counts on. */
-static void run_remove(const char *folder)
+/* Is there more of a run than its scene? */
+static bool has_run(const char *folder)
 {
-    static const char *const made[] = {"checkpoint.h5", "checkpoint.previous.h5", "checkpoint.damaged.h5",
-                                       "summary.json", "history.csv", "frames.hdf.series", "frames.xdmf"};
-    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_join(folder, made[k]).text);
-    folder_remove(path_join(folder, "frames").text, ".hdf");
+    bool any = has_frames(path_join(folder, "frames").text);
+    for (size_t k = 0; k < COUNT_OF(made); k++) any |= path_exists(path_join(folder, made[k]).text);
+    return any;
 }
 
-static status folder_prepare(const char *folder, const char *scene_text, bool resume)
+/* Has it gone on beyond its first checkpoint, which is written before its first step? */
+static bool has_advanced(const char *folder)
+{
+    char *text = NULL;
+    size_t length = 0, lines = 0;
+    const struct path history = path_join(folder, "history.csv"), frames = path_join(folder, "frames");
+    if (path_exists(path_join(folder, "summary.json").text) || path_exists(path_join(frames.text, "000001.hdf").text)) return true;
+    if (!path_is_file(history.text) || file_get(history.text, &text, &length) != OK) return false;
+    for (size_t k = 0; k < length; k++) lines += text[k] == '\n';
+    memory_free(text);
+    return lines > 1;
+}
+
+/* An older run of the same scene is left alone unless one is told what to do with it. */
+static status mode_check(const char *folder, enum output_mode mode)
+{
+    const bool there = has_run(folder), finished = path_exists(path_join(folder, "summary.json").text);
+    if (mode == OUTPUT_FIRST && there)
+        return status_set(REFUSED, "%s holds %s run of this scene; go on with --resume, replace it with --overwrite, or choose "
+                                   "another -o", folder, finished ? "a finished" : "an interrupted");
+    if (mode != OUTPUT_RESUME || checkpoint_exists(folder)) return OK;
+    if (has_advanced(folder))
+        return status_set(REFUSED, "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or choose "
+                                   "another -o", folder);
+    fprintf(stderr, "warning: nothing to resume in %s: starts at t = 0\n", folder);
+    return OK;
+}
+
+static void run_remove(const char *folder)
+{
+    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_join(folder, made[k]).text);
+    frames_remove(path_join(folder, "frames").text, "");
+}
+
+static void temporary_remove(const char *folder)
+{
+    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k]).text).text);
+    unlink(path_aside(path_join(folder, "scene.yaml").text).text);
+    frames_remove(path_join(folder, "frames").text, ".tmp");
+}
+
+static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)
 {
     struct path frames = path_join(folder, "frames");
-    TRY(folder_make(folder));
-    TRY(folder_check(folder, scene_text));
+    TRY(folder_check(folder, scene_text, mode));
+    TRY(mode_check(folder, mode));
     TRY(folder_make_one(frames.text));
-    folder_remove(folder, ".tmp");
-    folder_remove(frames.text, ".tmp");
-    if (!resume) run_remove(folder);
+    temporary_remove(folder);
+    if (mode != OUTPUT_RESUME) run_remove(folder);
     return file_put(path_join(folder, "scene.yaml").text, scene_text, strlen(scene_text));
 }
 
-status output_open(struct output *o, const char *folder, const char *scene_text, bool resume, bool compress)
+status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress)
 {
     assert(folder && scene_text);
     struct path clean = {{0}};
     size_t length = strlen(folder);
-    *o = (struct output){.compress = compress};
+    *o = (struct output){.compress = compress, .lock.fd = -1};
     if (length == 0) return status_set(REFUSED, "-o: needs the name of a folder");
     if (length + PATH_NAME_ROOM >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
     while (length > 1 && folder[length - 1] == '/') length--;
     memcpy(clean.text, folder, length);
-    TRY(folder_prepare(clean.text, scene_text, resume));
+    TRY(folder_make(clean.text));
+    TRY(folder_lock(&o->lock, clean.text));
+    const status s = folder_prepare(clean.text, scene_text, mode);
+    if (s != OK) {
+        folder_unlock(&o->lock, clean.text);
+        return s;
+    }
     o->folder = NEW("output.folder", (int64_t)length + 1, char);
     memcpy(o->folder, clean.text, length);
     return OK;
@@ -142,12 +210,13 @@ void output_close(struct output *o)
 {
     (void)output_wait(o);                /* who wants to know how it ended has asked before */
     if (o->history) fclose(o->history);
+    if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);
     memory_free(o->frame_time);
     memory_free(o->frame_copy);
     free(o->frame_kept.order);
     free(o->frame_kept.room);
-    *o = (struct output){0};
+    *o = (struct output){.lock.fd = -1};
 }
 
 status output_text(const struct output *o, const char *name, const char *text, size_t length)

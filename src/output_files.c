@@ -94,7 +94,8 @@ static int write_all(int fd, const char *bytes, size_t length)
 /* Opens, writes at the end, syncs and closes; returns 0 or an errno. */
 static int write_synced(const char *path, int flags, const void *bytes, size_t length)
 {
-    int fd = open(path, O_WRONLY | O_CLOEXEC | flags, 0666);
+    if (flags & O_EXCL) unlink(path);            /* what a kill left; whatever else has this name is not written through */
+    int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
     if (fd < 0) return errno;
     int fault = write_all(fd, bytes, length);
     if (!fault && fsync(fd) != 0) fault = errno;
@@ -137,7 +138,7 @@ status file_publish(const char *path)
 
 status file_put(const char *path, const void *bytes, size_t length)
 {
-    TRY(outcome(path, write_synced(path_aside(path).text, O_CREAT | O_TRUNC, bytes, length)));
+    TRY(outcome(path, write_synced(path_aside(path).text, O_CREAT | O_EXCL, bytes, length)));
     return file_publish(path);
 }
 

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Rows per chunk of a compressed dataset: 64 Ki rows of 24 bytes fit HDF5's chunk cache of 1 MiB and a half. */
 enum { CHUNK_ROWS = 1 << 16, GZIP_LEVEL = 4 };
@@ -57,8 +58,9 @@ void hdf_create(struct hdf *f, const char *path, bool compress)
     errno = 0;
     hid_t access = access_list(f);
     if (f->failed) return;
+    unlink(path);                        /* what a kill left; whatever else has this name is not written through */
     (void)(good(f, create = H5Pcreate(H5P_FILE_CREATE)) && good(f, H5Pset_obj_track_times(create, false)) &&
-           good(f, f->file = H5Fcreate(path, H5F_ACC_TRUNC, create, access)) && good(f, H5Pclose(create)) &&
+           good(f, f->file = H5Fcreate(path, H5F_ACC_EXCL, create, access)) && good(f, H5Pclose(create)) &&
            good(f, H5Pclose(access)));
 }
 

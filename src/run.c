@@ -51,7 +51,8 @@ static status open_folder(struct output *out, const struct scene *s, const struc
 {
     char folder[sizeof s->name + sizeof "results/"];
     snprintf(folder, sizeof folder, "results/%s", s->name);
-    return output_open(out, a->folder ? a->folder : folder, s->text, a->resume, s->compress);
+    const enum output_mode mode = a->resume ? OUTPUT_RESUME : a->overwrite ? OUTPUT_OVERWRITE : OUTPUT_FIRST;
+    return output_open(out, a->folder ? a->folder : folder, s->text, mode, s->compress);
 }
 
 static status run_engine(struct engine *e, const struct scene *s, struct output *out, const struct run_arguments *a,
@@ -78,11 +79,11 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
 status command_run(int argc, char **argv)
 {
     struct run_arguments a;
-    TRY(arguments_read(&a, argc, argv, "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume] [-q]"));
+    TRY(arguments_read(&a, argc, argv, "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
     int threads = team_make(a.threads);
     struct scene s = {0};
     struct engine e = {0};
-    struct output out = {0};
+    struct output out = {.lock.fd = -1};
     status result = scene_read(&s, a.scene, a.override, a.overrides);
     listen_to_signals();
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);

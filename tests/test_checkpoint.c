@@ -35,7 +35,7 @@ static void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH 
 static void open_fresh(struct output *o, const char *folder)
 {
     remove_tree(folder);
-    assert_int_equal(output_open(o, folder, scene_text, false, false), OK);
+    assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, false), OK);
 }
 
 static void assert_message(const char *part)

@@ -145,7 +145,7 @@ static void write_run(const char *folder, double shift, double loop_seconds, dou
     struct output o;
     struct particles p;
     char text[TEXT];
-    assert_int_equal(output_open(&o, folder, "name: test\n", false, false), OK);
+    assert_int_equal(output_open(&o, folder, "name: test\n", OUTPUT_OVERWRITE, false), OK);
     for (int k = 0; k < 3; k++) {
         fill_plate(&p, 1e-4 * k, shift * k);
         assert_int_equal(output_frame(&o, &p, 1e-6 * k, 10 * k, "name: test\n"), OK);
@@ -217,7 +217,7 @@ static void stress_across_is_compared(void **state)
         fill_plate(&p, 0, 0);
         p.plane_strain = &m[k];
         for (int64_t i = 0; i < p.n; i++) p.stress[0][i] = 1e6, p.stress[1][i] = 2e6;
-        assert_int_equal(output_open(&o, words[1 + k], "name: test\n", false, false), OK);
+        assert_int_equal(output_open(&o, words[1 + k], "name: test\n", OUTPUT_OVERWRITE, false), OK);
         assert_int_equal(output_frame(&o, &p, 0, 0, "name: test\n"), OK);
         output_close(&o);
         particles_free(&p);

@@ -34,7 +34,7 @@ static void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH 
 static void open_fresh(struct output *o, const char *folder, bool compress)
 {
     remove_tree(folder);
-    assert_int_equal(output_open(o, folder, scene_text, false, compress), OK);
+    assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, compress), OK);
 }
 
 /* A number in [0, 1) that depends on i and k only. */
@@ -247,21 +247,21 @@ static void folders_of_others_are_refused(void **state)
     char name[PATH_ROOM + 10];
     open_fresh(&o, "folder/deep/run", false);
     output_close(&o);
-    assert_int_equal(output_open(&o, "folder/deep/run", "name: other\n", false, false), REFUSED);
+    assert_int_equal(output_open(&o, "folder/deep/run", "name: other\n", OUTPUT_FIRST, false), REFUSED);
     assert_message("folder/deep/run holds the run of another scene");
-    assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml", scene_text, false, false), REFUSED);
-    assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml/x", scene_text, false, false), REFUSED);
-    assert_int_equal(output_open(&o, "folder/deep", scene_text, false, false), REFUSED);
+    assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml", scene_text, OUTPUT_FIRST, false), REFUSED);
+    assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml/x", scene_text, OUTPUT_FIRST, false), REFUSED);
+    assert_int_equal(output_open(&o, "folder/deep", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_message("for instance run");
-    assert_int_equal(output_open(&o, "", scene_text, false, false), REFUSED);
+    assert_int_equal(output_open(&o, "", scene_text, OUTPUT_FIRST, false), REFUSED);
     memset(name, 'x', sizeof name - 1);
     name[sizeof name - 1] = '\0';
-    assert_int_equal(output_open(&o, name, scene_text, false, false), REFUSED);
+    assert_int_equal(output_open(&o, name, scene_text, OUTPUT_FIRST, false), REFUSED);
     name[300] = '\0';                                  /* longer than any file system's names */
-    assert_int_equal(output_open(&o, name, scene_text, false, false), FAILED);
+    assert_int_equal(output_open(&o, name, scene_text, OUTPUT_FIRST, false), FAILED);
     assert_message("choose another -o");
     mkdir("folder/empty", 0777);
-    assert_int_equal(output_open(&o, "folder/empty/", scene_text, false, false), OK);
+    assert_int_equal(output_open(&o, "folder/empty/", scene_text, OUTPUT_OVERWRITE, false), OK);
     output_close(&o);
     assert_true(path_is_file("folder/empty/scene.yaml"));
 }
@@ -276,12 +276,20 @@ static void older_run_is_replaced_unless_resumed(void **state)
     assert_int_equal(output_text(&o, "frames/000001.hdf.tmp", "x", 1), OK);
     assert_int_equal(output_text(&o, "checkpoint.h5.tmp", "x", 1), OK);
     output_close(&o);
-    assert_int_equal(output_open(&o, "again", scene_text, true, false), OK);
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK);
     output_close(&o);
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_true(path_exists(path_join("again", made[k]).text));
     assert_false(path_exists("again/frames/000001.hdf.tmp"));
     assert_false(path_exists("again/checkpoint.h5.tmp"));
-    assert_int_equal(output_open(&o, "again", scene_text, false, false), OK);
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_FIRST, false), REFUSED);
+    assert_message("again holds an interrupted run of this scene; go on with --resume, replace it with --overwrite");
+    assert_int_equal(unlink("again/checkpoint.h5") | unlink("again/checkpoint.previous.h5"), 0);
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK);      /* it has but begun */
+    assert_int_equal(output_text(&o, "history.csv", "time\n0\n", 7), OK);
+    output_close(&o);
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), REFUSED);
+    assert_message("holds a run whose checkpoints are gone");
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_OVERWRITE, false), OK);
     output_close(&o);
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_false(path_exists(path_join("again", made[k]).text));
 }
@@ -298,8 +306,9 @@ static void history_is_cut_back(void **state)
     assert_int_equal(output_history(&o, (real[]){0, 0, -NAN}), OK);
     int64_t kept = o.history_bytes;
     assert_int_equal(output_history(&o, (real[]){1.5, 1, 2}), OK);
+    assert_int_equal(output_text(&o, "checkpoint.h5", "x", 1), OK);
     output_close(&o);
-    assert_int_equal(output_open(&o, "history", scene_text, true, false), OK);
+    assert_int_equal(output_open(&o, "history", scene_text, OUTPUT_RESUME, false), OK);
     o.history_bytes = kept;
     assert_int_equal(output_history_open(&o, column, 3, true), OK);
     assert_int_equal(output_history(&o, (real[]){2.5, 1, 2}), OK);
@@ -308,7 +317,7 @@ static void history_is_cut_back(void **state)
     assert_int_equal(o.history_bytes, length);
     memory_free(text);
     output_close(&o);
-    assert_int_equal(output_open(&o, "history", scene_text, true, false), OK);
+    assert_int_equal(output_open(&o, "history", scene_text, OUTPUT_RESUME, false), OK);
     o.history_bytes = 1000;
     assert_int_equal(output_history_open(&o, column, 3, true), FAILED);
     assert_message("shorter than at the checkpoint");
