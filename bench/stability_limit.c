@@ -130,8 +130,8 @@ static status real_run(const struct stability_case *c, double dt, double drift, 
     return OK;
 }
 
-/* With APIC limits are least where the body ends a little beyond a node: nearer still the node beyond it follows others
- * (grid_move.c). */
+/* With APIC limits are least where the body ends a little beyond a node, on this or that side: nearer still the node beyond it follows
+ * others (grid_move.c). */
 #define BEYOND 0.01                      /* cells */
 
 status stability_observe(const struct stability_case *given, int steps, int long_steps, struct stability_limits *to)
@@ -141,7 +141,8 @@ status stability_observe(const struct stability_case *given, int steps, int long
     TRY(predict(&c, to));
     for (int k = 0; k < (c.offsets > 0 ? c.offsets : 1); k++) {
         double limit = 0;
-        if (c.offsets > 0) c.offset = (double)k / c.offsets + (c.transfer && !strcmp(c.transfer, "apic") ? BEYOND : 0);
+        const double beyond = c.transfer && !strcmp(c.transfer, "apic") ? k % 2 ? -BEYOND : BEYOND : 0;
+        if (c.offsets > 0) c.offset = (double)k / c.offsets + beyond;
         TRY(limit_of(&c, to->critical, steps, &limit));
         to->largest = fmax(to->largest, limit);
         if (limit < to->observed) to->observed = limit, to->offset = c.offset;

@@ -22,7 +22,7 @@ static real points_share(const struct scene *s)
         return (fabs(n - 2) < 0.3 ? 0.52 : 0.62) * (1 + 0.4 * (s->dim - 1));
     case SHAPE_QUADRATIC: return apic ? 0.75 : 1.8;
     case SHAPE_CUBIC: return apic ? 1.15 : 2.1;
-    default: return apic ? 0.84 / (1 + 0.16 * n) : 1.52;
+    default: return apic ? (s->dim == 1 ? 0.89 : 0.84) / (1 + 0.16 * n) : 1.52;
     }
 }
 
@@ -57,7 +57,16 @@ static real critical_of_points(const struct engine *e)
 
 /* Waves as short as the bonds' stiffest are unknown to a grid that moves all particles (pmg, pgg): shares of the observed
  * limits of bodies in one, two and three dimensions, with cells of one spacing and of two (`bench stability`). */
-static const real carried_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.1}, {1, 1.4, 1.4, 1.5}};
+static const real carried_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4, 2.5}};
+/* The same where it moves those near points (pm, pg) and FLIP keeps what it cannot see; worst where few share a node. */
+static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
+
+static real share_of_coupling(const struct engine *e)
+{
+    const bool two = e->scene->cell >= 2;
+    if (coupling_unified(e->coupling)) return carried_by_grid[two][e->scene->dim];
+    return coupling_carries(e->coupling) && e->scene->transfer == TRANSFER_FLIP ? met_by_grid[two][e->scene->dim] : 1;
+}
 
 /* Of elastic bonds: yielding ones are no stiffer. */
 static bond_force_fn *elastic_force(const struct engine *e)
@@ -99,7 +108,7 @@ static real critical_of_bonds(struct engine *e)
     }
     const real step = critical_of_lattices(e, &bound);
     const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
-    return share * step * (coupling_unified(e->coupling) ? carried_by_grid[s->cell >= 2][s->dim] : 1);
+    return share * step * share_of_coupling(e);
 }
 
 /* ---- the step --------------------------------------------------------------------------------------------------- */

@@ -11,15 +11,15 @@ echo "seed $seed"
 for scene in hopkinson_bar plate_crack plate_hole kalthoff_winkler kalthoff_winkler_3d plate_impact_3d; do
     "$cleave" run -q inputs/$scene.yaml -s output.frames=4 -t 1 -o "$work/one" || fail "$scene"
     for threads in 2 3 5; do
-        calm "$work/many" inputs/$scene.yaml -s output.frames=4 -t $threads
+        rm -rf "$work/many"; calm "$work/many" inputs/$scene.yaml -s output.frames=4 -t $threads
         same "$scene on $threads threads" "$work/one" "$work/many"
     done
     rm -rf "$work/one" "$work/many"
 done
 for arguments in "$line" "$flat" "$flat -s coupling=handshake" "$flat -s method=mpm" "$flat -s method=pd" "$solid"; do
-    calm "$work/one" $arguments -t 1
+    rm -rf "$work/one"; calm "$work/one" $arguments -t 1
     for threads in 4 7 8 16; do
-        calm "$work/many" $arguments -t $threads
+        rm -rf "$work/many"; calm "$work/many" $arguments -t $threads
         same "$arguments on $threads threads" "$work/one" "$work/many"
     done
     rm -rf "$work/one" "$work/many"

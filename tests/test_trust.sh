@@ -122,7 +122,7 @@ done
 is "a plain file stays" "$(cat "$work/plain")" text
 is "a foreign folder stays" "$(ls "$work/foreign")" letter.txt
 holds "another run stays" diff -r "$work/other" "$work/other_before"
-calm "$work/other" $line
+calm "$work/other" $line --overwrite
 same "the same scene again" "$work/other_before" "$work/other"
 
 # ---- unstable runs -------------------------------------------------------------------------------------------------------
