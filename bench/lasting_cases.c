@@ -107,6 +107,12 @@ static status current(struct taker *t)
 {
     static const int law[] = {0, 1, 3, 6, 8, 10, 13, 15};
     for (int q = 0; q < 2; q++)
+        for (int m = 0; m < MODELS; m++) {
+            const struct stability_case c = {.dim = 2, .edge = 16, .method = "adaptive", .frame = "current", .transfer = transfer[q],
+                                             .shape = "gimp", .coupling = coupling[0], .region = SQUARE, .irregularity = 0.8};
+            TRY(give(t, LASTING_CURRENT, with_model(c, m)));
+        }
+    for (int q = 0; q < 2; q++)
         for (size_t l = 0; l < COUNT_OF(law); l++)
             for (size_t r = 0; r < COUNT_OF(region); r++) {
                 struct stability_case c = {.dim = 2, .edge = 16, .method = "adaptive", .frame = "current", .transfer = transfer[q],

@@ -126,7 +126,7 @@ void loads_join(struct loads *l, int dim);
 void loads_applied_free(struct loads *l);
 /* The parts of loads_apply and loads_hold that add forces and impulse, and book their work. */
 void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity);
-void loads_push_work(struct loads *l, struct particles *p, real t);
+void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
 
 #define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 
@@ -160,7 +160,7 @@ void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
 
 /* After the gather: driven material points take their velocity exactly; books reactions of walls and the work of
  * applied forces. */
-void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt_velocity);
+void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt, real dt_velocity);
 /* Reactions of the walls of one grid, or of the mesh. */
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
 

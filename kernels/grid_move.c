@@ -25,7 +25,7 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
     const real given = g->mass[I] * (w->velocity - before - g->force[d][I]);
     w->reaction = given - g->mass[I] * w->change;
     impulse[d] += given;
-    *work += given * 0.5 * (before + w->velocity);
+    *work += given * (w->velocity - 0.5 * w->change);    /* its own way: what APIC loses on the way to the nodes is no work of walls */
     g->force[d][I] = w->change;
     g->velocity[d][I] = w->velocity;
 }

@@ -1,7 +1,7 @@
 /* floor 2: what state-based bonds hold: their elastic energy, and the stress they amount to. Visited at samples and frames
  * only, from what the last sweep over the families left in b->state.
  *     energy of row i   1/2 sum_j (own force state of i) . (effective displacement):  its sum over j is V_i W_i
- *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) xi_ij, made symmetric (own force state only) */
+ *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, made symmetric (own force state only; with y the stress turns with the body) */
 #include <math.h>
 
 #include "kernels.h"
@@ -28,11 +28,11 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
 
 /* state_own_force of the eight bonds of a slot; broken ones have none. */
 static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struct slot slot, const struct particles *p, lanes *T,
-                                          lanes *xi, const int dim, const bool turns)
+                                          lanes *y, const int dim, const bool turns)
 {
     const lanes w = slot_weight(slot), inverse_length = slot_inverse_length(slot);
     const lanes r = lanes_inverse_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_of(1)));
-    lanes y[DIM_MAX], effective[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
+    lanes xi[DIM_MAX], effective[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
     for (int d = 0; d < dim; d++) {
         y[d] = slot_at(slot, p->x[d]) - s->x[d], xi[d] = slot_reference(slot, p, d, s->X[d]);
         distance2 += y[d] * y[d];
@@ -55,9 +55,9 @@ static ALWAYS_INLINE real energy_group(const struct bonds *b, const struct parti
 {
     if (b->rest.level[g] == 0) return 0;
     const struct own_state s = own_state_of(b, p, g, dim, state_turns(model));
-    lanes sum = lanes_of(0), T[DIM_MAX], xi[DIM_MAX];
+    lanes sum = lanes_of(0), T[DIM_MAX], y[DIM_MAX];
     real total = 0;
-#define VISIT(SLOT) sum += own_force_slot(&s, SLOT, p, T, xi, dim, state_turns(model))
+#define VISIT(SLOT) sum += own_force_slot(&s, SLOT, p, T, y, dim, state_turns(model))
     FOR_SLOTS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
@@ -67,11 +67,11 @@ static ALWAYS_INLINE real energy_group(const struct bonds *b, const struct parti
 static ALWAYS_INLINE void stress_slot(lanes *sum, const struct own_state *s, const struct slot slot, const struct particles *p,
                                       const int dim, const enum pd_model model)
 {
-    lanes T[DIM_MAX], xi[DIM_MAX];
-    own_force_slot(s, slot, p, T, xi, dim, state_turns(model));
-    for (int d = 0; d < dim; d++) sum[d] += T[d] * xi[d];
-    if (dim > 1) sum[dim] += 0.5 * (T[0] * xi[1] + T[1] * xi[0]);
-    if (dim > 2) sum[4] += 0.5 * (T[1] * xi[2] + T[2] * xi[1]), sum[5] += 0.5 * (T[2] * xi[0] + T[0] * xi[2]);
+    lanes T[DIM_MAX], y[DIM_MAX];
+    own_force_slot(s, slot, p, T, y, dim, state_turns(model));
+    for (int d = 0; d < dim; d++) sum[d] += T[d] * y[d];
+    if (dim > 1) sum[dim] += 0.5 * (T[0] * y[1] + T[1] * y[0]);
+    if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
 static ALWAYS_INLINE void stress_group(const struct bonds *b, struct particles *p, int64_t g, const int dim,

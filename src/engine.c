@@ -201,7 +201,7 @@ status engine_step(struct engine *e)
     else step_without_grid(e);
     if (damps) e->damped += rim_damped(&e->rim, p);
     engine_mesh_move(e, middle, dt_velocity);                               /* the same in the reference frame */
-    loads_hold(&e->loads, &e->grid, p, middle, dt_velocity);
+    loads_hold(&e->loads, &e->grid, p, middle, e->dt, dt_velocity);
     loads_mirror(&e->loads, p);
     lap(&e->laps, LAP_GRID);
     if (s->rest) rest_rows(&e->bonds, p, &e->loads);

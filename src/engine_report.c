@@ -213,10 +213,10 @@ static bool sets_out(const struct scene *s)
 }
 
 /* Leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the start. APIC's first step changes velocities by more
- * than forces do, and keeps neither. */
+ * than forces do, and so does that of points beside what is driven: their jump is not told apart. */
 static real start_excess(const struct engine *e)
 {
-    const bool kept = !sets_out(e->scene) && !(e->part.n_free > 0 && e->scene->transfer == TRANSFER_APIC);
+    const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !sets_out(e->scene));
     return kept ? 2 * kick_now(e) : 0;
 }
 
@@ -255,8 +255,9 @@ static real power_now(const struct engine *e)
     return power;
 }
 
-/* Sum of v . f by the forces after the last step, which no motion follows: bonds stay, and accounts of loads are put back [W]. */
-static real power_last(struct engine *e)
+/* Sum of v . f by the forces after the last step, which no motion follows: bonds stay, and accounts of loads are put back [W]. `held`:
+ * the work of walls of the grid in that step [J]; driven particles and nodes of a mesh have theirs in the power. */
+static real power_last(struct engine *e, real *held)
 {
     struct loads account = e->loads;
     struct load *own = BARE("report.load", e->loads.n, struct load);
@@ -266,29 +267,25 @@ static real power_last(struct engine *e)
     loads_apply(&e->loads, &e->part, e->t + 0.5 * e->dt, e->dt, e->dt);
     if (e->mesh.points > 0) engine_nodes_force(e);
     const real power = power_now(e) + engine_grid_power(e, e->t + 0.5 * e->dt);
+    *held = e->loads.held_work - account.held_work;
     if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
     e->loads = account;
     memory_free(own);
     return power;
 }
 
-/* Kinetic energy at the end of the last step, as at all samples before: 1/2 m v- . v+, v+ after the kick that the forces there would
- * give. */
-static real kinetic_last(struct engine *e)
-{
-    const real kinetic = kinetic_now(e);
-    return e->scene->solver == SOLVER_EXPLICIT ? kinetic + 0.5 * e->dt * power_last(e) : kinetic;
-}
-
-/* After the last step no force follows: the supports' work goes on as in that step. */
+/* After the last step no force follows: kinetic energy is, as at all samples before, 1/2 m v- . v+, v+ after the kick that the forces
+ * there would give. */
 static void sample_last(struct engine *e)
 {
+    real held = 0;
     refresh_states(e);
     engine_mesh_show(e);                         /* whoever holds the engine may look at it now */
     sample_state(e);
     sample_energy(e);
-    real work = e->loads.work + 1.5 * e->loads.held_work - 0.5 * e->sampling.held_work;
-    sample_write(e, e->t - 0.5 * e->dt, kinetic_last(e), work);
+    real kinetic = kinetic_now(e);
+    if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * e->dt * power_last(e, &held);
+    sample_write(e, e->t - 0.5 * e->dt, kinetic, e->loads.work + e->loads.held_work + 0.5 * held);
 }
 
 void engine_breaks(struct engine *e, int64_t broken)

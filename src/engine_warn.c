@@ -19,6 +19,14 @@ static int64_t bonds_cut(const struct engine *e)
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
 
+/* Does no support keep it from turning? */
+static bool may_turn(const struct scene *s)
+{
+    bool held = s->dim == 1;
+    for (int b = 0; b < s->boundaries; b++) held |= s->boundary[b].kind == BOUNDARY_MIRROR || s->boundary[b].kind == BOUNDARY_VELOCITY;
+    return !held;
+}
+
 static void warn_of_method(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -31,7 +39,7 @@ static void warn_of_method(const struct engine *e, struct warnings *to)
     if (coupling_carries(e->coupling))
         warnings_add(to, "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
                          "energy.balance_error, or use partial stress", coupling_name[e->coupling]);
-    if (s->method == METHOD_ADAPTIVE && s->dim > 1 && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && e->part.n_of[KIND_PD] > 0)
+    if (s->method == METHOD_ADAPTIVE && may_turn(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && e->part.n_of[KIND_PD] > 0)
         warnings_add(to, "in bodies that turn, FLIP points beside bonds gain energy (2 to 6 %% in four turns) and rim_damping brakes "
                          "slow turns; mpm.transfer apic and the reference frame do neither");
     if (s->method != METHOD_PD && s->cell < 1.5)

@@ -164,7 +164,7 @@ void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
             l->load[g->fold[q].load].reaction[d] += g->fold[q].reaction[d] / dt_velocity;
 }
 
-void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt_velocity)
+void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt, real dt_velocity)
 {
     loads_react(l, g, dt_velocity);
     for (int c = 0; c < l->n; c++) {
@@ -172,7 +172,7 @@ void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, re
         real factor = time_function_at(&load->boundary->time, t);
         if (load->boundary->kind == BOUNDARY_VELOCITY) hold(l, load, p, factor);
     }
-    loads_push_work(l, p, t);
+    loads_push_work(l, p, t, dt);
 }
 
 status loads_archive(struct loads *l, struct archive *a)

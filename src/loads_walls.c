@@ -90,6 +90,14 @@ static void held_find(const struct loads *l, struct held_set *s, struct grid *g)
     }
 }
 
+/* Is it among those of held_find already? */
+static bool held_by_region(const struct loads *l, const struct load *load, const struct grid *g, int64_t I, int component)
+{
+    real x[DIM_MAX];
+    for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+    return node_held(load, x, g->dim, LOADS_TOLERANCE * l->spacing, component);
+}
+
 static bool held_is_current(const struct held_set *s, const struct grid *g)
 {
     for (int d = 0; d < g->dim; d++)
@@ -182,8 +190,8 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
     }
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int d = 0; d < p->dim; d++)
-            if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] && load->boundary->components >> d & 1)
-                held_add(&l->held_mesh, I, d, which);
+            if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] && load->boundary->components >> d & 1 &&
+                !held_by_region(l, load, &mesh->grid, I, d)) held_add(&l->held_mesh, I, d, which);
     memory_free(share);
 }
 

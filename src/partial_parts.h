@@ -23,6 +23,10 @@ void tensor_add(real *T, const real *xp, const real *xm, const real *X, real hal
  * its mean strain, 0 where it has none; returns whether it has (partial_positive.c). */
 bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i);
 
+/* The same under bonds: T stays below the point's own stiffness V C. On lattices it is; where particles stand irregularly, or bonds are
+ * stiffer than their material, a cell would push what it should pull, and gains energy at any step. */
+void partial_positive_bonds(real *T, const struct particles *p, const struct bond_source *s, int64_t i);
+
 /* Half the edge of a particle's cell [m]. */
 real half_edge(const struct particles *p, const struct bond_source *s, int64_t i);
 

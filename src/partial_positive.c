@@ -92,3 +92,19 @@ bool partial_positive(real *T, real *L, const struct particles *p, const struct 
             T[c * n + d] = wanted[c * n + d] - (H[c * n + d] - kept[c * n + d]) / (root_of(c, dim) * root_of(d, dim));
     return end;
 }
+
+void partial_positive_bonds(real *T, const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    const int n = symmetric_count(p->dim);
+    const struct material *m = &s->material[p->material[i]];
+    real H[SYM_MAX * SYM_MAX], kept[SYM_MAX * SYM_MAX];
+    for (int c = 0; c < n; c++)
+        for (int d = 0; d < n; d++) {
+            const real C = c < p->dim && d < p->dim ? (c == d ? m->c11 : m->c12) : c == d ? m->shear : 0;
+            H[c * n + d] = root_of(c, p->dim) * root_of(d, p->dim) * (p->volume0[i] * C - 0.5 * (T[c * n + d] + T[d * n + c]));
+        }
+    memcpy(kept, H, sizeof kept);
+    make_positive(H, n);
+    for (int c = 0; c < n; c++)
+        for (int d = 0; d < n; d++) T[c * n + d] -= (H[c * n + d] - kept[c * n + d]) / (root_of(c, p->dim) * root_of(d, p->dim));
+}

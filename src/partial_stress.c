@@ -200,6 +200,12 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
+static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    partial_positive_bonds(T, p, s, i);
+    return partial_matrix(entry, T, p, s, i);
+}
+
 /* ---- who needs one ----------------------------------------------------------------------------------- */
 
 /* What is made anew: points around what has changed; and the rows whose bonds may cross their cells. */
@@ -353,7 +359,7 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
             if (p->kind[i] != KIND_MPM) continue;
             if (served && partial_table_knows(p, s, i)) partial_table_sum(partial->table, p, b, s, i, &near, T);
             else tensor_sum(T, p, b, s, box, i, &near);
-            crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i) : partial_matrix(entry + k * each, T, p, s, i);
+            crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i) : bond_entry(entry + k * each, T, p, s, i);
         }
         memory_free(near.at);
     }

@@ -101,6 +101,8 @@ static const struct lasting_case current[] = {
     {.c = {GRID("handshake", "bond", 0, HALF, "flip")}},
     {.c = {GRID("partial stress", "ospd", 0.2, DISC, "flip")}},
     {.c = {GRID("partial stress", "mospd", 0.3, CORNER, "apic")}},
+    {.c = {GRID("partial stress", "bond", 0, SQUARE, "flip"), .irregularity = 0.9}},   /* stopped within 1000 steps at any step */
+    {.c = {GRID("partial stress", "bond", 0, SQUARE, "apic"), .irregularity = 0.7}},
 };
 
 static void test_current(void **state)

@@ -45,7 +45,7 @@ static void test_sine(void **state)
             work += way * p->f[d][i];
         }
     struct grid none = {0};
-    loads_hold(&l, &none, p, 1, dt);                 /* as if the step's middle were at t = 1 */
+    loads_hold(&l, &none, p, 1, dt, dt);                 /* as if the step's middle were at t = 1 */
     assert_close(l.work, work, 1e-8);                /* ways of 1e-6 of positions near 1e-2, to 1e-18 */
     assert_true(fabs(work) > 1e-9);
     loads_free(&l);
@@ -79,7 +79,7 @@ static void check_together(int threads, bool together, real *impulse, real *work
         loads_apply(&l, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
-        loads_hold(&l, &none, &c.p, 1, dt);
+        loads_hold(&l, &none, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++) impulse[d] += l.impulse[d];
         *work += l.work;
         for (int d = 0; d < 2; d++)

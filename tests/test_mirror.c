@@ -260,7 +260,7 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     }
     k.g2p(&s->g, s->p, &s->t);
     for (int b = 0; b < s->loads.n; b++) memset(s->loads.load[b].reaction, 0, sizeof s->loads.load[b].reaction);
-    loads_hold(&s->loads, &s->g, s->p, 0, s->t.dt_velocity);
+    loads_hold(&s->loads, &s->g, s->p, 0, s->t.dt, s->t.dt_velocity);
 }
 
 static void points_free(struct points *s)

@@ -101,6 +101,34 @@ static real patch_ratio(struct body *b, const int *count, enum patch_load load, 
     return ratio;
 }
 
+/* A body that is stretched and then turned by a quarter about z: what was sigma_xx is sigma_yy, and no more than round-off of
+ * STRAIN is left of it. */
+static void check_quarter_turn(struct body *b)
+{
+    struct particles *p = &b->c.p;
+    const int dim = p->dim;
+    real strain[DIM_MAX][DIM_MAX];
+    strain_of(UNIAXIAL, dim, strain);
+    cloud_strain(&b->c, (const real(*)[DIM_MAX])strain);
+    force(b);
+    state_stress_table[dim][b->model](&b->c.bonds, p);
+    real *before = NEW("test.stress", p->n * symmetric_count(dim), real);
+    for (int c = 0; c < symmetric_count(dim); c++) memcpy(before + c * p->n, p->stress[c], (size_t)p->n * sizeof(real));
+    for (int64_t i = 0; i < p->n_all; i++) {
+        const real x = p->x[0][i];
+        p->x[0][i] = -p->x[1][i], p->x[1][i] = x;
+    }
+    force(b);
+    state_stress_table[dim][b->model](&b->c.bonds, p);
+    const real close = 1e-4 * b->c.material[0].young * STRAIN;       /* stretches of 1e-6 carry round-off of 1e-10 */
+    for (int64_t i = 0; i < p->n; i++) {
+        assert_near(p->stress[0][i], before[p->n + i], close);
+        assert_near(p->stress[1][i], before[i], close);
+        assert_near(p->stress[dim][i], -before[dim * p->n + i], close);
+    }
+    memory_free(before);
+}
+
 /* Silling et al. 2007 on a lattice: dilatation exact, shear by the lattice's fourth moments. Figures of plane stress, nu
  * = 0.3, printed with three decimals. */
 static void test_ospd_plane_stress(void **state)
@@ -141,6 +169,21 @@ static void test_mospd_exact(void **state)
                     assert_near(patch_ratio(&b, count, (enum patch_load)load, spaces[s]), 1, 1e-5);
                     cloud_free(&b.c);
                 }
+}
+
+static void test_turned_stress(void **state)
+{
+    (void)state;
+    static const enum space spaces[] = {SPACE_PLANE_STRAIN, SPACE_SOLID};
+    for (size_t s = 0; s < COUNT_OF(spaces); s++)
+        for (int turns = 0; turns < 2; turns++) {
+            struct body b;
+            body_make(&b, &(struct cloud_plan){.space = spaces[s], .count = {9, 9, 9}, .horizon = 3.015, .influence = INFLUENCE_ONE},
+                      turns ? PD_MOSPD : PD_OSPD, 0.3, true);
+            cloud_bonds(&b.c);
+            check_quarter_turn(&b);
+            cloud_free(&b.c);
+        }
 }
 
 /* Energy of the ordinary model over the classical one by the sums of its definition over a full family of the lattice,
@@ -323,7 +366,7 @@ static void test_critical_step(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ospd_plane_stress), cmocka_unit_test(test_mospd_exact), cmocka_unit_test(test_ospd_spaces),
+        cmocka_unit_test(test_ospd_plane_stress), cmocka_unit_test(test_mospd_exact), cmocka_unit_test(test_turned_stress), cmocka_unit_test(test_ospd_spaces),
         cmocka_unit_test(test_gradient), cmocka_unit_test(test_rotation), cmocka_unit_test(test_critical_step)};
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
