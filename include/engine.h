@@ -72,6 +72,7 @@ struct engine {
     struct laps laps;
     real t, dt, dt_critical;             /* [s]                                                       */
     struct rise speed_rise, excess_rise; /* of the largest speed^2 [m^2/s^2]; of energy from nowhere [J] */
+    bool lost;                           /* an energy of the last sample is no finite number         */
     real start_speed;                    /* largest at t = 0                                 [m/s]    */
     int64_t step, steps;
     real wave_speed;                     /* fastest of the materials [m/s]                            */

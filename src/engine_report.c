@@ -156,6 +156,9 @@ static void sample_write(struct engine *e, real t_velocity, real kinetic, real w
     struct observed o = engine_observed(e);
     probes_sample_end(&e->probes, &o, t_velocity);
     e->sampling.energy.kinetic = kinetic;
+    const struct energy *u = &e->sampling.energy;
+    e->lost = !isfinite(kinetic + u->strain + u->plastic + u->fracture + u->damped + work);
+    if (e->lost) return;                         /* energy_alarm says so; nothing of it is written */
     watch_ledger(&e->watch, e->t, &e->sampling.energy, work);
     fill_record(e);
     if (e->out && e->history_status == OK) e->history_status = output_history(e->out, e->record);
@@ -413,6 +416,9 @@ static int64_t fastest_particle(const struct particles *p)
  * half a step more or less of a load is much of all energy there is; so is a body at rest, whose energy is round-off. */
 static status energy_alarm(struct engine *e)
 {
+    if (e->lost)
+        return status_set(FAILED, "step %lld, t = %.4g s: an energy is no finite number, though all places are; see whether material, "
+                                  "supports and initial state are meant (`cleave check`)", (long long)e->step, e->t);
     const struct particles *p = &e->part;
     const struct watch *w = &e->watch;
     const real excess = w->now.balance_error * w->energy_scale;

@@ -109,7 +109,10 @@ static status mirrors_apart(const struct boundary *b, int n, real reach, real sp
             if (b[k].kind != BOUNDARY_MIRROR || b[m].kind != BOUNDARY_MIRROR || b[k].axis != b[m].axis) continue;
             if (b[k].body >= 0 && b[m].body >= 0 && b[k].body != b[m].body) continue;
             const real apart = fabs(b[k].at - b[m].at);
-            if (apart > 0 && apart + spacing <= reach)
+            if (apart <= 1e-6 * spacing)
+                return status_set(REFUSED, "boundary %s: its mirror stands where that of %s does; one of them is enough", b[k].name,
+                                  b[m].name);
+            if (apart + spacing <= reach)
                 return status_set(REFUSED, "boundary %s: the mirror is %.6g m from that of %s; bonds that reach %.6g m want them "
                                            "farther apart than %.6g m", b[k].name, apart, b[m].name, reach, reach - spacing);
         }
