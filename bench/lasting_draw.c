@@ -54,8 +54,8 @@ static void put_scale(FILE *to)
 static void put_cases(FILE *to, int last)
 {
     const double most = decades(LASTING_RATE);
-    fprintf(to, "set lmargin at screen 0.05\nset rmargin at screen 0.50\nset tmargin at screen 0.94\nset bmargin at screen 0.25\n"
-                "set title 'growth of energy per step at the automatic step'\nset key at screen 0.05,0.17 left top vertical maxrows 4\n"
+    fprintf(to, "set lmargin at screen 0.05\nset rmargin at screen 0.48\nset tmargin at screen 0.94\nset bmargin at screen 0.25\n"
+                "set title 'growth of energy per step at the automatic step'\nset key at screen 0.05,0.17 left top vertical maxrows 5\n"
                 "set xrange [-2:%d]\nunset xtics\nset xlabel 'cases'\nset ylabel 'rate [1/step]'\nset grid y\n"
                 "set object 1 rectangle from -2,%g to %d,%g fc rgb '#e8f3ea' fs solid noborder behind\n"
                 "set object 2 rectangle from -2,%g to %d,%g fc rgb '#f9e4dc' fs solid noborder behind\nplot ",
@@ -81,8 +81,8 @@ static void put_named(FILE *to, const struct bench_table *t)
 {
     double y = 0.94;
     put_label(to, "scenes that grew once", 0.53, 0.975, "left");
-    put_label(to, "energy, largest change", 0.80, 0.975, "right");
-    put_label(to, "rate a step", 0.86, 0.975, "right");
+    put_label(to, "energy, largest change", 0.85, 0.975, "right");
+    put_label(to, "rate a step", 0.92, 0.975, "right");
     for (int64_t r = 0; r < rows_of(t); r++) {
         char text[96];
         if (!of_group(t, r, LASTING_NAMED)) continue;
@@ -90,13 +90,13 @@ static void put_named(FILE *to, const struct bench_table *t)
         const char *style = holds ? "left textcolor rgb '#1b6b3a'" : "left textcolor rgb '#c0392b'";
         put_label(to, text_of(t, r, LABEL), 0.53, y, style);
         snprintf(text, sizeof text, "%.2g", fabs(number_of(t, r, LARGEST)) > 1e-12 ? number_of(t, r, LARGEST) : number_of(t, r, END));
-        put_label(to, text, 0.80, y, "right textcolor rgb '#333333'");
+        put_label(to, text, 0.85, y, "right textcolor rgb '#333333'");
         snprintf(text, sizeof text, "%.1e", number_of(t, r, RATE));
-        put_label(to, text, 0.86, y, "right textcolor rgb '#333333'");
+        put_label(to, text, 0.92, y, "right textcolor rgb '#333333'");
         if (is(t, r, "stopped")) snprintf(text, sizeof text, "stopped at step %.0f", number_of(t, r, STOPPED));
         else snprintf(text, sizeof text, "%s", text_of(t, r, VERDICT));
-        put_label(to, text, 0.87, y, style);
-        y -= 0.033;
+        put_label(to, text, 0.93, y, style);
+        y -= 0.95 / (lasting_named_count + 1);
     }
 }
 
@@ -109,4 +109,4 @@ static void draw(FILE *to, const void *table)
     put_cases(to, at);
 }
 
-status lasting_draw(const struct bench_table *t) { return bench_draw("stability_lasting", WIDTH, 30 * LINE_HEIGHT, draw, t); }
+status lasting_draw(const struct bench_table *t) { return bench_draw("stability_lasting", WIDTH, (lasting_named_count + 2) * LINE_HEIGHT, draw, t); }
