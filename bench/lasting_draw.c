@@ -54,8 +54,8 @@ static void put_scale(FILE *to)
 static void put_cases(FILE *to, int last)
 {
     const double most = decades(LASTING_RATE);
-    fprintf(to, "set lmargin at screen 0.05\nset rmargin at screen 0.48\nset tmargin at screen 0.94\nset bmargin at screen 0.25\n"
-                "set title 'growth of energy per step at the automatic step'\nset key at screen 0.05,0.17 left top vertical maxrows 5\n"
+    fprintf(to, "set lmargin at screen 0.05\nset rmargin at screen 0.48\nset tmargin at screen 0.94\nset bmargin at screen 0.27\n"
+                "set title 'growth of energy per step at the automatic step'\nset key at screen 0.05,0.19 left top vertical maxrows 5\n"
                 "set xrange [-2:%d]\nunset xtics\nset xlabel 'cases'\nset ylabel 'rate [1/step]'\nset grid y\n"
                 "set object 1 rectangle from -2,%g to %d,%g fc rgb '#e8f3ea' fs solid noborder behind\n"
                 "set object 2 rectangle from -2,%g to %d,%g fc rgb '#f9e4dc' fs solid noborder behind\nplot ",
