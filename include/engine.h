@@ -132,7 +132,7 @@ void engine_forces(struct engine *e);
 void engine_nodes_force(struct engine *e);
 /* Material points at the end of state-based bonds hear from their cells, or from their stress. */
 void engine_ends_know(struct engine *e);
-/* Sum of v . f over points on the grid where they are now, whom nothing moves [W]; accounts of loads change. `middle`: half a step
+/* Sum of v . f over points on the grid where they are now, without any motion [W]; accounts of loads change. `middle`: half a step
  * later [s]. */
 real engine_grid_power(struct engine *e, real middle);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step

@@ -24,7 +24,7 @@ struct grid {
     real light_mass;                     /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
     struct follower *follower;           /* [n] those of this step, ascending                       */
-    uint8_t *held;                       /* [n] not 0: a wall of this step holds it                 */
+    uint8_t *held;                       /* [n] not 0: a wall holds it; 0 but while followers are found */
 };
 
 /* A node that points have hardly reached, its neighbour and the one behind that, from which its acceleration is extrapolated; where

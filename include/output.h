@@ -15,7 +15,7 @@
 enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE };    /* what to do with an older run */
 
 struct output {
-    struct folder_lock lock;             /* nobody else runs in the folder                            */
+    struct folder_lock lock;             /* against a second run in the folder; held while `folder` is set */
     char *folder;                        /* DIR                                                       */
     int frames, frames_room;             /* frames written                                            */
     real *frame_time;                    /* [s]                                                       */
@@ -38,10 +38,9 @@ void output_start(void);
 
 /* Makes DIR and DIR/frames, and takes them for this process. REFUSED while another process runs there; if DIR holds files
  * that are no run's; without OUTPUT_OVERWRITE if it holds the run of another scene (a scene.yaml with other text); and in mode
- * OUTPUT_FIRST if it holds a run of the same one. To resume
- * where nothing has run is to begin, with a line that says so; REFUSED where a run has lost its checkpoints. Removes temporary files
- * of runs, and without OUTPUT_RESUME what the older run left; writes scene.yaml. FAILED if it cannot be made. On a fault nothing is
- * left to close. */
+ * OUTPUT_FIRST if it holds a run of the same one. To resume where nothing has run is to begin, with a line that says so; REFUSED where
+ * a run has lost its checkpoints. Removes temporary files of runs, and without OUTPUT_RESUME what the older run left; writes
+ * scene.yaml. FAILED if it cannot be made. On a fault nothing is left to close. */
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 void output_close(struct output *o);
 

@@ -116,14 +116,14 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     row_of_points bonded = points_of(t->bare ? -1 : 1);
-    for (int k = 0; t->bonded && k < AT_ONCE(dim); k++) bonded[k] = t->bare || t->bonded[point[k]] ? -1 : 1;
+    for (int k = 0; t->bonded && !t->bare && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
     return bonded;
 }
 
 /* Velocity and its gradient at the points. Nodes of a row are added up first: all share the weights across. */
 static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct stencil *s,
-                                        const row_of_points bonded, row_of_points *velocity, row_of_points *L, const int dim, const enum shape shape,
-                                        const enum transfer transfer)
+                                        const row_of_points bonded, row_of_points *velocity, row_of_points *L, const int dim,
+                                        const enum shape shape, const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
     const bool any = transfer == TRANSFER_FLIP && points_signs(bonded) != 0;

@@ -80,7 +80,7 @@ static void folds_out(struct grid *g, enum transfer transfer, real impulse[DIM_M
  * from a heavier neighbour J and the next one, K, behind it,
  *     a_I = 2 a_J - a_K,   f_J += 2 f_I,   f_K -= f_I,   and m_J += 2 m_I,   m_K -= m_I where they are pushed,
  * so that what maps forces to accelerations stays symmetric and bodies may turn; its velocity, without weight in the balance, is
- * that of its points. Nodes that walls hold lead and follow nobody. FLIP does not gain from it. Few, in order. */
+ * that of its points. Nodes that walls hold neither lead nor follow. FLIP does not gain from it. Few, in order. */
 
 /* The heaviest of the nearest nodes that are heavier than I by far, along axes before diagonals; -1: none. */
 static int64_t leader_of(const struct grid *g, int64_t I)
@@ -143,9 +143,9 @@ static void followers_in(struct grid *g, enum transfer transfer, real smallest_m
 {
     g->followers = 0;
     if (transfer != TRANSFER_APIC || g->light_mass <= 0) return;
-    memset(g->held, 0, (size_t)g->n);
     for (int64_t k = 0; k < g->walls; k++) g->held[g->wall[k].node] = 1;
     followers_find(g, smallest_mass);
+    for (int64_t k = 0; k < g->walls; k++) g->held[g->wall[k].node] = 0;
     for (int64_t k = 0; k < g->followers; k++) {
         const struct follower *f = &g->follower[k];
         lend(g, f->node, f->leader, 2);

@@ -1,7 +1,8 @@
 /* floor 2: what state-based bonds hold: their elastic energy, and the stress they amount to. Visited at samples and frames
  * only, from what the last sweep over the families left in b->state.
  *     energy of row i   1/2 sum_j (own force state of i) . (effective displacement):  its sum over j is V_i W_i
- *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, made symmetric (own force state only; with y the stress turns with the body) */
+ *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, made symmetric (own force state only);
+ *                       places y, not xi: the stress turns with the body */
 #include <math.h>
 
 #include "kernels.h"

@@ -69,12 +69,12 @@ static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_point
 static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
-    row_of_points more[SYM_MAX], middle[SYM_MAX], angle2 = w[0] * w[0];
+    row_of_points more[SYM_MAX], angle2 = w[0] * w[0];
     if (dim == 3) angle2 += w[1] * w[1] + w[2] * w[2];
     stress_spin(s, w, more, dim);
     if (__builtin_expect(points_signs(SPIN_NONE * SPIN_NONE - angle2), 0)) {
+        row_of_points middle[SYM_MAX], second[SYM_MAX];
         for (int c = 0; c < n; c++) middle[c] = s[c] + 0.5 * more[c];
-        row_of_points second[SYM_MAX];
         stress_spin(middle, w, second, dim);
         for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_NONE * SPIN_NONE - angle2, second[c], more[c]);
     }

@@ -179,7 +179,7 @@ static void keep_velocities(struct engine *e)
 static real kick_now(const struct engine *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_carries(e->coupling);
-    const real dt = e->step == 0 ? 0.5 * e->dt : e->dt;
+    const real dt = e->transfer.dt_velocity;
     return watch_kick(&e->part, grid ? e->sampling.before : NULL, dt) + mesh_kick(&e->mesh, dt);
 }
 

@@ -40,7 +40,8 @@ static void bonded_make(struct engine *e)
 void engine_rim_make(struct engine *e)
 {
     bonded_make(e);
-    if (e->coupling == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0) rim_make(&e->rim, &e->part, &e->source);
+    if (e->coupling == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0)
+        rim_make(&e->rim, &e->part, &e->source);
 }
 
 /* Of now; families of state-based models as they are now. */

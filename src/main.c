@@ -58,7 +58,7 @@ static void wait_politely(char **argv)
     if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv);   /* where there is none: as it was */
 }
 
-/* Whoever starts a program may have closed its first descriptors; the next file opened would get one, and what is printed. */
+/* Daemons close their first descriptors before they start a program; the next file opened would get one, and what is printed. */
 static void keep_descriptors(void)
 {
     int fd;

@@ -145,7 +145,7 @@ static bool has_advanced(const char *folder)
     return lines > 1;
 }
 
-/* An older run of the same scene is left alone unless one is told what to do with it. */
+/* An older run of the same scene is left alone without an option that says what to do with it. */
 static status mode_check(const char *folder, enum output_mode mode)
 {
     const bool there = has_run(folder), finished = path_exists(path_join(folder, "summary.json").text);
@@ -216,7 +216,7 @@ void output_close(struct output *o)
     memory_free(o->frame_copy);
     free(o->frame_kept.order);
     free(o->frame_kept.room);
-    *o = (struct output){.lock.fd = -1};
+    *o = (struct output){0};
 }
 
 status output_text(const struct output *o, const char *name, const char *text, size_t length)

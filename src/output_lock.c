@@ -76,7 +76,7 @@ status folder_lock(struct folder_lock *l, const char *folder)
 void folder_unlock(struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0) return;
-    unlink(path_join(folder, lock_name).text);       /* before the lock goes: whoever takes this file sees that it is gone */
+    unlink(path_join(folder, lock_name).text);       /* before the lock goes: the next process to lock this file sees that it is gone */
     close(l->fd);
     l->fd = -1;
 }

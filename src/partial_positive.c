@@ -67,44 +67,46 @@ static void make_positive(real *M, int n)
 /* Symmetric components count twice off the diagonal: a matrix over them has the eigenvalues of its tensor with a root of that. */
 static real root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
+/* Takes from T what makes an eigenvalue of V C + q L L - T negative. */
+static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
+{
+    const int n = symmetric_count(dim);
+    real H[SYM_MAX * SYM_MAX], kept[SYM_MAX * SYM_MAX];
+    for (int c = 0; c < n; c++)
+        for (int d = 0; d < n; d++) {
+            const real C = c < dim && d < dim ? (c == d ? m->c11 : m->c12) : c == d ? m->shear : 0;
+            H[c * n + d] = root_of(c, dim) * root_of(d, dim) * (V * C - 0.5 * (T[c * n + d] + T[d * n + c]) + q * L[c] * L[d]);
+        }
+    memcpy(kept, H, sizeof kept);
+    make_positive(H, n);
+    for (int c = 0; c < n; c++)
+        for (int d = 0; d < n; d++) T[c * n + d] -= (H[c * n + d] - kept[c * n + d]) / (root_of(c, dim) * root_of(d, dim));
+}
+
 bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_count(dim);
     const struct state_modulus *m = &s->modulus[p->material[i]];
     const struct material *material = &s->material[p->material[i]];
     const real V = p->volume0[i];
-    real zeta[SYM_MAX] = {0}, H[SYM_MAX * SYM_MAX] = {0}, kept[SYM_MAX * SYM_MAX], wanted[SYM_MAX * SYM_MAX], trace = 0;
+    real zeta[SYM_MAX] = {0}, trace = 0;
     const bool end = own_bonds(zeta, p, b, i);
     for (int d = 0; d < dim; d++) trace += zeta[d];
     const real kappa = end ? m->B / trace : 0, q = end ? V * m->A * kappa / (m->A + kappa) : 0;
     for (int c = 0; c < n; c++) L[c] = end ? (c < dim ? 1.0 / dim : 0) - zeta[c] : 0;
+    real wanted[SYM_MAX * SYM_MAX];
     for (int c = 0; c < n; c++)
         for (int d = 0; d < n; d++) {
             const real one = c < dim ? 1.0 / dim : 0, other = d < dim ? 1.0 / dim : 0;
-            const real C = c < dim && d < dim ? (c == d ? material->c11 : material->c12) : c == d ? material->shear : 0;
             wanted[c * n + d] = 0.5 * (T[c * n + d] + T[d * n + c]) + 0.5 * V * m->A * (L[c] * other + one * L[d]);
-            H[c * n + d] = root_of(c, dim) * root_of(d, dim) * (V * C - wanted[c * n + d] + q * L[c] * L[d]);
         }
-    memcpy(kept, H, sizeof kept);
-    make_positive(H, n);
-    for (int c = 0; c < n; c++)
-        for (int d = 0; d < n; d++)
-            T[c * n + d] = wanted[c * n + d] - (H[c * n + d] - kept[c * n + d]) / (root_of(c, dim) * root_of(d, dim));
+    memcpy(T, wanted, sizeof *T * (size_t)(n * n));
+    stay_below(T, material, dim, V, q, L);
     return end;
 }
 
 void partial_positive_bonds(real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    const int n = symmetric_count(p->dim);
-    const struct material *m = &s->material[p->material[i]];
-    real H[SYM_MAX * SYM_MAX], kept[SYM_MAX * SYM_MAX];
-    for (int c = 0; c < n; c++)
-        for (int d = 0; d < n; d++) {
-            const real C = c < p->dim && d < p->dim ? (c == d ? m->c11 : m->c12) : c == d ? m->shear : 0;
-            H[c * n + d] = root_of(c, p->dim) * root_of(d, p->dim) * (p->volume0[i] * C - 0.5 * (T[c * n + d] + T[d * n + c]));
-        }
-    memcpy(kept, H, sizeof kept);
-    make_positive(H, n);
-    for (int c = 0; c < n; c++)
-        for (int d = 0; d < n; d++) T[c * n + d] -= (H[c * n + d] - kept[c * n + d]) / (root_of(c, p->dim) * root_of(d, p->dim));
+    const real none[SYM_MAX] = {0};
+    stay_below(T, &s->material[p->material[i]], p->dim, p->volume0[i], 0, none);
 }

@@ -83,7 +83,7 @@ status command_run(int argc, char **argv)
     int threads = team_make(a.threads);
     struct scene s = {0};
     struct engine e = {0};
-    struct output out = {.lock.fd = -1};
+    struct output out = {0};
     status result = scene_read(&s, a.scene, a.override, a.overrides);
     listen_to_signals();
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);

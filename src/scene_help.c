@@ -164,7 +164,6 @@ static const char manual_head[] =
     ".TP\n.B \\-t \\fIthreads\\fR\nnumber of threads. The results do not depend on it.\n"
     ".TP\n.B \\-\\-resume\ngoes on from the newest checkpoint.\n"
     ".TP\n.B \\-\\-overwrite\nreplaces an older run, which is left alone otherwise.\n"
-    ".TP\n.B \\-\\-overwrite\nreplaces an older run, which is left alone otherwise.\n"
     ".TP\n.B \\-q\nno progress and no figures at the end; warnings are still said, and stand in summary.json.\n"
     ".SH EXIT STATUS\n"
     ".TP\n.B 0\ndone\n.TP\n.B 1\nthe run failed\n.TP\n.B 2\nthe scene or the command line is wrong\n"
