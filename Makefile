@@ -6,7 +6,12 @@ PREFIX   ?= /usr/local
 BUILD    ?= build
 THREADS  ?= 2
 VERSION  := 0.1.0
+
+# Options, if the compiler knows them all.
+known = $(shell $(CC) -Werror $(1) -x c -c -o /dev/null /dev/null 2>/dev/null && echo '$(1)')
+
 WARN     := -Wall -Wextra -Wshadow -Werror=implicit-function-declaration -Wno-unknown-pragmas -Wno-psabi
+WARN     += $(if $(call known,-Wpass-failed),-Wno-pass-failed)
 LIBRARIES := hdf5 hwloc yaml-0.1
 
 CPPFLAGS += -Iinclude -Ikernels -Isrc -Ibench -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
@@ -20,8 +25,10 @@ rest     := $(ARCH:%=-march=%)
 X86      := $(findstring x86_64,$(shell $(CC) -dumpmachine))
 SETS     := $(if $(X86),avx512 avx2) portable
 avx512   := -march=x86-64-v4 -mprefer-vector-width=512
-avx2     := -march=x86-64-v3 -mmove-max=256 -mstore-max=256
+avx2     := -march=x86-64-v3 $(call known,-mmove-max=256 -mstore-max=256)
 portable := $(if $(X86),-march=x86-64,$(rest))
+
+CPPFLAGS += $(SETS:%=-DKERNELS_%)
 
 SOURCES  := $(wildcard src/*.c bench/*.c)
 KERNELS  := $(wildcard kernels/*.c)
@@ -32,7 +39,7 @@ PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
 SCRIPTS  := $(sort $(wildcard tests/test_*.sh))
 LONG     := $(sort $(wildcard tests/long_*.sh))
 
-.PHONY: all run test test-long bench install packages clean
+.PHONY: all run test test-long fuzz bench install packages packages-tests clean
 .SECONDARY:
 
 all: $(BUILD)/cleave
@@ -64,18 +71,38 @@ $(foreach set,$(SETS),$(eval $(call SET,$(set))))
 $(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(ENGINE)
 	$(Q)$(CC) $(CFLAGS) -o $@ $^ -lcmocka $(LIBS)
 
+# Calls that a test lets fail, or in which it stops a run (tests/faults.c): its linker must be GNU's or like it.
+LINUX    := $(findstring linux,$(shell $(CC) -dumpmachine))
+WRAPPED  := main malloc calloc realloc posix_memalign mmap open fopen read pread write pwrite fflush fsync close rename mkdir unlink \
+            output_history convert partial_stress_make
+$(BUILD)/tests/test_faults: $(BUILD)/tests/faults.o $(if $(LINUX),$(BUILD)/src/main.o)
+$(BUILD)/tests/test_faults: LIBS += $(if $(LINUX),$(WRAPPED:%=-Wl,--wrap=%) -ldl)
+
+# The fuzzer (tests/fuzz.c): sources under sanitizers, which tell it of branches; kernels as they are.
+FUZZED   := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fsanitize-coverage=trace-pc
+$(BUILD)/fuzz/%.o: %.c Makefile
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(FUZZED) $(LIBFLAGS) -MMD -MP -c -o $@ $<
+$(BUILD)/fuzz/src/chart.o: $(BUILD)/chart_text.h
+$(BUILD)/fuzz/fuzz: $(BUILD)/tests/fuzz.o $(patsubst %.c,$(BUILD)/fuzz/%.o,$(wildcard tests/fuzz_*.c) \
+                    $(filter-out src/main.c,$(wildcard src/*.c))) $(filter $(BUILD)/kernels/% $(BUILD)/bench/%,$(OBJECTS))
+	$(Q)$(CC) $(CFLAGS) $(FUZZED) -o $@ $^ $(LIBS)
+
 # The main job: installs what is missing, builds, breaks a steel plate, draws it.
 run: packages
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) all
 	$(BUILD)/cleave run inputs/kalthoff_winkler.yaml --overwrite
 	$(BUILD)/cleave plot results/kalthoff_winkler
 
-test: packages
+test: packages-tests
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) all $(PROGRAMS)
 	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/run.sh $(PROGRAMS) $(SCRIPTS)
 
 test-long: test
 	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/run.sh $(LONG)
+
+fuzz: all
+	@BUILD=$(BUILD) CC="$(CC)" sh tests/long_fuzz.sh $(FUZZ_SECONDS)
 
 bench: all
 	$(BUILD)/cleave bench kernels efficiency
@@ -91,5 +118,8 @@ clean:
 
 packages:
 	@sh src/packages.sh
+
+packages-tests:
+	@sh src/packages.sh tests
 
 -include $(wildcard $(BUILD)/*/*.d)

@@ -53,7 +53,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
     if (waits) snprintf(time, sizeof time, ", time: {pulse: {until: %.9g}}", 2 * duration);
     FILE *to = fmemopen(s->text, sizeof s->text, "w");
     fprintf(to, "%sduration: %.9g\nsolver_steps: 8000\n", text, waits ? duration : 1);
-    bench_override(&s->set, "solver", accuracy_solver(p));
+    bench_override(&s->set, "solver", "%s", accuracy_solver(p));
     if (p->at == EDGE) put_edge(to, p, 10.0 / p->resolution, time);
     else put_inclined(to, time);
     fclose(to);

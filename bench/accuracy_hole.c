@@ -69,7 +69,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
     snprintf(s->text, sizeof s->text,
              "%sduration: %.9g\nsolver_steps: 8000\nboundary: [{traction: [0, 1e4], face: y+%s}, {traction: [0, -1e4], face: y-%s}]\n",
              plate, waits ? duration : 1, time, time);
-    bench_override(&s->set, "solver", accuracy_solver(p));
+    bench_override(&s->set, "solver", "%s", accuracy_solver(p));
     bench_override(&s->set, "particles.spacing", "10/%d", p->resolution);
 }
 

@@ -21,6 +21,14 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
+/* A vector of entries of the vectors a and b, by their numbers: those of b count on from those of a. MASK: the type of vectors of
+ * as many whole numbers. */
+#ifdef __clang__
+#define VECTOR_PICK(MASK, a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+#define VECTOR_PICK(MASK, a, b, ...) __builtin_shuffle(a, b, (MASK){__VA_ARGS__})
+#endif
+
 static inline int symmetric_count(int dim) { return dim * (dim + 1) / 2; }
 /* Row and column of symmetric component s. */
 static inline void symmetric_axes(int dim, int s, int *row, int *column)
@@ -37,6 +45,12 @@ typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
  * hidden variable, as errno is the C library's. */
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *status_message(void);
+
+/* Makes text from outside (names of files, columns, scenes) harmless to a terminal: `?` in place of every control character. */
+void text_harmless(char *text);
+/* A name to print, harmless, and cut if it is very long: `shown_name(folder).text`, good until the end of the statement. */
+struct shown_name { char text[512]; };
+struct shown_name shown_name(const char *name);
 
 /* Sorts n > 0 numbers; the middle one, of an even number the upper. */
 double median_of(double *value, int64_t n);

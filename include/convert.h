@@ -42,7 +42,8 @@ struct conversion {
     real return_energy;                  /* all energy less that before, of these passes [J]          */
 };
 
-/* Who must bring particles up to date whose motion is kept elsewhere (mesh.h), before bonds are made between them. */
+/* Who must bring particles up to date whose motion is kept elsewhere (mesh.h), before bonds are made between them. The list names
+ * nobody twice. */
 struct conversion_look {
     void (*look)(void *context, const int32_t *list, int64_t n);
     void *context;

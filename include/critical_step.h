@@ -27,7 +27,7 @@ void bond_body_stiffness(void *bond_body, const real *u, real *y);
 real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads, real spacing);
 
 /* The same of a block of full lattice with free surfaces, made for it: no body that is part of this lattice moves faster.
- * `bound`: its block-Gershgorin bound [s]. */
-real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, real *bound);
+ * `longest` [m]: the edges of the bodies in question. `bound`: the block's block-Gershgorin bound [s]. */
+real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest, real *bound);
 
 #endif

@@ -101,7 +101,8 @@ struct engine {
         struct energy energy;            /* of the positions of t_n; kinetic comes last               */
     } sampling;
     status history_status;               /* of the last line written                                  */
-    double started, last_progress, last_checkpoint;   /* wall clock [s]                               */
+    double began, started, last_progress, last_checkpoint;   /* wall clock: made, first step of this process, ... [s] */
+    double checkpoint_seconds;           /* of the longest checkpoint so far                          */
     int64_t step_started;                /* first step of this process                                */
     struct warnings warnings;            /* what engine_warn and the run found                        */
     bool quiet;

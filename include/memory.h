@@ -29,6 +29,9 @@ void memory_reuse(bool reuse);
 /* High-water mark of the process as the operating system knows it [byte]. */
 int64_t memory_peak(void);
 
+/* What limits of the process (ulimit) and of its control groups leave it [byte]; INT64_MAX: they do not. */
+int64_t memory_limit(void);
+
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
 #define BARE(label, count, type) ((type *)memory_bare(label, count, sizeof(type)))
 

@@ -47,6 +47,9 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
  * (`any`) or only for the cells there are [s]. */
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any);
 
+/* First particle at which the mesh is squeezed to nothing or through itself, p->n: none. */
+int64_t mesh_folded(const struct mesh *mesh, const struct particles *p);
+
 status mesh_archive(struct mesh *mesh, struct archive *a);
 
 #endif

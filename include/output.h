@@ -24,6 +24,7 @@ struct output {
     bool compress;
     FILE *history;
     int64_t history_bytes;               /* length at the last sample                                 */
+    uint64_t history_hash;               /* of those bytes, one by one                                */
     int columns;
     bool broken;                         /* HDF5 failed to write: it must not be called again         */
     struct frame_job *writing;           /* a frame on its way to the disk; NULL: none                */
@@ -43,9 +44,14 @@ void output_start(void);
  * scene.yaml. FAILED if it cannot be made. On a fault nothing is left to close. */
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 void output_close(struct output *o);
+/* Do two texts of scenes say the same, wherever their particle lists lie? */
+bool scene_text_same(const char *a, const char *b);
 
 /* Writes `text` to DIR/name (aside, sync, rename). */
 status output_text(const struct output *o, const char *name, const char *text, size_t length);
+
+/* After a restart: takes frames that are gone or cut short out of the indices; how many there are, and through `text` what to say of them. */
+status output_frames_check(struct output *o, int *lost, char *text, size_t room);
 
 /* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
  * written in the order of their id. Single precision but for the reference positions. */
@@ -76,8 +82,9 @@ struct frame {
 static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
 status frame_read(struct frame *f, const char *path);
 void frame_free(struct frame *f);
-/* Times of a run's frames from frames.hdf.series; returns their number through `n`. */
-status frames_list(const char *folder, int *n, real **time);
+/* The frames that frames.hdf.series lists, ascending; how many through `n`. Numbers have gaps where files were lost. */
+struct listed_frame { int number; real time; };
+status frames_list(const char *folder, int *n, struct listed_frame **list);
 
 /* ---- checkpoints ----------------------------------------------------------------------------------- */
 

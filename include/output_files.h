@@ -13,6 +13,7 @@ struct path path_join(const char *folder, const char *name);
 /* PATH.tmp, where a file is written before it is renamed. */
 struct path path_aside(const char *path);
 bool path_exists(const char *path);
+bool path_is_link(const char *path);
 bool path_is_file(const char *path);
 bool path_is_folder(const char *path);
 
@@ -21,6 +22,10 @@ status file_fault(const char *path, int cause);
 
 /* Writes `length` bytes as the whole file `path`: aside, sync, rename, sync of the folder. */
 status file_put(const char *path, const void *bytes, size_t length);
+/* The same for one of many: the folder is synced once, by file_settle for any of them. */
+status file_put_unsettled(const char *path, const void *bytes, size_t length);
+/* Makes the name of a new file or folder last: syncs the folder it is in, where that may be read. */
+status file_settle(const char *path);
 
 /* Appends `length` bytes (0: none) to PATH.tmp and syncs it. On a fault PATH.tmp is removed. */
 status file_seal(const char *path, const void *tail, size_t length);

@@ -23,7 +23,8 @@ enum particle_flag {
     FLAG_DRIVEN = 4,                     /* a velocity or fixed condition holds a component      */
     FLAG_CRACKED = 8,                    /* lost a bond to a particle, neither of them driven    */
     FLAG_CARRIED = 16,                   /* peridynamic, but moved by the grid (carry.h)         */
-    FLAG_MESHED = 32                     /* material point of the mesh (mesh.h)                  */
+    FLAG_MESHED = 32,                    /* material point of the mesh (mesh.h)                  */
+    FLAG_LISTED = 64                     /* stands on the list that convert.c is making          */
 };
 
 struct particles {

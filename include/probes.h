@@ -130,8 +130,10 @@ void probes_step(struct probes *s, const struct observed *o);
  * (NAN) are left out. */
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
-/* Writes the profiles of LINE and EXACT probes as csv to `folder`/<name>_<frame>.csv. */
-status probes_profiles(const struct probes *s, const struct observed *o, const char *folder, int frame);
+/* The profiles of LINE and EXACT probes as csv, each handed to `put` as the file <name>_<frame>.csv; and how many they are. */
+typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
+status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame);
+int64_t probes_profiled(const struct probes *s);
 /* Factors of the named SIF probe at the last sample, and the direction of its tip then; false: none yet. */
 bool probes_ruling(const struct probes *s, const char *name, struct ruling *found);
 status probes_archive(struct probes *s, struct archive *a);

@@ -29,6 +29,7 @@ struct scene_body {
     int material;                        /* index into scene.material                                 */
     struct region shape;                 /* filled with a lattice ...                                 */
     char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
+    uint64_t contents;                   /* hash of that file; 0: not read                            */
     char place[PLACE_LENGTH];            /* where the scene names that list, `file:line:column: key: `; "": unknown */
     real velocity[DIM_MAX];              /* [m/s]                                                     */
     enum grid_frame frame;               /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
@@ -122,6 +123,7 @@ struct scene {
     bool has_frames;                     /* the scene says how many                                   */
     struct number_list times;            /* of these frames, ascending [s]; none: evenly spread       */
     int samples;                         /* samples of history.csv after the one at t = 0             */
+    real wall;                           /* wall clock after which a process ends with a checkpoint; INFINITY [s] */
     real checkpoint_interval;            /* wall clock between checkpoints [s]                        */
     bool compress;                       /* gzip the frames                                           */
     real speed_window;                   /* of the crack tip's speed [s]                              */
@@ -130,6 +132,12 @@ struct scene {
 };
 
 struct scene_override { const char *key, *value; };    /* of `-s key=value` */
+
+/* What a length (line), an area (plane) or a volume (solid) is multiplied with to be a volume: [m^2], [m], [1]. */
+static inline real scene_section(const struct scene *s)
+{
+    return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
+}
 
 /* Reads and checks a file. On REFUSED the message is `file:line:column: what; what would be right`; nothing is
  * left to free. */
@@ -151,5 +159,7 @@ status scene_help(FILE *out, const char *key);
 
 /* Writes the manual page cleave.1 (troff). */
 status scene_manual(FILE *out);
+/* What a run promises, and which test holds it to that. */
+status trust_print(FILE *out);
 
 #endif

@@ -8,7 +8,7 @@
 struct machine {
     int cores, threads_allowed;          /* physical cores; hardware threads in the process's mask */
     int64_t cache[4];                    /* bytes of one L1d, L2, L3 cache (1..3), 0 if unknown    */
-    int64_t memory;                      /* bytes                                                  */
+    int64_t memory;                      /* bytes that the process may use, 0 if unknown           */
     char model[128];                     /* the processor's name                                   */
 };
 
@@ -17,7 +17,7 @@ struct machine {
  * OMP_PROC_BIND or OMP_PLACES; the calling thread goes to the first core and keeps the mask. Returns the number in use. */
 int team_make(int threads);
 struct machine team_machine(void);
-int64_t team_memory(void);               /* of the machine [byte]; needs no look at it after team_make */
+int64_t team_memory(void);               /* of the machine, or what limits leave of it [byte]; needs no look at it after team_make */
 
 /* Wall clock [s]. */
 double team_clock(void);

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "archive.h"
 #include "base.h"
 
 struct warnings { int n; char **text; };
@@ -12,6 +13,8 @@ struct warnings { int n; char **text; };
 bool warnings_add(struct warnings *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* From the `first` on, a line each: `warning: text`. */
 void warnings_print(const struct warnings *w, int first, FILE *out);
+/* Those read back join those that are there. */
+status warnings_archive(struct warnings *w, struct archive *a);
 void warnings_free(struct warnings *w);
 
 #endif

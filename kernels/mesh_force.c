@@ -12,7 +12,7 @@
 /* {before[7], now[0], .., now[6]} */
 static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
 {
-    return __builtin_shuffle(before, now, (lanes_mask){7, 8, 9, 10, 11, 12, 13, 14});
+    return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
 /* Cells side by side share nodes: what a vector of cells gives to its upper corners along x joins what the next lower

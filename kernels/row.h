@@ -97,11 +97,18 @@ static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_po
 static ALWAYS_INLINE void rows_turn(const row_of_points from[ROW], row_of_nodes to[POINTS])
 {
 #ifdef __AVX__
-    const points_mask even = {0, 4, 2, 6}, odd = {1, 5, 3, 7}, first = {0, 1, 4, 5}, last = {2, 3, 6, 7};
-    const row_of_points a = __builtin_shuffle(from[0], from[1], even), b = __builtin_shuffle(from[0], from[1], odd);
-    const row_of_points c = __builtin_shuffle(from[2], from[3], even), d = __builtin_shuffle(from[2], from[3], odd);
-    to[0] = __builtin_shuffle(a, c, first), to[1] = __builtin_shuffle(b, d, first);
-    to[2] = __builtin_shuffle(a, c, last), to[3] = __builtin_shuffle(b, d, last);
+#define EVEN(u, v) VECTOR_PICK(points_mask, u, v, 0, 4, 2, 6)
+#define ODD(u, v) VECTOR_PICK(points_mask, u, v, 1, 5, 3, 7)
+#define FIRST(u, v) VECTOR_PICK(points_mask, u, v, 0, 1, 4, 5)
+#define LAST(u, v) VECTOR_PICK(points_mask, u, v, 2, 3, 6, 7)
+    const row_of_points a = EVEN(from[0], from[1]), b = ODD(from[0], from[1]);
+    const row_of_points c = EVEN(from[2], from[3]), d = ODD(from[2], from[3]);
+    to[0] = FIRST(a, c), to[1] = FIRST(b, d);
+    to[2] = LAST(a, c), to[3] = LAST(b, d);
+#undef EVEN
+#undef ODD
+#undef FIRST
+#undef LAST
 #else
     for (int k = 0; k < POINTS; k++) to[k] = (row_of_nodes){from[0][k], from[1][k], from[2][k], from[3][k]};
 #endif

@@ -43,10 +43,11 @@ static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struc
     lanes along = r * s->pressure;
     if (!turns) along += e * s->spring;
     lanes energy = along * e;
-    for (int d = 0; d < dim; d++) T[d] = w * along * y[d] * inverse;
+    for (int d = 0; d < dim; d++) T[d] = along * y[d] * inverse;
     for (int d = 0; d < dim; d++) effective[d] = s->spring * (y[d] - xi[d]);
     if (turns) turn_off(effective, s->turn, xi, dim);
-    for (int d = 0; turns && d < dim; d++) T[d] += w * effective[d], effective2 += effective[d] * effective[d];
+    for (int d = 0; turns && d < dim; d++) T[d] += effective[d], effective2 += effective[d] * effective[d];
+    for (int d = 0; d < dim; d++) T[d] = w * T[d];       /* last: a weight that is known to be one leaves the sums as they are */
     if (turns) energy += effective2 / s->spring;
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_of(0));
 }

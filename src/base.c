@@ -17,11 +17,29 @@ status status_set(status s, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    text_harmless(text);
     snprintf(message, sizeof message, "%s", text);
     return s;
 }
 
 const char *status_message(void) { return message; }
+
+/* Control characters are bytes below a blank, 127, and U+0080 to U+009F, in UTF-8 C2 80 to C2 9F. */
+void text_harmless(char *text)
+{
+    for (unsigned char *c = (unsigned char *)text; *c; c++) {
+        if (*c < ' ' || *c == 127) *c = '?';
+        if (*c == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0) c[0] = c[1] = '?';
+    }
+}
+
+struct shown_name shown_name(const char *name)
+{
+    struct shown_name s;
+    snprintf(s.text, sizeof s.text, "%s", name);
+    text_harmless(s.text);
+    return s;
+}
 
 static int by_size(const void *a, const void *b)
 {

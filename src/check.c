@@ -97,7 +97,7 @@ status command_check(int argc, char **argv)
     if (result == OK) result = engine_make(&e, &s, NULL);
     cost.make = team_clock() - start;
     if (result == OK) {
-        printf("%s is sound\n", a.scene);
+        printf("%s is sound\n", shown_name(a.scene).text);
         scene_choice_print(&s, stdout);
         say_particles(&e);
         say_materials(&e);

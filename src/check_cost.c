@@ -18,7 +18,7 @@ enum { PERIODS_MOST = 200 };
 #define COARSER_MOST 4.0                 /* a body of so much larger particles still breaks in the same places, about */
 #define FRAME_BYTES 72                   /* of a particle: copied for the writer, its room and its order      */
 #define OUTPUT_BYTES 2.7e6               /* of the library that writes                                        */
-#define FILE_SECONDS 2.5e-3              /* frames and checkpoints, however small; measured, as the next:     */
+#define FILE_SECONDS 2.5e-3              /* frames, checkpoints and profiles, however small; measured, as the next:     */
 #define FILE_SECONDS_PARTICLE 8e-8       /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
 #define BONDS_MOST 2e8                   /* of a body that is made peridynamic to see what that costs         */
 
@@ -31,7 +31,9 @@ static status time_steps(struct engine *e, double *step)
     int n = 0;
     e->quiet = true;
     TRY(engine_report_start(e));
+    const double begun = team_clock();
     TRY(engine_step(e));
+    const double first = team_clock() - begun;
     while (n < PERIODS_MOST && all < SECONDS_MOST && (n < 3 || all < SECONDS_ENOUGH)) {
         const double start = team_clock();
         int64_t taken = 0;
@@ -40,7 +42,7 @@ static status time_steps(struct engine *e, double *step)
         all += team_clock() - start;
         spent[n++] = (team_clock() - start) / (double)taken;
     }
-    *step = n > 0 ? median_of(spent, n) : NAN;
+    *step = n > 0 ? median_of(spent, n) : first;
     return OK;
 }
 
@@ -127,7 +129,7 @@ static double family_size(const struct family *f) { return f->full / f->cell_vol
 static double output_seconds(const struct engine *e)
 {
     const double files = (double)(e->scene->frames < e->steps ? e->scene->frames : e->steps) + 3;
-    return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n);
+    return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n + FILE_SECONDS * (double)probes_profiled(&e->probes));
 }
 
 static void cost_run(struct cost *c, const struct engine *e, const struct run_arguments *a)

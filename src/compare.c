@@ -57,11 +57,11 @@ static void print_head(const char *what) { printf("\n%-30s %14s %14s %14s\n", wh
 
 /* ---- which frames ---------------------------------------------------------------------------------- */
 
-struct times { int n; real *time; };
+struct times { int n; struct listed_frame *list; };
 
 static double interval(const struct times *t)
 {
-    return t->n > 1 ? (t->time[t->n - 1] - t->time[0]) / (t->n - 1) : INFINITY;
+    return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
 /* Last frames of the same time; false if there are none. */
@@ -71,7 +71,7 @@ static bool last_common(const struct times *a, const struct times *b, int *i, in
     *i = a->n - 1;
     *j = b->n - 1;
     while (*i >= 0 && *j >= 0) {
-        double late = a->time[*i] - b->time[*j];
+        double late = a->list[*i].time - b->list[*j].time;
         if (late == 0 || fabs(late) <= near) return true;
         if (late > 0) (*i)--;
         else (*j)--;
@@ -168,17 +168,17 @@ static status compare_frames(struct pair *p)
     status s = OK;
     p->frames_differ = true;
     for (int k = 0; k < 2 && s == OK; k++)
-        if (run_holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].time);
+        if (run_holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].list);
     if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
-        printf("\nfields are not compared: %s has no frames\n", p->folder[t[0].n == 0 ? 0 : 1]);
+        printf("\nfields are not compared: %s has no frames\n", shown_name(p->folder[t[0].n == 0 ? 0 : 1]).text);
     } else if (s == OK && !last_common(&t[0], &t[1], &at[0], &at[1])) {
         printf("\nfields are not compared: no frames of the same time\n");
     } else if (s == OK) {
-        for (int k = 0; k < 2 && s == OK; k++) s = run_frame(&f[k], p->folder[k], at[k]);
+        for (int k = 0; k < 2 && s == OK; k++) s = run_frame(&f[k], p->folder[k], t[k].list[at[k]].number);
         if (s == OK) compare_particles(p, &f[0], &f[1]);
         for (int k = 0; k < 2; k++) frame_free(&f[k]);
     }
-    for (int k = 0; k < 2; k++) memory_free(t[k].time);
+    for (int k = 0; k < 2; k++) memory_free(t[k].list);
     return s;
 }
 
@@ -206,7 +206,7 @@ static status compare_energies(const struct pair *p)
     struct history h[2];
     for (int k = 0; k < 2; k++) {
         if (run_holds(p->folder[k], "history.csv")) continue;
-        printf("\nenergies are not compared: %s has no history.csv\n", p->folder[k]);
+        printf("\nenergies are not compared: %s has no history.csv\n", shown_name(p->folder[k]).text);
         return OK;
     }
     TRY(history_read(&h[0], p->folder[0]));
@@ -310,14 +310,14 @@ static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];
     if (!run_holds(folder, "summary.json")) {
-        printf("%s  %s: no summary.json yet\n", letter, folder);
+        printf("%s  %s: no summary.json yet\n", letter, shown_name(folder).text);
         return OK;
     }
     TRY(summary_string(folder, "name", name, sizeof name));
     if (summary_string(folder, "method", method, sizeof method) != OK)
         snprintf(method, sizeof method, "unknown method");
     if (summary_string(folder, "status", state, sizeof state) != OK) snprintf(state, sizeof state, "unknown state");
-    printf("%s  %s: %s, %s, %s\n", letter, folder, name, method, state);
+    printf("%s  %s: %s, %s, %s\n", letter, shown_name(folder).text, name, method, state);
     return OK;
 }
 

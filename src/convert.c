@@ -134,8 +134,16 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     memory_free(near.at);
 }
 
-/* Everybody within the horizon of those just converted, changed[had] and on: bonds are about to see them. */
-static void look_at(const struct conversion_look *look, const struct particles *p, const struct bond_source *source,
+static void list_once(struct index_list *l, struct particles *p, int64_t i)
+{
+    if (p->flag[i] & FLAG_LISTED) return;
+    p->flag[i] |= FLAG_LISTED;
+    list_add(l, i);
+}
+
+/* Everybody within the horizon of those just converted, changed[had] and on: bonds are about to see them. Each is listed once:
+ * threads that share the list write different particles. */
+static void look_at(const struct conversion_look *look, struct particles *p, const struct bond_source *source,
                     const struct index_list *changed, int64_t had)
 {
     struct index_list seen = {0};
@@ -143,9 +151,10 @@ static void look_at(const struct conversion_look *look, const struct particles *
     if (!look) return;
     for (int64_t k = had; k < changed->n; k++) {
         family_find(&near, source, p, changed->at[k]);
-        list_add(&seen, changed->at[k]);
-        for (int m = 0; m < near.n; m++) list_add(&seen, image_root(p, source->image, near.at[m]));
+        list_once(&seen, p, changed->at[k]);
+        for (int m = 0; m < near.n; m++) list_once(&seen, p, image_root(p, source->image, near.at[m]));
     }
+    for (int64_t k = 0; k < seen.n; k++) p->flag[seen.at[k]] &= (uint8_t)~FLAG_LISTED;
     if (seen.n > 0) look->look(look->context, seen.at, seen.n);
     memory_free(near.at);
     memory_free(seen.at);

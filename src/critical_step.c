@@ -64,27 +64,38 @@ real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force
     return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
 }
 
-/* Particles along an edge: some that have all their neighbours, and as long waves as cost little. */
-static int edge_of(const struct family *f)
+#define BONDS_DEAR 1e7                   /* of a block: from there on it is no larger than the body */
+
+/* Particles along the edges of a block: some that have all their neighbours, and as long waves as cost little. Returns how many in all. */
+static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};
-    return (2 * (int)ceil(f->cutoff / f->spacing) + 4) * times[space_dim(f->space)];
+    const int dim = space_dim(f->space);
+    int64_t n = 1;
+    for (int d = 0; d < dim; d++) n *= edge[d] = (2 * (int64_t)ceil(f->cutoff / f->spacing) + 4) * times[dim];
+    if ((real)n * f->full / f->cell_volume < BONDS_DEAR) return n;
+    n = 1;
+    for (int d = 0; d < dim; d++) {
+        if (longest[d] / f->spacing + 2 < (real)edge[d]) edge[d] = (int64_t)(longest[d] / f->spacing) + 2;
+        n *= edge[d];
+    }
+    return n;
 }
 
-real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, real *bound)
+real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest, real *bound)
 {
     const struct family *f = &source->family;
-    const int dim = space_dim(f->space), edge = edge_of(f);
+    const int dim = space_dim(f->space);
+    int64_t edge[DIM_MAX];
+    const int64_t n = edges_of(f, longest, edge);
     struct bond_source s = *source;
     struct particles p;
     struct cells cells;
     struct bonds b;
-    int64_t n = 1;
-    for (int d = 0; d < dim; d++) n *= edge;
     particles_make(&p, dim, n, 0);
     for (int64_t i = 0, k; i < n; i++) {
         k = i;
-        for (int d = 0; d < dim; d++, k /= edge) p.x[d][i] = p.X[d][i] = (real)(k % edge) * f->spacing;
+        for (int d = 0; d < dim; k /= edge[d++]) p.x[d][i] = p.X[d][i] = (real)(k % edge[d]) * f->spacing;
         p.volume[i] = p.volume0[i] = f->cell_volume;
         p.mass[i] = density * f->cell_volume;
         p.kind[i] = KIND_PD;

@@ -6,6 +6,8 @@
 #include "engine.h"
 
 #define OWING 0.5                        /* share of a motion that explains it: speeds double where waves meet a free face */
+#define LARGE_STRAIN 0.1                 /* at the start: frees stresses of a tenth of the modulus                      */
+enum { FOLD_STEPS = 50 };                /* between looks, which take about half as long as a step                      */
 enum { MOMENTS = 256 };                  /* of a function of time                                                       */
 
 /* ---- how fast it moves -------------------------------------------------------------------------------------------- */
@@ -64,6 +66,15 @@ static bool motion_is_paid(const struct engine *e)
     return !isfinite(kinetic) || given >= OWING * kinetic;
 }
 
+/* Largest entry of a displacement gradient that the scene starts with. */
+static real start_strain(const struct scene *s)
+{
+    real most = 0;
+    for (const struct scene_initial *k = s->initial; k < s->initial + s->initials; k++)
+        for (int a = 0; a < s->dim * s->dim && k->sets_strain; a++) most = real_max(most, fabs(k->displacement_gradient[a]));
+    return most;
+}
+
 /* Says what the loads or the start of the scene have done, if it was they. */
 static bool blame_loads(const struct engine *e, real steps, char *text, size_t room)
 {
@@ -76,6 +87,11 @@ static bool blame_loads(const struct engine *e, real steps, char *text, size_t r
         snprintf(text, room,
                  "no time step cures that: the scene starts with %.3g m/s, %.3g times the wave speed; see whether the velocities of "
                  "its bodies and of `initial` are meant, and in which unit", e->start_speed, e->start_speed / e->wave_speed);
+        return true;
+    }
+    if (start_strain(e->scene) >= LARGE_STRAIN) {
+        snprintf(text, room, "no time step cures that: the scene starts strained by %.3g, and what that frees throws the body apart; see "
+                             "whether the displacement gradients of `initial` are meant, 0.001 is a strain of 0.1 %%", start_strain(e->scene));
         return true;
     }
     for (int b = 0; b < e->loads.n; b++) {
@@ -162,11 +178,26 @@ status engine_runaway(const struct engine *e, bool peridynamic, bool meshed)
     return status_set(s, "%s; %s", status_message(), cure);
 }
 
+/* A cell that is folded resists like one that is not: neither energy nor speed shows it. */
+static status fold_alarm(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    if (e->mesh.points == 0 || (e->step % FOLD_STEPS != 0 && e->step < e->steps)) return OK;
+    const int64_t i = mesh_folded(&e->mesh, p);
+    if (i == p->n) return OK;
+    return status_set(FAILED,
+                      "folded at step %lld, t = %.3g s: at particle %d, from (%.6g, %.6g, %.6g) m, the mesh of the reference frame is squeezed "
+                      "through itself; choose mpm.frame: current, whose points keep their order on the grid, or see whether loads and "
+                      "supports are meant", (long long)e->step, e->t, (int)p->id[i], p->X[0][i], p->dim > 1 ? p->X[1][i] : 0,
+                      p->dim > 2 ? p->X[2][i] : 0);
+}
+
 status engine_alarm(struct engine *e)
 {
     const bool wild = e->mesh.points > 0 && !(e->mesh_speed <= e->wave_speed / sqrt(e->part.dim));
     if (wild) mesh_points_move(&e->mesh, &e->part);
     TRY(engine_runaway(e, e->wild || e->part.n_carried > 0, wild));
+    TRY(fold_alarm(e));
     if (e->step % RISE_STRIDE == 0) rise_note(&e->speed_rise, e->step, square(fastest(e)));
     return OK;
 }

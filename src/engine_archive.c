@@ -1,4 +1,5 @@
 /* floor 5: what of the engine survives a restart. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,6 +16,27 @@ static status particles_archive(struct particles *p, struct archive *a, int opti
             snprintf(name, sizeof name, "particles/%s%d", field->name, k);
             TRY(a->exchange(a, name, particle_array(p, field, k), (size_t)p->n_all * field->size));
         }
+    }
+    return OK;
+}
+
+#define FAR_AWAY 1e7                     /* spacings, as fill.c */
+
+/* A checkpoint of whole bytes may still hold no sound state: what indexes arrays, and places, are looked at before they are used. */
+static status particles_check(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    const struct scene *s = e->scene;
+    for (int64_t i = 0; i < p->n_all; i++) {
+        real sum = 0;
+        bool good = p->kind[i] < KINDS && p->material[i] < s->materials && p->body[i] < s->bodies && p->mass[i] > 0 && isfinite(p->mass[i]);
+        good = good && (i >= p->n || (p->id[i] >= 0 && p->id[i] < p->n));
+        for (int d = 0; d < p->dim; d++) {
+            good = good && (i >= p->n || fabs(p->X[d][i]) <= FAR_AWAY * s->spacing || !(s->spacing > 0));
+            sum += 0 * (p->X[d][i] + p->x[d][i] + p->v[d][i]);
+        }
+        if (!good || !(sum == 0))
+            return status_set(FAILED, "cannot resume: particle %lld of the checkpoint is in no state that a run can be in", (long long)i);
     }
     return OK;
 }
@@ -51,6 +73,7 @@ status engine_archive(void *engine, struct archive *a)
     struct engine *e = engine;
     TRY(kernels_archive(e, a));
     TRY(particles_archive(&e->part, a, e->optional));
+    if (!a->saving) TRY(particles_check(e));
     if (!a->saving) rebuild(e);
     TRY(bonds_archive(&e->bonds, &e->part, a));
     if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
@@ -84,5 +107,8 @@ status engine_archive(void *engine, struct archive *a)
     TRY(tips_archive(&e->tips, a));
     for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->growth[k], k, a));
     TRY(probes_archive(&e->probes, a));
+    const int known = e->warnings.n;
+    TRY(warnings_archive(&e->warnings, a));
+    warnings_print(&e->warnings, known, stderr);
     return output_archive(e->out, a);
 }

@@ -90,7 +90,7 @@ static void make_family(struct engine *e)
     struct family *f = &e->source.family;
     f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
     f->influence = s->influence;
-    family_make(f, s->space, s->spacing, s->horizon, s->space == SPACE_LINE ? s->section : s->thickness);
+    family_make(f, s->space, s->spacing, s->horizon, scene_section(s));
     e->source.material = s->material, e->source.materials = s->materials;
     e->source.crack = has_peridynamics(s) ? s->crack : NULL;
     e->source.cracks = has_peridynamics(s) ? s->cracks : 0;
@@ -178,7 +178,7 @@ void engine_grid_make(struct engine *e)
         e->grid.anchor[d] = node_place(s, d, from[d]);
         if (engine_has_mesh(e) && e->grid.anchor[d] == from[d]) e->grid.anchor[d] = between_particles(e, d);
     }
-    real section = s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness, lightest = INFINITY;
+    real section = scene_section(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real smallest = s->solver == SOLVER_EXPLICIT ? GRID_MASS_SMALLEST : GRID_MASS_STATIC;
     const real full = lightest * pow(e->grid.h, s->dim) * section;
@@ -194,14 +194,28 @@ void engine_grid_make(struct engine *e)
 #define BYTES_PER_BOND_LATTICE 3.0       /* of patterns: those of surfaces, and what cracks and ends of lines still store */
 #define EXACT_MOST 6000.0                /* spacings; places of longer bodies may be rounded (fill.c), bonds are stored */
 
-/* Upper bound of the lattice particles: boxes round the bodies. The longest edge of all goes to `longest` [spacings]. */
-static real particles_bound(const struct scene *s, real *longest)
+/* Share of a body's box that it fills, by places spread evenly in it. */
+static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
+{
+    enum { ACROSS = 24 };
+    int inside = 0, all = 1;
+    for (int d = 0; d < dim; d++) all *= ACROSS;
+    for (int k = 0; k < all; k++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0, rest = k; d < dim; d++, rest /= ACROSS) X[d] = from[d] + (rest % ACROSS + 0.5) / ACROSS * (to[d] - from[d]);
+        inside += region_contains(shape, X, dim, 0);
+    }
+    return real_max(inside, 1) / all;
+}
+
+/* Lattice particles, about, before there are any. The longest edge of all boxes round bodies goes to `longest` [spacings]. */
+static real particles_expected(const struct scene *s, real *longest)
 {
     real n = 0, from[DIM_MAX], to[DIM_MAX];
     *longest = 0;
     for (int b = 0; b < s->bodies; b++) {
         if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
-        real count = 1;
+        real count = share_filled(&s->body[b].shape, from, to, s->dim);
         for (int d = 0; d < s->dim; d++) {
             count *= (to[d] - from[d]) / s->spacing;
             *longest = real_max(*longest, (to[d] - from[d]) / s->spacing);
@@ -211,25 +225,32 @@ static real particles_bound(const struct scene *s, real *longest)
     return n;
 }
 
+static real particles_now(const struct engine *e, real *longest)
+{
+    const real expected = particles_expected(e->scene, longest);
+    return e->part.n > 0 ? (real)e->part.n : expected;
+}
+
 real engine_memory(const struct engine *e)
 {
     const struct scene *s = e->scene;
     real longest;
-    const real n = particles_bound(s, &longest);
+    const real n = particles_now(e, &longest);
     const real bonds = s->method == METHOD_PD ? e->source.family.full / e->source.family.cell_volume : 1;
-    const bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
+    bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
+    for (int b = 0; b < s->bodies; b++) follow = follow && !s->body[b].file;
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
 }
 
-/* A scene far beyond the machine is refused before it fills the memory; half as much again is left for solids that are
- * smaller than their boxes. */
+/* A scene beyond what there is to be had is refused before it fills the memory. */
 static status make_affordable(const struct engine *e)
 {
     const real memory = (real)team_memory(), bytes = engine_memory(e);
     real longest;
-    if (memory <= 0 || bytes < 1.5 * memory) return OK;
-    return status_set(REFUSED, "about %.2g particles would need some %.2g GB, and this machine has %.2g; choose a larger "
-                               "particles.spacing", particles_bound(e->scene, &longest), bytes * 1e-9, memory * 1e-9);
+    if (memory <= 0 || bytes <= memory) return OK;
+    return status_set(REFUSED, "about %.2g particles would need some %.2g GB, and %.2g can be had (memory of the machine, or a limit set by "
+                               "ulimit or a control group); choose a larger particles.spacing", particles_now(e, &longest), bytes * 1e-9,
+                      memory * 1e-9);
 }
 
 /* ---- all ------------------------------------------------------------------------------------------------ */
@@ -297,12 +318,14 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     memset(e, 0, sizeof *e);
     e->scene = s;
     e->out = out;
+    e->began = team_clock();
     e->optional = optional_arrays(s);
     make_materials(e);
     make_family(e);
     kernels_choose(&e->kernels, s->dim, law_of(e), s->shape, s->transfer);
     TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
+    TRY(named(s, make_affordable(e)));       /* of those there are */
     TRY(named(s, engine_return_check(e)));
     TRY(named(s, engine_frames(e)));
     if (s->solver != SOLVER_EXPLICIT) {

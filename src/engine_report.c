@@ -7,10 +7,12 @@
 #include <unistd.h>
 
 #include "memory.h"
+#include "output_files.h"
 
 #define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
 #define PROGRESS_SECONDS_FILE 60.0       /* and elsewhere                        */
 #define ENERGY_STEPS 50                  /* before the alarm of energies listens */
+#define ENERGY_DOUBTFUL 0.05              /* share of it lost or gained that is said: ten times that of the scenes in inputs/ */
 #define ENERGY_OF_ROUND_OFF 1e-24        /* of a body's energy at its wave speed */
 #define ENERGY_FROM_NOWHERE 0.5          /* share of all energies that no sound run gains: the first steps of a jump
                                           * in velocity show 0.1, unstable runs that break all bonds 0.9 and stay slow */
@@ -262,7 +264,7 @@ static real power_now(const struct engine *e)
  * the work of walls of the grid in that step [J]; driven particles and nodes of a mesh have theirs in the power. */
 static real power_last(struct engine *e, real *held)
 {
-    struct loads account = e->loads;
+    const struct loads account = e->loads;
     struct load *own = BARE("report.load", e->loads.n, struct load);
     if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
     loads_clear(&e->loads, &e->part);
@@ -272,7 +274,8 @@ static real power_last(struct engine *e, real *held)
     const real power = power_now(e) + engine_grid_power(e, e->t + 0.5 * e->dt);
     *held = e->loads.held_work - account.held_work;
     if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
-    e->loads = account;
+    memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
+    e->loads.work = account.work, e->loads.held_work = account.held_work;
     memory_free(own);
     return power;
 }
@@ -341,20 +344,68 @@ void engine_residual(struct engine *e)
 
 /* ---- frames and checkpoints ------------------------------------------------------------------------------- */
 
+/* The alarm looks at places and speeds of every step, the ledger at energies of samples; this at what else a frame holds. */
+static status frame_sound(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    int64_t first = p->n;
+#pragma omp parallel for schedule(static) reduction(min : first)
+    for (int64_t i = 0; i < p->n; i++) {
+        real sum = 0;
+        for (int k = 0; k < symmetric_count(p->dim); k++) sum += 0 * p->stress[k][i];
+        for (int d = 0; d < p->dim; d++) sum += 0 * (p->x[d][i] + p->v[d][i]);
+        if (!(sum == 0) && i < first) first = i;
+    }
+    if (first == p->n) return OK;
+    return status_set(FAILED, "step %lld, t = %.4g s: particle %d has a stress, place or velocity that is no finite number; see whether "
+                              "material, supports and initial state are meant (`cleave check`)", (long long)e->step, e->t,
+                      (int)p->id[first]);
+}
+
+static status put_profile(void *folder, const char *name, const char *text, size_t length)
+{
+    return file_put_unsettled(path_join(folder, name).text, text, length);
+}
+
+static status write_profiles(struct engine *e)
+{
+    const struct observed o = engine_observed(e);
+    if (probes_profiled(&e->probes) == 0) return OK;
+    TRY(probes_profiles(&e->probes, &o, put_profile, e->out->folder, e->out->frames - 1));
+    return file_settle(path_join(e->out->folder, "history.csv").text);
+}
+
 static status write_frame(struct engine *e)
 {
     engine_mesh_show(e);
     engine_stress(e);
+    TRY(frame_sound(e));
     TRY(output_frame_begin(e->out, &e->part, e->t, e->step, e->scene->text));
-    struct observed o = engine_observed(e);
-    return probes_profiles(&e->probes, &o, e->out->folder, e->out->frames - 1);
+    return write_profiles(e);
 }
 
 static status write_checkpoint(struct engine *e)
 {
     engine_mesh_show(e);
     e->last_checkpoint = team_clock();
-    return checkpoint_write(e->out, e->scene->text, engine_archive, e);
+    TRY(checkpoint_write(e->out, e->scene->text, engine_archive, e));
+    e->checkpoint_seconds = real_max(e->checkpoint_seconds, team_clock() - e->last_checkpoint);
+    return OK;
+}
+
+/* Is there just time left for another checkpoint, and for one that takes twice as long as any before? */
+static bool wall_is_over(const struct engine *e)
+{
+    return team_clock() - e->began + 2 * e->checkpoint_seconds >= e->scene->wall;
+}
+
+static status say_lost_frames(struct engine *e)
+{
+    char text[PATH_NAME_ROOM + 200];
+    int lost;
+    TRY(output_frames_check(e->out, &lost, text, sizeof text));
+    if (lost > 0) engine_say(e, text);
+    return OK;
 }
 
 status engine_report_start(struct engine *e)
@@ -366,7 +417,7 @@ status engine_report_start(struct engine *e)
     if (!e->out) return OK;
     bool resumed = e->out->frames > 0;       /* the first checkpoint, of step 0, already counts the first frame */
     TRY(history_start(e, resumed));
-    if (resumed) return OK;
+    if (resumed) return say_lost_frames(e);
     TRY(write_frame(e));
     return write_checkpoint(e);
 }
@@ -412,6 +463,11 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
+static bool is_round_off(const struct engine *e)
+{
+    return e->watch.energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->wave_speed);
+}
+
 /* watch_alarm sees what moves too fast; a body that shakes itself to dust does not. The first steps are left out, where
  * half a step more or less of a load is much of all energy there is; so is a body at rest, whose energy is round-off. */
 static status energy_alarm(struct engine *e)
@@ -426,7 +482,7 @@ static status energy_alarm(struct engine *e)
     if (!e->sampling.due && !last) return OK;
     rise_note(&e->excess_rise, e->step, excess);
     if (w->now.balance_error <= ENERGY_FROM_NOWHERE || e->step < ENERGY_STEPS) return OK;
-    if (w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->wave_speed)) return OK;
+    if (is_round_off(e)) return OK;
     int64_t i = fastest_particle(p);
     char place[96], cure[ENGINE_CURE];
     int used = 0;
@@ -437,6 +493,19 @@ static status energy_alarm(struct engine *e)
                       "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of "
                       "its energy from nowhere; %s",
                       (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, cure);
+}
+
+/* Of what is no alarm, but more than results should be trusted with. */
+static void say_balance(struct engine *e)
+{
+    const real error = e->watch.now.balance_error;
+    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
+    char text[320];
+    if (e->scene->solver != SOLVER_EXPLICIT || fabs(error) <= ENERGY_DOUBTFUL || is_round_off(e)) return;
+    snprintf(text, sizeof text, "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust what came after",
+             100 * fabs(error), error < 0 ? "is lost" : "comes from nowhere", error,
+             error < 0 && apic ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it" : "");
+    engine_say(e, text);
 }
 
 real engine_rest(const struct engine *e)
@@ -458,15 +527,16 @@ status engine_report(struct engine *e)
     if (e->step == e->steps) sample_last(e);     /* before any checkpoint: a finished run has nothing left to write */
     TRY(e->history_status);
     TRY(energy_alarm(e));
+    if (e->step == e->steps) say_balance(e);
     if (e->out) {
         const bool between = e->scene->solver != SOLVER_EXPLICIT && e->step < e->steps;
         const int64_t frames = e->scene->frames < e->steps ? e->scene->frames : e->steps;
         if (!between && e->out->frames <= frames && e->step >= frame_step(e, e->out->frames, frames)) TRY(write_frame(e));
-        bool stop = e->stop && *e->stop;
+        const bool late = wall_is_over(e), stop = late || (e->stop && *e->stop);
         if (stop || team_clock() - e->last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
         if (stop && e->step < e->steps)
-            return status_set(INTERRUPTED, "interrupted at step %lld of %lld; go on with --resume", (long long)e->step,
-                              (long long)e->steps);
+            return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume", late ? "time.wall is over" : "interrupted",
+                              (long long)e->step, (long long)e->steps);
     }
     progress(e, false);
     lap(&e->laps, LAP_OUTPUT);

@@ -30,7 +30,12 @@ status engine_return_check(const struct engine *e)
 static void bonded_make(struct engine *e)
 {
     const struct bonds *b = &e->bonds;
-    if (e->scene->transfer != TRANSFER_FLIP || e->part.n_free == 0 || b->rows == 0) return;
+    if (b->rows == 0) {                  /* all have returned: what was beside bonds no longer is */
+        memory_free(e->bonded);
+        e->bonded = NULL;
+        return;
+    }
+    if (e->scene->transfer != TRANSFER_FLIP || e->part.n_free == 0) return;
     if (!e->bonded) e->bonded = NEW("engine.bonded", e->part.n, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < e->part.n; i++)

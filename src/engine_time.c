@@ -78,15 +78,19 @@ static bond_force_fn *elastic_force(const struct engine *e)
 static real critical_of_lattices(struct engine *e, real *bound)
 {
     const struct scene *s = e->scene;
-    real step = INFINITY;
+    real step = INFINITY, longest[DIM_MAX], low, high;
     *bound = INFINITY;
+    for (int d = 0; d < s->dim; d++) {
+        particles_extent(&e->part, e->part.n, d, &low, &high);
+        longest[d] = high - low;
+    }
     for (int m = 0; m < s->materials; m++) {
         real its_bound;
         struct bond_source one = e->source;      /* its particles are of material 0 */
         one.material = &s->material[m], one.materials = 1;
         if (e->modulus) one.modulus = &e->modulus[m];
         one.yield = (struct bond_yield){0};
-        step = real_min(step, critical_step_of_lattice(&one, elastic_force(e), s->material[m].density, &its_bound));
+        step = real_min(step, critical_step_of_lattice(&one, elastic_force(e), s->material[m].density, longest, &its_bound));
         *bound = real_min(*bound, its_bound);
     }
     return step;

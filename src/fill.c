@@ -18,8 +18,9 @@
 
 /* Two particles closer than this are one, given twice [spacings]. */
 static const real too_close = 1e-3;
-/* Farther from the origin double precision no longer resolves a bond's stretch [spacings]. */
-static const real too_far = 1e9;
+/* Farther from the origin doubles no longer resolve strains: at this distance [spacings] a place is rounded by 1e-9 of a spacing, and
+ * a strain of 1e-4 is known to 1e-5 of it; ten thousand times as far stresses are 3 % off. */
+static const real too_far = 1e7;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 };
 
@@ -115,7 +116,7 @@ static real scatter(uint64_t seed, int64_t id, int component)
 
 static real cell_volume(const struct scene *s)
 {
-    return lattice_volume(s->dim == 1 ? s->section : s->dim == 2 ? s->thickness : 1, s->spacing, s->dim);
+    return lattice_volume(scene_section(s), s->spacing, s->dim);
 }
 
 /* The lattice that covers the whole shape of a body. */
@@ -233,8 +234,7 @@ static real spacing_of(const struct draft *d)
 {
     const struct scene *s = d->scene;
     if (s->spacing > 0) return s->spacing;
-    real depth = s->dim == 1 ? s->section : s->dim == 2 ? s->thickness : 1;
-    return pow(team_sum(d->n, volume_term, d->volume) / ((real)d->n * depth), 1.0 / s->dim);
+    return pow(team_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section(s)), 1.0 / s->dim);
 }
 
 static void take_draft(struct particles *p, const struct draft *d, int optional)
@@ -264,7 +264,34 @@ static status check_values(const struct particles *p, const struct draft *d, rea
     for (int64_t i = 0; i < p->n; i++) {
         bool good = isfinite(p->mass[i]) && p->mass[i] > 0 && isfinite(spacing);
         for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= too_far * spacing;
-        if (!good) return draft_refuse(d, p->body[i], "a particle lies beyond 1e9 spacings or has no finite mass");
+        if (!good) return draft_refuse(d, p->body[i], "a particle lies beyond 1e7 spacings from the origin, where doubles no longer "
+                                                      "resolve strains, or has no finite mass; see whether places and spacing have "
+                                                      "the same unit, and move the body to the origin");
+    }
+    return OK;
+}
+
+static status check_origin(const struct scene *s)
+{
+    for (int a = 0; a < s->dim && s->has_grid_origin; a++)
+        if (!(fabs(s->grid_origin[a]) <= too_far * s->spacing))
+            return status_set(REFUSED, "%s: mpm.origin: %.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a "
+                                       "place near the body is expected", s->path != NULL ? s->path : s->name, s->grid_origin[a]);
+    return OK;
+}
+
+/* What `initial` has moved is where it can be, and no stress or speed is past all numbers. */
+static status check_start(const struct particles *p, const struct draft *d, real spacing)
+{
+    for (int64_t i = 0; i < p->n; i++) {
+        real sum = p->volume[i];
+        bool good = p->volume[i] > 0;
+        for (int a = 0; a < p->dim; a++) good = good && fabs(p->x[a][i]) <= too_far * spacing;
+        for (int a = 0; a < p->dim; a++) sum += p->v[a][i];
+        for (int k = 0; k < symmetric_count(p->dim); k++) sum += p->stress[k][i];
+        if (!good || !isfinite(sum))
+            return draft_refuse(d, p->body[i], "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or "
+                                               "gives it a speed or stress that is no number; strains near 1e-3 are usual");
     }
     return OK;
 }
@@ -385,9 +412,11 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     take_draft(p, d, optional);
     TRY(check_values(p, d, spacing));
+    TRY(check_origin(s));
     TRY(fill_check_lists(p, s));
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, ON_SURFACE * spacing);
+    TRY(check_start(p, d, spacing));
     particles_sort(p, spacing, optional);
     return check_distances(p, d, spacing);
 }

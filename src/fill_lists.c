@@ -100,7 +100,7 @@ static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
     const int64_t looked = c->n < LOOKED_AT ? c->n : LOOKED_AT;
-    const real section = c->s->dim == 1 ? c->s->section : c->s->dim == 2 ? c->s->thickness : 1;
+    const real section = scene_section(c->s);
     real apart[LOOKED_AT], filled[LOOKED_AT], family = 0;
     int64_t lone = 0, within[LOOKED_AT];
 #pragma omp parallel for schedule(static)
@@ -167,7 +167,7 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
                            volume_guess(v->filled));
     if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && team_memory() > 0 && bytes > (real)team_memory())
         return refuse_list(c, "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need some %.2g "
-                              "GB, and this machine has %.2g; those of the list are %.4g m apart: a particles.spacing like that "
+                              "GB, and %.2g can be had; those of the list are %.4g m apart: a particles.spacing like that "
                               "is expected", v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9,
                            v->apart);
     return OK;

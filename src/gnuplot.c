@@ -1,7 +1,9 @@
 /* floor 4: starts gnuplot without a shell, sets the style of all pictures, waits for the picture. */
 #include "gnuplot.h"
 
+#include <ctype.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +22,7 @@ void gnuplot_quote(FILE *to, const char *text)
     putc('\'', to);
     for (; *text != '\0'; text++) {
         if (*text == '\'') putc('\'', to);           /* doubled: a quote itself */
-        putc(*text == '\n' ? ' ' : *text, to);
+        putc(iscntrl((unsigned char)*text) ? ' ' : *text, to);
     }
     putc('\'', to);
 }
@@ -42,7 +44,9 @@ static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 static status start(struct gnuplot *g)
 {
     int ends[2];
-    g->complaints = fopen(g->aside, "w+");           /* a file without a name, beside the picture */
+    remove(g->aside);                                /* whatever has this name is not written through */
+    const int own = open(g->aside, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    g->complaints = own < 0 ? NULL : fdopen(own, "w+");          /* a file without a name, beside the picture */
     if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->aside, strerror(errno));
     remove(g->aside);
     if (pipe(ends) != 0)
@@ -106,7 +110,9 @@ static void release(struct gnuplot *g)
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height)
 {
     *g = (struct gnuplot){0};
-    if (strchr(path, '\n') != NULL) return status_set(REFUSED, "a picture's name cannot hold a line break: %s", path);
+    for (const char *c = path; *c; c++)
+        if (iscntrl((unsigned char)*c))
+            return status_set(REFUSED, "%s: gnuplot draws into no folder whose name holds a line break or other control character", path);
     g->path = strdup(path);
     /* gnuplot takes a name that begins with a bar for a command */
     if (g->path == NULL || asprintf(&g->aside, "%s%s.tmp", path[0] == '/' ? "" : "./", path) < 0) {

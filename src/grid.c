@@ -8,6 +8,7 @@
 
 /* Nodes beyond the outermost point: reach of the widest shape and one cell of motion. */
 enum { MARGIN = 3 };
+#define NODE_FARTHEST 1e15               /* cells: farther, an index is no whole number of a double any more */
 
 static void grid_arrays_free(struct grid *g)
 {
@@ -46,11 +47,17 @@ static int64_t box_floor(int64_t k) { return k >= 0 ? k / BOX_STEP * BOX_STEP : 
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
 {
     int64_t first[DIM_MAX], end[DIM_MAX];
-    real nodes = 1;
+    real nodes = 1, low[DIM_MAX], high[DIM_MAX];
     *changed = g->n == 0;
     for (int d = 0; d < g->dim; d++) {
-        first[d] = box_floor((int64_t)floor((from[d] - g->anchor[d]) / g->h) - MARGIN);
-        end[d] = box_floor((int64_t)floor((to[d] - g->anchor[d]) / g->h) + MARGIN + BOX_STEP);
+        low[d] = floor((from[d] - g->anchor[d]) / g->h), high[d] = floor((to[d] - g->anchor[d]) / g->h);
+        if (!(fabs(low[d]) < NODE_FARTHEST && fabs(high[d]) < NODE_FARTHEST))
+            return status_set(FAILED, "a material point is at %.3g m, %.3g cells from where the grid begins; is the run unstable?",
+                              fabs(low[d]) < NODE_FARTHEST ? to[d] : from[d], real_max(fabs(low[d]), fabs(high[d])));
+    }
+    for (int d = 0; d < g->dim; d++) {
+        first[d] = box_floor((int64_t)low[d] - MARGIN);
+        end[d] = box_floor((int64_t)high[d] + MARGIN + BOX_STEP);
         if (g->n > 0 && first[d] >= g->first[d]) first[d] = g->first[d]; else *changed = true;
         if (g->n > 0 && end[d] <= g->first[d] + g->count[d]) end[d] = g->first[d] + g->count[d]; else *changed = true;
         nodes *= (real)(end[d] - first[d]);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "memory.h"
+#include "output_files.h"
 
 /* The entry's length up to a comma or the end of the line. */
 static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
@@ -20,6 +21,7 @@ static char *column_name(const char *from, size_t length)
     char *unit = strstr(name, " [");
     if (unit != NULL) *unit = '\0';
     name[strcspn(name, "\r")] = '\0';
+    text_harmless(name);
     return name;
 }
 
@@ -81,6 +83,7 @@ status history_read_file(struct history *h, const char *path)
     char *line = NULL;
     size_t room = 0;
     *h = (struct history){0};
+    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is no regular file", path);
     FILE *from = fopen(path, "r");
     if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
     ssize_t length = getline(&line, &room, from);

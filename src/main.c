@@ -6,9 +6,15 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "last_words.h"
 #include "output.h"
 #include "scene.h"
 #include "simd.h"
+
+/* Builds that report as they exit (leaks, what has run) say exit. */
+#ifndef LEAVE
+#define LEAVE _exit
+#endif
 
 struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
 
@@ -18,7 +24,7 @@ static const struct command commands[] = {
     {"plot", "DIR", "pictures of a finished or running run", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"bench", "[NAME...] [--quick]", "kernels, efficiency, coupling", command_bench},
-    {"help", "[KEY]", "every scene key: type, unit, range, default", command_help},
+    {"help", "[KEY|trust]", "every scene key: type, unit, range, default; what a run promises", command_help},
     {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
 };
 
@@ -35,6 +41,7 @@ status command_help(int argc, char **argv)
 {
     if (argc > 2) return status_set(REFUSED, "usage: cleave help [KEY]");
     if (argc == 2 && !strcmp(argv[1], "--manual")) return scene_manual(stdout);
+    if (argc == 2 && !strcmp(argv[1], "trust")) return trust_print(stdout);
     return scene_help(stdout, argc == 2 ? argv[1] : NULL);
 }
 
@@ -71,10 +78,11 @@ int main(int argc, char **argv)
 {
     keep_descriptors();
     wait_politely(argv);
+    last_words_start();
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);
     if (lost && result == OK) result = status_set(FAILED, "cannot write to standard output");
     if (result != OK && status_message()[0]) fprintf(stderr, "%s\n", status_message());
     fflush(stderr);
-    _exit(result);                           /* libraries that failed to write may not survive their exit handlers */
+    LEAVE(result);                           /* libraries that failed to write may not survive their exit handlers */
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 /* A cache line and the widest vector [byte]; the pieces in which pages are touched; a page, a large one, and the arrays that
  * lie on such. */
@@ -27,7 +28,7 @@ static _Noreturn void out_of_memory(const char *label, int64_t count, size_t siz
 {
     fprintf(stderr, "out of memory: %s needs %lld entries of %zu bytes; this run has used %.1f MB so far\n", label,
             (long long)count, size, (double)memory_peak() * 1e-6);
-    exit(FAILED);
+    _exit(FAILED);
 }
 
 /* Writes zeros piece by piece in the static partition of the loops that will use the array, so that a page

@@ -12,6 +12,7 @@
 
 #include "memory.h"
 #include "output_files.h"
+#include "summary_read.h"
 
 void output_start(void)
 {
@@ -38,7 +39,8 @@ static bool is_frame(const char *name, const char *end)
 /* Makes one folder unless it is there. */
 static status folder_make_one(const char *path)
 {
-    if (mkdir(path, 0777) == 0 || (errno == EEXIST && path_is_folder(path))) return OK;
+    if (mkdir(path, 0777) == 0) return file_settle(path);
+    if (errno == EEXIST && path_is_folder(path)) return OK;
     if (errno == EEXIST || errno == ENOTDIR)
         return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path);
     return status_set(FAILED, "cannot make the folder %s: %s; choose another -o", path, strerror(errno));
@@ -53,12 +55,6 @@ static status folder_make(const char *path)
         part.text[k] = path[k];
     }
     return folder_make_one(part.text);
-}
-
-static bool path_is_link(const char *path)
-{
-    struct stat s;
-    return lstat(path, &s) == 0 && S_ISLNK(s.st_mode);
 }
 
 /* Removes frames with `end` behind their names. */
@@ -102,22 +98,59 @@ static bool folder_is_bare(const char *folder, const char *allowed, char *found,
 
 /* ---- whose folder is it ---------------------------------------------------------------------------- */
 
+/* What counts of a line of a scene: of a particle list what is in it, not where it lies. */
+static const char *line_meaning(const char *line, size_t *length)
+{
+    static const char mark[] = "  # contents ";
+    *length = strcspn(line, "\n");
+    const char *contents = memmem(line, *length, mark, sizeof mark - 1);
+    if (contents) *length -= (size_t)(contents - line);
+    return contents ? contents : line;
+}
+
+/* Number of the first line in which two scenes differ, where it begins in both; 0: they are the same. */
+static int scene_difference(const char **a, const char **b)
+{
+    for (int line = 1; **a || **b; line++) {
+        size_t la, lb;
+        const char *x = line_meaning(*a, &la), *y = line_meaning(*b, &lb);
+        if (la != lb || memcmp(x, y, la) != 0) return line;
+        *a += strcspn(*a, "\n"), *b += strcspn(*b, "\n");
+        if (**a != **b) return line;
+        if (**a) ++*a, ++*b;
+    }
+    return 0;
+}
+
+bool scene_text_same(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
+
+/* The first line in which two scenes differ, for a message. */
+static void difference_text(const char *a, const char *b, char *text, size_t room)
+{
+    const int line = scene_difference(&a, &b);
+    a += strspn(a, " "), b += strspn(b, " ");
+    enum { SHOWN = 200 };
+    const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n");
+    snprintf(text, room, "line %d was `%.*s` and is `%.*s`", line, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b);
+}
+
 /* Refuses a folder that belongs to something else than a run of this scene. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
     struct path scene = path_join(folder, "scene.yaml"), frames = path_join(folder, "frames");
-    char found[PATH_NAME_ROOM], *text = NULL;
+    char found[PATH_NAME_ROOM], difference[500], *text = NULL;
     size_t length = 0;
     if (path_is_link(frames.text))
         return status_set(REFUSED, "%s is a link: what a run removes and makes there would be somewhere else; choose another -o",
                           frames.text);
     if (path_exists(scene.text)) {
         TRY(file_get(scene.text, &text, &length));
-        bool same = length == strlen(scene_text) && memcmp(text, scene_text, length) == 0;
+        const bool same = length == strlen(text) && scene_text_same(text, scene_text);
+        difference_text(text, scene_text, difference, sizeof difference);
         memory_free(text);
         if (same || mode == OUTPUT_OVERWRITE) return OK;
-        return status_set(REFUSED, "%s holds the run of another scene (see its scene.yaml); choose another -o or replace it with "
-                                   "--overwrite", folder);
+        return status_set(REFUSED, "%s holds the run of another scene (scene.yaml: %s); choose another -o or replace it with "
+                                   "--overwrite", folder, difference);
     }
     if (folder_is_bare(folder, "frames", found, sizeof found) &&
         folder_is_bare(frames.text, NULL, found, sizeof found)) return OK;
@@ -138,7 +171,7 @@ static bool has_advanced(const char *folder)
     char *text = NULL;
     size_t length = 0, lines = 0;
     const struct path history = path_join(folder, "history.csv"), frames = path_join(folder, "frames");
-    if (path_exists(path_join(folder, "summary.json").text) || path_exists(path_join(frames.text, "000001.hdf").text)) return true;
+    if (path_exists(path_join(frames.text, "000001.hdf").text)) return true;
     if (!path_is_file(history.text) || file_get(history.text, &text, &length) != OK) return false;
     for (size_t k = 0; k < length; k++) lines += text[k] == '\n';
     memory_free(text);
@@ -148,15 +181,17 @@ static bool has_advanced(const char *folder)
 /* An older run of the same scene is left alone without an option that says what to do with it. */
 static status mode_check(const char *folder, enum output_mode mode)
 {
-    const bool there = has_run(folder), finished = path_exists(path_join(folder, "summary.json").text);
+    char ended[NAME_MAX_LENGTH] = "interrupted";
+    const bool there = has_run(folder);
+    if (path_is_file(path_join(folder, "summary.json").text)) (void)summary_string(folder, "status", ended, sizeof ended);
     if (mode == OUTPUT_FIRST && there)
         return status_set(REFUSED, "%s holds %s run of this scene; go on with --resume, replace it with --overwrite, or choose "
-                                   "another -o", folder, finished ? "a finished" : "an interrupted");
+                                   "another -o", folder, !strcmp(ended, "done") ? "a finished" : !strcmp(ended, "failed") ? "a failed" : "an interrupted");
     if (mode != OUTPUT_RESUME || checkpoint_exists(folder)) return OK;
     if (has_advanced(folder))
         return status_set(REFUSED, "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or choose "
                                    "another -o", folder);
-    fprintf(stderr, "warning: nothing to resume in %s: starts at t = 0\n", folder);
+    fprintf(stderr, "warning: nothing to resume in %s: starts at t = 0\n", shown_name(folder).text);
     return OK;
 }
 
@@ -221,6 +256,7 @@ void output_close(struct output *o)
 
 status output_text(const struct output *o, const char *name, const char *text, size_t length)
 {
+    TRY(folder_held(&o->lock, o->folder));
     return file_put(path_join(o->folder, name).text, text, length);
 }
 
@@ -240,5 +276,6 @@ status output_archive(struct output *o, struct archive *a)
     TRY(a->exchange(a, "output/frame_time", o->frame_time, (size_t)frames * sizeof(real)));
     ARCHIVE_VALUE(a, "output/frame_particles", o->frame_particles);
     ARCHIVE_VALUE(a, "output/history_bytes", o->history_bytes);
+    ARCHIVE_VALUE(a, "output/history_hash", o->history_hash);
     return OK;
 }

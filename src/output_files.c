@@ -31,6 +31,12 @@ bool path_exists(const char *path)
     return lstat(path, &s) == 0;
 }
 
+bool path_is_link(const char *path)
+{
+    struct stat s;
+    return lstat(path, &s) == 0 && S_ISLNK(s.st_mode);
+}
+
 bool path_is_file(const char *path)
 {
     struct stat s;
@@ -130,16 +136,30 @@ status file_seal(const char *path, const void *tail, size_t length)
     return outcome(path, write_synced(path_aside(path).text, O_APPEND, tail, length));
 }
 
+static status file_rename(const char *path) { return outcome(path, rename(path_aside(path).text, path) != 0 ? errno : 0); }
+
+status file_settle(const char *path)
+{
+    const int fault = sync_folder_of(path);
+    return fault && fault != EACCES ? file_fault(path, fault) : OK;      /* a folder that may be written but not read */
+}
+
 status file_publish(const char *path)
 {
-    int fault = rename(path_aside(path).text, path) != 0 ? errno : sync_folder_of(path);
-    return outcome(path, fault);
+    TRY(file_rename(path));
+    return file_settle(path);
+}
+
+status file_put_unsettled(const char *path, const void *bytes, size_t length)
+{
+    TRY(outcome(path, write_synced(path_aside(path).text, O_CREAT | O_EXCL, bytes, length)));
+    return file_rename(path);
 }
 
 status file_put(const char *path, const void *bytes, size_t length)
 {
-    TRY(outcome(path, write_synced(path_aside(path).text, O_CREAT | O_EXCL, bytes, length)));
-    return file_publish(path);
+    TRY(file_put_unsettled(path, bytes, length));
+    return file_settle(path);
 }
 
 /* Reads up to `room` bytes; returns their number, -1 on a fault. */

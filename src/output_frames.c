@@ -4,11 +4,13 @@
  * Our own data live in /Cleave. A symmetric tensor has VTK's order xx yy zz xy yz xz; components that the
  * space does not have are 0, plane strain has zz. */
 #include <errno.h>
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "checksum.h"
 #include "memory.h"
 #include "output.h"
 #include "output_files.h"
@@ -263,7 +265,7 @@ static status frame_write(struct frame_job *job)
         file_discard(job->path.text);
         return file_fault(job->path.text, f.cause);
     }
-    TRY(file_seal(job->path.text, NULL, 0));
+    TRY(file_seal_whole(job->path.text));
     return file_publish(job->path.text);
 }
 
@@ -274,13 +276,16 @@ static void frame_name(char *name, size_t room, int number) { snprintf(name, roo
 
 static void series_print(FILE *out, const struct output *o)
 {
-    fprintf(out, "{\"file-series-version\":\"1.0\",\"files\":[\n");
+    const char *between = "";
+    fprintf(out, "{\"file-series-version\":\"1.0\",\"files\":[");
     for (int k = 0; k < o->frames; k++) {
         char name[PATH_NAME_ROOM];
+        if (isnan(o->frame_time[k])) continue;       /* lost (output_frames_check) */
         frame_name(name, sizeof name, k);
-        fprintf(out, "{\"name\":\"%s\",\"time\":%.17g}%s\n", name, o->frame_time[k], k + 1 < o->frames ? "," : "");
+        fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, o->frame_time[k]);
+        between = ",";
     }
-    fprintf(out, "]}\n");
+    fprintf(out, "\n]}\n");
 }
 
 /* A whole dataset of a frame. */
@@ -327,6 +332,7 @@ static void xdmf_print(FILE *out, const struct output *o)
     fprintf(out, "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
     for (int k = 0; k < o->frames; k++) {
         char name[PATH_NAME_ROOM];
+        if (isnan(o->frame_time[k])) continue;
         frame_name(name, sizeof name, k);
         xdmf_grid(out, name, o->frame_time[k], o->frame_particles, o->frame_yielding);
     }
@@ -348,15 +354,21 @@ static status index_make(const struct output *o, struct frame_job *job, int whic
     return whole ? OK : file_fault(path_join(o->folder, index_name[which]).text, ENOMEM);
 }
 
+/* Both indices of a run. */
+static status indices_put(const char *folder, const struct frame_job *job)
+{
+    for (int k = 0; k < 2; k++)
+        TRY(file_put(path_join(folder, index_name[k]).text, job->index[k], job->index_length[k]));
+    return OK;
+}
+
 /* The frame first: an index never names one that is not there. DIR is two folders above it. */
 static status job_write(struct frame_job *job)
 {
     TRY(frame_write(job));
     struct path folder = job->path;
     for (int k = 0; k < 2; k++) *strrchr(folder.text, '/') = '\0';
-    for (int k = 0; k < 2; k++)
-        TRY(file_put(path_join(folder.text, index_name[k]).text, job->index[k], job->index_length[k]));
-    return OK;
+    return indices_put(folder.text, job);
 }
 
 static void *job_run(void *context)
@@ -394,11 +406,12 @@ static void frame_count(struct output *o, const struct particles *p, real t)
     o->frame_yielding = p->plastic_strain != NULL;
 }
 
-/* Signals are for the thread that steps. */
+/* Signals are for the thread that steps, but for those of a fault of this one. */
 static void job_start(struct frame_job *job)
 {
     sigset_t all, before;
     sigfillset(&all);
+    sigdelset(&all, SIGSEGV), sigdelset(&all, SIGBUS);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     job->apart = pthread_create(&job->thread, NULL, job_run, job) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
@@ -410,6 +423,7 @@ status output_frame_begin(struct output *o, const struct particles *p, real t, i
     char name[PATH_NAME_ROOM];
     TRY(output_wait(o));
     if (o->broken) return FAILED;
+    TRY(folder_held(&o->lock, o->folder));
     struct frame_job *job = o->writing = job_make(o, p, t, step, scene_text);
     frame_name(name, sizeof name, o->frames);
     job->path = path_join(o->folder, name);
@@ -424,4 +438,44 @@ status output_frame(struct output *o, const struct particles *p, real t, int64_t
 {
     TRY(output_frame_begin(o, p, t, step, scene_text));
     return output_wait(o);
+}
+
+/* ---- after a restart ---------------------------------------------------------------------------------- */
+
+/* What is wrong for certain with the frame of this time; NULL: nothing, or it cannot be looked at. NAN: it was lost before. */
+static const char *frame_fault(const char *path, real time)
+{
+    struct hdf f;
+    real found = NAN;
+    if (isnan(time)) return "is missing";
+    const char *fault = whole_fault_certain(path);
+    if (fault || !path_is_file(path)) return fault;
+    hdf_open(&f, path);
+    hdf_read_mark(&f, "/Cleave", "time", HDF_F64, &found);
+    const bool read = !f.failed;
+    hdf_close(&f);
+    return read && !bits_equal(found, time) ? "is another one" : NULL;
+}
+
+status output_frames_check(struct output *o, int *lost, char *text, size_t room)
+{
+    struct frame_job job = {0};
+    status s = OK;
+    *lost = 0;
+    for (int k = 0; k < o->frames; k++) {
+        char name[PATH_NAME_ROOM];
+        frame_name(name, sizeof name, k);
+        const char *fault = frame_fault(path_join(o->folder, name).text, o->frame_time[k]);
+        if (!fault) continue;
+        if ((*lost)++ == 0) snprintf(text, room, "%s %s", name, fault);
+        o->frame_time[k] = NAN;
+    }
+    if (*lost == 0) return OK;
+    const size_t used = strlen(text);
+    if (*lost > 1) snprintf(text + used, room - used, ", and %d frames more are lost", *lost - 1);
+    strncat(text, ": the indices leave out what is lost; a run of its own would make it again", room - strlen(text) - 1);
+    for (int k = 0; k < 2 && s == OK; k++) s = index_make(o, &job, k);
+    if (s == OK) s = indices_put(o->folder, &job);
+    for (int k = 0; k < 2; k++) free(job.index[k]);
+    return s;
 }

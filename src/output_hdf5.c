@@ -170,15 +170,12 @@ void hdf_mark_text(struct hdf *f, const char *group, const char *name, const cha
 
 int64_t hdf_count(struct hdf *f, const char *name)
 {
-    int64_t count = -1;
-    if (!ready(f) || H5Lexists(f->file, name, H5P_DEFAULT) <= 0) return -1;
-    hid_t set = H5Dopen2(f->file, name, H5P_DEFAULT);
-    if (set < 0) return -1;
-    hid_t space = H5Dget_space(set);
-    if (space >= 0) {
-        count = H5Sget_simple_extent_npoints(space);
-        H5Sclose(space);
-    }
+    hid_t set = -1, space = -1;
+    if (!ready(f)) return -1;
+    const htri_t there = H5Lexists(f->file, name, H5P_DEFAULT);
+    if (!good(f, there) || there == 0 || !good(f, set = H5Dopen2(f->file, name, H5P_DEFAULT))) return -1;
+    const int64_t count = good(f, space = H5Dget_space(set)) ? H5Sget_simple_extent_npoints(space) : -1;
+    if (space >= 0) H5Sclose(space);
     H5Dclose(set);
     return count;
 }

@@ -62,7 +62,7 @@ status folder_lock(struct folder_lock *l, const char *folder)
         }
         if (fault) {
             close(fd);
-            fprintf(stderr, "warning: cannot lock %s (%s): see that no other run uses it\n", folder, strerror(fault));
+            fprintf(stderr, "warning: cannot lock %s (%s): see that no other run uses it\n", shown_name(folder).text, strerror(fault));
             return OK;
         }
         if (is_still_there(fd, path.text)) l->fd = fd;
@@ -73,10 +73,17 @@ status folder_lock(struct folder_lock *l, const char *folder)
     return OK;
 }
 
+status folder_held(const struct folder_lock *l, const char *folder)
+{
+    if (l->fd < 0 || is_still_there(l->fd, path_join(folder, lock_name).text)) return OK;
+    return status_set(FAILED, "%s was moved, removed or exchanged while this run was in it; what is there now is left alone", folder);
+}
+
 void folder_unlock(struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0) return;
-    unlink(path_join(folder, lock_name).text);       /* before the lock goes: the next process to lock this file sees that it is gone */
+    if (folder_held(l, folder) == OK)                /* before the lock goes: the next process to lock this file sees that it is gone */
+        unlink(path_join(folder, lock_name).text);
     close(l->fd);
     l->fd = -1;
 }

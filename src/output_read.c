@@ -3,9 +3,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "last_words.h"
 #include "memory.h"
 #include "output.h"
 #include "output_files.h"
+#include "checksum.h"
 #include "output_hdf5.h"
 
 /* ---- frames ---------------------------------------------------------------------------------------- */
@@ -69,11 +71,15 @@ status frame_read(struct frame *f, const char *path)
     *f = (struct frame){0};
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode))
         return status_set(FAILED, "cannot read %s: there is no such file", path);
+    const char *fault = whole_fault(path);
+    if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
+    last_words_reading(path);
     hdf_open(&h, path);
     if (!h.failed) read_size(f, &h, s.st_size);
     if (!h.failed) read_fields(f, &h);
     bool whole = !h.failed;
     hdf_close(&h);
+    last_words_reading(NULL);
     if (whole) return OK;
     frame_free(f);
     return status_set(FAILED, "cannot read %s: it is no whole frame of this program", path);
@@ -97,35 +103,37 @@ void frame_free(struct frame *f)
 
 /* ---- their times ----------------------------------------------------------------------------------- */
 
-/* Goes to the next entry of the index and reads its time; returns false at the end. */
-static bool next_time(const char **at, real *time)
+/* Goes to the next entry of the index; returns false at the end. */
+static bool next_frame(const char **at, struct listed_frame *f)
 {
-    static const char key[] = "\"time\":";
-    const char *found = strstr(*at, key);
+    static const char name[] = "frames/", key[] = "\"time\":";
+    const char *number = strstr(*at, name), *time = number ? strstr(number, key) : NULL;
     char *end = NULL;
-    if (!found) return false;
-    *time = strtod(found + sizeof key - 1, &end);
+    if (!time) return false;
+    const long read = strtol(number + sizeof name - 1, NULL, 10);
+    f->number = read >= 0 && read < INT32_MAX ? (int)read : INT32_MAX;
+    f->time = strtod(time + sizeof key - 1, &end);
     *at = end;
-    return end > found + sizeof key - 1;
+    return end > time + sizeof key - 1;
 }
 
-status frames_list(const char *folder, int *n, real **time)
+status frames_list(const char *folder, int *n, struct listed_frame **list)
 {
     struct path path = path_join(folder, "frames.hdf.series");
     char *text = NULL;
     size_t length = 0;
-    real t;
+    struct listed_frame f;
     *n = 0;
-    *time = NULL;
+    *list = NULL;
     if (!path_exists(path.text)) return status_set(FAILED, "%s holds no frames (no frames.hdf.series)", folder);
     TRY(file_get(path.text, &text, &length));
     int count = 0;
-    for (const char *at = text; next_time(&at, &t);) count++;
-    *time = NEW("frames.time", count, real);
-    for (const char *at = text; *n < count && next_time(&at, &(*time)[*n]);) ++*n;
+    for (const char *at = text; next_frame(&at, &f);) count++;
+    *list = NEW("frames.list", count, struct listed_frame);
+    for (const char *at = text; *n < count && next_frame(&at, &(*list)[*n]);) ++*n;
     memory_free(text);
     if (count > 0) return OK;
-    memory_free(*time);
-    *time = NULL;
+    memory_free(*list);
+    *list = NULL;
     return status_set(FAILED, "%s lists no frames", path.text);
 }

@@ -9,7 +9,9 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "last_words.h"
 #include "memory.h"
+#include "team.h"
 
 enum { LINE_LENGTH = 4096, PARTICLES_MAX = INT32_MAX - 64 };
 
@@ -44,6 +46,17 @@ static const char *value_fault(int column, real value)
     if (column >= COLUMN_MATERIAL && (value < 0 || value > UINT8_MAX || value != floor(value)))
         return "must be a whole number from 0 to 255";
     return NULL;
+}
+
+enum { PARTICLE_NUMBERS = 40 };          /* of a particle of a run, without its bonds: what it comes to be once it is read */
+
+/* Refuses entries of which so many, as particles, are more than the memory holds. */
+static status list_affordable(const char *path, int64_t n)
+{
+    const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
+    if (team_memory() <= 0 || bytes <= (real)team_memory()) return OK;
+    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had", path, (real)n, 1e-9 * bytes,
+                      1e-9 * (real)team_memory());
 }
 
 /* ---- CSV ------------------------------------------------------------------------------------------- */
@@ -118,16 +131,18 @@ static status csv_header(struct csv *c, int dim)
 }
 
 /* Makes room for one more entry, doubling. */
-static void csv_grow(struct csv *c, struct particle_list *l)
+static status csv_grow(struct csv *c, struct particle_list *l)
 {
-    if (l->n < c->room) return;
+    if (l->n < c->room) return OK;
     int64_t room = c->room > 0 ? 2 * c->room : 1024;
+    TRY(list_affordable(c->path, room / 2));
     for (int k = 0; k < c->columns; k++) {
         real **array = column_array(l, c->column[k]);
         *array = memory_resize("list.column", *array, c->room, room, sizeof(real));
     }
     l->line = memory_resize("list.line", l->line, c->room, room, sizeof *l->line);
     c->room = room;
+    return OK;
 }
 
 /* One particle from the current line. */
@@ -160,7 +175,7 @@ static status csv_entries(struct csv *c, struct particle_list *l)
         TRY(csv_line(c, &more));
         if (!more) return OK;
         if (l->n >= PARTICLES_MAX) return status_set(REFUSED, "%s: more than %d particles", c->path, PARTICLES_MAX);
-        csv_grow(c, l);
+        TRY(csv_grow(c, l));
         TRY(csv_entry(c, l));
     }
 }
@@ -198,11 +213,45 @@ static bool table_shape(hid_t set, struct table *t)
     return good;
 }
 
+/* gzip cannot shrink numbers that are all the same further than this: a bound on what a small file claims. */
+enum { ROWS_PER_BYTE_MOST = 1024 };
+
+static status table_check(const struct table *t, const char *path, const char *name)
+{
+    struct stat about;
+    if (stat(path, &about) != 0 || t->rows / ROWS_PER_BYTE_MOST > about.st_size)
+        return status_set(REFUSED, "%s: %s claims %lld entries, more than a file of its size holds", path, name, (long long)t->rows);
+    return list_affordable(path, t->rows);
+}
+
+/* Are its numbers in this file, and not in others beside it? */
+static bool lies_inside(hid_t set)
+{
+    hid_t made = H5Dget_create_plist(set);
+    const bool inside = H5Pget_layout(made) != H5D_VIRTUAL && H5Pget_external_count(made) == 0;
+    H5Pclose(made);
+    return inside;
+}
+
+/* The link is looked at before it is followed. */
+static bool is_linked(hid_t file, const char *name)
+{
+    H5L_info_t link;
+    return H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 && link.type != H5L_TYPE_HARD;
+}
+
 static status table_read(hid_t file, const char *path, const char *name, struct table *t)
 {
+    if (is_linked(file, name)) return status_set(REFUSED, "%s: %s is a link; a dataset of this file is expected", path, name);
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
     if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset", path, name);
     bool good = table_shape(set, t);
+    status checked = good ? table_check(t, path, name) : OK;
+    if (good && !lies_inside(set)) checked = status_set(REFUSED, "%s: %s has its numbers in other files", path, name);
+    if (checked != OK) {
+        H5Dclose(set);
+        return checked;
+    }
     if (good) {
         t->value = NEW("list.table", t->rows * t->columns, real);
         good = H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, t->value) >= 0;
@@ -258,6 +307,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
 static status hdf5_read(struct particle_list *l, const char *path)
 {
     status s;
+    last_words_reading(path);
     H5E_BEGIN_TRY                        /* our line says it; HDF5's own stack of errors stays silent */
     {
         hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -265,6 +315,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
         if (file >= 0) H5Fclose(file);
     }
     H5E_END_TRY;
+    last_words_reading(NULL);
     return s;
 }
 

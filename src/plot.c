@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "memory.h"
+#include "output_files.h"
 #include "plot.h"
 #include "summary_read.h"
 
@@ -21,8 +22,9 @@ struct request {
 
 struct run_frames {
     int listed;
-    real *time;                          /* [listed] [s] */
-    int shown, *number;                  /* which of them the panels show */
+    struct listed_frame *list;           /* [listed] */
+    int shown;
+    struct listed_frame *show;           /* [shown] those that the panels show */
 };
 
 /* ---- units ----------------------------------------------------------------------------------------- */
@@ -103,9 +105,9 @@ status run_frame(struct frame *f, const char *folder, int number)
 static void spread_frames(struct run_frames *r, int panels)
 {
     r->shown = r->listed < panels ? r->listed : panels;
-    r->number = NEW("plot.number", r->shown, int);
+    r->show = NEW("plot.show", r->shown, struct listed_frame);
     for (int k = 0; k < r->shown; k++)
-        r->number[k] = r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1));
+        r->show[k] = r->list[r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1))];
 }
 
 /* `name, method: what` with what is known of the run. */
@@ -169,12 +171,12 @@ static status draw_every(const struct request *r, const struct run_frames *frame
         struct frame f;
         struct cloud c;
         char file[NAME_MAX_LENGTH];
-        TRY(run_frame(&f, r->folder, k));
+        TRY(run_frame(&f, r->folder, frames->list[k].number));
         cloud_make(&c, &f);
         frame_free(&f);
-        snprintf(file, sizeof file, "damage_%06d", k);
+        snprintf(file, sizeof file, "damage_%06d", frames->list[k].number);
         status s = draw_map(r, file, MAP_DAMAGE, view, &c, 1);
-        snprintf(file, sizeof file, "kind_%06d", k);
+        snprintf(file, sizeof file, "kind_%06d", frames->list[k].number);
         if (s == OK) s = draw_map(r, file, MAP_KIND, view, &c, 1);
         cloud_free(&c);
         TRY(s);
@@ -197,15 +199,12 @@ static status draw_maps(const struct request *r, const struct run_frames *frames
 static status draw_bar(const struct request *r, const struct run_frames *frames, const char *probe)
 {
     char path[PATH_LENGTH], title[TITLE_LENGTH];
-    int skipped = frames->shown > 1 && frames->number[0] == 0, shown = frames->shown - skipped;
-    double *time = NEW("plot.time", shown, double);
-    for (int k = 0; k < shown; k++) time[k] = frames->time[frames->number[k + skipped]];
+    const int skipped = frames->shown > 1 && frames->show[0].number == 0;
     compose_title(title, r->folder, "beside the exact solution", NULL);
     status s = OK;
     if (snprintf(path, sizeof path, "%s/pictures/profiles.png", r->folder) >= (int)sizeof path)
         s = status_set(FAILED, "%s: the name is too long", r->folder);
-    if (s == OK) s = bar_draw(path, title, r->folder, probe, frames->number + skipped, time, shown);
-    memory_free(time);
+    if (s == OK) s = bar_draw(path, title, r->folder, probe, frames->show + skipped, frames->shown - skipped);
     return s;
 }
 
@@ -217,7 +216,7 @@ static status draw_profiles(const struct request *r, const struct run_frames *fr
     status s = OK;
     int read = 0;
     while (s == OK && read < frames->shown) {
-        s = run_frame(&f[read], r->folder, frames->number[read]);
+        s = run_frame(&f[read], r->folder, frames->show[read].number);
         if (s == OK) read++;
     }
     compose_title(title, r->folder, "profiles", NULL);
@@ -235,7 +234,7 @@ static status draw_clouds(const struct request *r, const struct run_frames *fram
     status s = OK;
     for (int k = 0; s == OK && k < frames->shown; k++) {
         struct frame f;
-        s = run_frame(&f, r->folder, frames->number[k]);
+        s = run_frame(&f, r->folder, frames->show[k].number);
         if (s != OK) break;
         cloud_make(&cloud[k], &f);
         frame_free(&f);
@@ -249,19 +248,19 @@ static status draw_clouds(const struct request *r, const struct run_frames *fram
 static status draw_frames(const struct request *r)
 {
     struct run_frames frames = {0};
-    TRY(frames_list(r->folder, &frames.listed, &frames.time));
+    TRY(frames_list(r->folder, &frames.listed, &frames.list));
     if (frames.listed > 0) {
         struct frame last;
         spread_frames(&frames, r->panels);
-        status s = run_frame(&last, r->folder, frames.listed - 1);
+        status s = run_frame(&last, r->folder, frames.list[frames.listed - 1].number);
         int dim = s == OK ? last.dim : 0;
         if (s == OK) frame_free(&last);
         if (s == OK) s = dim == 1 ? draw_profiles(r, &frames) : draw_clouds(r, &frames);
-        memory_free(frames.number);
-        memory_free(frames.time);
+        memory_free(frames.show);
+        memory_free(frames.list);
         return s;
     }
-    memory_free(frames.time);
+    memory_free(frames.list);
     return OK;
 }
 
@@ -274,11 +273,13 @@ status command_plot(int argc, char **argv)
     if (!frames && !history) return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", r.folder);
     if (snprintf(pictures, sizeof pictures, "%s/pictures", r.folder) >= (int)sizeof pictures)
         return status_set(FAILED, "%s: the name is too long", r.folder);
+    if (path_is_link(pictures))
+        return status_set(REFUSED, "%s is a link: pictures would be made somewhere else; remove it", pictures);
     if (mkdir(pictures, 0777) != 0 && errno != EEXIST) return status_set(FAILED, "%s: %s", pictures, strerror(errno));
     if (frames) TRY(draw_frames(&r));
     compose_title(title, r.folder, "", NULL);
     if (history) TRY(curves_draw(r.folder, pictures, title));
-    if (printf("pictures in %s\n", pictures) < 0 || fflush(stdout) != 0)
+    if (printf("pictures in %s\n", shown_name(pictures).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));
     return OK;
 }

@@ -85,9 +85,8 @@ status profiles_draw(const char *path, const char *title, const struct frame *fr
 
 /* The name of a probe of the run that has compared a bar with a closed form; false if there is none. */
 bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH]);
-/* Its profiles: stress, strain, velocity (and damage, where there is any) beside the closed form, at the times [s] of the
- * frames with these numbers. */
-status bar_draw(const char *path, const char *title, const char *folder, const char *probe, const int *number,
-                const double *time, int frames);
+/* Its profiles: stress, strain, velocity (and damage, where there is any) beside the closed form, at these frames. */
+status bar_draw(const char *path, const char *title, const char *folder, const char *probe,
+                const struct listed_frame *show, int frames);
 
 #endif

@@ -151,12 +151,12 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
     return true;
 }
 
-static void plot_panel(FILE *to, int q, const double *time, int frames, bool tinted)
+static void plot_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
 {
-    struct unit second = unit_for(time[frames - 1], "s");
+    struct unit second = unit_for(show[frames - 1].time, "s");
     for (int k = 0; k < frames; k++)
         fprintf(to, "%s$f%d using 1:%d with lines lw 2.2 lc rgb '%s' title '%.4g %s'", k ? ", " : "plot ", k, 2 * q + 2,
-                curve_colour[k % CURVE_COLOURS], time[k] / second.factor, second.name);
+                curve_colour[k % CURVE_COLOURS], show[k].time / second.factor, second.name);
     for (int k = 0; k < frames && quantity[q].exact; k++)
         fprintf(to, ", $f%d using 1:%d with lines lw 1.1 dt (9,5) lc rgb '#222222' %s", k, 2 * q + 3,
                 k ? "notitle" : "title 'exact'");
@@ -164,7 +164,7 @@ static void plot_panel(FILE *to, int q, const double *time, int frames, bool tin
     putc('\n', to);
 }
 
-static status draw(const char *path, const char *title, const struct history *h, const double *time, int frames)
+static status draw(const char *path, const char *title, const struct history *h, const struct listed_frame *show, int frames)
 {
     struct gnuplot g;
     struct scale scale[QUANTITIES], x = {.low = INFINITY, .high = -INFINITY};
@@ -190,24 +190,24 @@ static status draw(const char *path, const char *title, const struct history *h,
                       "set yrange [%.9g:%.9g]\n", above, above - 225.0 / height, scale[q].label, scale[q].low,
                 scale[q].high);
         if (q == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
-        plot_panel(g.to, q, time, frames, tinted);
+        plot_panel(g.to, q, show, frames, tinted);
         fputs("unset label\nunset key\n", g.to);
     }
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }
 
-status bar_draw(const char *path, const char *title, const char *folder, const char *probe, const int *number,
-                const double *time, int frames)
+status bar_draw(const char *path, const char *title, const char *folder, const char *probe,
+                const struct listed_frame *show, int frames)
 {
     struct history *h = NEW("plot.profiles", frames, struct history);
     status s = OK;
     int read = 0;
     while (s == OK && read < frames) {
-        s = profile_read(&h[read], folder, probe, number[read]);
+        s = profile_read(&h[read], folder, probe, show[read].number);
         if (s == OK) read++;
     }
-    if (s == OK) s = draw(path, title, h, time, frames);
+    if (s == OK) s = draw(path, title, h, show, frames);
     for (int k = 0; k < read; k++) history_free(&h[k]);
     memory_free(h);
     return s;

@@ -1,9 +1,7 @@
 /* floor 3: profiles of LINE and EXACT probes as csv files. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
-#include <unistd.h>
+#include <stdlib.h>
 
 #include "probes.h"
 #include "probes_parts.h"
@@ -61,40 +59,39 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
     profile_rows(file, q, o->part);
 }
 
-static status profile_failed(const char *path)
+/* `<probe>_NNNNNN.csv`; a name may hold a place in a list, as of a growth. */
+static void profile_name(char *name, size_t room, const struct probe *q, int frame)
 {
-    return status_set(FAILED, "cannot write %s: %s", path, strerror(errno));
-}
-
-/* Written aside, synced, renamed: a file that is there is whole. */
-static status profile_write(const struct probe *q, const struct observed *o, const char *folder, int frame)
-{
-    char path[4096], aside[4096 + 8], name[NAME_MAX_LENGTH];
-    snprintf(name, sizeof name, "%s", q->request.name);
+    snprintf(name, room, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
     for (char *c = name; *c; c++)
         if (*c == '/') *c = '_';
-    if (snprintf(path, sizeof path, "%s/%s_%06d.csv", folder, name, frame) >= (int)sizeof path) {
-        errno = ENAMETOOLONG;
-        return profile_failed(folder);
-    }
-    snprintf(aside, sizeof aside, "%s.tmp", path);
-    FILE *file = fopen(aside, "w");
-    if (!file) return profile_failed(path);
-    profile_text(file, q, o);
-    bool written = fflush(file) == 0 && !ferror(file) && fsync(fileno(file)) == 0;
-    int fault = errno;
-    if (fclose(file) != 0 && written) written = false, fault = errno;
-    if (written && rename(aside, path) == 0) return OK;
-    if (written) fault = errno;
-    remove(aside);
-    errno = fault;
-    return profile_failed(path);
 }
 
-status probes_profiles(const struct probes *s, const struct observed *o, const char *folder, int frame)
+static status profile_put(const struct probe *q, const struct observed *o, probe_file_fn *put, void *context, int frame)
+{
+    char name[NAME_MAX_LENGTH + 16], *text = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&text, &length);
+    if (file) profile_text(file, q, o);
+    bool whole = file && !ferror(file);
+    if (file && fclose(file) != 0) whole = false;
+    profile_name(name, sizeof name, q, frame);
+    const status s = whole ? put(context, name, text, length) : status_set(FAILED, "cannot write %s: out of memory", name);
+    free(text);
+    return s;
+}
+
+int64_t probes_profiled(const struct probes *s)
+{
+    int64_t n = 0;
+    for (int k = 0; k < s->n; k++) n += s->probe[k].request.kind == PROBE_LINE || s->probe[k].request.kind == PROBE_EXACT;
+    return n;
+}
+
+status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame)
 {
     for (int k = 0; k < s->n; k++)
         if (s->probe[k].request.kind == PROBE_LINE || s->probe[k].request.kind == PROBE_EXACT)
-            TRY(profile_write(&s->probe[k], o, folder, frame));
+            TRY(profile_put(&s->probe[k], o, put, context, frame));
     return OK;
 }

@@ -1,5 +1,6 @@
 /* floor 5: `cleave run` and `cleave check`: from a scene file to results, or to what it would cost. */
 #include <math.h>
+#include <omp.h>
 #include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -17,19 +18,31 @@ static void on_signal(int number)
     stop_asked = 1;
 }
 
+/* What batch systems send ahead of the end, some of it every second. */
+static void on_notice(int number)
+{
+    (void)number;
+    stop_asked = 1;
+}
+
+/* A signal that whoever started the program ignores stays ignored: nohup, or `&` in a script, asks for that. */
 static void listen_to_signals(void)
 {
-    struct sigaction action = {.sa_handler = on_signal}, before;
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    /* nohup asks to stay when the terminal goes */
-    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL);
+    static const struct { int number; void (*handler)(int); } heard[] = {
+        {SIGINT, on_signal}, {SIGTERM, on_signal}, {SIGHUP, on_signal},
+        {SIGXCPU, on_notice}, {SIGUSR1, on_notice}, {SIGUSR2, on_notice}};
+    for (size_t k = 0; k < COUNT_OF(heard); k++) {
+        const struct sigaction action = {.sa_handler = heard[k].handler};
+        struct sigaction before;
+        if (sigaction(heard[k].number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(heard[k].number, &action, NULL);
+    }
 }
 
 /* ---- run -------------------------------------------------------------------------------------------------------- */
 
 static void print_summary(const struct engine *e, const char *folder, double wall)
 {
+    const struct shown_name shown = shown_name(folder);
     const struct tip *tip = tips_longest(&e->tips);
     printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n, (long long)e->step,
            e->dt, wall);
@@ -43,8 +56,8 @@ static void print_summary(const struct engine *e, const char *folder, double wal
            100.0 * (double)e->conversion.start / (double)e->part.n,
            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n);
     printf("  energy balance %.2g, momentum %.2g\n", e->watch.now.balance_error, e->watch.now.momentum_error);
-    printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", folder, folder,
-           folder);
+    printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", shown.text,
+           shown.text, shown.text);
 }
 
 static status open_folder(struct output *out, const struct scene *s, const struct run_arguments *a)
@@ -65,6 +78,8 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     if (!a->quiet) scene_choice_print(s, stderr);
     engine_warn(e);
     warnings_print(&e->warnings, 0, stderr);
+    if (threads > 2 * omp_get_num_procs())
+        fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads, omp_get_num_procs());
     e->stop = &stop_asked;
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     status ran = engine_run(e);

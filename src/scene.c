@@ -19,7 +19,7 @@ static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
     size_t length = dot && dot != base ? (size_t)(dot - base) : strlen(base);
     if (length >= NAME_MAX_LENGTH) length = NAME_MAX_LENGTH - 1;
     for (size_t k = 0; k < length; k++) {
-        bool fine = isalnum((unsigned char)base[k]) || base[k] == '-' || base[k] == '_';
+        bool fine = isalnum((unsigned char)base[k]) || (base[k] == '-' && k > 0) || base[k] == '_';
         name[k] = fine ? base[k] : '_';
     }
     if (length == 0) strcpy(name, "scene");

@@ -139,7 +139,7 @@ static void write_value(struct writer *w, const struct key *k, const void *place
 /* Is there something to say? What is not given and has no default has not. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
-    if (k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
+    if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
     if (k->has && !*((const bool *)base + (k->has - 1))) return false;
     if (k->type == KEY_REAL) return k->words || !isnan(*(const real *)place);
     if (k->type == KEY_NAME) return *(const char *)place != '\0';
@@ -224,6 +224,18 @@ static void write_materials(struct writer *w)
     }
 }
 
+/* The file by its whole name, so that the echo runs from anywhere, and what was in it: a run goes on with the same contents only. */
+static void write_particle_list(struct writer *w, const struct scene_body *b)
+{
+    char *whole = b->contents ? realpath(b->file, NULL) : NULL;
+    begin(w, "particles");
+    fputc(' ', w->out);
+    write_quoted(w, whole ? whole : b->file);
+    if (b->contents) fprintf(w->out, "  # contents %016" PRIx64, b->contents);
+    fputc('\n', w->out);
+    free(whole);
+}
+
 static void write_bodies(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -231,11 +243,7 @@ static void write_bodies(struct writer *w)
     for (int k = 0; k < s->bodies; k++) {
         begin_item(w);
         write_group(w, "bodies", &s->body[k]);
-        if (!s->body[k].file) continue;
-        begin(w, "particles");
-        fputc(' ', w->out);
-        write_quoted(w, s->body[k].file);
-        fputc('\n', w->out);
+        if (s->body[k].file) write_particle_list(w, &s->body[k]);
     }
 }
 

@@ -89,10 +89,11 @@ static void path_of_table(const char *key, char *path, size_t room)
     }
     for (const char *c = key + skip; *c && used + 1 < room; c++) {
         if (*c == '[') c += strcspn(c, "]");
-        else path[used++] = (char)(iscntrl((unsigned char)*c) ? '?' : *c);
+        else path[used++] = *c;
         if (*c == '\0') break;
     }
     path[used] = '\0';
+    text_harmless(path);
 }
 
 static bool is_below(const struct key *k, const char *path)
@@ -144,7 +145,7 @@ static const char manual_head[] =
     ".B cleave plot\n.I dir\n.br\n"
     ".B cleave compare\n.I dir dir\n.br\n"
     ".B cleave bench\n[\\fIname\\fR]... [\\fB\\-\\-quick\\fR]\n.br\n"
-    ".B cleave help\n[\\fIkey\\fR]\n.br\n"
+    ".B cleave help\n[\\fIkey\\fR|\\fBtrust\\fR]\n.br\n"
     ".B cleave info\n"
     ".SH DESCRIPTION\n"
     "A scene is a YAML file that says what breaks. The body is peridynamic where its material breaks and made of\n"
@@ -154,7 +155,7 @@ static const char manual_head[] =
     ".TP\n.B plot\ndraws pictures of a run, finished or not.\n"
     ".TP\n.B compare\ntells how far two runs are apart.\n"
     ".TP\n.B bench\nmeasures the program.\n"
-    ".TP\n.B help\nprints the keys below, those that begin with a key, or one.\n"
+    ".TP\n.B help\nprints the keys below, those that begin with a key, or one; with trust, what a run promises.\n"
     ".TP\n.B info\nprints version, build, sets of kernels, threads, cores and caches.\n"
     ".SH OPTIONS\n"
     ".TP\n.B \\-o \\fIdir\\fR\nfolder of the results. One that holds another run is refused.\n"
@@ -170,6 +171,8 @@ static const char manual_head[] =
     ".TP\n.B 130\ninterrupted, after a checkpoint\n"
     ".SH ENVIRONMENT\nNO_COLOR, OMP_NUM_THREADS, OMP_PLACES and OMP_PROC_BIND are honoured.\n"
     "CLEAVE_SIMD takes a set of kernels other than the widest that the processor runs: avx512, avx2 or portable.\n"
+    ".SH SIGNALS\nSIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 end a run with a checkpoint; the first three end it at once the\n"
+    "second time. One that was ignored when the program was started stays ignored.\n"
     ".SH FILES\n"
     ".TP\n.I frames/NNNNNN.hdf, frames.hdf.series\nthe frames (VTKHDF) and the index that ParaView opens\n"
     ".TP\n.I frames.xdmf\nthe same for other readers\n"

@@ -61,7 +61,7 @@ enum unit {
 struct unit_row { const char *name, *symbol, *example; signed char twice[3]; }; /* twice the powers of m, kg, s */
 extern const struct unit_row unit_rows[UNITS];
 
-/* Reads `number [/ number] [unit]`, exactly rounded: units are powers of ten. On failure writes to `what` the
+/* Reads `number [/ number] [unit]`, exactly rounded: units are powers of ten (but for min and h). On failure writes to `what` the
  * sentence that begins with the text: what is wrong and what would be right. */
 bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room);
 /* The shortest text that reads back to the same bits. */
@@ -93,6 +93,7 @@ struct key {
     size_t has;                          /* 1 + offset of the bool that says that the key was given   */
     real word_value;                     /* REAL: what the word stands for                            */
     bool infinite;                       /* inf is allowed                                            */
+    bool of_process;                     /* says how long a process runs, not what it computes: no part of the echo */
 };
 extern const struct key keys[];
 extern const int keys_count;

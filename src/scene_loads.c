@@ -142,7 +142,7 @@ static status read_face(struct reader *r, const struct node *map, struct boundar
                                    : word_list(r, k->words));
     b->face = face / 2;
     b->side = face % 2 == 0 ? 1 : -1;
-    b->section = r->dim == 1 ? r->scene->section : r->scene->thickness;
+    b->section = scene_section(r->scene);
     return OK;
 }
 

@@ -50,12 +50,18 @@ static const char *item_name(const struct node *list, const struct node *item)
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
+/* The node, for a message about the override that meant it; nobody reads it after that. */
+static const struct node *blamed(struct node *n, int origin)
+{
+    n->origin = origin;
+    return n;
+}
+
 static status item_of(struct reader *r, struct node *list, int index, int origin, struct node **out)
 {
-    struct node at = {.origin = origin, .key = list->key, .parent = list->parent};
-    if (list->kind != NODE_LIST) return fault(r, &at, "is no list in this scene; [%d] has no meaning", index);
+    if (list->kind != NODE_LIST) return fault(r, blamed(list, origin), "is no list in this scene; [%d] has no meaning", index);
     if (index >= list->n)
-        return fault(r, &at, "has %d items; [%d] is behind the last (the first is [0])", list->n, index);
+        return fault(r, blamed(list, origin), "has %d items; [%d] is behind the last (the first is [0])", list->n, index);
     struct node *n = list->first;
     while (index-- > 0) n = n->next;
     *out = n;
@@ -79,7 +85,6 @@ static const char *names_text(struct reader *r, const struct node *list)
 /* An item by `0` or by its name; boundary0 is what a boundary without one is called. */
 static status item_called(struct reader *r, struct node *list, const char *key, size_t length, int origin, struct node **out)
 {
-    struct node at = {.origin = origin, .key = list->key, .parent = list->parent};
     const char *called = arena_text(r, key, length);
     const size_t stem = list->key && strncmp(called, list->key, strlen(list->key)) == 0 ? strlen(list->key) : 0;
     const size_t digits = strspn(called + stem, "0123456789");
@@ -92,7 +97,7 @@ static status item_called(struct reader *r, struct node *list, const char *key, 
             return OK;
         }
     }
-    return fault(r, &at, "has %d item%s; %s is %s; they go by number (the first is 0)%s", list->n, list->n == 1 ? "" : "s",
+    return fault(r, blamed(list, origin), "has %d item%s; %s is %s; they go by number (the first is 0)%s", list->n, list->n == 1 ? "" : "s",
                  shown_text(r, called), number ? "behind the last" : "the name of none", names_text(r, list));
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "checksum.h"
 #include "memory.h"
 
 /* ---- materials ------------------------------------------------------------------------------------------ */
@@ -64,7 +65,7 @@ static real critical_stretch(const struct scene *s, const struct material *m)
     if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
     struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
     const struct state_modulus modulus = state_modulus_of(m, s->space, true);
-    family_make(&f, s->space, s->spacing, s->horizon, s->space == SPACE_LINE ? s->section : s->thickness);
+    family_make(&f, s->space, s->spacing, s->horizon, scene_section(s));
     return sqrt(m->energy_release_rate / family_separation(&f, &modulus, !s->bulk));
 }
 
@@ -125,10 +126,11 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
     if (r->files && folder > 0 && n->text[0] != '/') {
         memcpy(b->file, r->name, folder);
         memcpy(b->file + folder, n->text, length + 1);
-        if (access(b->file, R_OK) == 0) return OK;
+        if (access(b->file, R_OK) == 0) return file_contents(b->file, &b->contents);
     }
     memcpy(b->file, n->text, length + 1);
-    if (!r->files || access(b->file, R_OK) == 0) return OK;
+    if (!r->files) return OK;
+    if (access(b->file, R_OK) == 0) return file_contents(b->file, &b->contents);
     return fault(r, n, "%s cannot be read; a particle list in the scene's folder is expected", shown(r, n));
 }
 

@@ -214,6 +214,15 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     return complain(c, wrong, unit);
 }
 
+/* Seconds of the units of clocks, which are no powers of ten and stand alone; 0: none of them. */
+static int clock_seconds(const char *text, enum unit unit)
+{
+    static const struct { const char *name; int seconds; } clocks[] = {{"min", 60}, {"h", 3600}};
+    for (size_t k = 0; k < COUNT_OF(clocks) && unit == UNIT_TIME; k++)
+        if (strcmp(text, clocks[k].name) == 0) return clocks[k].seconds;
+    return 0;
+}
+
 static bool infinite_read(real *value, const char *text)
 {
     const char *c = text + (*text == '-' || *text == '+');
@@ -237,6 +246,18 @@ static size_t divisor_read(const char *c, real *divisor)
     return (size_t)(c - start) + length;
 }
 
+/* Beyond these [SI] no body is, and products of a few numbers no longer are numbers. */
+#define NUMBER_LEAST 1e-30
+#define NUMBER_MOST 1e30
+
+static bool in_bounds(struct complaint c, real value, enum unit unit)
+{
+    if (!isfinite(value)) return complain(c, "is not finite", unit);
+    if (fabs(value) > NUMBER_MOST) return complain(c, "is above 1e30 in SI units", unit);
+    if (fabs(value) < NUMBER_LEAST && fabs(value) > 0) return complain(c, "is below 1e-30 in SI units, and not 0", unit);
+    return true;
+}
+
 bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room)
 {
     struct complaint c = {what, room};
@@ -254,10 +275,11 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     const char *rest = text + length;
     rest += divisor_read(rest, &divisor);
     while (*rest == ' ') rest++;
-    if (!unit_fits(c, rest, unit, &ten)) return false;
+    const int clock = clock_seconds(rest, unit);
+    if (!clock && !unit_fits(c, rest, unit, &ten)) return false;
     if (divisor == 0) return complain(c, "divides by 0", unit);
-    *value = number_value(text, length, ten) / divisor;
-    return isfinite(*value) || complain(c, "is not finite", unit);
+    *value = clock ? clock * number_value(text, length, 0) / divisor : number_value(text, length, ten) / divisor;
+    return in_bounds(c, *value, unit);
 }
 
 const char *number_text(char text[32], real value)

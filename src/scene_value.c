@@ -21,7 +21,8 @@ const char *shown_text(struct reader *r, const char *text)
     if (cut > SHOWN_LONGEST) cut = SHOWN_LONGEST;
     while (cut < length && cut > 0 && ((unsigned char)text[cut] & 0xC0) == 0x80) cut--;   /* whole letters only */
     char *copy = arena_new(r, cut + 4);
-    for (size_t k = 0; k < cut; k++) copy[k] = iscntrl((unsigned char)text[k]) ? '?' : text[k];
+    memcpy(copy, text, cut);
+    text_harmless(copy);
     if (cut < length) memcpy(copy + cut, "...", 3);
     return copy;
 }
@@ -47,8 +48,6 @@ static void node_name(const struct node *n, char *name, size_t room)
     } else {
         *name = '\0';
     }
-    for (char *c = name; *c; c++)
-        if (iscntrl((unsigned char)*c)) *c = '?';
 }
 
 static void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room)
@@ -58,8 +57,6 @@ static void place_text(const struct reader *r, int origin, int line, int column,
         return;
     }
     snprintf(text, room, "-s %.100s=%.100s", r->override[origin].key, r->override[origin].value);
-    for (char *c = text; *c; c++)
-        if (iscntrl((unsigned char)*c)) *c = '?';
 }
 
 status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
@@ -288,8 +285,8 @@ static status read_name(struct reader *r, const struct node *n, char *name)
 {
     size_t length = strlen(n->text), fine = 0;
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
-    if (n->kind != NODE_SCALAR || length == 0 || fine != length)
-        return fault(r, n, "%s is no name; letters, digits, _ and - are expected", shown(r, n));
+    if (n->kind != NODE_SCALAR || length == 0 || fine != length || n->text[0] == '-')
+        return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", shown(r, n));
     if (length >= NAME_MAX_LENGTH)
         return fault(r, n, "%s is too long; at most %d characters are expected", shown(r, n), NAME_MAX_LENGTH - 1);
     memset(name, 0, NAME_MAX_LENGTH);

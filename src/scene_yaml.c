@@ -6,7 +6,7 @@
 
 #include "memory.h"
 
-enum { DEPTH_MOST = 16, EVENTS_MOST = 100000, ARENA_BLOCK = 32768 };
+enum { DEPTH_MOST = 16, EVENTS_MOST = 1000000, ARENA_BLOCK = 32768 };
 
 /* ---- memory of one reading ------------------------------------------------------------------------------ */
 
@@ -112,7 +112,7 @@ static status next_event(struct parse *p, yaml_event_t *event)
     if (++p->events <= EVENTS_MOST) return OK;
     yaml_mark_t mark = event->start_mark;
     yaml_event_delete(event);
-    return fault_at(p, mark, "more than 100000 YAML events; long data belong into a particle list");
+    return fault_at(p, mark, "more than 1000000 YAML events; long data belong into a particle list");
 }
 
 /* Features by which one text stands for another; a scene says what it means in place. */

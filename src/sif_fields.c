@@ -93,7 +93,7 @@ void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real
     wave_weights(m, mode, v, a, weight);
     memset(f, 0, sizeof *f);
     for (int w = 0; w < 2; w++) {
-        const double complex z = CMPLX(x[0], a[w] * x[1]), root = csqrt(z), slope = 0.5 / root, bend = -0.25 / (root * z);
+        const double complex z = x[0] + I * (a[w] * x[1]), root = csqrt(z), slope = 0.5 / root, bend = -0.25 / (root * z);
         for (int i = 0; i < 2; i++) {
             const bool real_part = (mode == MODE_I) == (i == 0);
             const double complex unit = weight[i][w] * (real_part ? 1 : -I);     /* Im z = Re(-i z) */

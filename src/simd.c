@@ -7,19 +7,46 @@
 
 #include "set.h"
 
+#ifdef __x86_64__
+#include <cpuid.h>
+#endif
+
 static bool runs_anywhere(void) { return true; }
 extern const struct kernel_set kernel_set_portable;
 
 #ifdef __x86_64__
-static bool runs_avx512(void) { return __builtin_cpu_supports("x86-64-v4"); }
-static bool runs_avx2(void) { return __builtin_cpu_supports("x86-64-v3"); }
 extern const struct kernel_set kernel_set_avx512, kernel_set_avx2;
+
+/* Bits of the third register that the processor answers a question (a leaf of cpuid) with. */
+static inline bool answers(unsigned leaf, unsigned bits)
+{
+    unsigned a, b, c, d;
+    return __get_cpuid(leaf, &a, &b, &c, &d) && (c & bits) == bits;
+}
+
+/* The levels of x86-64 by what they consist of: not every compiler knows them by name, or all of their parts. */
+static inline bool runs_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+           __builtin_cpu_supports("bmi2") && answers(1, bit_F16C | bit_MOVBE) && answers(0x80000001, bit_LZCNT);
+}
+
+static inline bool runs_avx512(void)
+{
+    return runs_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+}
 #endif
 
+/* The Makefile defines KERNELS_... for each set that it builds. */
 const struct simd_set simd_sets[] = {
-#ifdef __x86_64__
+#ifdef KERNELS_avx512
     {"avx512", "AVX-512 (x86-64-v4), 8 doubles a vector", runs_avx512, &kernel_set_avx512},
+#endif
+#ifdef KERNELS_avx2
     {"avx2", "AVX2 with fused multiply-add (x86-64-v3), 4 doubles a vector", runs_avx2, &kernel_set_avx2},
+#endif
+#ifdef __x86_64__
     {"portable", "SSE2 (x86-64), 2 doubles a vector", runs_anywhere, &kernel_set_portable},
 #else
     {"portable", "what the compiler takes this processor for", runs_anywhere, &kernel_set_portable},

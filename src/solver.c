@@ -317,6 +317,23 @@ static void say_past_limit(struct engine *e)
     if (e->solver.past_limit > 0) engine_say(e, text);
 }
 
+#define STRAIN_LARGE 0.1                 /* beyond it neither straight bonds nor Hooke's law are what a solid does */
+
+/* Hooke's law has an equilibrium under any load. */
+static void say_large_strain(struct engine *e)
+{
+    const struct particles *p = &e->part;
+    real most = 0;
+    char text[200];
+    engine_stress(e);
+    for (int64_t i = 0; i < p->n; i++)
+        for (int k = 0; k < symmetric_count(p->dim); k++)
+            most = real_max(most, fabs(p->stress[k][i]) / e->scene->material[p->material[i]].young);
+    snprintf(text, sizeof text, "stresses of the solution reach %.2g times Young's modulus: no solid bears that, and elasticity of small "
+                                "strains does not describe it; see whether loads are meant, and in which unit", most);
+    if (!(most <= STRAIN_LARGE)) engine_say(e, text);
+}
+
 /* The body at rest at the end of the duration. */
 static void finish(struct engine *e)
 {
@@ -334,6 +351,7 @@ static void finish(struct engine *e)
     engine_breaks(e, 0);
     e->solver.past_limit = bonds_past_limit(e);
     say_past_limit(e);
+    say_large_strain(e);
 }
 
 static status not_converged(const struct engine *e)

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "output_files.h"
+
 enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20 };
 
 struct reader {
@@ -141,6 +143,7 @@ static bool value(struct reader *r, const char *rest, int depth)
 
 static status read_text(const char *path, char **text)
 {
+    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is no regular file", path);
     FILE *from = fopen(path, "rb");
     if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
     size_t length = 0, room = 1 << 16, got;
@@ -214,6 +217,7 @@ status summary_string(const char *folder, const char *dotted_key, char *out, siz
         out[length++] = *c;
     }
     out[length] = '\0';
+    text_harmless(out);
     free(text);
     return is_string ? OK : status_set(FAILED, "%s/summary.json: %s is not a text", folder, dotted_key);
 }

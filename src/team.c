@@ -3,8 +3,10 @@
 
 #include <hwloc.h>
 #include <omp.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -22,15 +24,16 @@ struct place {
     hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
 };
 
-/* The machine's memory [byte], noted by whoever looks; looking takes some 6 ms, a hundred steps of a small scene. In a container
- * hwloc may not see it, in a virtual machine only what that began with: the system says the rest. */
+/* The machine's memory, or what this process may take of it [byte], noted by whoever looks first; looking takes some 6 ms, a hundred
+ * steps of a small scene. In a container hwloc may not see it, in a virtual machine only what that began with: the system says the rest. */
 static int64_t memory;
 
 static void note_memory(hwloc_topology_t topology)
 {
     const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;
     const int64_t told = (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
-    memory = seen > told ? seen : told;
+    const int64_t all = seen > told ? seen : told, limit = memory_limit();
+    memory = limit < all ? limit : all;
 }
 
 /* The k-th physical core of the mask; NULL past the last. */
@@ -164,6 +167,32 @@ static void flush_tiny_numbers(int threads)
 #endif
 }
 
+static void *wait_for(void *mutex)
+{
+    pthread_mutex_lock(mutex);
+    pthread_mutex_unlock(mutex);
+    return NULL;
+}
+
+enum { LIBRARY_ROOM = 16 << 20 };        /* what OpenMP's library may want besides stacks [byte] */
+
+/* Can so many be had at once? OpenMP's library ends the process where they cannot, and not in one line. */
+static bool threads_start(int threads)
+{
+    void *room = threads > 1 ? mmap(NULL, LIBRARY_ROOM, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) : NULL;
+    pthread_mutex_t all = PTHREAD_MUTEX_INITIALIZER;
+    pthread_t *made = malloc((size_t)threads * sizeof *made);
+    int n = 0;
+    pthread_mutex_lock(&all);
+    while (made && n < threads - 1 && pthread_create(&made[n], NULL, wait_for, &all) == 0) n++;
+    pthread_mutex_unlock(&all);
+    for (int k = 0; k < n; k++) pthread_join(made[k], NULL);
+    const bool started = made && n == threads - 1 && room != MAP_FAILED;
+    free(made);
+    if (room && room != MAP_FAILED) munmap(room, LIBRARY_ROOM);
+    return started;
+}
+
 int team_make(int threads)
 {
     struct place place;
@@ -173,6 +202,10 @@ int team_make(int threads)
         if (getenv("OMP_NUM_THREADS") != NULL) threads = omp_get_max_threads();
         else if (user_binds()) threads = bound_threads();
         else threads = known ? core_count(&place) : omp_get_num_procs();
+    }
+    if (!threads_start(threads)) {
+        fprintf(stderr, "%d threads cannot be started: no memory for their stacks, or a limit of processes; choose fewer with -t\n", threads);
+        _exit(FAILED);
     }
     omp_set_dynamic(0);                  /* always this many: partitions must not change between loops */
     omp_set_num_threads(threads);

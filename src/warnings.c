@@ -28,6 +28,23 @@ void warnings_print(const struct warnings *w, int first, FILE *out)
     for (int k = first; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);
 }
 
+/* All in one text, each with its end. */
+status warnings_archive(struct warnings *w, struct archive *a)
+{
+    int64_t length = 0;
+    for (int k = 0; k < w->n; k++) length += (int64_t)strlen(w->text[k]) + 1;
+    ARCHIVE_VALUE(a, "warnings/length", length);
+    if (length < 0 || (!a->saving && length > 0 && a->stored_size(a, "warnings/text") != length))
+        return status_set(FAILED, "the checkpoint's warnings do not fit their length");
+    if (length == 0) return OK;
+    char *text = NEW("warnings.all", length + 1, char), *to = text;
+    for (int k = 0; k < w->n && a->saving; k++) to = stpcpy(to, w->text[k]) + 1;
+    const status s = a->exchange(a, "warnings/text", text, (size_t)length);
+    for (const char *from = text; s == OK && !a->saving && from < text + length; from += strlen(from) + 1) warnings_add(w, "%s", from);
+    memory_free(text);
+    return s;
+}
+
 void warnings_free(struct warnings *w)
 {
     for (int k = 0; k < w->n; k++) memory_free(w->text[k]);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: test_trust.sh at length: 150 kills, stops at random moments, many threads, a full disk at every size.
+# floor 5: test_trust.sh at length: 200 kills, stops at random moments, many threads, a full disk at every size.
 test_name=long_trust
 . tests/summary.sh
 . tests/trust.sh
@@ -36,6 +36,12 @@ calm "$work/flat_busy" $flat $busy
 kills 30 "$work/flat_busy" $flat $busy
 calm "$work/solid_often" $solid $often
 kills 20 "$work/solid_often" $solid $often
+# points that convert and return all the time, a checkpoint after every step; cells that keep their points
+passing="inputs/bar_return.yaml -s particles.spacing=2mm -s output.frames=10 -s output.samples=1000000 -s output.checkpoint=0"
+calm "$work/passing" $passing
+kills 30 "$work/passing" $passing
+calm "$work/mesh_often" $flat $often -s mpm.frame=reference -s mpm.transfer=flip
+kills 20 "$work/mesh_often" $flat $often -s mpm.frame=reference -s mpm.transfer=flip
 
 # ---- stops at random moments ------------------------------------------------------------------------------------------------
 

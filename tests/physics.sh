@@ -25,7 +25,8 @@ forced()
     between "$1 energy balance" "$(f "$1" energy.balance_error)" "-$2" "$2"
 }
 
-# read_csv: how every awk program here begins: `at` is the number of the column called `name`, x that of places.
+# read_csv: how every awk program here begins: `at` is the number of the column called `name`, x that of places. Values that
+# are compared take a "+ 0": awk reads numbers below 1e-308 as words.
 read_csv='FNR == 1 {
     for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k; if ($k == "x") x = k }
     next
@@ -45,7 +46,7 @@ mean()
 most()
 {
     awk -F, -v name="$2" -v from="${3:-0}" "$read_csv"'
-        at && $1 >= from + 0 { size = $at < 0 ? -$at : $at; if (size >= largest) largest = size; n++ }
+        at && $1 >= from + 0 { size = $at + 0 < 0 ? -$at : $at + 0; if (size >= largest) largest = size; n++ }
         END { if (n) printf "%.9g", largest }' "$work/$1/history.csv"
 }
 
@@ -53,7 +54,7 @@ most()
 rises()
 {
     awk -F, -v name="$2" -v value="$3" "$read_csv"'
-        at && $at >= value + 0 && n { printf "%.9g", t + ($1 - t) * (value - v) / ($at - v); exit }
+        at && $at + 0 >= value + 0 && n { printf "%.9g", t + ($1 - t) * (value - v) / ($at - v); exit }
         { t = $1; v = $at; n++ }' "$work/$1/history.csv"
 }
 
@@ -100,6 +101,6 @@ astray()
 extreme()
 {
     awk -F, -v name="$2" "$read_csv"'
-        at { size = $at < 0 ? -$at : $at; if (size > largest) largest = size; n++ }
+        at { size = $at + 0 < 0 ? -$at : $at + 0; if (size > largest) largest = size; n++ }
         END { if (n) printf "%.9g", largest }' "$work/$1"/*_000001.csv
 }

@@ -8,14 +8,30 @@ trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
 cleave=$work/cleave                      # a copy: a build in the meantime must not mix two programs in one test
 cp "${BUILD:-build}/cleave" "$cleave" || exit 1
+look_through=$(cd "${BUILD:-build}" && pwd)/tests/test_numbers       # there with `make test`
 checks=0 failures=0
 
 fail() { echo "$test_name: $1" >&2; failures=$((failures + 1)); }
 pass() { checks=$((checks + 1)); }
 
+# numbers FOLDER: below it no frame holds a number that is none, nor does a history, but for nan where there is no tip or no front yet,
+# fewer than two contours, no factors, or nothing that has yielded.
+numbers()
+{
+    [ ! -x "$look_through" ] || none=$(find "$1" -path '*/frames/*.hdf' -exec "$look_through" {} +) || fail "$1: $none"
+    none=$(find "$1" -name history.csv -exec awk -F, '
+        FNR == 1 { for (k = 1; k <= NF; k++) name[k] = $k; next }
+        { for (k = 1; k <= NF; k++)
+            if ($k ~ /inf/ || $k ~ /nan/ && name[k] !~ /^tip_[xyz]|\.[xyz] |\.(front|plateau)|\.contour_spread|\.K_eq|\.strain_(elastic|plastic)/)
+                none[FILENAME ": " name[k] ": " $k]++ }
+        END { for (what in none) print what }' {} +)
+    is "$1: histories" "$none" ""
+}
+
 # finish: the count, and the exit status of the script.
 finish()
 {
+    numbers "$work"
     echo "$test_name: $checks checks held, $failures failed"
     [ $failures -eq 0 ]
     exit

@@ -5,16 +5,6 @@ test_name=test_guards
 . tests/trust.sh
 small="inputs/kalthoff_winkler.yaml -s particles.spacing=4mm -s output.frames=4 -s output.samples=40"
 
-# refused WHAT FOLDER TEXT ARGUMENT...: exit status 2 and one line with this text.
-refused()
-{
-    what=$1 folder=$2 text=$3; shift 3
-    "$cleave" run -q -o "$folder" "$@" >"$work/out" 2>"$work/err"
-    is "$what: exit status" $? 2
-    is "$what: lines" "$(wc -l <"$work/err")" 1
-    holds "$what: $(cat "$work/err")" grep -q "$text" "$work/err"
-}
-
 # ---- an older run -----------------------------------------------------------------------------------------------
 
 calm "$work/once" $small -t 1
@@ -24,6 +14,8 @@ same "left alone" "$work/once" "$work/kept"
 calm "$work/kept" $small --overwrite
 same "replaced" "$work/once" "$work/kept"
 refused "both" "$work/kept" "one of them" $small --resume --overwrite
+sed -i 's/"done"/"failed"/' "$work/kept/summary.json"
+refused "a failed run" "$work/kept" "holds a failed run of this scene" $small
 rm "$work/kept/summary.json"
 refused "an interrupted run" "$work/kept" "holds an interrupted run of this scene" $small
 rm "$work/kept"/checkpoint*.h5
@@ -38,6 +30,7 @@ same "nothing to resume" "$work/once" "$work/new"
 "$cleave" run -q -o "$work/live" $flat -s particles.spacing=1mm -t 1 2>/dev/null &
 first=$!
 await "$work/live" 3 $first
+kill -STOP $first                        # it holds the folder, however fast the machine
 for how in --resume --overwrite ""; do
     refused "a second run $how" "$work/live" "live: process $first on .* runs in it" $flat -s particles.spacing=1mm $how
 done
@@ -51,12 +44,28 @@ holds "the lock goes with the run" test ! -e "$work/live/.running"
 calm "$work/live" $small --overwrite
 same "another scene, replaced" "$work/once" "$work/live"
 
+# a folder that goes while a run is in it: the next run there has it to itself
+"$cleave" run -q -o "$work/gone" $flat -s particles.spacing=1mm -s output.checkpoint=0 2>"$work/err_gone" &
+first=$!
+await "$work/gone" 3 $first
+kill -STOP $first
+mv "$work/gone" "$work/moved"
+calm "$work/gone" $small
+kill -CONT $first
+wait $first
+is "a folder that is moved: exit status" $? 1
+holds "a folder that is moved: said" grep -q "gone was moved, removed or exchanged" "$work/err_gone"
+same "a folder that is moved: the next run" "$work/once" "$work/gone"
+
 # ---- files of others ---------------------------------------------------------------------------------------------
 
 mkdir -p "$work/desk" "$work/elsewhere"
 echo mine >"$work/desk/thesis.tmp"
 ln -s "$work/elsewhere/made" "$work/desk/scene.yaml.tmp"
-calm "$work/desk" $small
+ln -s "$work/elsewhere/made" "$work/desk/along_000000.csv.tmp"
+sed 's/^probes: .tip./probes: [tip, {line: {name: along, from: [0, 10 mm], to: [50 mm, 10 mm]}}]/' inputs/kalthoff_winkler.yaml >"$work/along.yaml"
+holds "the scene has the probe" grep -q along "$work/along.yaml"
+calm "$work/desk" $(echo "$small" | sed "s#inputs/kalthoff_winkler.yaml#$work/along.yaml#")
 is "somebody's file" "$(cat "$work/desk/thesis.tmp")" mine
 holds "a link is not written through" test ! -e "$work/elsewhere/made"
 mkdir "$work/linked"
@@ -68,8 +77,101 @@ holds "what it leads to stays" test -e "$work/elsewhere/000000.hdf"
 cp -r "$work/once" "$work/|touch PWNED;echo "
 (cd "$work" && "$cleave" plot '|touch PWNED;echo ' >"$work/out" 2>&1)
 is "a folder that looks like a command: exit status" $? 0
+for name in damage energy; do
+    echo thesis >"$work/thesis"
+    ln -sf "$work/thesis" "$work/once/pictures/$name.png.tmp" 2>/dev/null ||
+        { mkdir "$work/once/pictures"; ln -s "$work/thesis" "$work/once/pictures/$name.png.tmp"; }
+done
+"$cleave" plot "$work/once" >"$work/out" 2>&1
+is "a picture writes through no link" "$(cat "$work/thesis")" thesis
+rm -r "$work/once/pictures"
+ln -s "$work" "$work/once/pictures"
+"$cleave" plot "$work/once" >"$work/out" 2>"$work/err"
+is "a folder of pictures that is a link" $? 2
+rm "$work/once/pictures"
+tabbed=$(printf '%s/a\tb' "$work")
+cp -r "$work/once" "$tabbed"
+"$cleave" plot "$tabbed" >"$work/out" 2>"$work/err"
+is "a folder with a tab: exit status" $? 2
+is "a folder with a tab: lines" "$(wc -l <"$work/err")" 1
+rm -r "$tabbed"
 holds "no command runs" test ! -e "$work/PWNED"
 holds "its pictures" test -e "$work/|touch PWNED;echo /pictures/energy.png"
+
+# ---- particle lists ----------------------------------------------------------------------------------------------
+
+mkdir "$work/lists"
+awk 'BEGIN { print "x,y,volume"; for (k = 0; k < 400; k++) print (k % 20 + 0.5) * 1e-3 "," (int(k / 20) + 0.5) * 1e-3 ",1e-9" }' >"$work/lists/grains.csv"
+cat >"$work/lists/grains.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 20 us
+method: pd
+material: {young: 200 GPa, poisson: 1/3, density: 7800}
+particles: {spacing: 1 mm}
+bodies: [{particles: grains.csv}]
+boundary: [{name: pull, traction: [1 MPa, 0], face: x+}]
+END
+(cd "$work/lists" && "$cleave" run -q -o ran grains.yaml) || fail "a particle list"
+mv "$work/lists/grains.yaml" "$work/lists/moved.yaml"
+calm "$work/again" "$work/lists/ran/scene.yaml"
+is "its echo, run from elsewhere" "$(cat "$work/again/history.csv")" "$(cat "$work/lists/ran/history.csv")"
+calm "$work/again" "$work/lists/ran/scene.yaml" --resume
+mkdir "$work/lists/deeper"
+cp "$work/lists/grains.csv" "$work/lists/deeper"
+cp "$work/lists/moved.yaml" "$work/lists/deeper/grains.yaml"
+calm "$work/again" "$work/lists/deeper/grains.yaml" --resume     # the same contents in another place
+sed -i '7s/1e-9/1.1e-9/' "$work/lists/grains.csv"
+refused "a list that changed" "$work/again" "line [0-9]* was .particles: .*grains.csv.*contents .*and is" "$work/lists/ran/scene.yaml" --resume
+calm "$work/again" "$work/lists/ran/scene.yaml" --overwrite
+
+# ---- frames that are lost or damaged ------------------------------------------------------------------------------
+
+rm -rf "$work/part"
+interrupted "$work/part" 30 $small -s output.frames=6
+rm "$work/part/frames/000001.hdf"
+printf 'short' >"$work/part/frames/000003.hdf"
+warned "frames that are lost" "$work/part" "frames/000001.hdf is missing, and 1 frames more are lost" $small -s output.frames=6 --resume
+is "the index leaves them out" "$(grep -c '"time"' "$work/part/frames.hdf.series")" 5
+is "and so does the other" "$(grep -c '<Time ' "$work/part/frames.xdmf")" 5
+holds "plots go on" "$cleave" plot "$work/part" --frames all >/dev/null
+holds "a picture of the frame behind the gap" test -e "$work/part/pictures/damage_000004.png"
+calm "$work/whole" $small -s output.frames=6
+for frame in 000000 000002 000006; do holds "frame $frame" cmp "$work/part/frames/$frame.hdf" "$work/whole/frames/$frame.hdf"; done
+size=$(wc -c <"$work/whole/frames/000006.hdf")
+for k in 1 2 3 4 5 6 7 8 9 10 11 12; do
+    cp "$work/whole/frames/000006.hdf" "$work/frame"
+    at=$((size * k / 13))
+    byte=$(od -An -tu1 -j "$at" -N 1 "$work/frame" | tr -d ' ')
+    printf "\\$(printf %o $((byte ^ 4)))" | dd of="$work/whole/frames/000006.hdf" bs=1 seek="$at" conv=notrunc 2>/dev/null
+    "$cleave" compare "$work/part" "$work/whole" >"$work/out" 2>"$work/err"
+    is "byte $at of a frame: exit status" $? 1
+    holds "byte $at of a frame: $(cat "$work/err")" grep -q "000006.hdf: it is" "$work/err"
+    cp "$work/frame" "$work/whole/frames/000006.hdf"
+done
+holds "the frame as it was" "$cleave" compare "$work/part" "$work/whole" >/dev/null
+
+# ---- what is promised --------------------------------------------------------------------------------------------
+
+"$cleave" help trust >"$work/promises" || fail "help trust"
+for test in $(grep -o '\(test\|long\)_[a-z_]*\.\(sh\|c\)' "$work/promises" | sort -u); do
+    holds "$test, which help trust names, is there" test -e "tests/$test"
+    holds "$test is explained in tests/README.md" grep -q "${test%.*}" tests/README.md
+done
+
+# frames that changed places, a history of another run, warnings of a run that is over
+cp -r "$work/whole" "$work/swapped"
+mv "$work/swapped/frames/000001.hdf" "$work/frame"
+mv "$work/swapped/frames/000002.hdf" "$work/swapped/frames/000001.hdf"
+mv "$work/frame" "$work/swapped/frames/000002.hdf"
+warned "frames that changed places" "$work/swapped" "frames/000001.hdf is another one, and 1 frames more" $small -s output.frames=6 --resume
+sed -i '5s/1/2/' "$work/swapped/history.csv"
+stopped "a history that changed" "$work/swapped" "history.csv is not what it was.*--overwrite" $small -s output.frames=6 --resume
+mkfifo "$work/pipe"
+mv "$work/pipe" "$work/swapped/history.csv" 2>/dev/null
+"$cleave" compare "$work/swapped" "$work/whole" >"$work/out" 2>"$work/err"
+is "a history that is a pipe: exit status" $? 1
+rm -r "$work/swapped"
 
 # ---- descriptors ---------------------------------------------------------------------------------------------------
 

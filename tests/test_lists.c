@@ -98,7 +98,7 @@ static void bad_lists_are_refused(void **state)
         {"x,y,volume,body\n0,0,1,1\n", "bad.csv:2: this file is not that of body 1"},
         {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "particles in one place: (0, 0, 0) m"},
         {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "particles in one place"},
-        {"x,y,volume\n1e10,0,1\n", "beyond 1e9 spacings"},
+        {"x,y,volume\n1e10,0,1\n", "beyond 1e7 spacings"},
         {"x,y,volume\n0,0,1e308\n", "no finite mass"},
     };
     struct setting s;
@@ -164,6 +164,44 @@ static void hdf5_lists_are_read(void **state)
     s.scene.dim = 1, s.scene.space = SPACE_LINE;
     assert_refused(fill_particles(&p, &s.scene, 0), "positions has 3 x 2 numbers; 3 x 1 are wanted");
     remove(name);
+}
+
+/* Positions that are not what they seem: a link out of the file or inside it, numbers in a file beside it or in another dataset, and
+ * far more of them than the file has bytes. */
+static void hdf5_lists_are_whole(void **state)
+{
+    (void)state;
+    enum { OUTSIDE, INSIDE, BESIDE, VIRTUAL, CLAIMED, WAYS };
+    static const char *const said[WAYS] = {"positions is a link", "positions is a link", "positions has its numbers in other files",
+                                            "positions has its numbers in other files", "claims 100000000 entries"};
+    const double X[3][2] = {{0, 0}, {1, 0}, {0, 1}}, volume[3] = {1, 2, 3};
+    const hsize_t rows[] = {3, 2}, many[] = {100000000, 2}, chunk[] = {1000000, 2};
+    struct setting s;
+    struct particles p;
+    char name[] = "whole.h5";
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+    s.body[0].file = name;
+    hid_t file = H5Fcreate("other.h5", H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    write_table(file, "positions", 2, rows, H5T_NATIVE_DOUBLE, X);
+    H5Fclose(file);
+    for (int kind = 0; kind < WAYS; kind++) {
+        hid_t how = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(2, kind == CLAIMED ? many : rows, NULL), set = -1;
+        file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        write_table(file, "volumes", 1, rows, H5T_NATIVE_DOUBLE, volume);
+        if (kind == OUTSIDE) assert_true(H5Lcreate_external("other.h5", "/positions", file, "positions", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+        if (kind == INSIDE) assert_true(H5Lcreate_soft("/volumes", file, "positions", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+        if (kind == BESIDE) assert_true(H5Pset_external(how, "numbers.bin", 0, H5F_UNLIMITED) >= 0);
+        if (kind == VIRTUAL) assert_true(H5Pset_virtual(how, space, "other.h5", "/positions", space) >= 0);
+        if (kind == CLAIMED) assert_true(H5Pset_chunk(how, 2, chunk) >= 0);
+        if (kind >= BESIDE) set = H5Dcreate2(file, "positions", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+        if (set >= 0) H5Dclose(set);
+        H5Sclose(space);
+        H5Pclose(how);
+        H5Fclose(file);
+        assert_refused(fill_particles(&p, &s.scene, 0), said[kind]);
+    }
+    remove(name);
+    remove("other.h5");
 }
 
 /* ---- lists in another unit than the scene ------------------------------------------------------------- */
@@ -297,6 +335,7 @@ int main(void)
         cmocka_unit_test(bodies_share_a_list),
         cmocka_unit_test(bad_lists_are_refused),
         cmocka_unit_test(hdf5_lists_are_read),
+        cmocka_unit_test(hdf5_lists_are_whole),
         cmocka_unit_test(units_of_lists_are_told),
         cmocka_unit_test(other_bodies_are_neighbours_of_points),
         cmocka_unit_test(bonds_beyond_memory_are_refused),

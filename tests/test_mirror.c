@@ -165,8 +165,21 @@ static void test_mirror(void **state)
         }
 }
 
+enum { LOOKS_MOST = 4096 };             /* more than a quarter has particles */
+
+/* How often each particle was listed for a look, and that nobody is twice on one list. */
+static void count_looks(void *context, const int32_t *list, int64_t n)
+{
+    int *looks = context, before[LOOKS_MOST];
+    memcpy(before, looks, sizeof before);
+    for (int64_t k = 0; k < n; k++) {
+        assert_in_range(list[k], 0, LOOKS_MOST - 1);
+        assert_int_equal(looks[list[k]]++, before[list[k]]);
+    }
+}
+
 /* A point beside a mirror is converted with its horizon: its images and what they touch go the same way as in the
- * whole body, where all four twins are marked. */
+ * whole body, where all four twins are marked. Bonds see each converted particle and its family, each of them once. */
 static void test_mirror_convert(void **state)
 {
     (void)state;
@@ -181,7 +194,13 @@ static void test_mirror_convert(void **state)
     for (int64_t j = 0; j < whole->n; j++)
         if (fabs(fabs(whole->X[0][j]) - part->X[0][marked]) + fabs(fabs(whole->X[1][j]) - part->X[1][marked]) < 1e-9)
             whole->flag[j] |= FLAG_STRESSED;
-    int64_t converted = convert(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], NULL, 1e-6);
+    int looks[LOOKS_MOST] = {0};
+    const struct conversion_look look = {count_looks, looks};
+    int64_t converted = convert(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], &look, 1e-6);
+    for (int64_t i = 0; i < part->n; i++) {
+        assert_true(looks[i] > 0 || part->kind[i] == KIND_MPM);
+        assert_false(part->flag[i] & FLAG_LISTED);
+    }
     assert_int_equal(convert(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], NULL, 1e-6),
                      4 * converted);
     for (int64_t i = 0; i < part->n; i++) assert_int_equal(part->kind[i], whole->kind[q.twin[i]]);

@@ -174,7 +174,7 @@ static void test_same_bits(void **state)
 {
     (void)state;
     static const enum pd_model models[] = {PD_BOND, PD_BOND, PD_OSPD, PD_MOSPD};
-    const struct state_modulus modulus[CLOUD_MATERIALS] = {{3e11, 4e11, 2e11}, {3e11, 4e11, 2e11}};
+    const struct state_modulus modulus[CLOUD_MATERIALS] = {{3e11, 4e11}, {3e11, 4e11}};
     for (int dim = 2; dim <= DIM_MAX; dim++)
         for (size_t k = 0; k < COUNT_OF(models); k++) {
             struct cloud folded, open;

@@ -333,29 +333,35 @@ static void probe_of_a_break(void **state)
     body_free(&bar.b);
 }
 
+struct kept_profile { char name[64], text[4096]; };
+
+static status profile_keep(void *context, const char *name, const char *text, size_t length)
+{
+    struct kept_profile *to = context;
+    if (to->name[0]) return status_set(FAILED, "there is one already");
+    snprintf(to->name, sizeof to->name, "%s", name);
+    assert_true(length == strlen(text) && length < sizeof to->text);
+    strcpy(to->text, text);
+    return OK;
+}
+
 static void profile_of_a_line(void **state)
 {
     (void)state;
     struct body b;
     struct probes s;
-    char folder[] = "/tmp/cleave_test_XXXXXX", path[64], text[4096] = "";
+    struct kept_profile kept = {{0}, {0}};
     body_make(&b, 1, (const int[]){10});
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[0][i] = (real)i;
     struct observed o = seen(&b);
     struct probe_request request = {.name = "a/b", .kind = PROBE_LINE, .from = {0.5}, .to = {12.5}, .points = 5};
     assert_ok(probes_make(&s, &request, 1, &o));
-    assert_non_null(mkdtemp(folder));
-    assert_ok(probes_profiles(&s, &o, folder, 7));
-    snprintf(path, sizeof path, "%s/a_b_000007.csv", folder);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
-    fclose(file);
-    assert_string_equal(text, "s [m],x [m],displacement_x [m],velocity_x [m/s],stress_xx [Pa],damage [1]\n"
+    assert_int_equal(probes_profiled(&s), 1);
+    assert_ok(probes_profiles(&s, &o, profile_keep, &kept, 7));
+    assert_string_equal(kept.name, "a_b_000007.csv");
+    assert_string_equal(kept.text, "s [m],x [m],displacement_x [m],velocity_x [m/s],stress_xx [Pa],damage [1]\n"
                         "0,0.5,0,0,0,0\n3,3.5,0,3,0,0\n6,6.5,0,6,0,0\n9,9.5,0,9,0,0\n");
-    remove(path);
-    rmdir(folder);
-    assert_failed(probes_profiles(&s, &o, folder, 7), "cannot write");
+    assert_failed(probes_profiles(&s, &o, profile_keep, &kept, 7), "there is one already");
     struct figure_list l = {0};
     probes_figures(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "a/b", "velocity_x_max"), 9, 0);

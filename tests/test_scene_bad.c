@@ -105,7 +105,7 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
     {"plane stress", "plain stress",
      "2:1: space: plain stress is unknown; line, plane stress, plane strain or solid is expected"},
     {"name: plate\nspace", "name: my plate\nspace",
-     "1:1: name: my plate is no name; letters, digits, _ and - are expected"},
+     "1:1: name: my plate is no name; letters, digits, _ and - are expected, and no - first"},
     {"name: plate\nspace", "name: xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx\nspace",
      "1:1: name: xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx... is too long; at most 63 characters are expected"},
     {"horizon: 3.015", "horizon: 0.8", "16:3: horizon: 0.8 is smaller than one spacing; 3.015 is usual"},
@@ -234,7 +234,7 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
     {"name: plate\nspace", "? [a]\n: 1\nspace", "1:3: a key must be a single word, not a list or mapping"},
     {"name: plate\nspace", "name: \"a\\0b\"\nspace", "1:7: holds a NUL character; leave it out"},
     {"name: plate\nspace", "name: \"a\\nb\"\nspace",
-     "1:1: name: a?b is no name; letters, digits, _ and - are expected"},
+     "1:1: name: a?b is no name; letters, digits, _ and - are expected, and no - first"},
     {"  young", "\tyoung",
      "7:1: not YAML: found character that cannot start any token; spaces (not tabs) indent, a key ends in "
      "`: `, brackets close"},
@@ -300,10 +300,10 @@ static void test_bytes(void **state)
     check_refused("", 0, "1:1: empty; a scene begins with keys such as space and duration");
     check_refused("# nothing\n", 10, "1:1: empty; a scene begins with keys such as space and duration");
     check_refused("- a\n", 4, "1:1: a list is not a mapping of keys to values, as a scene is");
-    char *many = test_malloc(400000);    /* five events come before the first item */
+    char *many = test_malloc(4000000);   /* five events come before the first item */
     memcpy(many, "a: [", 4);
-    for (int k = 0; k < 100000; k++) memcpy(many + 4 + 2 * k, "1,", 2);
-    check_refused(many, 200004, "1:199995: more than 100000 YAML events; long data belong into a particle list");
+    for (int k = 0; k < 1000000; k++) memcpy(many + 4 + 2 * k, "1,", 2);
+    check_refused(many, 2000004, "1:1999995: more than 1000000 YAML events; long data belong into a particle list");
     test_free(many);
 }
 
@@ -346,6 +346,7 @@ static void test_overrides(void **state)
         {{"material..young", "1"},
          "-s material..young=1: material..young: not a path of keys; material.young or boundary.0.velocity is one"},
         {{"", "1"}, "-s =1: no key; material.young=70e9 is an override"},
+        {{"boundary[0][0].velocity", "2"}, "-s boundary[0][0].velocity=2: boundary[0]: is no list in this scene; [0] has no meaning"},
         {{"[0]", "1"}, "-s [0]=1: is no list in this scene; [0] has no meaning"},
         {{"particles.irregularity", ""},
          "-s particles.irregularity=: irregularity: is not in the scene; an empty value takes a key away"},

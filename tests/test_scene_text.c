@@ -50,7 +50,7 @@ static void test_round_trip(void **state)
         scene_free(&s);
     }
     static const struct scene_override awkward[] = {{"bodies[2].particles", "\"gr\\u00e4 \\\"1\\\\ \\x01.csv\""},
-                                                    {"particles.spacing", "1/3 mm"}, {"name", "\"---\""}};
+                                                    {"particles.spacing", "1/3 mm"}, {"name", "\"__-\""}};
     struct scene s = read_ok(plate, awkward, 3);
     check_round_trip(&s);
     scene_free(&s);

@@ -355,9 +355,9 @@ static void test_critical_step(void **state)
                                            .influence = INFLUENCE_INVERSE},
                   want[k].model, want[k].nu, true);
         cloud_bonds(&b.c);
-        real step = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000, NULL);
+        real step = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000, (real[]){1, 1}, NULL);
         assert_close(step * b.c.material[0].wave_speed / CLOUD_SPACING, want[k].limit, 0.06);
-        const real light = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000 * 0x1p-80, NULL);
+        const real light = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000 * 0x1p-80, (real[]){1, 1}, NULL);
         assert_close(light, step * 0x1p-40, 1e-12);
         cloud_free(&b.c);
     }

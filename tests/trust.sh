@@ -15,6 +15,29 @@ calm()
     to=$1; shift
     "$cleave" run -q -o "$to" "$@" >"$work/out" 2>"$work/err" || { fail "$to: status $?: $(cat "$work/err")"; return; }
     if grep -q -v '^warning: ' "$work/err" || [ -s "$work/out" ]; then fail "$to: says $(cat "$work/err" "$work/out")"; else pass; fi
+    numbers "$to"
+}
+
+# ended STATUS WHAT FOLDER TEXT ARGUMENT...: this exit status and one line, but for warnings, with this text.
+ended()
+{
+    wanted=$1 what=$2 folder=$3 text=$4; shift 4
+    "$cleave" run -q -o "$folder" "$@" >"$work/out" 2>"$work/err"
+    is "$what: exit status" $? "$wanted"
+    is "$what: lines" "$(grep -c -v '^warning: ' "$work/err")" 1
+    holds "$what: $(cat "$work/err")" grep -q "$text" "$work/err"
+}
+refused() { ended 2 "$@"; }
+stopped() { ended 1 "$@"; }
+
+# warned WHAT FOLDER TEXT ARGUMENT...: a run to its end that says this on standard error and in its summary.
+warned()
+{
+    what=$1 folder=$2 text=$3; shift 3
+    "$cleave" run -q -o "$folder" "$@" >"$work/out" 2>"$work/err"
+    is "$what: exit status" $? 0
+    holds "$what: said" grep -q "^warning: .*$text" "$work/err"
+    holds "$what: in the summary" grep -q "$text" "$folder/summary.json"
 }
 
 # physical FOLDER: the figures of its summary that do not depend on the machine.
@@ -46,6 +69,11 @@ await()
     while kill -0 "$3" 2>/dev/null && [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -lt "$2" ]; do sleep 0.01; done
 }
 
+# A shell starts what it leaves behind deaf to SIGINT, and deaf it rightly stays: env gives it its hearing back. Where env cannot,
+# SIGTERM takes the place of SIGINT.
+hearing="env --default-signal=INT"
+$hearing true 2>/dev/null || hearing=
+
 # interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that gets the signal when history.csv has that many lines; $result: its status.
 # A busy machine lets it come to its end before anyone looks: it is held while its lines are counted, and begun again from where
 # it was if all of them were there, but for the last, before which nobody listens any more. A run that had more to do and did
@@ -53,11 +81,12 @@ await()
 interrupt()
 {
     to=$1 signal=$2 length=$3 tries=0; shift 3
+    [ "$signal" != INT ] || [ -n "$hearing" ] || signal=TERM
     rm -rf "$work/before"
     [ ! -e "$to" ] || cp -r "$to" "$work/before"
     while [ $tries -lt 10 ]; do
         tries=$((tries + 1))
-        "$cleave" run -q -o "$to" -t 2 "$@" 2>"$work/err" &
+        $hearing "$cleave" run -q -o "$to" -t 2 "$@" 2>"$work/err" &
         process=$!
         await "$to" "$length" $process
         kill -STOP $process 2>/dev/null

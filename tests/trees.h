@@ -1,0 +1,17 @@
+/* Folders of files, for tests that leave some: removed with all in them. */
+#ifndef CLEAVE_TEST_TREES_H
+#define CLEAVE_TEST_TREES_H
+
+#include <ftw.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+static inline int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)
+{
+    (void)s, (void)type, (void)walk;
+    return remove(path);
+}
+
+static inline void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS); }
+
+#endif
