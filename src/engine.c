@@ -177,9 +177,9 @@ status engine_step(struct engine *e)
     const real dt_velocity = e->step == 0 ? 0.5 * e->dt : e->dt;           /* velocities stand half a step behind */
     struct pd_motion motion = {e->dt, dt_velocity, e->wave_speed, e->loads.loaded, false};
     e->transfer.dt_velocity = dt_velocity;
-    e->transfer.bonded = e->bonded;
 
     engine_return(e);                                                       /* peridynamic -> material point */
+    e->transfer.bonded = e->bonded;                                         /* what returned may have been the last */
     lap(&e->laps, LAP_CONVERT);
     engine_sample_begin(e);
     struct pd_motion *now = moves_at_once(e) ? &motion : NULL;

@@ -13,6 +13,13 @@
  * lie on such. */
 enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 4 << 20 };
 
+/* Pages of its own: where the system gives them, and not under the address sanitizer, which sees the heap alone. */
+#if defined __SANITIZE_ADDRESS__
+enum { HEAP_ALONE = 1 };
+#else
+enum { HEAP_ALONE = 0 };
+#endif
+
 /* From this size on an array has pages of its own: pages used before would lie where somebody else's threads touched them
  * first; and new ones are zero, so that they need not be written twice. */
 enum { OWN_PAGES = 1 << 20 };
@@ -122,7 +129,7 @@ static char *block_make(struct block *block, size_t length, size_t alignment, bo
 {
     *block = (struct block){NULL, 0}, *fresh = false;
 #ifdef MAP_ANONYMOUS
-    if (length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
+    if (!HEAP_ALONE && length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
         const size_t beside = alignment > PAGE ? alignment : 0, room = room_of(reusing ? length + length / 2 : length) + beside;
         *block = take_kept(length + beside);
         if (!block->whole) {

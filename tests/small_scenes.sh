@@ -81,6 +81,19 @@ output: {frames: 2, samples: 10}
 probes: [tip, break]
 END
 
+# A pulse that makes bonds of points on its way through a plate; behind it the last of them return.
+cat >"$work/back.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 34 us
+material: {young: 200 GPa, density: 8000}
+body: {box: {from: [0, 0], to: [160 mm, 20 mm]}}
+particles: {spacing: 1 mm}
+conversion: {stress: 200 MPa, alpha: 1, return: true}
+initial: [{pulse: {at: [40 mm, 0], width: 32 mm, velocity: -10 m/s, direction: [1, 0]}}]
+output: {frames: 2, samples: 10}
+END
+
 # ---- the list ----------------------------------------------------------------------------------------------------------
 
 few="-s output.frames=2 -s output.samples=10"
@@ -129,6 +142,8 @@ bar_step|inputs/bar_step.yaml -s particles.spacing=20mm
 bar_spall|inputs/bar_spall.yaml -s particles.spacing=20mm
 bar_plastic|inputs/bar_plastic.yaml -s particles.spacing=20mm
 bar_return|inputs/bar_return.yaml -s particles.spacing=4mm $few
+back|$work/back.yaml
+back_current|$work/back.yaml -s mpm.frame=current
 bar_pulse|inputs/bar_pulse.yaml -s particles.spacing=8mm -s duration=0.6ms $few
 static|inputs/edge_crack_k1.yaml -s particles.spacing=0.5mm -s probes=[tip]
 relaxed|inputs/edge_crack_k1.yaml -s particles.spacing=1mm -s solver=relaxation -s probes=[tip]
