@@ -174,6 +174,10 @@ void engine_say(struct engine *e, const char *text);
 enum { ENGINE_CURE = 640 };
 void engine_alarm_make(struct engine *e);
 status engine_alarm(struct engine *e);
+/* After a sample: FAILED where the balance of energies says what places do not. At the end: a warning of what is no alarm, but
+ * more than results should be trusted with. */
+status engine_energy_alarm(struct engine *e);
+void engine_say_balance(struct engine *e);
 status engine_runaway(const struct engine *e, bool peridynamic, bool meshed);
 void engine_cure(const struct engine *e, const struct rise *rise, real value, char *text, size_t room);
 /* What probes may look at. */

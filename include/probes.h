@@ -134,6 +134,9 @@ void probes_figures(const struct probes *s, const struct observed *o,
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame);
 int64_t probes_profiled(const struct probes *s);
+/* Name of the file of a frame of the k-th of them, into `name` [PROFILE_NAME]; false: there is none. */
+enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
+bool probes_profile_name(const struct probes *s, int k, int frame, char *name);
 /* Factors of the named SIF probe at the last sample, and the direction of its tip then; false: none yet. */
 bool probes_ruling(const struct probes *s, const char *name, struct ruling *found);
 status probes_archive(struct probes *s, struct archive *a);

@@ -7,6 +7,11 @@
 
 #define OWING 0.5                        /* share of a motion that explains it: speeds double where waves meet a free face */
 #define LARGE_STRAIN 0.1                 /* at the start: frees stresses of a tenth of the modulus                      */
+#define ENERGY_STEPS 50                  /* before the alarm of energies listens */
+#define ENERGY_DOUBTFUL 0.05             /* share of it lost or gained that is said: ten times that of the scenes in inputs/ */
+#define ENERGY_OF_ROUND_OFF 1e-24        /* of a body's energy at its wave speed */
+#define ENERGY_FROM_NOWHERE 0.5          /* share of all energies that no sound run gains: the first steps of a jump
+                                          * in velocity show 0.1, unstable runs that break all bonds 0.9 and stay slow */
 enum { FOLD_STEPS = 50 };                /* between looks, which take about half as long as a step                      */
 enum { MOMENTS = 256 };                  /* of a function of time                                                       */
 
@@ -200,4 +205,62 @@ status engine_alarm(struct engine *e)
     TRY(fold_alarm(e));
     if (e->step % RISE_STRIDE == 0) rise_note(&e->speed_rise, e->step, square(fastest(e)));
     return OK;
+}
+
+/* ---- unstable runs that stay slow ------------------------------------------------------------------------------ */
+
+static int64_t fastest_particle(const struct particles *p)
+{
+    int64_t fastest = 0;
+    real most = -1;
+    for (int64_t i = 0; i < p->n; i++) {
+        real speed2 = 0;
+        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
+        if (speed2 > most) most = speed2, fastest = i;
+    }
+    return fastest;
+}
+
+static bool is_round_off(const struct engine *e)
+{
+    return e->watch.energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->wave_speed);
+}
+
+/* watch_alarm sees what moves too fast; a body that shakes itself to dust does not. The first steps are left out, where
+ * half a step more or less of a load is much of all energy there is; so is a body at rest, whose energy is round-off. */
+status engine_energy_alarm(struct engine *e)
+{
+    if (e->lost)
+        return status_set(FAILED, "step %lld, t = %.4g s: an energy is no finite number, though all places are; see whether material, "
+                                  "supports and initial state are meant (`cleave check`)", (long long)e->step, e->t);
+    const struct particles *p = &e->part;
+    const struct watch *w = &e->watch;
+    const real excess = w->now.balance_error * w->energy_scale;
+    const bool last = e->step == e->steps && e->scene->solver == SOLVER_EXPLICIT;
+    if (!e->sampling.due && !last) return OK;
+    rise_note(&e->excess_rise, e->step, excess);
+    if (w->now.balance_error <= ENERGY_FROM_NOWHERE || e->step < ENERGY_STEPS) return OK;
+    if (is_round_off(e)) return OK;
+    int64_t i = fastest_particle(p);
+    char place[96], cure[ENGINE_CURE];
+    int used = 0;
+    engine_cure(e, &e->excess_rise, excess, cure, sizeof cure);
+    for (int d = 0; d < p->dim; d++)
+        used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
+    return status_set(FAILED,
+                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of "
+                      "its energy from nowhere; %s",
+                      (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, cure);
+}
+
+void engine_say_balance(struct engine *e)
+{
+    const real error = e->watch.now.balance_error;
+    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
+    char text[320];
+    if (e->scene->solver != SOLVER_EXPLICIT || fabs(error) <= ENERGY_DOUBTFUL || is_round_off(e)) return;
+    snprintf(text, sizeof text, "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust what came after",
+             100 * fabs(error), error < 0 ? "is lost" : "comes from nowhere", error,
+             error < 0 && apic ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it" : "");
+    engine_say(e, text);
 }

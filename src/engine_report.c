@@ -11,11 +11,6 @@
 
 #define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
 #define PROGRESS_SECONDS_FILE 60.0       /* and elsewhere                        */
-#define ENERGY_STEPS 50                  /* before the alarm of energies listens */
-#define ENERGY_DOUBTFUL 0.05              /* share of it lost or gained that is said: ten times that of the scenes in inputs/ */
-#define ENERGY_OF_ROUND_OFF 1e-24        /* of a body's energy at its wave speed */
-#define ENERGY_FROM_NOWHERE 0.5          /* share of all energies that no sound run gains: the first steps of a jump
-                                          * in velocity show 0.1, unstable runs that break all bonds 0.9 and stay slow */
 
 /* ---- when ------------------------------------------------------------------------------------------------ */
 
@@ -362,26 +357,13 @@ static status frame_sound(const struct engine *e)
                       (int)p->id[first]);
 }
 
-static status put_profile(void *folder, const char *name, const char *text, size_t length)
-{
-    return file_put_unsettled(path_join(folder, name).text, text, length);
-}
-
-static status write_profiles(struct engine *e)
-{
-    const struct observed o = engine_observed(e);
-    if (probes_profiled(&e->probes) == 0) return OK;
-    TRY(probes_profiles(&e->probes, &o, put_profile, e->out->folder, e->out->frames - 1));
-    return file_settle(path_join(e->out->folder, "history.csv").text);
-}
-
 static status write_frame(struct engine *e)
 {
     engine_mesh_show(e);
     engine_stress(e);
     TRY(frame_sound(e));
     TRY(output_frame_begin(e->out, &e->part, e->t, e->step, e->scene->text));
-    return write_profiles(e);
+    return engine_profiles_write(e);
 }
 
 static status write_checkpoint(struct engine *e)
@@ -399,12 +381,14 @@ static bool wall_is_over(const struct engine *e)
     return team_clock() - e->began + 2 * e->checkpoint_seconds >= e->scene->wall;
 }
 
-static status say_lost_frames(struct engine *e)
+/* What a run that goes on finds no more of what it had written. */
+static status say_lost(struct engine *e)
 {
     char text[PATH_NAME_ROOM + 200];
     int lost;
     TRY(output_frames_check(e->out, &lost, text, sizeof text));
     if (lost > 0) engine_say(e, text);
+    engine_profiles_check(e);
     return OK;
 }
 
@@ -417,7 +401,8 @@ status engine_report_start(struct engine *e)
     if (!e->out) return OK;
     bool resumed = e->out->frames > 0;       /* the first checkpoint, of step 0, already counts the first frame */
     TRY(history_start(e, resumed));
-    if (resumed) return say_lost_frames(e);
+    if (resumed) return say_lost(e);
+    engine_profiles_remove(e);
     TRY(write_frame(e));
     return write_checkpoint(e);
 }
@@ -449,64 +434,7 @@ static void progress(struct engine *e, bool last)
     fflush(stderr);
 }
 
-/* ---- unstable runs that stay slow ------------------------------------------------------------------------------ */
-
-static int64_t fastest_particle(const struct particles *p)
-{
-    int64_t fastest = 0;
-    real most = -1;
-    for (int64_t i = 0; i < p->n; i++) {
-        real speed2 = 0;
-        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
-        if (speed2 > most) most = speed2, fastest = i;
-    }
-    return fastest;
-}
-
-static bool is_round_off(const struct engine *e)
-{
-    return e->watch.energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->wave_speed);
-}
-
-/* watch_alarm sees what moves too fast; a body that shakes itself to dust does not. The first steps are left out, where
- * half a step more or less of a load is much of all energy there is; so is a body at rest, whose energy is round-off. */
-static status energy_alarm(struct engine *e)
-{
-    if (e->lost)
-        return status_set(FAILED, "step %lld, t = %.4g s: an energy is no finite number, though all places are; see whether material, "
-                                  "supports and initial state are meant (`cleave check`)", (long long)e->step, e->t);
-    const struct particles *p = &e->part;
-    const struct watch *w = &e->watch;
-    const real excess = w->now.balance_error * w->energy_scale;
-    const bool last = e->step == e->steps && e->scene->solver == SOLVER_EXPLICIT;
-    if (!e->sampling.due && !last) return OK;
-    rise_note(&e->excess_rise, e->step, excess);
-    if (w->now.balance_error <= ENERGY_FROM_NOWHERE || e->step < ENERGY_STEPS) return OK;
-    if (is_round_off(e)) return OK;
-    int64_t i = fastest_particle(p);
-    char place[96], cure[ENGINE_CURE];
-    int used = 0;
-    engine_cure(e, &e->excess_rise, excess, cure, sizeof cure);
-    for (int d = 0; d < p->dim; d++)
-        used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
-    return status_set(FAILED,
-                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of "
-                      "its energy from nowhere; %s",
-                      (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, cure);
-}
-
-/* Of what is no alarm, but more than results should be trusted with. */
-static void say_balance(struct engine *e)
-{
-    const real error = e->watch.now.balance_error;
-    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
-    char text[320];
-    if (e->scene->solver != SOLVER_EXPLICIT || fabs(error) <= ENERGY_DOUBTFUL || is_round_off(e)) return;
-    snprintf(text, sizeof text, "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust what came after",
-             100 * fabs(error), error < 0 ? "is lost" : "comes from nowhere", error,
-             error < 0 && apic ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it" : "");
-    engine_say(e, text);
-}
+/* ---- after a step ---------------------------------------------------------------------------------------------- */
 
 real engine_rest(const struct engine *e)
 {
@@ -514,8 +442,6 @@ real engine_rest(const struct engine *e)
     if (e->mesh.points > 0) at_rest += rest_share(&e->mesh.rest) * (real)e->mesh.points;
     return at_rest / (real)e->part.n;
 }
-
-/* ---- after a step ---------------------------------------------------------------------------------------------- */
 
 status engine_report(struct engine *e)
 {
@@ -526,8 +452,8 @@ status engine_report(struct engine *e)
     lap(&e->laps, LAP_WATCH);
     if (e->step == e->steps) sample_last(e);     /* before any checkpoint: a finished run has nothing left to write */
     TRY(e->history_status);
-    TRY(energy_alarm(e));
-    if (e->step == e->steps) say_balance(e);
+    TRY(engine_energy_alarm(e));
+    if (e->step == e->steps) engine_say_balance(e);
     if (e->out) {
         const bool between = e->scene->solver != SOLVER_EXPLICIT && e->step < e->steps;
         const int64_t frames = e->scene->frames < e->steps ? e->scene->frames : e->steps;

@@ -29,6 +29,12 @@ void engine_residual(struct engine *e);
 /* The same of the nodes of one grid. */
 void engine_residual_of(struct engine *e, const struct grid *g);
 
+/* Profiles of probes (engine_profiles.c): those of the frame just written; a warning that names what a run that goes on misses of
+ * its own; and, before a run that replaces one, those of its probes away. */
+status engine_profiles_write(struct engine *e);
+void engine_profiles_check(struct engine *e);
+void engine_profiles_remove(struct engine *e);
+
 /* After every step: frame, checkpoint and progress line if due; INTERRUPTED after a checkpoint if asked to stop. */
 status engine_report(struct engine *e);
 status engine_report_end(struct engine *e);

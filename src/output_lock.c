@@ -22,11 +22,20 @@ static bool is_still_there(int fd, const char *path)
     return fstat(fd, &own) == 0 && lstat(path, &there) == 0 && own.st_ino == there.st_ino && own.st_dev == there.st_dev;
 }
 
+/* A file with another name is somebody else's too: what is written to it would be written there. */
+static bool has_other_names(int fd)
+{
+    struct stat own;
+    return fstat(fd, &own) == 0 && own.st_nlink > 1;
+}
+
 /* 0, EAGAIN where another process has it, or another errno. */
 static int lock_try(int fd)
 {
     struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (fcntl(fd, F_SETLK, &all) == 0) return 0;
+    int taken;
+    while ((taken = fcntl(fd, F_SETLK, &all)) != 0 && errno == EINTR) continue;
+    if (taken == 0) return 0;
     return errno == EACCES ? EAGAIN : errno;
 }
 
@@ -65,8 +74,10 @@ status folder_lock(struct folder_lock *l, const char *folder)
             fprintf(stderr, "warning: cannot lock %s (%s): see that no other run uses it\n", shown_name(folder).text, strerror(fault));
             return OK;
         }
-        if (is_still_there(fd, path.text)) l->fd = fd;
+        const bool shared = has_other_names(fd);
+        if (!shared && is_still_there(fd, path.text)) l->fd = fd;
         else close(fd);
+        if (shared) return status_set(REFUSED, "%s has another name elsewhere (a hard link), where a run would write too; remove it", path.text);
     }
     if (l->fd < 0) return status_set(REFUSED, "%s: another run begins and ends in it; choose another -o", folder);
     sign(l->fd);

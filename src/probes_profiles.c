@@ -60,22 +60,34 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
 }
 
 /* `<probe>_NNNNNN.csv`; a name may hold a place in a list, as of a growth. */
-static void profile_name(char *name, size_t room, const struct probe *q, int frame)
+static void profile_name(char *name, const struct probe *q, int frame)
 {
-    snprintf(name, room, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
+    snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
     for (char *c = name; *c; c++)
         if (*c == '/') *c = '_';
 }
 
+static bool has_profile(const struct probe *q) { return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT; }
+
+bool probes_profile_name(const struct probes *s, int which, int frame, char *name)
+{
+    for (int k = 0; k < s->n; k++) {
+        if (!has_profile(&s->probe[k]) || which-- > 0) continue;
+        profile_name(name, &s->probe[k], frame);
+        return true;
+    }
+    return false;
+}
+
 static status profile_put(const struct probe *q, const struct observed *o, probe_file_fn *put, void *context, int frame)
 {
-    char name[NAME_MAX_LENGTH + 16], *text = NULL;
+    char name[PROFILE_NAME], *text = NULL;
     size_t length = 0;
     FILE *file = open_memstream(&text, &length);
     if (file) profile_text(file, q, o);
     bool whole = file && !ferror(file);
     if (file && fclose(file) != 0) whole = false;
-    profile_name(name, sizeof name, q, frame);
+    profile_name(name, q, frame);
     const status s = whole ? put(context, name, text, length) : status_set(FAILED, "cannot write %s: out of memory", name);
     free(text);
     return s;
@@ -84,14 +96,14 @@ static status profile_put(const struct probe *q, const struct observed *o, probe
 int64_t probes_profiled(const struct probes *s)
 {
     int64_t n = 0;
-    for (int k = 0; k < s->n; k++) n += s->probe[k].request.kind == PROBE_LINE || s->probe[k].request.kind == PROBE_EXACT;
+    for (int k = 0; k < s->n; k++) n += has_profile(&s->probe[k]);
     return n;
 }
 
 status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame)
 {
     for (int k = 0; k < s->n; k++)
-        if (s->probe[k].request.kind == PROBE_LINE || s->probe[k].request.kind == PROBE_EXACT)
+        if (has_profile(&s->probe[k]))
             TRY(profile_put(&s->probe[k], o, put, context, frame));
     return OK;
 }

@@ -96,7 +96,7 @@ is "10,000 cracks: exit status" $? 0
 # ---- names ---------------------------------------------------------------------------------------------------------
 
 refused "a name that looks like an option" "$work/r" "name: -rf is no name" $small -s name=-rf
-escape=$(printf 'a\033[2Jb\302\233c')
+escape=$(printf 'a\033[2Jb\302\233c\342\200\256d')
 cp "$work/block.yaml" "$work/$escape.yaml"
 "$cleave" run -o "$work/$escape" "$work/$escape.yaml" >"$work/out" 2>&1
 "$cleave" check "$work/$escape.yaml" >>"$work/out" 2>&1
@@ -107,7 +107,7 @@ sed -i "1s/kinetic/$escape/" "$work/$escape/history.csv"
 "$cleave" compare "$work/$escape" "$work/block" >>"$work/out" 2>&1
 "$cleave" run -o "$work/r" "$work/$escape.yaml" -s "du$escape=1" >>"$work/out" 2>&1
 "$cleave" "$escape" >>"$work/out" 2>&1
-is "lines with a control character" "$(LC_ALL=C grep -c "$(printf '\033\|\302\233')" "$work/out")" 0
-holds "the name, harmless" grep -q 'a?\[2Jb??c' "$work/out"
+is "lines with a control character" "$(LC_ALL=C grep -c "$(printf '\033\|\302\233\|\342\200\256')" "$work/out")" 0
+holds "the name, harmless" grep -q 'a?\[2Jb??c???d' "$work/out"
 
 finish

@@ -57,6 +57,13 @@ is "a folder that is moved: exit status" $? 1
 holds "a folder that is moved: said" grep -q "gone was moved, removed or exchanged" "$work/err_gone"
 same "a folder that is moved: the next run" "$work/once" "$work/gone"
 
+# a lock that is a file of somebody else's too
+echo mine >"$work/mine"
+ln "$work/mine" "$work/once/.running"
+refused "a lock with another name" "$work/once" "running has another name elsewhere" $small --overwrite
+is "and what is in it" "$(cat "$work/mine")" mine
+rm "$work/once/.running"
+
 # ---- files of others ---------------------------------------------------------------------------------------------
 
 mkdir -p "$work/desk" "$work/elsewhere"
@@ -138,6 +145,25 @@ holds "plots go on" "$cleave" plot "$work/part" --frames all >/dev/null
 holds "a picture of the frame behind the gap" test -e "$work/part/pictures/damage_000004.png"
 calm "$work/whole" $small -s output.frames=6
 for frame in 000000 000002 000006; do holds "frame $frame" cmp "$work/part/frames/$frame.hdf" "$work/whole/frames/$frame.hdf"; done
+# profiles of probes: those that are lost are named, and those of a longer run go with it
+cat >"$work/lined.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 20 us
+material: {young: 200 GPa, density: 8000}
+body: {box: {from: [0, 0], to: [80 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+initial: [{pulse: {at: [40 mm, 0], width: 32 mm, velocity: -10 m/s, direction: [1, 0]}}]
+output: {frames: 4, samples: 60}
+probes: [{line: {name: axis, from: [0, 5 mm], to: [80 mm, 5 mm]}}]
+END
+calm "$work/lined" "$work/lined.yaml"
+interrupted "$work/profiles" 30 "$work/lined.yaml"
+rm "$work/profiles/axis_000000.csv" "$work/profiles/axis_000001.csv"
+warned "profiles that are lost" "$work/profiles" "axis_000000.csv is missing, and 1 profiles more are" "$work/lined.yaml" --resume
+for k in 2 3 4; do holds "profile $k" cmp "$work/profiles/axis_00000$k.csv" "$work/lined/axis_00000$k.csv"; done
+calm "$work/lined" "$work/lined.yaml" -s output.frames=2 --overwrite
+is "profiles of fewer frames" "$(ls "$work/lined" | grep -c '^axis_')" 3
 size=$(wc -c <"$work/whole/frames/000006.hdf")
 for k in 1 2 3 4 5 6 7 8 9 10 11 12; do
     cp "$work/whole/frames/000006.hdf" "$work/frame"
