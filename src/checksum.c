@@ -91,9 +91,9 @@ struct footer { char magic[8]; uint64_t length, hash; };
 _Static_assert(sizeof(struct footer) == FOOTER_BYTES, "the footer has no gaps");
 static const char footer_magic[8] = {'C', 'L', 'E', 'A', 'V', 'E', 'O', 'K'};
 
-/* What is wrong with an open file, NULL if it is whole. */
 static const char unread[] = "cannot be read";
 
+/* What is wrong with an open file, NULL if it is whole. */
 static const char *open_fault(int fd)
 {
     struct stat s;
