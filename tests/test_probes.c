@@ -188,7 +188,7 @@ static void bar_bond(struct bar *bar)
 {
     bar->m = steel(SPACE_LINE);
     bar->stretch = 1;
-    struct bond_source source = {.cells = &bar->b.c, .material = &bar->m, .materials = 1, .limit = {&bar->stretch, 1}};
+    struct bond_source source = {.cells = &bar->b.c, .material = &bar->m, .materials = 1, .limit = {&bar->stretch, 1, false}};
     family_make(&source.family, SPACE_LINE, 1, 3.015, 1);
     particles_list(&bar->b.p);
     bonds_make(&bar->bonds, NULL, &bar->b.p, &source);
