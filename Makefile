@@ -14,12 +14,12 @@ WARN     := -Wall -Wextra -Wshadow -Werror=implicit-function-declaration -Wno-un
 WARN     += $(if $(call known,-Wpass-failed),-Wno-pass-failed)
 LIBRARIES := hdf5 hwloc yaml-0.1
 
-CPPFLAGS += -Iinclude -Ikernels -Isrc -Ibench -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
+CPPFLAGS += -I. -Iinclude -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
 CFLAGS   += -std=c11 $(OPTIMISE) -g -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
 LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
 LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
 
-# Kernels are compiled once for each set of vector instructions; the program takes one at start (src/simd.c). The rest is
+# Kernels are compiled once for each set of vector instructions; the program takes one at start (src/engine/simd.c). The rest is
 # for any machine of its kind, or for ARCH (native, ...).
 rest     := $(ARCH:%=-march=%)
 X86      := $(findstring x86_64,$(shell $(CC) -dumpmachine))
@@ -30,14 +30,14 @@ portable := $(if $(X86),-march=x86-64,$(rest))
 
 CPPFLAGS += $(SETS:%=-DKERNELS_%)
 
-SOURCES  := $(wildcard src/*.c bench/*.c)
-KERNELS  := $(wildcard kernels/*.c)
-TESTS    := $(wildcard tests/test_*.c)
+SOURCES  := $(sort $(shell find src bench -name '*.c'))
+KERNELS  := $(sort $(shell find kernels -name '*.c'))
+TESTS    := $(sort $(shell find tests -name 'test_*.c'))
 OBJECTS  := $(SOURCES:%.c=$(BUILD)/%.o) $(foreach set,$(SETS),$(KERNELS:%.c=$(BUILD)/%.$(set).o))
-ENGINE   := $(filter-out $(BUILD)/src/main.o,$(OBJECTS))
+ENGINE   := $(filter-out $(BUILD)/src/app/main.o,$(OBJECTS))
 PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
-SCRIPTS  := $(sort $(wildcard tests/test_*.sh))
-LONG     := $(sort $(wildcard tests/long_*.sh))
+SCRIPTS  := $(sort $(shell find tests -name 'test_*.sh'))
+LONG     := $(sort $(shell find tests -name 'long_*.sh'))
 
 .PHONY: all run test test-long fuzz bench install packages packages-tests clean
 .SECONDARY:
@@ -55,12 +55,12 @@ $(BUILD)/%.o: %.c Makefile
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(rest) $(LIBFLAGS) -MMD -MP -c -o $@ $<
 
 # The chart that `method: auto` chooses from, as strings of C.
-$(BUILD)/chart_text.h: src/chart.csv Makefile
+$(BUILD)/chart_text.h: src/auto/chart.csv Makefile
 	@mkdir -p $(@D)
 	@awk '{gsub(/"/, "\\\""); printf "\"%s\\n\"\n", $$0}' $< > $@
-$(BUILD)/src/chart.o: $(BUILD)/chart_text.h
+$(BUILD)/src/auto/chart.o: $(BUILD)/chart_text.h
 
-# One rule a set: build/kernels/bond_force.avx2.o from kernels/bond_force.c.
+# One rule a set: build/kernels/bond_force.avx2.o from kernels/pd/bond_force.c.
 define SET
 $(BUILD)/%.$(1).o: %.c Makefile
 	@mkdir -p $$(@D)
@@ -68,24 +68,24 @@ $(BUILD)/%.$(1).o: %.c Makefile
 endef
 $(foreach set,$(SETS),$(eval $(call SET,$(set))))
 
-$(BUILD)/tests/test_%: $(BUILD)/tests/test_%.o $(ENGINE)
+$(PROGRAMS): %: %.o $(ENGINE)
 	$(Q)$(CC) $(CFLAGS) -o $@ $^ -lcmocka $(LIBS)
 
-# Calls that a test lets fail, or in which it stops a run (tests/faults.c): its linker must be GNU's or like it.
+# Calls that a test lets fail, or in which it stops a run (tests/robustness/faults.c): its linker must be GNU's or like it.
 LINUX    := $(findstring linux,$(shell $(CC) -dumpmachine))
 WRAPPED  := main malloc calloc realloc posix_memalign mmap open fopen read pread write pwrite fflush fsync close rename mkdir unlink \
             output_history convert partial_stress_make
-$(BUILD)/tests/test_faults: $(BUILD)/tests/faults.o $(if $(LINUX),$(BUILD)/src/main.o)
-$(BUILD)/tests/test_faults: LIBS += $(if $(LINUX),$(WRAPPED:%=-Wl,--wrap=%) -ldl)
+$(BUILD)/tests/robustness/test_faults: $(BUILD)/tests/robustness/faults.o $(if $(LINUX),$(BUILD)/src/app/main.o)
+$(BUILD)/tests/robustness/test_faults: LIBS += $(if $(LINUX),$(WRAPPED:%=-Wl,--wrap=%) -ldl)
 
-# The fuzzer (tests/fuzz.c): sources under sanitizers, which tell it of branches; kernels as they are.
+# The fuzzer (tests/robustness/fuzz.c): sources under sanitizers, which tell it of branches; kernels as they are.
 FUZZED   := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fsanitize-coverage=trace-pc
 $(BUILD)/fuzz/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(FUZZED) $(LIBFLAGS) -MMD -MP -c -o $@ $<
-$(BUILD)/fuzz/src/chart.o: $(BUILD)/chart_text.h
-$(BUILD)/fuzz/fuzz: $(BUILD)/tests/fuzz.o $(patsubst %.c,$(BUILD)/fuzz/%.o,$(wildcard tests/fuzz_*.c) \
-                    $(filter-out src/main.c,$(wildcard src/*.c))) $(filter $(BUILD)/kernels/% $(BUILD)/bench/%,$(OBJECTS))
+$(BUILD)/fuzz/src/auto/chart.o: $(BUILD)/chart_text.h
+$(BUILD)/fuzz/fuzz: $(BUILD)/tests/robustness/fuzz.o $(patsubst %.c,$(BUILD)/fuzz/%.o,$(wildcard tests/robustness/fuzz_*.c) \
+                    $(filter-out src/app/main.c,$(wildcard src/*.c))) $(filter $(BUILD)/kernels/% $(BUILD)/bench/%,$(OBJECTS))
 	$(Q)$(CC) $(CFLAGS) $(FUZZED) -o $@ $^ $(LIBS)
 
 # The main job: installs what is missing, builds, breaks a steel plate, draws it.
@@ -96,13 +96,13 @@ run: packages
 
 test: packages-tests
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) all $(PROGRAMS)
-	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/run.sh $(PROGRAMS) $(SCRIPTS)
+	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/support/run.sh $(PROGRAMS) $(SCRIPTS)
 
 test-long: test
-	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/run.sh $(LONG)
+	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/support/run.sh $(LONG)
 
 fuzz: all
-	@BUILD=$(BUILD) CC="$(CC)" sh tests/long_fuzz.sh $(FUZZ_SECONDS)
+	@BUILD=$(BUILD) CC="$(CC)" sh tests/robustness/long_fuzz.sh $(FUZZ_SECONDS)
 
 bench: all
 	$(BUILD)/cleave bench kernels efficiency
@@ -117,9 +117,9 @@ clean:
 	rm -rf $(BUILD)
 
 packages:
-	@sh src/packages.sh
+	@sh src/app/packages.sh
 
 packages-tests:
-	@sh src/packages.sh tests
+	@sh src/app/packages.sh tests
 
--include $(wildcard $(BUILD)/*/*.d)
+-include $(OBJECTS:.o=.d) $(PROGRAMS:=.d)

@@ -2,7 +2,7 @@
  * (watch.c). Reads 32 bytes a particle in 2D. */
 #include "alarm.h"
 #include "kernels.h"
-#include "variants.h"
+#include "kernels/simd/variants.h"
 
 static ALWAYS_INLINE lanes_mask eight_out_of_hand(const struct particles *p, const int32_t *list, real limit2, const int dim)
 {

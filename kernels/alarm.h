@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-#include "lanes.h"
+#include "kernels/simd/lanes.h"
 
 /* Of eight particles, by the squares of their speeds and what the sizes of their places' components add up to. Comparisons are
  * written so that a number that is none is caught. */

@@ -1,5 +1,5 @@
 /* floor 2: the choice of kernels, once, before the loop; and all that a set has. */
-#include "set.h"
+#include "kernels/simd/set.h"
 
 void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer)
 {

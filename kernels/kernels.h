@@ -1,15 +1,15 @@
 /* floor 2: the contract of the hot loops: what each reads, writes and costs. Every kernel has one body, many
- * instances (variants.h), and a plain twin in tests/reference.h. Kernels cannot fail and know no files, scenes,
+ * instances (variants.h), and a plain twin in tests/support/reference.h. Kernels cannot fail and know no files, scenes,
  * memory or clocks. */
 #ifndef CLEAVE_KERNELS_H
 #define CLEAVE_KERNELS_H
 
-#include "bonds.h"
-#include "grid.h"
-#include "kernel.h"
-#include "mesh.h"
-#include "particles.h"
-#include "transfer_order.h"
+#include "bonds/bonds.h"
+#include "data/grid.h"
+#include "kernels/simd/kernel.h"
+#include "mesh/mesh.h"
+#include "data/particles.h"
+#include "data/transfer_order.h"
 
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
@@ -30,7 +30,7 @@ struct elastic {
     enum space space;
 };
 
-/* Partial stress (src/partial_stress.c): the share of its stress that a material point leaves to the crossing
+/* Partial stress (src/coupling/partial_stress.c): the share of its stress that a material point leaves to the crossing
  * bonds: sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. A point at the end of state-based bonds gives P Q local
  * besides, P Q what its bonds tell it (particles.end_pull) over its volume. */
 struct partial_stress {
@@ -42,7 +42,7 @@ struct partial_stress {
     int64_t entries, room;
     int32_t *touched;                    /* particles whose entry was made anew; whoever follows them sets touches = 0 */
     int64_t touches, touched_room;
-    struct partial_table *table;         /* src/partial_table.c                                       */
+    struct partial_table *table;         /* src/coupling/partial_table.c                                       */
 };
 
 /* Is point i an end of state-based bonds? Others leave stress to bonds that only cross their cell. */

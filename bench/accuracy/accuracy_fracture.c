@@ -1,0 +1,193 @@
+/* floor 5: problem 8 of the speed-accuracy chart: the plates of inputs/kalthoff_winkler.yaml and inputs/plate_crack.yaml: path,
+ * start and speed of their cracks beside peridynamics at a quarter of the scenes' spacing (accuracy_reference.h). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "accuracy.h"
+#include "accuracy_reference.h"
+
+enum { KALTHOFF, PULLED };
+
+/* Growth at which a crack has started, and to which its speed counts at the most; of its path, rings round the end of the pre-crack. */
+static const struct { double start, until, ring[FRACTURE_RINGS], width; } watched[2] = {
+    [KALTHOFF] = {5e-3, 20e-3, {7.5e-3, 12.5e-3, 17.5e-3, 22.5e-3}, 2.5e-3},
+    [PULLED] = {1e-3, 3e-3, {1.5e-3, 2e-3, 2.5e-3, 3e-3}, 0.5e-3}};
+enum { SAMPLES = 200 };
+
+/* ---- scenes ---------------------------------------------------------------------------------------------------- */
+
+/* Both plates are `resolution` particles high or wide by 100 and 50 mm; three layers, or as thick as in the files, are
+ * driven. Edges, notches and ends of cracks lie between particles. */
+static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+{
+    const double h = (p->at == KALTHOFF ? 100.0 : 50.0) / p->resolution;
+    if (p->at == KALTHOFF) {
+        const double layer = fmax(3, 3 * h);
+        snprintf(s->text, sizeof s->text,
+                 "space: plane stress\nthickness: 10 mm\nduration: 50 us\n"
+                 "material: {young: 190 GPa, poisson: 1/3, density: 7800 kg/m^3, energy_release_rate: 69 kJ/m^2}\n"
+                 "body: [{box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}, {add: {box: {from: [-%g mm, -25 mm], to: [0, "
+                 "25 mm]}}}]\nparticles: {spacing: 1 mm}\n"
+                 "cracks: [{from: [-%g mm, -25 mm], to: [50 mm, -25 mm]}, {from: [-%g mm, 25 mm], to: [50 mm, 25 mm]}]\n"
+                 "boundary: [{velocity: [22 m/s, free], region: {box: {from: [-%g mm, -25 mm], to: [0, 25 mm]}}}]\n",
+                 layer, layer + 1, layer + 1, layer);
+    } else {
+        const double edge = 25 + fmax(1.5, 3 * h);
+        snprintf(s->text, sizeof s->text,
+                 "space: plane stress\nthickness: 0.1 mm\nduration: 15 us\n"
+                 "material: {young: 192 GPa, poisson: 1/3, density: 8000 kg/m^3, energy_release_rate: 82907 J/m^2}\n"
+                 "body: {box: {from: [-25 mm, -%g mm], to: [25 mm, %g mm]}}\nparticles: {spacing: 0.5 mm}\n"
+                 "cracks: [{from: [-5 mm, 0], to: [5 mm, 0]}]\nboundary:\n"
+                 "  - {velocity: [free, 18 m/s], region: {box: {from: [-25 mm, 25 mm], to: [25 mm, 100 mm]}}, time: {step: {until: "
+                 "4.5 us}}}\n"
+                 "  - {velocity: [free, -18 m/s], region: {box: {from: [-25 mm, -100 mm], to: [25 mm, -25 mm]}}, time: {step: "
+                 "{until: 4.5 us}}}\n", edge, edge);
+    }
+    bench_override(&s->set, "particles.spacing", "%d/%d mm", p->at == KALTHOFF ? 100 : 50, p->resolution);
+    if (p->at == KALTHOFF) bench_override(&s->set, "pd.influence", "one");
+    if (p->method->family & ACCURACY_STATES) bench_override(&s->set, "pd.normalisation", "bulk");
+    if (p->at == KALTHOFF && accuracy_relaxes(p)) bench_override(&s->set, "mpm.transfer", "apic");
+}
+
+/* ---- what cracks did --------------------------------------------------------------------------------------------- */
+
+/* Time at which the cracks have grown by `length`, between the samples in which their mean growth rose; NAN: never. */
+static double time_of(const struct tips *t, double length)
+{
+    double time[2] = {NAN, NAN}, growth[2] = {0, 0};
+    for (int64_t s = 0; s < t->samples; s++) {
+        double mean = 0;
+        int n = 0;
+        for (int k = 0; k < t->n; k++)
+            if (t->tip[k].from_crack) mean += t->growth[s * TIPS_MAX + k], n++;
+        mean /= n;
+        if (mean <= growth[1] + 1e-9) continue;
+        time[0] = time[1], growth[0] = growth[1], time[1] = t->time[s], growth[1] = mean;
+        if (mean < length || s == 0) continue;
+        if (isnan(time[0])) return time[1];      /* came there in one step */
+        return time[0] + (time[1] - time[0]) * (length - growth[0]) / (growth[1] - growth[0]);
+    }
+    return NAN;
+}
+
+/* Angle, away from the middle of the plate, of the damaged particles of both cracks about a ring round their start [rad]. */
+static double angle_at(const struct engine *e, double radius, double width)
+{
+    const struct tips *t = &e->tips;
+    double along = 0, across = 0;
+    for (int64_t i = 0; i < e->part.n; i++) {
+        const int k = t->label[i] - 1;
+        if (k < 0 || k >= t->n || !t->tip[k].from_crack) continue;
+        const struct tip *tip = &t->tip[k];
+        const double way[2] = {e->part.X[0][i] - tip->origin[0], e->part.X[1][i] - tip->origin[1]};
+        if (fabs(hypot(way[0], way[1]) - radius) > width) continue;
+        along += e->part.damage[i] * (way[0] * tip->along[0] + way[1] * tip->along[1]);
+        across += e->part.damage[i] * (way[1] * tip->along[0] - way[0] * tip->along[1]) * (tip->origin[1] < 0 ? -1 : 1);
+    }
+    return along != 0 || across != 0 ? atan2(across, along) : NAN;
+}
+
+struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struct engine *e)
+{
+    const struct tips *t = &e->tips;
+    struct fracture f = {.start = time_of(t, watched[p->at].start), .speed = NAN};
+    int n = 0;
+    for (int k = 0; k < t->n; k++)
+        if (t->tip[k].from_crack) f.length += t->tip[k].growth, n++;
+    f.length /= n;
+    const double until = fmin(watched[p->at].until, f.length * (1 - 1e-9));
+    if (until > watched[p->at].start) f.speed = (until - watched[p->at].start) / (time_of(t, until) - f.start);
+    for (int r = 0; r < FRACTURE_RINGS; r++) f.angle[r] = angle_at(e, watched[p->at].ring[r], watched[p->at].width);
+    return f;
+}
+
+/* ---- errors ------------------------------------------------------------------------------------------------------ */
+
+/* A crack that does not come so far is off by all there is. */
+static double off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
+
+/* Path: how far it lies beside the other, over the distance from its start, and its length. */
+static status measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+{
+    const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
+    double beside2 = 0;
+    for (int r = 0; r < FRACTURE_RINGS; r++)
+        beside2 += (isfinite(f.angle[r]) ? pow(f.angle[r] - wanted->angle[r], 2) : 1) / FRACTURE_RINGS;
+    part[0] = sqrt(beside2 + pow(off(f.length, wanted->length), 2));
+    part[1] = off(f.start, wanted->start);
+    part[2] = off(f.speed, wanted->speed);
+    *error = sqrt((part[0] * part[0] + part[1] * part[1] + part[2] * part[2]) / 3);
+    return OK;
+}
+
+/* What is not on its way to the reference, or takes longest, stays coarse. */
+static bool applies(const struct accuracy_point *p)
+{
+    if (p->resolution <= 100) return true;
+    if (p->resolution > 200 && p->method->family & ACCURACY_ADAPTIVE && !accuracy_is_reference(p)) return false;
+    return p->method->quick && (p->method->family & (ACCURACY_BONDS | ACCURACY_ADAPTIVE));
+}
+
+const struct accuracy_problem accuracy_fracture = {
+    .name = "fracture",
+    .title = "plates that crack",
+    .error = "path (offset over distance, and length), start and speed beside bonds at 1/4 of the scene's spacing, root mean "
+             "square of the three",
+    .part = {"path", "start", "speed"},
+    .cases = {"Kalthoff", "pulled plate"},
+    .counts = "particles across the plate",
+    .families = ACCURACY_PD | ACCURACY_ADAPTIVE,
+    .dim = 2,
+    .resolution = {40, 60, 100, 200, 300},
+    .quick_resolutions = 3,
+    .step = {0.4, 0.2},
+    .steps = true,
+    .varied = 3,
+    .samples = SAMPLES,
+    .remark = {"The reference is known to 2.5 and 2.7 %: by so much it differs from one at 1/8 of the spacing. Its own "
+               "start, speed, length and path at 1, 1/2, 1/4, 1/8 are in bench/accuracy/accuracy_reference.h.",
+               "What counts most is the step: at 0.8 of the critical one cracks are 11 to 23 % off with 100, 200 and 300 "
+               "particles, at 0.4 bonds come to 10.3, 7.3, 3.6 % (Kalthoff) and 10.1, 8.8, 2.9 %.",
+               "Adaptive runs in the reference frame are on the front of Kalthoff's plate: 7.6 % in 0.08 s where bonds have 9.0 % after "
+               "0.26 s, 4.0 % in 0.6 s where bonds have 3.6 % after 3.1 s; in the pulled plate 2.7 % in 0.03 s. In the current "
+               "frame they take three to five times the time of bonds. Bonds with 60 particles in the pulled plate (2.8 %) are "
+               "luck: 56, 58, 62, 64, 70 give 10, 13, 7, 12, 11 %.",
+               "Couplings pm, pg, pmg and pgg do not crack: the grid moves both faces with one velocity field.",
+               "mospd cracks at half the speed of bonds in Kalthoff's plate (570 m/s, 14 mm): its critical stretch is "
+               "another law, of no error of the method's."},
+    .seconds = 300,
+    .quick_seconds = 60,
+    .scene = make_scene,
+    .measure = measure,
+    .applies = applies,
+};
+
+/* ---- the reference ----------------------------------------------------------------------------------------------- */
+
+static status print_reference(const struct accuracy_point *p)
+{
+    struct accuracy_scene from;
+    struct engine e;
+    struct scene s;
+    accuracy_scene_make(p, &from);
+    TRY(bench_engine_make(&e, &s, p->problem->name, from.text, bench_overrides_ready(&from.set), from.set.n));
+    const status ran = engine_run(&e);
+    const struct fracture f = accuracy_fracture_of(p, &e);
+    printf("    {%.7g, %.5g, %.5g, {", f.start, f.speed, f.length);
+    for (int r = 0; r < FRACTURE_RINGS; r++) printf("%.5g%s", f.angle[r], r < FRACTURE_RINGS - 1 ? ", " : "}},");
+    printf("    /* %s, %d */\n", p->problem->cases[p->at], p->resolution);
+    fflush(stdout);
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+status accuracy_reference(bool quick)
+{
+    team_make(0);
+    for (int resolution = 100; resolution <= (quick ? 200 : 800); resolution *= 2)
+        for (int at = 0; at < accuracy_cases(&accuracy_fracture); at++)
+            TRY(print_reference(&(struct accuracy_point){&accuracy_fracture, &accuracy_method[0], at, resolution,
+                                                         ACCURACY_HORIZON, 0.4}));
+    return OK;
+}

@@ -1,0 +1,131 @@
+/* floor 5: every point of the speed-accuracy chart: which there are, and the scene of each. */
+#include <stdio.h>
+#include <string.h>
+
+#include "accuracy.h"
+#include "base/memory.h"
+
+const struct accuracy_problem *const accuracy_problem[] = {
+    &accuracy_bar,    &accuracy_wave,   &accuracy_square, &accuracy_cube,    &accuracy_hole,
+    &accuracy_cracks, &accuracy_sudden, &accuracy_spall,  &accuracy_fracture};
+const int accuracy_problems = COUNT_OF(accuracy_problem);
+
+int accuracy_cases(const struct accuracy_problem *problem)
+{
+    int n = 0;
+    while (n < ACCURACY_CASES && problem->cases[n]) n++;
+    return n;
+}
+
+/* ---- scenes -------------------------------------------------------------------------------------------------- */
+
+void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s)
+{
+    memset(s, 0, sizeof *s);
+    p->problem->scene(p, s);
+    for (int k = 0; k < ACCURACY_SETTINGS && p->method->set[k].key; k++)
+        bench_override(&s->set, p->method->set[k].key, "%s", p->method->set[k].value);
+    if (p->horizon > 0) bench_override(&s->set, "particles.horizon", "%.9g", p->horizon);
+    bench_override(&s->set, "time.step", "auto");
+    bench_override(&s->set, "time.safety", "%.9g", p->step);
+    bench_override(&s->set, "output.frames", "0");
+    bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
+}
+
+/* FNV-1a over the scene with all its defaults and over the machine's name: whatever changes a result changes it. */
+static void add_to_hash(uint64_t *hash, const char *text)
+{
+    for (; *text; text++) *hash = (*hash ^ (unsigned char)*text) * 1099511628211u;
+}
+
+static status read_settings(struct accuracy_entry *entry, const char *machine)
+{
+    struct accuracy_scene from;
+    struct scene s;
+    uint64_t hash = 14695981039346656037u;
+    accuracy_scene_make(&entry->point, &from);
+    const struct scene_override *set = bench_overrides_ready(&from.set);
+    TRY(from.path[0] ? scene_read(&s, from.path, set, from.set.n)
+                     : scene_read_text(&s, from.text, strlen(from.text), entry->point.problem->name, set, from.set.n));
+    add_to_hash(&hash, s.text);
+    add_to_hash(&hash, machine);
+    scene_free(&s);
+    snprintf(entry->result.settings, sizeof entry->result.settings, "%016llx", (unsigned long long)hash);
+    return OK;
+}
+
+/* ---- points --------------------------------------------------------------------------------------------------- */
+
+static status add_point(struct accuracy_plan *plan, struct accuracy_point p, bool quick)
+{
+    if (p.problem->applies && !p.problem->applies(&p)) return OK;
+    if (plan->n == plan->room) {
+        const int room = 2 * plan->room + 256;
+        plan->entry = memory_resize("bench.plan", plan->entry, plan->room, room, sizeof *plan->entry);
+        plan->room = room;
+    }
+    plan->entry[plan->n] = (struct accuracy_entry){.point = p, .quick = quick};
+    return read_settings(&plan->entry[plan->n++], plan->machine.model);
+}
+
+/* The first of the horizons at every resolution, all the others and the steps at one. */
+static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all, bool quick)
+{
+    const struct accuracy_problem *q = p.problem;
+    struct accuracy_point varied = p;
+    for (int k = 0; k < (all ? ACCURACY_VARIATIONS : 1) && q->horizon[k] > 0 && p.method->family & ACCURACY_PD; k++) {
+        varied.horizon = q->horizon[k];
+        TRY(add_point(plan, varied, false));
+    }
+    varied = p;
+    for (int k = 0; k < (all ? ACCURACY_VARIATIONS : q->steps) && q->step[k] > 0; k++) {
+        varied.step = q->step[k];
+        TRY(add_point(plan, varied, quick && q->steps && k == 0));
+    }
+    return OK;
+}
+
+static status add_case(struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int r)
+{
+    const int varied = q->varied ? q->varied - 1 : 1;
+    for (int m = 0; m < accuracy_methods; m++) {
+        const struct accuracy_method *method = &accuracy_method[m];
+        if (!(method->family & q->families)) continue;
+        struct accuracy_point p = {.problem = q, .method = method, .at = at, .resolution = q->resolution[r],
+                                   .step = ACCURACY_STEP,
+                                   .horizon = method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON};
+        const bool quick = method->quick && r < q->quick_resolutions;
+        TRY(add_point(plan, p, quick));
+        TRY(add_variations(plan, p, r == varied, quick));
+    }
+    return OK;
+}
+
+/* Scenes that are files may be elsewhere: then their problem is left out. */
+static bool is_here(const struct accuracy_problem *q)
+{
+    const struct accuracy_point any = {.problem = q, .method = accuracy_method, .resolution = q->resolution[0],
+                                       .step = ACCURACY_STEP};
+    struct accuracy_scene s;
+    accuracy_scene_make(&any, &s);
+    return !s.path[0] || bench_scene_exists(s.path);
+}
+
+/* Coarse to fine, so that a chart that is broken off shows every case and method. */
+status accuracy_plan_make(struct accuracy_plan *plan)
+{
+    *plan = (struct accuracy_plan){.machine = team_machine()};
+    for (int k = 0; k < accuracy_problems; k++) {
+        const struct accuracy_problem *q = accuracy_problem[k];
+        if (!is_here(q)) continue;
+        for (int r = 0; r < ACCURACY_RESOLUTIONS && q->resolution[r]; r++)
+            for (int at = 0; at < accuracy_cases(q); at++) TRY(add_case(plan, q, at, r));
+    }
+    return OK;
+}
+
+void accuracy_plan_free(struct accuracy_plan *plan)
+{
+    memory_free(plan->entry);
+    *plan = (struct accuracy_plan){0};
+}

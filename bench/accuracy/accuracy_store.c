@@ -1,0 +1,142 @@
+/* floor 5: results/bench/accuracy.csv: what was measured before, and what is added point by point. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accuracy.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+
+#define STORE BENCH_FOLDER "/accuracy.csv"
+#define HEADER                                                                                                       \
+    "problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,particles,steps,"  \
+    "stable,version,settings"
+
+/* What says which point a line is of: the columns before the figures. */
+static void put_key(const struct accuracy_point *p, char *text, size_t size)
+{
+    snprintf(text, size, "%s,%s,%s,%d,%.9g,%.9g,", p->problem->name, p->problem->cases[p->at], p->method->name,
+             p->resolution, p->horizon, p->step);
+}
+
+/* ---- reading ------------------------------------------------------------------------------------------------ */
+
+/* The next column of a line: a number, NAN where it is empty. */
+static double next_number(const char **at)
+{
+    char *end;
+    const double value = strtod(*at, &end);
+    const bool empty = end == *at;
+    *at = end + strcspn(end, ",\n");
+    if (**at == ',') ++*at;
+    return empty ? NAN : value;
+}
+
+static bool line_ends_with(const char *line, const char *tail)
+{
+    const size_t length = strcspn(line, "\n"), wanted = strlen(tail);
+    return line[length] == '\n' && length >= wanted && strncmp(line + length - wanted, tail, wanted) == 0;
+}
+
+/* A line of an older program or of other settings says nothing of this point; nor does one that was broken off. */
+static void take_line(struct accuracy_result *r, const char *line, size_t key)
+{
+    char tail[64];
+    const char *at = line + key;
+    snprintf(tail, sizeof tail, ",%s,%s", CLEAVE_VERSION, r->settings);
+    if (!line_ends_with(line, tail)) return;
+    r->known = true;
+    r->error = next_number(&at);
+    for (int k = 0; k < ACCURACY_PARTS; k++) r->part[k] = next_number(&at);
+    for (int k = 0; k < 2; k++) r->seconds[k] = next_number(&at);
+    r->particles = next_number(&at), r->steps = next_number(&at);
+    r->stable = next_number(&at) > 0;
+}
+
+/* ---- writing ------------------------------------------------------------------------------------------------- */
+
+static void put_number(FILE *to, double value)
+{
+    if (isfinite(value)) fprintf(to, "%.9g", value);
+    fputc(',', to);
+}
+
+static void put_line(FILE *to, const struct accuracy_entry *entry)
+{
+    const struct accuracy_result *r = &entry->result;
+    char key[256];
+    put_key(&entry->point, key, sizeof key);
+    fputs(key, to);
+    put_number(to, r->error);
+    for (int k = 0; k < ACCURACY_PARTS; k++) put_number(to, r->part[k]);
+    for (int k = 0; k < 2; k++) put_number(to, r->seconds[k]);
+    put_number(to, r->particles), put_number(to, r->steps);
+    fprintf(to, "%d,%s,%s\n", r->stable, CLEAVE_VERSION, r->settings);
+}
+
+status accuracy_store_append(const struct accuracy_entry *entry)
+{
+    TRY(bench_folder_make());
+    const bool fresh = !path_is_file(STORE);
+    FILE *to = fopen(STORE, "a");
+    if (!to) return file_fault(STORE, errno);
+    if (fresh) fputs(HEADER "\n", to);
+    put_line(to, entry);
+    return fclose(to) == 0 ? OK : file_fault(STORE, errno);
+}
+
+static void fill_points(struct bench_table *t, const struct accuracy_plan *plan)
+{
+    bench_table_make(t, "", HEADER);
+    for (int k = 0; k < plan->n; k++) {
+        const struct accuracy_point *p = &plan->entry[k].point;
+        const struct accuracy_result *r = &plan->entry[k].result;
+        if (!r->known) continue;
+        const double figures[] = {r->error, r->part[0], r->part[1], r->part[2], r->seconds[0], r->seconds[1], r->particles, r->steps,
+                                  r->stable};
+        bench_text(t, p->problem->name), bench_text(t, p->problem->cases[p->at]), bench_text(t, p->method->name);
+        bench_number(t, p->resolution), bench_number(t, p->horizon), bench_number(t, p->step);
+        for (size_t c = 0; c < COUNT_OF(figures); c++) bench_number(t, figures[c]);
+        bench_text(t, CLEAVE_VERSION), bench_text(t, r->settings);
+    }
+}
+
+static void fill_problems(struct bench_table *t)
+{
+    bench_table_make(t, "problems", "problem,title,error,part_1,part_2,part_3,resolution");
+    for (int k = 0; k < accuracy_problems; k++) {
+        const struct accuracy_problem *q = accuracy_problem[k];
+        const char *const words[] = {q->name, q->title, q->error, q->part[0] ? q->part[0] : "-",
+                                     q->part[1] ? q->part[1] : "-", q->part[2] ? q->part[2] : "-", q->counts};
+        for (size_t c = 0; c < COUNT_OF(words); c++) bench_text(t, words[c]);
+    }
+}
+
+status accuracy_store_write(const struct accuracy_plan *plan)
+{
+    struct bench_table table[2];
+    fill_points(&table[0], plan);
+    fill_problems(&table[1]);
+    status s = bench_write("accuracy", table, COUNT_OF(table));
+    for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
+    return s;
+}
+
+/* What is left of it is written anew, without a line that was broken off. */
+status accuracy_store_read(struct accuracy_plan *plan)
+{
+    char *text, key[256];
+    size_t length;
+    if (!path_is_file(STORE)) return OK;
+    TRY(file_get(STORE, &text, &length));
+    for (int k = 0; k < plan->n; k++) {
+        put_key(&plan->entry[k].point, key, sizeof key);
+        const size_t wanted = strlen(key);
+        for (const char *line = text; line; line = strchr(line, '\n'), line = line ? line + 1 : NULL)
+            if (strncmp(line, key, wanted) == 0) take_line(&plan->entry[k].result, line, wanted);
+    }
+    memory_free(text);
+    return accuracy_store_write(plan);
+}

@@ -1,0 +1,199 @@
+/* floor 5: `cleave bench accuracy`: error against loop time of every method on problems with known solutions. Runs what is
+ * not known yet of the chart, point by point, then writes tables, charts and the overview page. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "accuracy.h"
+#include "base/memory.h"
+
+/* ---- figures of a run ------------------------------------------------------------------------------------------ */
+
+double accuracy_figure(const struct engine *e, const char *probe, const char *quantity)
+{
+    struct bench_figure figure = {probe, quantity, NAN};
+    bench_figures_take(e, &figure, 1);
+    return figure.value;
+}
+
+/* ---- one point -------------------------------------------------------------------------------------------------- */
+
+enum { RUNS_MOST = 3 };
+#define RUNS_SECONDS 0.3                 /* short runs are repeated for their time: at most this long */
+
+/* Of this thread: what other programs take from its processor does not count. */
+static double processor_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void accuracy_result_clear(struct accuracy_result *r)
+{
+    *r = (struct accuracy_result){.error = NAN, .part = {NAN, NAN, NAN}, .seconds = {INFINITY, INFINITY}};
+}
+
+status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team, struct accuracy_result *r,
+                          struct scene_choice *choice)
+{
+    struct engine e;
+    struct scene s;
+    struct accuracy_point at = *p;
+    team_make(team + 1);
+    TRY(bench_engine_make(&e, &s, from->path[0] ? from->path : p->problem->name, from->path[0] ? NULL : from->text,
+                          bench_overrides_ready(&from->set), from->set.n));
+    if (choice) *choice = s.choice, at.resolution = (int)round(s.choice.resolution);
+    const double before = processor_seconds();
+    status ran = p->problem->run ? p->problem->run(&at, &e) : engine_run(&e);
+    const double busy = team == 0 ? processor_seconds() - before : INFINITY;
+    r->seconds[team] = fmin(r->seconds[team], fmin(e.loop_seconds, busy));
+    r->particles = (double)e.part.n, r->steps = (double)e.step, r->stable = ran == OK;
+    if (ran == OK && !r->known) ran = p->problem->measure(&at, &e, &r->error, r->part);
+    bench_engine_free(&e, &s);
+    r->known = true;
+    return ran == FAILED ? OK : ran;
+}
+
+static status run_once(struct accuracy_entry *entry, int team)
+{
+    struct accuracy_scene from;
+    accuracy_scene_make(&entry->point, &from);
+    return accuracy_run_scene(&entry->point, &from, team, &entry->result, NULL);
+}
+
+/* The error hangs on no number of threads, so it is measured once. A bar is too short to be shared. */
+static status run_point(struct accuracy_entry *entry)
+{
+    struct accuracy_result *r = &entry->result;
+    char settings[sizeof r->settings];
+    memcpy(settings, r->settings, sizeof settings);
+    accuracy_result_clear(r);
+    memcpy(r->settings, settings, sizeof settings);
+    double spent = 0;
+    for (int run = 0; run < RUNS_MOST && spent < RUNS_SECONDS; run++)
+        for (int team = 0; team < (entry->point.problem->dim > 1 ? 2 : 1); team++) {
+            TRY(run_once(entry, team));
+            spent += r->seconds[team];
+        }
+    if (!isfinite(r->error)) r->stable = false;
+    return accuracy_store_append(entry);
+}
+
+/* ---- all points --------------------------------------------------------------------------------------------------- */
+
+/* Work of a point beside others of its problem, about in seconds: 100 ns a particle and step, more with long horizons; its
+ * set-up; repetitions. */
+static double work_of(const struct accuracy_point *p)
+{
+    const int dim = p->problem->dim;
+    const double particles = pow(p->resolution, dim), steps = p->resolution / p->step;
+    const double run = particles * (1e-7 * steps * (1 + 0.3 * pow(p->horizon / 3, dim)) + 3e-6) + 0.01;
+    return run * (dim > 1 ? 2 : 1) * (run < 0.5 * RUNS_SECONDS ? RUNS_MOST : 1);
+}
+
+enum { PROBLEMS_MAX = 16 };
+struct progress { double spent[PROBLEMS_MAX], done[PROBLEMS_MAX], asked[PROBLEMS_MAX]; };
+
+static int number_of(const struct accuracy_problem *q)
+{
+    int k = 0;
+    while (accuracy_problem[k] != q) k++;
+    return k;
+}
+
+/* Problems of which something is done go on at their rate, the others take what their tables say. */
+static double seconds_left(const struct progress *g, bool quick)
+{
+    double left = 0;
+    for (int k = 0; k < accuracy_problems; k++) {
+        const struct accuracy_problem *q = accuracy_problem[k];
+        if (g->asked[k] <= 0) continue;
+        const bool known = g->done[k] > 0.01 * g->asked[k];
+        left += known ? g->spent[k] * (g->asked[k] / g->done[k] - 1) : quick ? q->quick_seconds : q->seconds;
+    }
+    return left;
+}
+
+static void print_point(const struct accuracy_entry *entry, const struct progress *g, bool quick)
+{
+    const struct accuracy_result *r = &entry->result;
+    char label[96], what[32], two[32] = "";
+    accuracy_label(&entry->point, label, sizeof label);
+    snprintf(what, sizeof what, r->stable ? "%9.3g %%" : "   unstable", 100 * r->error);
+    const int left = (int)seconds_left(g, quick);
+    if (isfinite(r->seconds[1])) snprintf(two, sizeof two, "%9.3g s", r->seconds[1]);
+    printf("  %-8s %-10s %-34s %s %9.3g s %11s   left %d:%02d\n", entry->point.problem->name,
+           entry->point.problem->cases[entry->point.at], label, what, r->seconds[0], two, left / 60, left % 60);
+    fflush(stdout);
+}
+
+static bool is_asked(const struct accuracy_entry *entry, const char *only, bool quick)
+{
+    return !entry->result.known && (!quick || entry->quick) &&
+           (!only || strcmp(only, entry->point.problem->name) == 0);
+}
+
+static status run_all(struct accuracy_plan *plan, const char *only, bool quick)
+{
+    struct progress g = {0};
+    int asked = 0;
+    assert(accuracy_problems <= PROBLEMS_MAX);
+    for (int k = 0; k < plan->n; k++) {
+        if (!is_asked(&plan->entry[k], only, quick)) continue;
+        g.asked[number_of(plan->entry[k].point.problem)] += work_of(&plan->entry[k].point), asked++;
+    }
+    printf("  %d points, %d of them to be run; error, loop time on one thread and on two\n", plan->n, asked);
+    for (int k = 0; k < plan->n; k++) {
+        if (!is_asked(&plan->entry[k], only, quick)) continue;
+        const int problem = number_of(plan->entry[k].point.problem);
+        const double before = team_clock();
+        TRY(run_point(&plan->entry[k]));
+        g.spent[problem] += team_clock() - before, g.done[problem] += work_of(&plan->entry[k].point);
+        print_point(&plan->entry[k], &g, quick);
+    }
+    return OK;
+}
+
+/* What goes with what is known, without a run. */
+static status write_known(struct accuracy_plan *plan)
+{
+    TRY(accuracy_plan_make(plan));
+    TRY(accuracy_store_read(plan));
+    return accuracy_chart_write(plan);
+}
+
+static status measure_all(struct accuracy_plan *plan, const char *only, bool quick)
+{
+    TRY(accuracy_plan_make(plan));
+    TRY(accuracy_store_read(plan));
+    TRY(run_all(plan, only, quick));
+    team_make(0);
+    TRY(accuracy_store_write(plan));
+    TRY(accuracy_chart_write(plan));
+    TRY(accuracy_page(plan));
+    return accuracy_draw(plan);
+}
+
+static bool is_problem(const char *name)
+{
+    for (int k = 0; k < accuracy_problems; k++)
+        if (strcmp(accuracy_problem[k]->name, name) == 0) return true;
+    return false;
+}
+
+status bench_accuracy_of(const char *only, bool quick)
+{
+    struct accuracy_plan plan = {0};
+    const bool chart = only && strcmp(only, "chart") == 0, automatic = only && strcmp(only, "auto") == 0;
+    if (only && strcmp(only, "reference") == 0) return accuracy_reference(quick);
+    if (only && !chart && !automatic && !is_problem(only)) return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
+    printf("accuracy\n");
+    bench_print_machine(team_make(0));
+    status s = automatic ? accuracy_auto(&plan, quick) : chart ? write_known(&plan) : measure_all(&plan, only, quick);
+    accuracy_plan_free(&plan);
+    return s;
+}
+
+status bench_accuracy(bool quick) { return bench_accuracy_of(NULL, quick); }

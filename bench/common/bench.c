@@ -1,0 +1,54 @@
+/* floor 5: `cleave bench`: which benches there are and which were asked for. */
+#include <stdio.h>
+#include <string.h>
+
+#include "bench.h"
+#include "src/app/commands.h"
+
+struct bench {
+    const char *name;
+    status (*call)(bool quick);
+};
+
+/* In the order in which they run: kernels first, while the process is still small. */
+static const struct bench benches[] = {
+    {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
+    {"factors", bench_factors}, {"threads", bench_threads},       {"scale", bench_scale},
+    {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability},
+    {"scatter", bench_scatter}};
+enum { BENCHES = COUNT_OF(benches) };
+
+/* `accuracy=NAME`: that problem alone, or another thing that bench_accuracy_of knows; `stability=lasting`, or a part of a case's name:
+ * its long map alone. */
+static const char accuracy_of[] = "accuracy=", stability_of[] = "stability=";
+
+static status mark(const char *word, bool *asked)
+{
+    for (int k = 0; k < BENCHES; k++)
+        if (!strcmp(word, benches[k].name)) {
+            asked[k] = true;
+            return OK;
+        }
+    return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [threads] "
+                               "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability[=lasting|=CASE]] [scatter] [--quick]", word);
+}
+
+status command_bench(int argc, char **argv)
+{
+    bool asked[BENCHES] = {false}, quick = false, any = false;
+    const char *only = NULL, *lasting = NULL;
+    for (int k = 1; k < argc; k++) {
+        if (!strcmp(argv[k], "--quick")) {
+            quick = true;
+            continue;
+        }
+        if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of))) only = argv[k] + strlen(accuracy_of);
+        else if (!strncmp(argv[k], stability_of, strlen(stability_of))) lasting = argv[k] + strlen(stability_of);
+        else TRY(mark(argv[k], asked));
+        any = true;
+    }
+    for (int k = 0; k < BENCHES; k++)
+        if (asked[k] || !any) TRY(benches[k].call(quick));
+    if (lasting) TRY(bench_stability_of(lasting, quick));
+    return only ? bench_accuracy_of(only, quick) : OK;
+}

@@ -1,0 +1,176 @@
+/* floor 5: tables of figures as csv and json, and their picture. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "bench.h"
+#include "plot/gnuplot.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "engine/simd.h"
+
+/* ---- tables ---------------------------------------------------------------------------------------------- */
+
+void bench_table_make(struct bench_table *t, const char *name, const char *header)
+{
+    *t = (struct bench_table){.name = name, .header = header, .columns = 1};
+    for (const char *c = header; *c; c++) t->columns += *c == ',';
+}
+
+static struct bench_cell *add_cell(struct bench_table *t)
+{
+    if (t->cells == t->room) {
+        int64_t room = 2 * t->room + 64;
+        t->cell = memory_resize("bench.cell", t->cell, t->room, room, sizeof *t->cell);
+        t->room = room;
+    }
+    return &t->cell[t->cells++];
+}
+
+void bench_text(struct bench_table *t, const char *text)
+{
+    struct bench_cell *c = add_cell(t);
+    snprintf(c->text, sizeof c->text, "%s", text);
+}
+
+void bench_number(struct bench_table *t, double number) { *add_cell(t) = (struct bench_cell){.number = number}; }
+
+void bench_table_free(struct bench_table *t)
+{
+    memory_free(t->cell);
+    *t = (struct bench_table){0};
+}
+
+/* ---- files ------------------------------------------------------------------------------------------------- */
+
+/* Without what would end a cell. */
+static void put_text(FILE *to, const char *text)
+{
+    for (; *text; text++) fputc(*text == ',' || *text == '"' ? ';' : *text, to);
+}
+
+static void put_csv(FILE *to, const struct bench_table *t)
+{
+    fprintf(to, "%s\n", t->header);
+    for (int64_t k = 0; k < t->cells; k++) {
+        const struct bench_cell *c = &t->cell[k];
+        if (c->text[0])
+            put_text(to, c->text);
+        else if (isfinite(c->number))
+            fprintf(to, "%.9g", c->number);
+        fputc((k + 1) % t->columns ? ',' : '\n', to);
+    }
+}
+
+/* Column k of the header. */
+static void column_name(const struct bench_table *t, int64_t k, char *name, size_t size)
+{
+    const char *from = t->header;
+    while (k-- > 0) from = strchr(from, ',') + 1;
+    snprintf(name, size, "%.*s", (int)strcspn(from, ","), from);
+}
+
+static void put_rows(FILE *to, const struct bench_table *t)
+{
+    char name[NAME_MAX_LENGTH];
+    for (int64_t k = 0; k < t->cells; k++) {
+        const struct bench_cell *c = &t->cell[k];
+        column_name(t, k % t->columns, name, sizeof name);
+        if (k % t->columns == 0)
+            fprintf(to, "%s\n    {", k ? "}," : "");
+        else
+            fputs(", ", to);
+        if (c->text[0]) {
+            fprintf(to, "\"%s\": \"", name);
+            put_text(to, c->text);
+            fputc('"', to);
+        } else if (isfinite(c->number))
+            fprintf(to, "\"%s\": %.9g", name, c->number);
+        else
+            fprintf(to, "\"%s\": null", name);
+    }
+    fputs(t->cells ? "}\n  " : "", to);
+}
+
+static void put_json(FILE *to, const char *name, const struct bench_table *table, int tables)
+{
+    struct machine m = team_machine();
+    fprintf(to, "{\n  \"name\": \"%s\",\n  \"version\": \"%s\",\n  \"machine\": \"%s\",\n  \"cores\": %d", name,
+            CLEAVE_VERSION, m.model, m.cores);
+    for (int k = 0; k < tables; k++) {
+        fprintf(to, ",\n  \"%s\": [", table[k].name[0] ? table[k].name : "rows");
+        put_rows(to, &table[k]);
+        fputc(']', to);
+    }
+    fputs("\n}\n", to);
+}
+
+status bench_folder_make(void)
+{
+    if (mkdir("results", 0777) != 0 && errno != EEXIST) return file_fault("results", errno);
+    if (mkdir(BENCH_FOLDER, 0777) != 0 && errno != EEXIST) return file_fault(BENCH_FOLDER, errno);
+    return OK;
+}
+
+/* One file, composed in memory: json of all tables, or csv of one. */
+static status write_file(const char *path, const char *json, const struct bench_table *table, int tables)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *to = open_memstream(&text, &length);
+    if (!to) return status_set(FAILED, "cannot write %s: out of memory", path);
+    if (json)
+        put_json(to, json, table, tables);
+    else
+        put_csv(to, table);
+    bool whole = fclose(to) == 0;
+    status s = whole ? file_put(path, text, length) : status_set(FAILED, "cannot write %s: out of memory", path);
+    free(text);
+    return s;
+}
+
+status bench_write(const char *name, const struct bench_table *table, int tables)
+{
+    char path[256];
+    TRY(bench_folder_make());
+    for (int k = 0; k < tables; k++) {
+        snprintf(path, sizeof path, BENCH_FOLDER "/%s%s%s.csv", name, table[k].name[0] ? "_" : "", table[k].name);
+        TRY(write_file(path, NULL, &table[k], 1));
+    }
+    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", name);
+    return write_file(path, name, table, tables);
+}
+
+/* ---- pictures ---------------------------------------------------------------------------------------------- */
+
+status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
+                  const void *context)
+{
+    static const struct {
+        enum picture_format format;
+        const char *ending;
+    } formats[] = {{PICTURE_PNG, "png"}, {PICTURE_SVG, "svg"}};
+    TRY(bench_folder_make());
+    for (size_t k = 0; k < COUNT_OF(formats); k++) {
+        char path[256];
+        struct gnuplot g;
+        snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", name, formats[k].ending);
+        TRY(gnuplot_open(&g, path, formats[k].format, width, height));
+        draw(g.to, context);
+        TRY(gnuplot_close(&g));
+    }
+    char table[256];
+    snprintf(table, sizeof table, BENCH_FOLDER "/%s.csv", name);
+    printf("  written to " BENCH_FOLDER "/%s%s.png, .svg\n\n", name, path_is_file(table) ? ".csv, .json, " : "");
+    return OK;
+}
+
+void bench_print_machine(int threads)
+{
+    struct machine m = team_machine();
+    printf("  %s, %d cores, %lld kB L2, %lld MB L3; cleave %s, kernels %s, %d thread%s unless said otherwise\n", m.model,
+           m.cores, (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION, simd_in_use()->name,
+           threads, threads > 1 ? "s" : "");
+}

@@ -1,0 +1,187 @@
+/* floor 5: engines made for timing: from a file or a text, without output, in pieces; and runs as processes. */
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <math.h>
+#include <spawn.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+
+extern char **environ;
+
+bool bench_scene_exists(const char *path)
+{
+    if (path_is_file(path)) return true;
+    printf("  %s is not here: left out (scenes are looked for from the folder in which cleave was started)\n", path);
+    return false;
+}
+
+status bench_engine_make(struct engine *e, struct scene *s, const char *path, const char *text,
+                         const struct scene_override *override, int overrides)
+{
+    *e = (struct engine){0};
+    *s = (struct scene){0};
+    if (text)
+        TRY(scene_read_text(s, text, strlen(text), path, override, overrides));
+    else
+        TRY(scene_read(s, path, override, overrides));
+    status made = engine_make(e, s, NULL);
+    e->quiet = true;
+    if (made != OK) bench_engine_free(e, s);
+    return made;
+}
+
+void bench_engine_free(struct engine *e, struct scene *s)
+{
+    engine_free(e);
+    scene_free(s);
+}
+
+status bench_engine_run(struct engine *e, int64_t until, struct laps *spent)
+{
+    const int64_t steps = e->steps;
+    memory_free(e->record); /* each call of engine_run makes its own */
+    e->record = NULL;
+    e->steps = until < steps ? until : steps;
+    status ran = engine_run(e);
+    e->steps = steps;
+    for (int k = 0; spent && k < LAPS; k++) spent->spent[k] += e->laps.spent[k];
+    return ran;
+}
+
+/* ---- figures of a run ------------------------------------------------------------------------------------ */
+
+void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
+{
+    va_list more;
+    assert(o->n < OVERRIDES_MAX);
+    va_start(more, value);
+    vsnprintf(o->value[o->n], OVERRIDE_LENGTH, value, more);
+    va_end(more);
+    o->at[o->n++].key = key;
+}
+
+const struct scene_override *bench_overrides_ready(struct bench_overrides *o)
+{
+    for (int k = 0; k < o->n; k++) o->at[k].value = o->value[k];
+    return o->at;
+}
+
+struct wanted_figures { struct bench_figure *figure; int n; };
+
+static void take_figure(void *context, const char *probe, const char *quantity, real value)
+{
+    const struct wanted_figures *w = context;
+    for (int k = 0; k < w->n; k++)
+        if (!strcmp(w->figure[k].probe, probe) && !strcmp(w->figure[k].quantity, quantity)) w->figure[k].value = value;
+}
+
+void bench_figures_take(const struct engine *e, struct bench_figure *figure, int n)
+{
+    const struct observed seen = engine_observed(e);
+    probes_figures(&e->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
+}
+
+status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n)
+{
+    struct engine e;
+    struct scene s;
+    for (int k = 0; k < n; k++) figure[k].value = NAN;
+    TRY(bench_engine_make(&e, &s, path, text, bench_overrides_ready(o), o->n));
+    status ran = engine_run(&e);
+    if (ran == OK) ran = engine_baseline(&e);
+    if (ran == OK) bench_figures_take(&e, figure, n);
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+/* ---- a process of its own ------------------------------------------------------------------------------- */
+
+/* fork() would copy a team of threads of which only one goes on: the child is started from the program's file. */
+static status spawn(char **argv, pid_t *child)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    int fault = posix_spawn(child, "/proc/self/exe", &actions, NULL, argv, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (!fault) return OK;
+    *child = 0;
+    return status_set(FAILED, "bench: cannot start a run as a process of its own: %s", strerror(fault));
+}
+
+enum { WORDS = 64, WORD_LENGTH = OVERRIDE_LENGTH + 64 };
+
+static status spawn_run(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
+                        int threads)
+{
+    char pair[WORDS / 2][WORD_LENGTH], team[16];
+    char *argv[WORDS] = {"cleave", "run", (char *)path, "-q", "-t", team, "-o", c->folder};
+    int words = 8;
+    snprintf(team, sizeof team, "%d", threads);
+    for (int k = 0; k < overrides && words + 3 < WORDS; k++) {
+        snprintf(pair[k], WORD_LENGTH, "%s=%s", override[k].key, override[k].value);
+        argv[words++] = "-s";
+        argv[words++] = pair[k];
+    }
+    return spawn(argv, &c->process);
+}
+
+status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
+                         int threads)
+{
+    *c = (struct bench_child){0};
+    TRY(bench_folder_make());
+    strcpy(c->folder, BENCH_FOLDER "/run-XXXXXX");
+    if (!mkdtemp(c->folder)) {
+        status s = file_fault(c->folder, errno);
+        c->folder[0] = 0;
+        return s;
+    }
+    return spawn_run(c, path, override, overrides, threads);
+}
+
+status bench_child_wait(struct bench_child *c)
+{
+    int ended;
+    while (waitpid(c->process, &ended, 0) < 0)
+        if (errno != EINTR) return status_set(FAILED, "bench: %s", strerror(errno));
+    c->process = 0;
+    if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) return status_set(FAILED, "bench: a run has failed");
+    return OK;
+}
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk)
+{
+    (void)info, (void)kind, (void)walk;
+    return remove(path);
+}
+
+void bench_child_free(struct bench_child *c)
+{
+    int ended;
+    if (c->process) waitpid(c->process, &ended, 0);
+    if (c->folder[0]) nftw(c->folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    *c = (struct bench_child){0};
+}
+
+status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
+                           const char *const *key, double *value, int n)
+{
+    struct bench_child c;
+    status s = bench_child_start(&c, path, override, overrides, 1);
+    if (s == OK) s = bench_child_wait(&c);
+    for (int k = 0; k < n && s == OK; k++) s = summary_number(c.folder, key[k], &value[k]);
+    bench_child_free(&c);
+    return s;
+}

@@ -1,0 +1,227 @@
+/* floor 5: `cleave bench coupling`: what an interface of material points and bonds does to waves and to uniform strain.
+ * Here the bar: couplings and widths of the pulse, places of the interface in its cell, cells and transfers. */
+#include <math.h>
+#include <string.h>
+
+#include "coupling.h"
+#include "base/memory.h"
+
+const struct coupling_way coupling_way[WAYS] = {
+    [WAY_DAMPED] = {"partial stress", "partial stress", NULL},
+    [WAY_UNDAMPED] = {"partial stress undamped", "partial stress", "0"},
+    [WAY_HANDSHAKE] = {"handshake", "handshake", NULL},
+    [WAY_PM] = {"pm", "pm", NULL},
+    [WAY_PG] = {"pg", "pg", NULL},
+    [WAY_PMG] = {"pmg", "pmg", NULL},
+    [WAY_PGG] = {"pgg", "pgg", NULL},
+};
+
+void coupling_way_override(struct bench_overrides *o, int way)
+{
+    bench_override(o, "coupling", "%s", coupling_way[way].coupling);
+    if (coupling_way[way].damping) bench_override(o, "rim_damping", "%s", coupling_way[way].damping);
+}
+
+/* ---- runs of the bar ------------------------------------------------------------------------------------- */
+
+static const double spacing = 1; /* of the bar's particles, as its file has it [mm] */
+static const double interface = 512; /* [mm] */
+
+static status bar_measure(struct bar_run *r)
+{
+    struct bench_overrides o = {0};
+    struct bench_figure f[] = {{.probe = "pulse", .quantity = "reflected"},
+                               {.probe = "pulse", .quantity = "transmitted"},
+                               {.probe = "pulse", .quantity = "energy_change"}};
+    coupling_way_override(&o, r->way);
+    bench_override(&o, "initial[0].pulse.width", "%g mm", r->width * spacing);
+    bench_override(&o, "mpm.cell", "%d", r->cell);
+    bench_override(&o, "mpm.origin", "[%g mm]", interface + r->place * r->cell * spacing);
+    bench_override(&o, "mpm.transfer", "%s", r->transfer);
+    bench_override(&o, "output.samples", "1");
+    TRY(bench_figures(COUPLING_BAR, NULL, &o, f, COUNT_OF(f)));
+    r->result = (struct pulse_result){f[0].value, f[1].value, f[2].value};
+    return OK;
+}
+
+static status bar_add(struct bar_table *t, struct bar_run r)
+{
+    assert(t->n < BAR_RUNS_MAX);
+    TRY(bar_measure(&r));
+    t->run[t->n++] = r;
+    return OK;
+}
+
+/* All couplings and widths, the interface on a node. */
+static status measure_pulses(struct bar_table *t, bool quick)
+{
+    for (int way = 0; way < WAYS; way++)
+        for (int width = quick ? 32 : 16; width <= (quick ? 64 : 128); width *= 2)
+            TRY(bar_add(t, (struct bar_run){.way = way, .width = width, .cell = 2, .transfer = "flip"}));
+    return OK;
+}
+
+enum { PLACES = 4 };
+
+/* A cell of two spacings moved under the particles. */
+static status measure_places(struct bar_table *t, bool quick)
+{
+    for (int way = 0; way <= WAY_HANDSHAKE; way++)
+        for (int width = quick ? 32 : 16; width <= (quick ? 32 : 64); width *= 2)
+            for (int place = 0; place < PLACES; place++)
+                TRY(bar_add(t, (struct bar_run){.way = way,
+                                                .width = width,
+                                                .cell = 2,
+                                                .place = (double)place / PLACES,
+                                                .transfer = "flip"}));
+    return OK;
+}
+
+/* One point in a cell, and APIC; the rim is damped with FLIP only. */
+static status measure_variants(struct bar_table *t, bool quick)
+{
+    static const struct { int cell; const char *transfer; } variant[] = {{1, "flip"}, {2, "apic"}, {1, "apic"}};
+    for (size_t v = 0; v < (quick ? 2 : COUNT_OF(variant)); v++)
+        for (int way = 0; way <= WAY_HANDSHAKE; way++)
+            for (int width = 32; width <= (quick ? 32 : 64); width *= 2) {
+                if (way == WAY_UNDAMPED && v > 0) continue;
+                TRY(bar_add(t, (struct bar_run){.way = way,
+                                                .width = width,
+                                                .cell = variant[v].cell,
+                                                .transfer = variant[v].transfer}));
+            }
+    return OK;
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------------ */
+
+enum { REFLECTED, TRANSMITTED, ENERGY, SHARES };
+
+static double share_of(const struct pulse_result *r, int share)
+{
+    return share == REFLECTED ? r->reflected : share == TRANSMITTED ? r->transmitted : r->energy_change;
+}
+
+/* A line for each coupling, the widths beside each other; they stand one after the other. */
+static void print_pulses(const struct bar_table *t)
+{
+    static const char *const format[SHARES] = {" %7.2f", " %7.1f", " %+7.2f"};
+    const int widths = t->n / WAYS;
+    printf("  a pulse in a bar, its width in spacings; against the bar of material points alone [%%]\n"
+           "  %-24s   %-*s   %-*s   %-*s\n  %-24s",
+           "", 8 * widths, "reflected", 8 * widths, "transmitted", 8 * widths, "change of energy", "coupling");
+    for (int k = 0; k < SHARES * widths; k++) printf("%s %7.0f", k % widths ? "" : "   ", t->run[k % widths].width);
+    for (int k = 0; k < t->n; k += widths) {
+        printf("\n  %-24s", coupling_way[t->run[k].way].name);
+        for (int share = 0; share < SHARES; share++) {
+            fputs("   ", stdout);
+            for (int w = 0; w < widths; w++) printf(format[share], 100 * share_of(&t->run[k + w].result, share));
+        }
+    }
+    puts("");
+    fflush(stdout);
+}
+
+static void print_places(const struct bar_table *t)
+{
+    printf("\n  the interface elsewhere in its cell (of 2 D): reflected share\n  %-24s %6s", "coupling", "width");
+    for (int place = 0; place < PLACES; place++) printf(" %7.2f h", (double)place / PLACES);
+    printf(" %10s\n", "largest");
+    for (int k = 0; k < t->n; k += PLACES) {
+        double largest = 0;
+        printf("  %-24s %4.0f D", coupling_way[t->run[k].way].name, t->run[k].width);
+        for (int place = 0; place < PLACES; place++) {
+            largest = fmax(largest, t->run[k + place].result.reflected);
+            printf(" %7.2f %%", 100 * t->run[k + place].result.reflected);
+        }
+        printf(" %8.2f %%\n", 100 * largest);
+    }
+    fflush(stdout);
+}
+
+static void print_variants(const struct bar_table *t)
+{
+    printf("\n  other cells and transfers\n  %-24s %4s %5s %6s %11s %13s %9s\n", "coupling", "cell", "", "width",
+           "reflected", "transmitted", "energy");
+    for (int k = 0; k < t->n; k++) {
+        const struct bar_run *r = &t->run[k];
+        printf("  %-24s %2d D %5s %4.0f D %9.2f %% %11.2f %% %+7.2f %%\n", coupling_way[r->way].name, r->cell,
+               r->transfer, r->width, 100 * r->result.reflected, 100 * r->result.transmitted,
+               100 * r->result.energy_change);
+    }
+    fflush(stdout);
+}
+
+/* ---- files --------------------------------------------------------------------------------------------------- */
+
+static void fill_result(struct bench_table *rows, const struct pulse_result *r)
+{
+    bench_number(rows, r->reflected);
+    bench_number(rows, r->transmitted);
+    bench_number(rows, r->energy_change);
+}
+
+static void fill_bars(struct bench_table *rows, const struct bar_table *t, const char *name)
+{
+    bench_table_make(rows, name,
+                     name[0] ? "coupling,width_spacings,cell_spacings,place_cells,transfer,reflected,transmitted,"
+                               "energy_change"
+                             : "coupling,width_spacings,reflected,transmitted,energy_change");
+    for (int k = 0; k < t->n; k++) {
+        const struct bar_run *r = &t->run[k];
+        bench_text(rows, coupling_way[r->way].name);
+        bench_number(rows, r->width);
+        if (name[0]) {
+            bench_number(rows, r->cell);
+            bench_number(rows, r->place);
+            bench_text(rows, r->transfer);
+        }
+        fill_result(rows, &r->result);
+    }
+}
+
+static status write_tables(const struct coupling_figures *all)
+{
+    struct bench_table table[5];
+    fill_bars(&table[0], &all->pulses, "");
+    fill_bars(&table[1], &all->places, "places");
+    fill_bars(&table[2], &all->variants, "variants");
+    patch_fill(&all->patch, &table[3]);
+    plane_fill(&all->plane, &table[4]);
+    status s = bench_write("coupling", table, COUNT_OF(table));
+    for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
+    return s;
+}
+
+/* ---- all ----------------------------------------------------------------------------------------------------- */
+
+static status measure_all(struct coupling_figures *all, bool quick)
+{
+    if (!bench_scene_exists(COUPLING_BAR) || !bench_scene_exists(COUPLING_PLATE))
+        return status_set(REFUSED, "bench coupling: its scenes are not here; start it where the folder inputs is");
+    team_make(1); /* a bar is too short to be shared */
+    TRY(measure_pulses(&all->pulses, quick));
+    print_pulses(&all->pulses);
+    TRY(measure_places(&all->places, quick));
+    print_places(&all->places);
+    TRY(measure_variants(&all->variants, quick));
+    print_variants(&all->variants);
+    TRY(patch_measure(&all->patch, quick));
+    patch_print(&all->patch);
+    team_make(0);
+    TRY(plane_measure(&all->plane, quick));
+    plane_print(&all->plane);
+    TRY(write_tables(all));
+    TRY(coupling_pulse_picture());
+    return bench_draw("coupling", 1400, 1000, coupling_draw, all);
+}
+
+status bench_coupling(bool quick)
+{
+    struct coupling_figures *all = NEW("bench.coupling", 1, struct coupling_figures);
+    printf("coupling\n");
+    bench_print_machine(team_make(0));
+    status s = measure_all(all, quick);
+    memory_free(all);
+    return s;
+}

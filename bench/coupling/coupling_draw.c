@@ -1,0 +1,198 @@
+/* floor 5: the picture of the coupling bench: the bar, the plane wave, the place of the interface in its cell, patch. */
+#include <math.h>
+#include <string.h>
+
+#include "coupling.h"
+#include "plot/gnuplot.h"
+
+/* ---- house-keeping ----------------------------------------------------------------------------------------- */
+
+static const char *const way_style[WAYS] = {
+    [WAY_DAMPED] = "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'",
+    [WAY_UNDAMPED] = "lw 2 pt 7 ps 0.8 lc rgb '#56b4e9'",
+    [WAY_HANDSHAKE] = "lw 2 pt 5 ps 0.8 lc rgb '#d55e00'",
+    [WAY_PM] = "lw 2.4 pt 9 ps 1 lc rgb '#009e73'",
+    [WAY_PG] = "lw 2.4 pt 9 ps 1 dt (3,4) lc rgb '#e69f00'",
+    [WAY_PMG] = "lw 2.4 pt 11 ps 1 lc rgb '#cc79a7'",
+    [WAY_PGG] = "lw 2.4 pt 11 ps 1 dt (3,4) lc rgb '#3d3d3d'",
+};
+static const char *const way_title[WAYS] = {
+    [WAY_DAMPED] = "partial stress (default)", [WAY_UNDAMPED] = "  undamped", [WAY_HANDSHAKE] = "handshake",
+    [WAY_PM] = "pm", [WAY_PG] = "pg", [WAY_PMG] = "pmg", [WAY_PGG] = "pgg",
+};
+
+/* One of four panels, its key on the right. */
+static void set_panel(FILE *to, int column, int row, const char *title)
+{
+    const double left = 0.055 + 0.5 * column, above = 0.945 - 0.5 * row;
+    fprintf(to,
+            "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n"
+            "set key at screen %g,%g left top vertical maxrows 20\nset title '%s'\n",
+            left, left + 0.285, above, above - 0.37, left + 0.29, above, title);
+}
+
+static void set_logarithmic(FILE *to)
+{
+    fputs("set logscale xy\nset xrange [14:146]\nset yrange [0.05:15]\nset xtics (16, 32, 64, 128)\n"
+          "set ytics (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)\nset xlabel 'width of the pulse [spacings]'\n"
+          "set ylabel 'reflected share of the amplitude [%]'\n",
+          to);
+}
+
+/* ---- the bar ------------------------------------------------------------------------------------------------- */
+
+static void draw_pulses(FILE *to, const struct bar_table *t)
+{
+    for (int way = 0; way < WAYS; way++) {
+        fprintf(to, "$bar%d << EOD\n", way);
+        for (int k = 0; k < t->n; k++)
+            if (t->run[k].way == way) fprintf(to, "%g %.6g\n", t->run[k].width, 100 * t->run[k].result.reflected);
+        fputs("EOD\n", to);
+    }
+    set_panel(to, 0, 0, "a pulse in a bar, six couplings");
+    set_logarithmic(to);
+    fputs("plot ", to);
+    for (int way = WAYS - 1; way >= 0; way--) /* the default on top, first in the key */
+        fprintf(to, "$bar%d using 1:2 with linespoints %s notitle, ", way, way_style[way]);
+    for (int way = 0; way < WAYS; way++)
+        fprintf(to, "%sNaN with linespoints %s title '%s'", way ? ", " : "", way_style[way], way_title[way]);
+    fputc('\n', to);
+}
+
+/* ---- the plane wave ------------------------------------------------------------------------------------------ */
+
+static const struct series {
+    int way;
+    const char *interface, *transfer, *style, *title;
+} series[] = {
+    {WAY_DAMPED, "flat", "flip", "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'", "partial stress, flat"},
+    {WAY_DAMPED, "45 degrees", "flip", "lw 4.5 pt 7 ps 1.1 dt (6,4) lc rgb '#0072b2'", "  at 45 degrees"},
+    {WAY_DAMPED, "flat", "apic", "lw 2 pt 9 ps 1 lc rgb '#009e73'", "with APIC, flat"},
+    {WAY_DAMPED, "45 degrees", "apic", "lw 2 pt 9 ps 1 dt (6,4) lc rgb '#009e73'", "  at 45 degrees"},
+    {WAY_HANDSHAKE, "flat", "flip", "lw 2 pt 5 ps 0.8 lc rgb '#d55e00'", "handshake, flat"},
+    {WAY_HANDSHAKE, "45 degrees", "flip", "lw 2 pt 5 ps 0.8 dt (6,4) lc rgb '#d55e00'", "  at 45 degrees"},
+};
+enum { SERIES = COUNT_OF(series) };
+
+static bool of_series(const struct plane_row *r, const struct series *s)
+{
+    return r->way == s->way && !strcmp(r->interface, s->interface) && !strcmp(r->transfer, s->transfer) &&
+           !strcmp(r->weights, "isotropic");
+}
+
+static void draw_plane(FILE *to, const struct plane_table *t)
+{
+    bool there[SERIES] = {false};
+    for (int k = 0; k < SERIES; k++) {
+        fprintf(to, "$plane%d << EOD\n", k);
+        for (int r = 0; r < t->n; r++)
+            if (of_series(&t->row[r], &series[k])) {
+                fprintf(to, "%g %.6g\n", t->row[r].width, 100 * t->row[r].wave);
+                there[k] = true;
+            }
+        fputs("EOD\n", to);
+    }
+    set_panel(to, 1, 0, "a plane pulse in a plate: what comes back as a wave");
+    set_logarithmic(to);
+    fputs("set xrange [14:73]\nplot ", to);
+    for (int k = 0, n = 0; k < SERIES; k++)
+        if (there[k])
+            fprintf(to, "%s$plane%d using 1:2 with linespoints %s title '%s'", n++ ? ", " : "", k, series[k].style,
+                    series[k].title);
+    fputs("\nunset logscale\nset xlabel ''\nset ytics auto\nset xtics auto scale 0\n", to);
+}
+
+/* ---- bars ------------------------------------------------------------------------------------------------------ */
+
+/* Bar `member` of `members` of a group at place `group`: filled up to `largest`, a line at `on_node`. */
+static void put_bar(FILE *to, int group, int member, int members, double on_node, double largest)
+{
+    fprintf(to, "%.4f %.6g %.6g\n", group + 0.8 * (member - 0.5 * (members - 1)) / members, largest, on_node);
+}
+
+static void plot_bars(FILE *to, const char *block, int members, const char *const *colour, const char *const *title)
+{
+    const double half = 0.4 / members * 0.92;
+    fputs("plot ", to);
+    for (int k = 0; k < members; k++)
+        fprintf(to,
+                "$%s%d using 1:(0.5*$2):(%g):(0.5*$2) with boxxy fs solid 0.85 noborder lc rgb '%s' title '%s', ",
+                block, k, half, colour[k], title[k]);
+    for (int k = 0; k < members; k++)
+        fprintf(to, "$%s%d using ($1-%g):3:(%g):(0) with vectors nohead lw 3 lc rgb '#111111' title '%s', ", block,
+                k, half, 2 * half, k ? "" : "on a node");
+    fputs("NaN notitle\n", to);
+}
+
+/* What the places of the interface in its cell make of it. */
+static void draw_places(FILE *to, const struct bar_table *t)
+{
+    static const int way[] = {WAY_HANDSHAKE, WAY_DAMPED, WAY_UNDAMPED};
+    static const char *const colour[] = {"#d55e00", "#0072b2", "#56b4e9"};
+    static const char *const title[] = {"handshake", "partial stress", "  undamped"};
+    int groups = 0;
+    fputs("set xtics (", to);
+    for (int k = 0; k < t->n && t->run[k].way == t->run[0].way; k++)
+        if (t->run[k].place == 0)
+            fprintf(to, "%s'%g' %d", groups ? ", " : "", t->run[k].width, groups), groups++;
+    fputs(")\n", to);
+    for (int m = 0; m < 3; m++) {
+        double largest = 0, on_node = 0;
+        fprintf(to, "$place%d << EOD\n", m);
+        for (int k = 0, group = 0; k < t->n; k++) {
+            if (t->run[k].way != way[m]) continue;
+            const double share = 100 * t->run[k].result.reflected;
+            if (t->run[k].place == 0) largest = on_node = share;
+            largest = fmax(largest, share);
+            if (k + 1 == t->n || t->run[k + 1].place == 0) put_bar(to, group++, m, 3, on_node, largest);
+        }
+        fputs("EOD\n", to);
+    }
+    set_panel(to, 0, 1, "the interface anywhere in its cell: largest reflection");
+    fprintf(to,
+            "set xrange [-0.6:%g]\nset yrange [0:*]\nset xlabel 'width of the pulse [spacings]'\n"
+            "set ylabel 'reflected share of the amplitude [%%]'\n",
+            groups - 0.4);
+    plot_bars(to, "place", 3, colour, title);
+}
+
+/* Largest over the loads. */
+static void draw_patch(FILE *to, const struct patch_table *t)
+{
+    static const char *const shape[] = {"flat", "45 degrees", "circle, r = 8 D", "square, 6 x 6 D"};
+    static const char *const coupling[] = {"handshake", "partial stress", "partial stress"};
+    static const char *const weights[] = {"uniform", "uniform", "isotropic"};
+    static const char *const colour[] = {"#d55e00", "#56b4e9", "#0072b2"};
+    static const char *const title[] = {"handshake", "partial stress", "  isotropic weights"};
+    for (int m = 0; m < 3; m++) {
+        fprintf(to, "$patch%d << EOD\n", m);
+        for (int s = 0; s < 4; s++) {
+            double on_node = 0, largest = 0;
+            for (int k = 0; k < t->n; k++) {
+                const struct patch_row *r = &t->row[k];
+                if (strcmp(r->shape, shape[s]) || strcmp(r->coupling, coupling[m]) || strcmp(r->weights, weights[m]))
+                    continue;
+                on_node = fmax(on_node, 100 * r->on_node);
+                largest = fmax(largest, 100 * r->largest);
+            }
+            put_bar(to, s, m, 3, on_node, largest);
+        }
+        fputs("EOD\n", to);
+    }
+    set_panel(to, 1, 1, "uniform strain in a plate: largest force on a node");
+    fputs("set xrange [-0.6:3.6]\nset xtics ('flat' 0, '45 degrees' 1, 'circle' 2, 'square' 3)\n"
+          "set xlabel 'interface'\nset ylabel 'force over stress x cell face [%]'\n",
+          to);
+    plot_bars(to, "patch", 3, colour, title);
+}
+
+void coupling_draw(FILE *to, const void *figures)
+{
+    const struct coupling_figures *all = figures;
+    fputs("set multiplot\n", to);
+    draw_pulses(to, &all->pulses);
+    draw_plane(to, &all->plane);
+    draw_places(to, &all->places);
+    draw_patch(to, &all->patch);
+    fputs("unset multiplot\n", to);
+}

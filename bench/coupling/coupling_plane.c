@@ -1,0 +1,212 @@
+/* floor 5: a plane longitudinal pulse between rollers meets an interface of material points and bonds, flat or at 45
+ * degrees. An oblique interface throws what it reflects sideways: the incident pulse and the reflected one, both plane,
+ * sweep along it together, and rollers would return the reflected one: the run ends before they reach the lower one. */
+#include <math.h>
+#include <string.h>
+
+#include "coupling.h"
+#include "base/memory.h"
+
+enum { BLOCK = 4, AWAY = 12 }; /* [spacings] */
+enum { WEIGHTS = 2 };
+
+/* The strip, all in spacings of 1 mm. */
+struct strip {
+    double length, height, start; /* where the pulse is at t = 0          */
+    double at, normal[2];         /* (at, 0) and the normal: the interface */
+    double path, step;            /* of the pulse until the end; of time: distance a step */
+};
+
+static const char *const interface_name[] = {"flat", "45 degrees"};
+enum { FLAT, OBLIQUE, INTERFACES };
+
+/* Flat: the bar's distances, so that figures compare. Oblique: as tall as the reflected wave needs to become plane (at 32
+ * spacings heights of 3 to 6 widths change `wave` by a seventh at most); half a spacing keeps the plane off the
+ * particles. */
+static struct strip strip_of(int interface, double width)
+{
+    if (interface == FLAT) return (struct strip){1024, 4, 256, 512, {1, 0}, 512, 0.2};
+    const double diagonal = sqrt(0.5), height = 64 + 2 * width, at = 3 * width + height + 0.5;
+    return (struct strip){at - 0.5 + 1.5 * width, height, 1.5 * width, at, {diagonal, diagonal}, at - 2.75 * width, 0.4};
+}
+
+/* One run; row.way < 0: material points alone. */
+static status strip_make(struct engine *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
+{
+    struct bench_overrides o = {0};
+    if (row->way >= 0)
+        coupling_way_override(&o, row->way);
+    else
+        bench_override(&o, "method", "mpm");
+    bench_override(&o, "pd.weights", "%s", row->weights);
+    bench_override(&o, "mpm.transfer", "%s", row->transfer);
+    bench_override(&o, "body", "{box: {from: [0, 0], to: [%g mm, %g mm]}}", s->length, s->height);
+    bench_override(&o, "pd.region", "{half-space: {point: [%g mm, 0], normal: [%g, %g]}}", s->at, -s->normal[0],
+                   -s->normal[1]);
+    bench_override(&o, "boundary[1].mirror.at", "%g mm", s->height);
+    bench_override(&o, "initial[0].pulse.at", "[%g mm, 0]", s->start);
+    bench_override(&o, "initial[0].pulse.width", "%g mm", row->width);
+    bench_override(&o, "duration", "%.9g ms", s->path / 100); /* 100 m/s */
+    bench_override(&o, "time.step", "%g ms", s->step / 100);
+    bench_override(&o, "output.samples", "1");
+    return bench_engine_make(e, scene, COUPLING_PLATE, NULL, bench_overrides_ready(&o), o.n);
+}
+
+/* ---- the run without interface ---------------------------------------------------------------------------- */
+
+struct plain {
+    real *v[2], energy_change;
+};
+
+/* Particles are made and sorted before anyone is peridynamic, so all runs number them alike. */
+static status plain_make(struct plain *b, const struct strip *s, struct plane_row row)
+{
+    struct engine e;
+    struct scene scene;
+    row.way = -1;
+    TRY(strip_make(&e, &scene, s, &row));
+    status ran = engine_run(&e);
+    for (int d = 0; d < 2 && ran == OK; d++) {
+        b->v[d] = NEW("bench.plain", e.part.n, real);
+        memcpy(b->v[d], e.part.v[d], (size_t)e.part.n * sizeof(real));
+    }
+    if (ran == OK) b->energy_change = engine_observed(&e).energy_change;
+    bench_engine_free(&e, &scene);
+    return ran;
+}
+
+static void plain_free(struct plain *b)
+{
+    for (int d = 0; d < 2; d++) memory_free(b->v[d]);
+}
+
+/* ---- what the interface did ----------------------------------------------------------------------------------- */
+
+/* Distance of particle i beyond the interface [spacings]. */
+static double beyond(const struct strip *s, const struct particles *p, int64_t i)
+{
+    return (1e3 * p->X[0][i] - s->at) * s->normal[0] + 1e3 * p->X[1][i] * s->normal[1];
+}
+
+/* What only single particles show is motion that the grid cannot see; a mean over two cells is what goes on as a wave.
+ * Largest mean difference of velocity over whole blocks of particles away from the interface [m/s]. */
+static double largest_block(const struct strip *s, const struct particles *p, const struct plain *b)
+{
+    const int64_t columns = (int64_t)s->length / BLOCK + 1, n = columns * ((int64_t)s->height / BLOCK + 1);
+    real *sum[2] = {NEW("bench.block", n, real), NEW("bench.block", n, real)}, largest = 0;
+    int32_t *count = NEW("bench.count", n, int32_t);
+    for (int64_t i = 0; i < p->n; i++) {
+        const int64_t k = (int64_t)(1e3 * p->X[0][i] / BLOCK) + columns * (int64_t)(1e3 * p->X[1][i] / BLOCK);
+        count[k] += beyond(s, p, i) < -AWAY;
+        for (int d = 0; d < 2; d++) sum[d][k] += p->v[d][i] - b->v[d][i];
+    }
+    for (int64_t k = 0; k < n; k++)
+        if (count[k] == BLOCK * BLOCK) largest = fmax(largest, hypot(sum[0][k], sum[1][k]) / (BLOCK * BLOCK));
+    for (int d = 0; d < 2; d++) memory_free(sum[d]);
+    memory_free(count);
+    return largest;
+}
+
+/* Close to the interface only where the pulse has passed: where it is, the sides differ by what each makes of it. */
+static void compare(struct plane_row *r, const struct strip *s, const struct engine *e, const struct plain *b)
+{
+    const struct particles *p = &e->part;
+    const double incident = e->scene->initial[0].pulse.velocity;
+    const double passed = s->start + s->path - 1.25 * r->width;
+    double back = 0, on = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const double far = beyond(s, p, i);
+        if (far >= 0)
+            on = fmax(on, hypot(p->v[0][i], p->v[1][i]));
+        else if (far < -AWAY || 1e3 * p->X[0][i] < passed)
+            back = fmax(back, hypot(p->v[0][i] - b->v[0][i], p->v[1][i] - b->v[1][i]));
+    }
+    r->result = (struct pulse_result){back / incident, on / incident,
+                                      engine_observed(e).energy_change - b->energy_change};
+    r->wave = largest_block(s, p, b) / incident;
+}
+
+static status row_measure(struct plane_row *r, const struct strip *s, const struct plain *b)
+{
+    struct engine e;
+    struct scene scene;
+    TRY(strip_make(&e, &scene, s, r));
+    status ran = engine_run(&e);
+    if (ran == OK) compare(r, s, &e, b);
+    bench_engine_free(&e, &scene);
+    return ran;
+}
+
+/* All couplings and weights behind one run without interface. */
+static status group_measure(struct plane_table *t, int interface, double width, const char *transfer)
+{
+    static const char *const weights[WEIGHTS] = {"uniform", "isotropic"};
+    const struct strip strip = strip_of(interface, width);
+    const bool flip = !strcmp(transfer, "flip");
+    struct plane_row row = {interface_name[interface], "uniform", transfer, 0, width, {0, 0, 0}, 0};
+    struct plain plain = {0};
+    status s = plain_make(&plain, &strip, row);
+    for (int way = 0; way <= WAY_HANDSHAKE; way++)
+        for (int w = 0; w < WEIGHTS && s == OK; w++) {
+            if (way == WAY_UNDAMPED && !flip) continue; /* the rim is damped with FLIP only */
+            row.way = way, row.weights = weights[w];
+            s = row_measure(&row, &strip, &plain);
+            assert(t->n < PLANE_ROWS_MAX);
+            if (s == OK) t->row[t->n++] = row;
+        }
+    plain_free(&plain);
+    return s;
+}
+
+status plane_measure(struct plane_table *t, bool quick)
+{
+    if (quick) return group_measure(t, OBLIQUE, 16, "flip");
+    for (int interface = 0; interface < INTERFACES; interface++)
+        for (double width = 16; width <= 64; width *= 2) {
+            TRY(group_measure(t, interface, width, "flip"));
+            TRY(group_measure(t, interface, width, "apic"));
+        }
+    return OK;
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------------ */
+
+/* One line for both weights, which stand one after the other. */
+static void print_pair(const struct plane_row *r)
+{
+    printf("  %-11s %4.0f D %5s  %-24s", r->interface, r->width, r->transfer, coupling_way[r->way].name);
+    for (int w = 0; w < WEIGHTS; w++) printf(" %8.2f %%", 100 * r[w].wave);
+    for (int w = 0; w < WEIGHTS; w++) printf(" %8.2f %%", 100 * r[w].result.reflected);
+    printf(" %8.2f %% %+8.2f %%\n", 100 * r[1].result.transmitted, 100 * r[1].result.energy_change);
+}
+
+void plane_print(const struct plane_table *t)
+{
+    printf("\n  a plane pulse between rollers, bonds with uniform and with isotropic weights: what came back as a wave\n"
+           "  (means over %d x %d D, %d D and more from the interface) and on any particle; what went on, energy "
+           "(isotropic)\n"
+           "  %-11s %6s %5s  %-24s %10s %10s %10s %10s %10s %10s\n",
+           BLOCK, BLOCK, AWAY, "interface", "width", "", "coupling", "wave: unif", "isotropic", "any: unif",
+           "isotropic", "went on", "energy");
+    for (int k = 0; k < t->n; k += WEIGHTS) print_pair(&t->row[k]);
+    fflush(stdout);
+}
+
+void plane_fill(const struct plane_table *t, struct bench_table *rows)
+{
+    bench_table_make(rows, "plane",
+                     "interface,width_spacings,transfer,coupling,weights,reflected,reflected_wave,transmitted,"
+                     "energy_change");
+    for (int k = 0; k < t->n; k++) {
+        const struct plane_row *r = &t->row[k];
+        bench_text(rows, r->interface);
+        bench_number(rows, r->width);
+        bench_text(rows, r->transfer);
+        bench_text(rows, coupling_way[r->way].name);
+        bench_text(rows, r->weights);
+        bench_number(rows, r->result.reflected);
+        bench_number(rows, r->wave);
+        bench_number(rows, r->result.transmitted);
+        bench_number(rows, r->result.energy_change);
+    }
+}

@@ -1,0 +1,275 @@
+/* floor 5: `cleave bench kernels`: every kernel instance beside the machine's own limits, in one thread. Probes and
+ * kernels take turns; the fastest repetition counts. */
+#include <math.h>
+#include <string.h>
+
+#include "kernel_bench.h"
+#include "base/memory.h"
+#include "kernels/simd/variants.h"
+
+#define BOND_JOBS(D, M)                                                                                                \
+    {BOND_FORCE, D, .model = PD_##M, .variant = #M}, {BOND_ENERGY, D, .model = PD_##M, .variant = #M},                 \
+        {BOND_STRESS, D, .model = PD_##M, .variant = #M},
+#define DIM_JOBS(D)                                                                                                    \
+    {PD_MOVE, D, .variant = "-"}, {GRID_CLEAR, D, .variant = "-"}, {GRID_MOVE, D, .variant = "-"},                     \
+        {GRID_REMAPPED, D, .variant = "-"}, {MESH_CLEAR, D, .variant = "-"}, {MESH_MOVE, D, .variant = "-"},               \
+        {MESH_FORCE, D, .variant = "SMALL"}, {MESH_FORCE, D, .variant = "FINITE", .finite = true},
+#define SHAPE_JOBS(D, S)                                                                                               \
+    {REMAP, D, .shape = SHAPE_##S, .variant = #S " FLIP"}, {SPREAD, D, .shape = SHAPE_##S, .variant = #S},
+#define TRANSFER_JOB(D, S, T)                                                                                          \
+    {P2G, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},                                      \
+        {G2P, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},
+#define TRANSFER_JOBS(D, S) TRANSFER_VARIANTS(TRANSFER_JOB, D, S)
+
+static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS)
+                                          SHAPE_VARIANTS(TRANSFER_JOBS)};
+
+/* ---- ground -------------------------------------------------------------------------------------------- */
+
+/* About 80,000 particles at 0.5 mm; nothing ever breaks. */
+static status body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model, const char *mpm,
+                        bool yields)
+{
+    static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
+                                                   "solid"};
+    static const char *const size[DIM_MAX + 1] = {NULL, "[40 m]", "[100 mm, 200 mm]", "[20 mm, 20 mm, 25 mm]"};
+    static const char *const poisson[DIM_MAX + 1] = {NULL, "", "poisson: 1/3, ", "poisson: 1/4, "};
+    static const char *const corner[DIM_MAX + 1] = {NULL, "[0]", "[0, 0]", "[0, 0, 0]"};
+    char text[1024];
+    snprintf(
+        text, sizeof text,
+        "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmodel: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800%s}\n"
+        "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
+        "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {rest: false}\n",
+        space[dim], method, model, poisson[dim],
+        yields ? ", yield_stress: 1 GPa" : "", corner[dim], size[dim], mpm);
+    TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
+    for (int d = 0; d < dim; d++)
+        for (int64_t i = 0; i < e->part.n; i++) {
+            e->part.v[d][i] = 1e-3 * sin((real)i);
+            e->part.x[d][i] += 1e-8 * sin((real)(i + d));
+        }
+    return bench_engine_run(e, 1, NULL); /* sorts the points and covers them with a grid */
+}
+
+static status ground_make(struct ground *g, int dim)
+{
+    static const char points_of[] = "shape: cpgimp, transfer: apic", mesh[] = "frame: reference";
+    TRY(body_make(&g->engine[BONDS], &g->scene[BONDS], dim, "pd", "bond", points_of, false));
+    TRY(body_make(&g->engine[YIELDING], &g->scene[YIELDING], dim, "pd", "bond", points_of, true));
+    TRY(body_make(&g->engine[POINTS], &g->scene[POINTS], dim, "mpm", "bond", points_of, false));
+    if (dim > 1) TRY(body_make(&g->engine[STATES], &g->scene[STATES], dim, "pd", "mospd", points_of, false));
+    TRY(body_make(&g->engine[MESH], &g->scene[MESH], dim, "mpm", "bond", mesh, false));
+    struct engine *points = &g->engine[POINTS];
+    points->transfer.dt = points->transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
+    g->list = NEW("bench.list", points->part.n, int32_t);
+    g->value = NEW("bench.value", points->part.n, real);
+    g->field = NEW("bench.field", points->grid.n, real);
+    for (int64_t i = 0; i < points->part.n; i++) g->list[i] = (int32_t)i, g->value[i] = 1;
+    return OK;
+}
+
+static void ground_free(struct ground *g)
+{
+    for (int k = 0; k < GROUNDS; k++) bench_engine_free(&g->engine[k], &g->scene[k]);
+    memory_free(g->list);
+    memory_free(g->value);
+    memory_free(g->field);
+}
+
+/* ---- timing -------------------------------------------------------------------------------------------- */
+
+static struct engine *bonds_of(const struct job *j, struct ground *g)
+{
+    return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
+}
+
+static void job_call(const struct job *j, struct ground *g)
+{
+    struct engine *pd = bonds_of(j, g), *e = &g->engine[POINTS], *m = &g->engine[MESH];
+    struct kernels k;
+    kernels_choose(&k, j->dim, j->model, j->shape, j->transfer);
+    real impulse[DIM_MAX] = {0}, work = 0;
+    switch (j->kind) {
+    case BOND_FORCE:
+        k.bond_force(&pd->bonds, &pd->part, &pd->source.limit, NULL);
+        break;
+    case BOND_ENERGY:
+        k.bond_energy(&pd->bonds, &pd->part);
+        break;
+    case BOND_STRESS:
+        k.bond_stress(&pd->bonds, &pd->part);
+        break;
+    case PD_MOVE:
+        pd_move_table[j->dim](&pd->part, pd->part.list[KIND_PD], pd->part.n_of[KIND_PD],
+                              &(struct pd_motion){1e-12, 1e-12, INFINITY, NULL, false});
+        break;
+    case P2G:
+        p2g_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer);
+        break;
+    case REMAP:
+        remap_table[j->dim][j->shape](&e->grid, &e->part, &e->transfer);
+        break;
+    case G2P:
+        g2p_table[j->dim][j->shape][j->transfer](&e->grid, &e->part, &e->transfer);
+        break;
+    case SPREAD:
+        spread_table[j->dim][j->shape](&e->grid, &e->part, e->transfer.half_width, g->list, e->part.n, g->value,
+                                       g->field);
+        break;
+    case GRID_CLEAR:
+        grid_clear(&e->grid);
+        break;
+    case GRID_MOVE:
+        grid_move(&e->grid, TRANSFER_FLIP, 1e-12, e->smallest_mass, impulse, &work);
+        break;
+    case MESH_CLEAR:
+        mesh_clear(&m->mesh);
+        break;
+    case MESH_FORCE:
+        mesh_force(&m->mesh, &m->part, m->cell_elastic, j->finite);
+        break;
+    case MESH_MOVE:
+        mesh_move(&m->mesh, 1e-12, 1e-12, impulse, &work);
+        break;
+    default:
+        grid_remapped(&e->grid, e->smallest_mass);
+    }
+}
+
+/* The first call of the two warms the caches. */
+static void job_time(struct job *j, struct ground *g)
+{
+    for (int k = 0; k < 2; k++) {
+        double start = team_clock();
+        job_call(j, g);
+        j->seconds = fmin(j->seconds, team_clock() - start);
+    }
+}
+
+static void time_all(struct kernel_bench *b, int repetitions)
+{
+    struct stencil_probe *stencil[DIM_MAX + 1];
+    struct triad_probe *triad = triad_probe_make();
+    struct point_probe *points = point_probe_make();
+    b->limits = (struct limits){.stencil = {INFINITY, INFINITY, INFINITY, INFINITY}, .points = INFINITY};
+    for (int d = 1; d <= DIM_MAX; d++) stencil[d] = stencil_probe_make(d);
+    for (int r = 0; r < repetitions; r++) {
+        for (int k = 0; k < 3; k++) {
+            for (int d = 1; d <= DIM_MAX; d++)
+                b->limits.stencil[d] = fmin(b->limits.stencil[d], stencil_probe_run(stencil[d]));
+            b->limits.points = fmin(b->limits.points, point_probe_run(points));
+        }
+        b->limits.triad = fmax(b->limits.triad, triad_probe_run(triad));
+        for (int k = 0; k < b->jobs; k++) job_time(&b->job[k], &b->ground[b->job[k].dim]);
+        for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].grid);
+    }
+    for (int d = 1; d <= DIM_MAX; d++) stencil_probe_free(stencil[d]);
+    triad_probe_free(triad);
+    point_probe_free(points);
+}
+
+/* ---- bytes --------------------------------------------------------------------------------------------- */
+
+/* Bytes of a slot as the kernels read it (bond_slot.h), in the mean; patterns stay in cache. */
+static double slot_bytes(const struct bonds *b)
+{
+    double sum = 0;
+    for (int64_t g = 0; g < b->groups; g++)
+        for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g] && !b->pattern[g]; slot++) {
+            const struct bond_slot *c = &b->common[slot];
+            sum += sizeof *c + (c->alike ? 0 : LANES * sizeof *b->w);
+            if (!c->lattice) sum += LANES * (sizeof *b->inverse_length + (c->first < 0 ? sizeof *b->nbr : 0));
+        }
+    return sum / (double)b->slots;
+}
+
+/* Bytes that a kernel must move a particle, counted from the arrays it reads and writes once; nodes shared among the
+ * points of their cell. */
+static double job_bytes(const struct job *j, struct ground *g)
+{
+    const double mesh_node = sizeof(real) / (double)(1 << j->dim);
+    const struct engine *e = &g->engine[POINTS], *pd = bonds_of(j, g);
+    const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
+    const double node = r * (double)e->grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
+    /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
+    const double slots = (double)pd->bonds.slots / (double)pd->part.n;
+    const double bond = slots * (slot_bytes(&pd->bonds) * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +
+                                 (j->model == PD_BOND_PLASTIC ? 36 * LANES : 0)),
+                 apic = j->transfer == TRANSFER_APIC;
+    switch (j->kind) {
+    case BOND_FORCE:
+        return bond + 4 + r * (2 * dim + 1); /* x; f; trigger */
+    case BOND_ENERGY:
+        return bond + 4 + r * dim;
+    case BOND_STRESS:
+        return bond + 4 + r * (dim + 1 + symmetric); /* x, volume; stress */
+    case PD_MOVE:
+        return r * (5 * dim + 1); /* x v f mass; x v */
+    case P2G:
+        return 4 + r * (3 * dim + 2 + symmetric + stretch + apic * dim * dim) + node * 2 * (1 + 2 * dim);
+    case REMAP:
+        return 4 + r * (3 * dim + 1 + stretch) + node * 3 * dim;
+    case G2P:
+        return 6 + r * (2 * dim + 2 + 2 * symmetric + 2 * stretch + apic * (dim + dim * dim)) +
+               node * dim * (apic ? 1 : 2);
+    case SPREAD:
+        return 4 + r * (dim + 1 + stretch) + node * 2;
+    case GRID_CLEAR:
+        return node * (1 + 2 * dim);
+    case GRID_MOVE:
+        return node * (1 + 5 * dim);
+    case MESH_CLEAR:
+        return mesh_node * dim;
+    case MESH_FORCE:
+        return mesh_node * 3 * dim; /* u; f read and written */
+    case MESH_MOVE:
+        return mesh_node * (1 + 5 * dim);
+    default:
+        return node * (1 + 2 * dim);
+    }
+}
+
+/* The larger of what memory and arithmetic need. */
+static void find_limits(struct kernel_bench *b)
+{
+    for (int k = 0; k < b->jobs; k++) {
+        struct job *j = &b->job[k];
+        struct ground *g = &b->ground[j->dim];
+        j->bytes = job_bytes(j, g);
+        j->limit = j->bytes / b->limits.triad;
+        if (on_bonds(j)) j->limit = fmax(j->limit, job_bonds(j, g) * b->limits.stencil[j->dim]);
+    }
+}
+
+/* ---- all ----------------------------------------------------------------------------------------------- */
+
+static status run(struct kernel_bench *b, bool quick)
+{
+    TRY(bench_floor_memory(&b->floor));
+    team_make(1);
+    bench_print_machine(1);
+    for (int d = 1; d <= DIM_MAX; d++) TRY(ground_make(&b->ground[d], d));
+    time_all(b, quick ? 2 : 12);
+    find_limits(b);
+    kernels_print(b);
+    TRY(bench_floor_speed(&b->floor, quick));
+    bench_floor_print(&b->floor);
+    return kernels_write(b);
+}
+
+status bench_kernels(bool quick)
+{
+    struct kernel_bench *b = NEW("bench", 1, struct kernel_bench);
+    b->jobs = COUNT_OF(all_jobs);
+    b->job = NEW("bench.job", b->jobs, struct job);
+    memcpy(b->job, all_jobs, sizeof all_jobs);
+    for (int k = 0; k < b->jobs; k++) b->job[k].seconds = INFINITY;
+    printf("kernels\n");
+    status s = run(b, quick);
+    for (int d = 1; d <= DIM_MAX; d++) ground_free(&b->ground[d]);
+    bench_table_free(&b->floor.laps);
+    memory_free(b->job);
+    memory_free(b);
+    return s;
+}

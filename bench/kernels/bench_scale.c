@@ -1,0 +1,233 @@
+/* floor 5: `cleave bench scale`: time and memory per particle from 1e4 particles to 1e7 (2D) and 1e6 (3D), set-up in units
+ * of full peridynamic steps, and what output every 100 steps costs. Sizes that the machine does not hold are left out and
+ * named. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "bench/common/bench.h"
+#include "plot/gnuplot.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+
+enum { SIZES = 4, DIMS = 2, STEPS_WARM = 2, PIECES = 4, FRAME_EVERY = 100, FRAMES = 6 };
+static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
+/* What is asked: spread over the sizes, set-up [full steps], output [1]. */
+#define SPREAD_ASKED 1.15
+#define SETUP_ASKED 50.0
+#define OUTPUT_ASKED 0.03
+
+struct size_result {
+    bool known;
+    double particles, bonds, setup, step, bytes;   /* [1] [1] [s] [s] [byte] */
+    double frame, frame_bytes;                     /* a frame holds the loop [s]; its size [byte per particle] */
+};
+
+struct scale_bench { struct size_result at[BENCH_BLOCKS][SIZES]; };
+
+/* ---- memory ---------------------------------------------------------------------------------------------- */
+
+/* Lets the process's high-water mark start again from what it holds now, and returns that; NAN where the system cannot. */
+static double memory_from_here(void)
+{
+#ifdef __GLIBC__
+    malloc_trim(0);                      /* what was freed before must not look like memory that is in use */
+#endif
+    FILE *f = fopen("/proc/self/clear_refs", "w");
+    if (!f) return NAN;
+    const bool put = fputs("5", f) >= 0;
+    return fclose(f) == 0 && put ? (double)memory_peak() : NAN;
+}
+
+/* Bytes of a particle of the hungriest method, and a frame of it on its way. */
+static bool machine_holds(const struct bench_block *block, double particles)
+{
+    const double each = block->dim == 2 ? 350 : 1000;
+    return each * particles < 0.7 * (double)team_memory();
+}
+
+/* ---- output ---------------------------------------------------------------------------------------------- */
+
+/* Frames of a run that writes one every FRAME_EVERY steps; what they hold up the loop is its lap of output. The first makes room
+ * for the copy that the others write over. */
+static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
+{
+    struct scene s;
+    struct engine e;
+    struct output out = {0};
+    struct bench_child folder = {0};
+    TRY(bench_folder_make());
+    strcpy(folder.folder, BENCH_FOLDER "/run-scale");
+    TRY(bench_block_make(&e, &s, block, particles, FRAMES * FRAME_EVERY, FRAMES, &out));
+    status ran = output_open(&out, folder.folder, s.text, OUTPUT_OVERWRITE, false);
+    if (ran == OK) {
+        ran = engine_run(&e);
+        r->frame = e.laps.spent[LAP_OUTPUT] / FRAMES;
+        FILE *f = fopen(path_join(folder.folder, "frames/000001.hdf").text, "r");
+        if (f && fseek(f, 0, SEEK_END) == 0) r->frame_bytes = (double)ftell(f) / (double)e.part.n;
+        if (f) fclose(f);
+    }
+    output_close(&out);
+    bench_engine_free(&e, &s);
+    bench_child_free(&folder);
+    return ran;
+}
+
+static double output_share(const struct size_result *r) { return r->frame / (FRAME_EVERY * r->step); }
+
+/* ---- one size -------------------------------------------------------------------------------------------- */
+
+static status time_size(struct size_result *r, const struct bench_block *block, double particles)
+{
+    struct scene s;
+    struct engine e;
+    const int64_t steps = 2 + (int64_t)(4e5 / particles);
+    const double before = memory_from_here(), start = team_clock();
+    TRY(bench_block_make(&e, &s, block, particles, STEPS_WARM + PIECES * steps, 0, NULL));
+    *r = (struct size_result){.known = true, .setup = team_clock() - start, .step = INFINITY};
+    r->particles = (double)e.part.n, r->bonds = (double)e.bonds.n;
+    status ran = bench_engine_run(&e, STEPS_WARM, NULL);
+    for (int k = 1; k <= PIECES && ran == OK; k++) {
+        const double spent = e.loop_seconds;
+        ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
+        r->step = fmin(r->step, (e.loop_seconds - spent) / (double)steps);
+    }
+    r->bytes = ((double)memory_peak() - before) / r->particles;
+    r->frame = NAN;
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------------ */
+
+/* Full peridynamics of the same size is the unit of set-up. */
+static double setup_steps(const struct scale_bench *b, int way, int size)
+{
+    int pd = way;
+    while (pd > 0 && bench_blocks[pd - 1].dim == bench_blocks[way].dim) pd--;
+    return b->at[way][size].setup / b->at[pd][size].step;
+}
+
+static void print_size(const struct scale_bench *b, int way, int size)
+{
+    const struct size_result *r = &b->at[way][size];
+    printf("  %-20s %dD %9.3g %10.2f %10.0f %12.1f", bench_blocks[way].name, bench_blocks[way].dim, r->particles,
+           1e9 * r->step / r->particles, r->bytes, setup_steps(b, way, size));
+    if (isfinite(r->frame)) printf(" %10.1f %9.1f %%", 1e3 * r->frame, 100 * output_share(r));
+    putchar('\n');
+    fflush(stdout);
+}
+
+static void print_spread(const struct scale_bench *b)
+{
+    printf("\n  largest over smallest from 1e4 on (asked %.2f), set-up (asked %.0f steps of pd), output every %d steps (asked %.0f %%)\n",
+           SPREAD_ASKED, SETUP_ASKED, FRAME_EVERY, 100 * OUTPUT_ASKED);
+    for (int way = 0; way < BENCH_BLOCKS; way++) {
+        double time[2] = {INFINITY, 0}, bytes[2] = {INFINITY, 0}, setup = 0, output = NAN;
+        for (int k = 0; k < SIZES; k++) {
+            const struct size_result *r = &b->at[way][k];
+            if (!r->known) continue;
+            const double each = r->step / r->particles;
+            time[0] = fmin(time[0], each), time[1] = fmax(time[1], each);
+            bytes[0] = fmin(bytes[0], r->bytes), bytes[1] = fmax(bytes[1], r->bytes);
+            setup = setup_steps(b, way, k);
+            if (isfinite(r->frame)) output = output_share(r);
+        }
+        if (time[1] > 0)
+            printf("    %-20s %dD  time %.2f  memory %.2f  set-up of the largest %.1f  output %.1f %%\n", bench_blocks[way].name,
+                   bench_blocks[way].dim, time[1] / time[0], bytes[1] / bytes[0], setup, 100 * output);
+    }
+}
+
+static status write_table(const struct scale_bench *b)
+{
+    struct bench_table t;
+    bench_table_make(&t, "", "method,dim,particles,directed_bonds,step_seconds,ns_per_particle_step,bytes_per_particle,"
+                             "setup_seconds,setup_pd_steps,frame_seconds,frame_bytes_per_particle,output_share");
+    for (int way = 0; way < BENCH_BLOCKS; way++)
+        for (int k = 0; k < SIZES; k++) {
+            const struct size_result *r = &b->at[way][k];
+            if (!r->known) continue;
+            const double row[] = {bench_blocks[way].dim, r->particles, r->bonds, r->step, 1e9 * r->step / r->particles,
+                                  r->bytes, r->setup, setup_steps(b, way, k), r->frame, isfinite(r->frame) ? r->frame_bytes : NAN,
+                                  output_share(r)};
+            bench_text(&t, bench_blocks[way].name);
+            for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t, row[c]);
+        }
+    status s = bench_write("scale", &t, 1);
+    bench_table_free(&t);
+    return s;
+}
+
+static void draw_panel(FILE *to, int dim, bool memory)
+{
+    int colour = 0;
+    fprintf(to, "set title '%s, %dD'\nset ylabel '%s'\nplot ", memory ? "memory" : "time", dim,
+            memory ? "bytes per particle" : "ns per particle and step");
+    for (int way = 0; way < BENCH_BLOCKS; way++)
+        if (bench_blocks[way].dim == dim)
+            fprintf(to, "%s$w%d using 1:%d with linespoints pt 7 lw 2 lc rgb '%s' title '%s'", colour ? ", " : "", way,
+                    memory ? 3 : 2, curve_colour[colour], bench_blocks[way].name), colour++;
+    fputc('\n', to);
+}
+
+static void draw(FILE *to, const void *context)
+{
+    const struct scale_bench *b = context;
+    for (int way = 0; way < BENCH_BLOCKS; way++) {
+        fprintf(to, "$w%d << EOD\n", way);
+        for (int k = 0; k < SIZES; k++) {
+            const struct size_result *r = &b->at[way][k];
+            if (r->known) fprintf(to, "%.6g %.6g %.6g\n", r->particles, 1e9 * r->step / r->particles, r->bytes);
+        }
+        fputs("EOD\n", to);
+    }
+    fputs("set multiplot layout 2,2\nset logscale xy\nset xrange [5e3:2e7]\nset format x '1e%T'\nset xlabel 'particles'\n"
+          "set key top right font ',8'\nset offsets graph 0, 0, graph 0.6, graph 0.2\n", to);
+    for (int dim = 2; dim <= 3; dim++)
+        for (int memory = 0; memory < 2; memory++) draw_panel(to, dim, memory);
+    fputs("unset multiplot\n", to);
+}
+
+/* ---- all ----------------------------------------------------------------------------------------------------- */
+
+static status measure_way(struct scale_bench *b, int way, int sizes, bool quick)
+{
+    const struct bench_block *block = &bench_blocks[way];
+    for (int k = 0; k < sizes; k++) {
+        const double particles = quick ? size_of[k] / 4 : size_of[k];
+        if (block->dim == 3 && k > 2) continue;
+        if (!machine_holds(block, particles)) {
+            printf("  %-20s %dD %9.3g  more than this machine's %.0f GB should be asked to hold: left out\n", block->name,
+                   block->dim, particles, 1e-9 * (double)team_memory());
+            continue;
+        }
+        struct size_result *r = &b->at[way][k];
+        TRY(time_size(r, block, particles));
+        if (k == (quick ? 0 : 2) && block->dim == 2) TRY(time_frames(r, block, particles));
+        print_size(b, way, k);
+    }
+    return OK;
+}
+
+static status measure(struct scale_bench *b, bool quick)
+{
+    printf("  %-20s    %9s %10s %10s %12s %10s %11s\n", "", "particles", "ns/step", "bytes", "set-up/step", "frame [ms]", "of 100 steps");
+    for (int way = 0; way < BENCH_BLOCKS; way++) TRY(measure_way(b, way, quick ? 2 : SIZES, quick));
+    print_spread(b);
+    TRY(write_table(b));
+    return bench_draw("scale", 1200, 900, draw, b);
+}
+
+status bench_scale(bool quick)
+{
+    struct scale_bench *b = NEW("bench.scale", 1, struct scale_bench);
+    printf("scale\n");
+    bench_print_machine(team_make(0));
+    status s = measure(b, quick);
+    memory_free(b);
+    return s;
+}

@@ -1,0 +1,78 @@
+/* floor 5: what the parts of `cleave bench kernels` share. */
+#ifndef CLEAVE_BENCH_KERNEL_BENCH_H
+#define CLEAVE_BENCH_KERNEL_BENCH_H
+
+#include <math.h>
+
+#include "bench/common/bench.h"
+
+enum job_kind {
+    BOND_FORCE,
+    BOND_ENERGY,
+    BOND_STRESS,
+    PD_MOVE,
+    P2G,
+    REMAP,
+    G2P,
+    SPREAD,
+    GRID_CLEAR,
+    GRID_MOVE,
+    GRID_REMAPPED,
+    MESH_CLEAR,
+    MESH_FORCE,
+    MESH_MOVE,
+    JOB_KINDS
+};
+
+/* One instance to be timed. */
+struct job {
+    enum job_kind kind;
+    int dim;
+    enum pd_model model;
+    enum shape shape;
+    enum transfer transfer;
+    bool finite;         /* strain of a mesh                         */
+    const char *variant;
+    double seconds;      /* of the fastest call                     */
+    double bytes, limit; /* moved a particle; least time it would take a particle [s] */
+};
+
+/* What is timed on, for each dimension; state-based particles not in 1D. */
+enum { BONDS, POINTS, STATES, MESH, YIELDING, GROUNDS };
+struct ground {
+    struct scene scene[GROUNDS];
+    struct engine engine[GROUNDS];
+    int32_t *list;
+    real *value, *field; /* of spread */
+};
+
+struct limits {
+    double stencil[DIM_MAX + 1], triad, points;
+}; /* [s/bond], [B/s], [s/point] */
+
+struct kernel_bench {
+    struct ground ground[DIM_MAX + 1];
+    struct job *job;
+    int jobs;
+    struct limits limits;
+    struct floor floor;
+};
+
+static inline bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
+
+static inline int64_t job_particles(const struct job *j, const struct ground *g)
+{
+    return g->engine[j->kind >= MESH_CLEAR ? MESH : j->kind > PD_MOVE ? POINTS : BONDS].part.n;
+}
+
+/* Bonds of a particle; NAN where a kernel visits none. */
+static inline double job_bonds(const struct job *j, const struct ground *g)
+{
+    return on_bonds(j) ? (double)g->engine[BONDS].bonds.n / (double)g->engine[BONDS].part.n : NAN;
+}
+
+/* What was measured, printed; its tables and its picture (kernels_draw.c). */
+void kernels_print(const struct kernel_bench *b);
+status kernels_write(const struct kernel_bench *b);
+
+#endif

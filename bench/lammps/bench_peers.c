@@ -1,0 +1,402 @@
+/* floor 5: `cleave bench peers`: a plate and a block by this program and by LAMMPS (peri/pmb, peri/lps), particle by
+ * particle, in turn on one core. Both read the same positions, volumes and velocities; the micro-modulus is this program's.
+ *
+ * LAMMPS weighs neighbours near the horizon by a ramp (here `cut-ramp`), influence 1/r for LPS. LPS with K_L = 4 k2/9,
+ * G_L = 8 G/15 on a planar family is the law of two dimensions. Bonds are taken from the neighbour list of the first
+ * `run 0`: pairs that are excluded there, one type for each particle that a crack touches, never become bonds. A second
+ * `run 0` lets LPS know its strains before anything moves. */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench/common/bench.h"
+#include "plot/gnuplot.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+
+extern char **environ;
+
+enum { STEPS = 200, ROUNDS = 3 };
+#define FOLDER BENCH_FOLDER "/run-peers"
+#define SPACING 5e-4
+/* The usual reach; one that leaves a single shell of neighbours, those at sqrt(8) spacings, on the ramp; and nearest neighbours. */
+#define REACH_USUAL 3.015
+#define REACH_EXACT 2.95342712474619
+#define REACH_NEAREST 1.375
+
+struct peer_case {
+    const char *name, *law;   /* "pmb" or "lps" */
+    int dim, edge, edge_quick; /* particles along an edge */
+    double reach;             /* [spacings] */
+    bool cracked, breaking, timed;
+};
+static const struct peer_case cases[] = {
+    {"plate", "pmb", 2, 100, 40, REACH_USUAL, false, false, true},
+    {"plate", "pmb", 2, 100, 30, REACH_EXACT, true, false, false},
+    {"plate", "lps", 2, 100, 40, REACH_USUAL, false, false, true},
+    {"plate", "lps", 2, 100, 30, REACH_EXACT, true, false, false},
+    {"plate", "lps", 2, 100, 30, REACH_NEAREST, true, false, false},
+    {"block", "pmb", 3, 32, 10, REACH_USUAL, false, false, true},
+    {"block", "pmb", 3, 16, 8, REACH_EXACT, false, false, false},
+    {"block", "lps", 3, 32, 10, REACH_USUAL, false, false, true},
+    {"block", "lps", 3, 16, 8, REACH_EXACT, false, false, false},
+    {"block", "lps", 3, 16, 8, REACH_NEAREST, false, false, false},
+    {"plate breaking", "pmb", 2, 100, 40, REACH_EXACT, true, true, false},
+    {"plate breaking", "lps", 2, 100, 40, REACH_EXACT, true, true, false},
+};
+enum { CASES = COUNT_OF(cases) };
+
+struct peer_result {
+    bool known;
+    double particles, bonds, cut;                /* directed bonds; bonds cut beforehand */
+    double own, peer;                            /* [s] of a step */
+    double difference, damage, damage_peer;      /* largest |u - u_LAMMPS| over largest |u|; sums of the share of broken bonds */
+};
+
+struct solution { double *place[DIM_MAX], *damage; };   /* by id */
+
+static bool is_lps(const struct peer_case *c) { return c->law[0] == 'l'; }
+
+static bool peer_installed(void)
+{
+    const char *list = getenv("PATH");
+    while (list && *list) {
+        char path[PATH_ROOM];
+        const int length = (int)strcspn(list, ":");
+        snprintf(path, sizeof path, "%.*s/lmp", length, list);
+        if (access(path, X_OK) == 0) return true;
+        list += length + (list[length] == ':');
+    }
+    return false;
+}
+
+/* ---- the scene ------------------------------------------------------------------------------------------- */
+
+/* Pulled in x, turned a little so that no direction is special; nothing comes close enough to touch. */
+static void scene_text(FILE *to, const struct peer_case *c, int edge)
+{
+    const double half = 0.5 * edge * SPACING, rate = c->breaking ? 3000 : 300, step = c->dim == 2 ? 4e-8 : 2e-8;
+    fprintf(to, "name: peer\nspace: %s\n%sduration: %.17g\nmethod: pd\ntime: {step: %.17g}\n", c->dim == 2 ? "plane stress" : "solid",
+            c->dim == 2 ? "thickness: 1 mm\n" : "", STEPS * step, step);
+    if (is_lps(c)) fputs("model: ospd\n", to);
+    fprintf(to, "material: {young: 192e9, %sdensity: 8000, critical_stretch: %g}\n", is_lps(c) ? "poisson: 0.3, " : "",
+            c->breaking ? 0.02 : 10.0);
+    fprintf(to, "particles: {spacing: %.17g, horizon: %.17g}\n", SPACING, c->reach);
+    fputs("pd: {volume: cut-ramp, calibration: lattice, surface: none, last_force: whole}\noutput: {frames: 0, samples: 1}\n", to);
+    if (c->dim == 2)
+        fprintf(to, "body: {box: {from: [%.17g, %.17g], to: [%.17g, %.17g]}}\n"
+                "initial: [{velocity_gradient: [[%g, %g], [%g, %g]]}]\n", -half, -half, half, half, rate, 0.3 * rate,
+                0.1 * rate, 0.8 * rate);
+    else
+        fprintf(to, "body: {box: {from: [%.17g, %.17g, %.17g], to: [%.17g, %.17g, %.17g]}}\n"
+                "initial: [{velocity_gradient: [[%g, %g, 0], [0, %g, %g], [%g, 0, %g]]}]\n", -half, -half, -half, half, half,
+                half, rate, 0.3 * rate, 0.8 * rate, 0.2 * rate, 0.1 * rate, rate);
+    if (c->cracked)     /* ends chosen so that no bond passes through them */
+        fprintf(to, "cracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n", -0.1123 * edge * SPACING, -0.0312 * edge * SPACING,
+                0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
+}
+
+static status peer_engine(struct engine *e, struct scene *s, const struct peer_case *c, int edge)
+{
+    char text[2048];
+    FILE *to = fmemopen(text, sizeof text, "w");
+    if (!to) return status_set(FAILED, "bench: out of memory");
+    scene_text(to, c, edge);
+    fclose(to);
+    return bench_engine_make(e, s, "peer", text, NULL, 0);
+}
+
+/* ---- the input of LAMMPS ---------------------------------------------------------------------------------- */
+
+/* Bonds that the cracks cut: calls for each pair once. */
+static int64_t cut_pairs(const struct engine *e, int *type, int *types, FILE *exclude)
+{
+    const struct particles *p = &e->part;
+    int32_t found[512];
+    int64_t cut = 0;
+    for (int64_t i = 0; i < p->n && e->source.cracks > 0; i++) {
+        real X[DIM_MAX];
+        particle_place(p, i, X);
+        const int n = cells_near(&e->cells, p, X, e->source.family.cutoff, (int32_t)i, found, COUNT_OF(found));
+        for (int k = 0; k < n; k++) {
+            const int32_t j = found[k];
+            if (j < i || !cracks_part(e->source.crack, e->source.cracks, p, i, j)) continue;
+            if (!type[i]) type[i] = ++*types;
+            if (!type[j]) type[j] = ++*types;
+            fprintf(exclude, "neigh_modify exclude type %d %d\n", type[i], type[j]);
+            cut++;
+        }
+    }
+    return cut;
+}
+
+static void write_data(FILE *to, const struct engine *e, const int *type, int types, double half)
+{
+    const struct particles *p = &e->part;
+    const char *box = "xlo xhi\0ylo yhi\0zlo zhi";
+    fprintf(to, "particles\n\n%lld atoms\n%d atom types\n\n", (long long)p->n, types);
+    for (int d = 0; d < DIM_MAX; d++) {
+        const double far = d < p->dim ? 2 * half : 4 * SPACING;
+        fprintf(to, "%.17g %.17g %s\n", -far, far, box + 8 * d);
+    }
+    fputs("\nAtoms\n\n", to);
+    for (int64_t i = 0; i < p->n; i++)
+        fprintf(to, "%d %d %.17g %.17g %.17g %.17g %.17g\n", p->id[i] + 1, type[i] ? type[i] : 1, p->volume0[i],
+                p->mass[i] / p->volume0[i], p->X[0][i], p->X[1][i], p->dim > 2 ? p->X[2][i] : 0);
+    fputs("\nVelocities\n\n", to);
+    for (int64_t i = 0; i < p->n; i++)
+        fprintf(to, "%d %.17g %.17g %.17g\n", p->id[i] + 1, p->v[0][i], p->v[1][i], p->dim > 2 ? p->v[2][i] : 0);
+}
+
+static void write_law(FILE *to, const struct engine *e, const struct peer_case *c)
+{
+    const struct material *m = e->scene->material;
+    const double horizon = e->source.family.horizon, limit = m->critical_stretch;
+    fprintf(to, "pair_style peri/%s\npair_coeff * * ", c->law);
+    if (!is_lps(c))
+        fprintf(to, "%.17g %.17g %.17g 0.0\n", family_micro_modulus(&e->source.family, m), horizon, limit);
+    else if (c->dim == 3)
+        fprintf(to, "%.17g %.17g %.17g %.17g 0.0\n", m->c12 + 2 * m->shear / 3, m->shear, horizon, limit);
+    else
+        fprintf(to, "%.17g %.17g %.17g %.17g 0.0\n", 4 * (m->c12 + m->shear) / 9, 8 * m->shear / 15, horizon, limit);
+}
+
+static void write_script(FILE *to, const struct engine *e, const struct peer_case *c, const char *exclude)
+{
+    fprintf(to, "units si\nboundary s s %c\natom_style peri\natom_modify map array sort 0 0.0\nneighbor %.17g bin\n",
+            c->dim == 2 ? 'f' : 's', 0.3 * SPACING);
+    fprintf(to, "lattice sc %.17g\nread_data " FOLDER "/particles.data\n", SPACING);
+    write_law(to, e, c);
+    fprintf(to, "%stimestep %.17g\nrun 0 post no\nrun 0 post no\n", exclude, e->dt);
+    if (exclude[0]) fputs("neigh_modify exclude none\n", to);
+    fprintf(to, "fix 1 all nve\ncompute d all damage/atom\nthermo 1000000\nrun %d\n"
+            "dump 1 all custom 1 " FOLDER "/particles.dump id x y z c_d\n"
+            "dump_modify 1 sort id format float %%.17g\nrun 0 post no\n", STEPS);
+}
+
+static FILE *create(const char *name, status *s)
+{
+    FILE *to = fopen(path_join(FOLDER, name).text, "w");
+    if (!to && *s == OK) *s = file_fault(path_join(FOLDER, name).text, errno);
+    return to;
+}
+
+static status write_input(const struct engine *e, const struct peer_case *c, int edge, struct peer_result *r)
+{
+    status s = OK;
+    char *exclude = NULL;
+    size_t length = 0;
+    int types = 1, *type = NEW("peers.type", e->part.n, int);
+    FILE *lines = open_memstream(&exclude, &length), *data = create("particles.data", &s), *script = create("in.lammps", &s);
+    if (s == OK && lines) {
+        r->cut = (double)cut_pairs(e, type, &types, lines);
+        fflush(lines);
+        write_data(data, e, type, types, 0.5 * edge * SPACING);
+        write_script(script, e, c, exclude);
+    }
+    if (lines) fclose(lines);
+    if (data && fclose(data) != 0 && s == OK) s = file_fault(FOLDER "/particles.data", errno);
+    if (script && fclose(script) != 0 && s == OK) s = file_fault(FOLDER "/in.lammps", errno);
+    free(exclude);
+    memory_free(type);
+    return s;
+}
+
+/* ---- both runs --------------------------------------------------------------------------------------------- */
+
+static status spawn_peer(void)
+{
+    char *argv[] = {"lmp", "-in", FOLDER "/in.lammps", "-log", FOLDER "/log.lammps", "-screen", "none", NULL};
+    pid_t child;
+    int ended;
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const int fault = posix_spawnp(&child, "lmp", &actions, NULL, argv, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (fault) return status_set(FAILED, "bench peers: cannot start lmp: %s", strerror(fault));
+    while (waitpid(child, &ended, 0) < 0)
+        if (errno != EINTR) return status_set(FAILED, "bench: %s", strerror(errno));
+    if (WIFEXITED(ended) && WEXITSTATUS(ended) == 0) return OK;
+    return status_set(FAILED, "bench peers: lmp has failed");
+}
+
+/* What its log says of the STEPS steps [s]. */
+static status peer_seconds(double *seconds)
+{
+    char line[512];
+    FILE *f = fopen(FOLDER "/log.lammps", "r");
+    bool known = false;
+    while (f && fgets(line, sizeof line, f)) {
+        long steps;
+        double spent;
+        const char *of = strstr(line, "Loop time of ");
+        const char *number = of ? strstr(of, " for ") : NULL;
+        if (number && sscanf(of, "Loop time of %lf", &spent) == 1 && sscanf(number, " for %ld steps", &steps) == 1 &&
+            steps == STEPS)
+            *seconds = spent / STEPS, known = true;
+    }
+    if (f) fclose(f);
+    return known ? OK : status_set(FAILED, "bench peers: the log of lmp does not tell how long it took");
+}
+
+static status peer_solution(struct solution *s, int64_t n)
+{
+    char line[512];
+    FILE *f = fopen(FOLDER "/particles.dump", "r");
+    int64_t read = 0;
+    while (f && fgets(line, sizeof line, f)) {
+        long id;
+        double x, y, z, damage;
+        if (sscanf(line, "%ld %lf %lf %lf %lf", &id, &x, &y, &z, &damage) != 5 || id < 1 || id > n) continue;
+        s->place[0][id - 1] = x, s->place[1][id - 1] = y, s->place[2][id - 1] = z, s->damage[id - 1] = damage;
+        read++;
+    }
+    if (f) fclose(f);
+    return read == n ? OK : status_set(FAILED, "bench peers: lmp has left %lld particles of %lld", (long long)read, (long long)n);
+}
+
+static void compare(struct peer_result *r, const struct engine *e, const struct solution *peer, const real *damage_start)
+{
+    const struct particles *p = &e->part;
+    double largest = 0, worst = 0;
+    r->damage = r->damage_peer = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const int32_t id = p->id[i];
+        double u2 = 0, d2 = 0;
+        for (int d = 0; d < p->dim; d++) {
+            u2 += square(p->x[d][i] - p->X[d][i]);
+            d2 += square(p->x[d][i] - peer->place[d][id]);
+        }
+        largest = fmax(largest, sqrt(u2)), worst = fmax(worst, sqrt(d2));
+        /* LAMMPS counts only what was a bond; a share of what the crack left */
+        if (damage_start[i] < 1) r->damage += (p->damage[i] - damage_start[i]) / (1 - damage_start[i]);
+        r->damage_peer += peer->damage[id];
+    }
+    r->difference = worst / largest;
+}
+
+static status run_both(struct peer_result *r, const struct peer_case *c, int edge, struct solution *peer)
+{
+    struct scene s;
+    struct engine e;
+    double spent = 0;
+    TRY(peer_engine(&e, &s, c, edge));
+    real *damage = NEW("peers.damage", e.part.n, real);
+    memcpy(damage, e.part.damage, (size_t)e.part.n * sizeof *damage);
+    for (int d = 0; d < DIM_MAX; d++) peer->place[d] = NEW("peers.place", e.part.n, double);
+    peer->damage = NEW("peers.damage", e.part.n, double);
+    r->particles = (double)e.part.n;
+    status ran = write_input(&e, c, edge, r);
+    r->bonds = (double)e.bonds.n - 2 * r->cut;
+    if (ran == OK) ran = engine_run(&e);
+    if (ran == OK) ran = spawn_peer();
+    if (ran == OK) ran = peer_seconds(&spent);
+    if (ran == OK) ran = peer_solution(peer, e.part.n);
+    if (ran == OK) {
+        r->own = fmin(r->own, e.loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
+        e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit, NULL);     /* there the last places have broken bonds already */
+        compare(r, &e, peer, damage);
+        r->known = true;
+    }
+    for (int d = 0; d < DIM_MAX; d++) memory_free(peer->place[d]);
+    memory_free(peer->damage);
+    memory_free(damage);
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+/* ---- what is said -------------------------------------------------------------------------------------------- */
+
+static void print_result(const struct peer_case *c, const struct peer_result *r)
+{
+    printf("  %-15s %s %8.5f %9.0f %10.0f %6.0f", c->name, c->law, c->reach, r->particles, r->bonds, r->cut);
+    if (c->timed) printf(" %8.2f %8.2f %7.1f", 1e9 * r->own / r->bonds, 1e9 * r->peer / r->bonds, r->peer / r->own);
+    else printf(" %8s %8s %7s", "", "", "");
+    printf("   %8.1e", r->difference);
+    if (c->breaking) printf("   damage %.6g, %.6g", r->damage, r->damage_peer);
+    putchar('\n');
+    fflush(stdout);
+}
+
+static status write_table(const struct peer_result *result)
+{
+    struct bench_table t;
+    bench_table_make(&t, "", "case,law,dim,reach,particles,directed_bonds,bonds_cut,ns_per_bond_step,ns_per_bond_step_lammps,"
+                             "time_ratio,difference,damage,damage_lammps");
+    for (int k = 0; k < CASES; k++) {
+        const struct peer_result *r = &result[k];
+        if (!r->known) continue;
+        const double timed = cases[k].timed ? 1 : NAN;
+        const double row[] = {cases[k].dim, cases[k].reach, r->particles, r->bonds, r->cut, timed * 1e9 * r->own / r->bonds,
+                              timed * 1e9 * r->peer / r->bonds, timed * r->peer / r->own, r->difference, r->damage, r->damage_peer};
+        bench_text(&t, cases[k].name), bench_text(&t, cases[k].law);
+        for (size_t i = 0; i < COUNT_OF(row); i++) bench_number(&t, row[i]);
+    }
+    status s = bench_write("peers", &t, 1);
+    bench_table_free(&t);
+    return s;
+}
+
+static void draw(FILE *to, const void *context)
+{
+    const struct peer_result *result = context;
+    fputs("$t << EOD\n", to);
+    for (int k = 0; k < CASES; k++)
+        if (cases[k].timed && result[k].known)
+            fprintf(to, "\"%s\\n%s\" %.6g %.6g\n", cases[k].name, cases[k].law, 1e9 * result[k].own / result[k].bonds,
+                    1e9 * result[k].peer / result[k].bonds);
+    fprintf(to, "EOD\nset title 'one core, no bond breaks'\nset ylabel 'ns per directed bond and step'\nset logscale y\n"
+            "set style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\nset boxwidth 0.9\n"
+            "set xtics scale 0\nset yrange [0.1:200]\nset key top left\n"
+            "plot $t using 2:xtic(1) lc rgb '%s' title 'here', '' using 3 lc rgb '%s' title 'LAMMPS', "
+            "'' using ($0-0.17):2:(sprintf('%%.2f', $2)) with labels offset 0, 0.7 notitle, "
+            "'' using ($0+0.17):3:(sprintf('%%.1f', $3)) with labels offset 0, 0.7 notitle\n", curve_colour[0], curve_colour[4]);
+}
+
+static status measure(struct peer_result *result, bool quick)
+{
+    struct bench_child folder = {0};
+    TRY(bench_folder_make());
+    strcpy(folder.folder, FOLDER);
+    status s = mkdir(FOLDER, 0777) == 0 || errno == EEXIST ? OK : file_fault(FOLDER, errno);
+    printf("  %-15s %s %8s %9s %10s %6s %8s %8s %7s   %8s\n", "", "law", "reach", "particles", "bonds", "cut", "ns/bond",
+           "LAMMPS", "ratio", "|u - u_L|");
+    for (int k = 0; k < CASES && s == OK; k++) {
+        const struct peer_case *c = &cases[k];
+        result[k].own = result[k].peer = INFINITY;
+        for (int r = 0; r < (c->timed && !quick ? ROUNDS : 1) && s == OK; r++) {
+            struct solution peer;
+            s = run_both(&result[k], c, quick ? c->edge_quick : c->edge, &peer);
+        }
+        if (s == OK) print_result(c, &result[k]);
+    }
+    bench_child_free(&folder);
+    TRY(s);
+    printf("  bonds break by pd.last_force: whole, as they do there; there families keep the weight (lps) that they had whole, and parts that\n"
+           "  meet push each other, so lps differs once bonds break, and pmb once faces have come together\n");
+    TRY(write_table(result));
+    return bench_draw("peers", 800, 500, draw, result);
+}
+
+status bench_peers(bool quick)
+{
+    printf("peers\n");
+    if (!peer_installed()) {
+        printf("  lmp is not installed (Debian, Ubuntu: apt-get install lammps): left out\n\n");
+        return OK;
+    }
+    struct peer_result *result = NEW("bench.peers", CASES, struct peer_result);
+    bench_print_machine(team_make(1));
+    status s = measure(result, quick);
+    team_make(0);
+    memory_free(result);
+    return s;
+}

@@ -1,0 +1,95 @@
+/* floor 1: sets of points by constructive geometry, functions of time, and cracks: the plain words that a
+ * scene is made of and that set-up, loads and probes share. Coordinates are reference positions [m]. */
+#ifndef CLEAVE_REGION_H
+#define CLEAVE_REGION_H
+
+#include "base/base.h"
+
+/* ---- regions ------------------------------------------------------------------------------------- */
+
+enum solid_kind { SOLID_ALL, SOLID_BOX, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_SPACE };
+
+/* One primitive. A 2D disc is a BALL. Bounds of a box may be infinite. */
+struct solid {
+    enum solid_kind kind;
+    bool subtract;                       /* taken away from what the list has built so far         */
+    real from[DIM_MAX], to[DIM_MAX];     /* box corners; ends of a cylinder's axis            [m]  */
+    real centre[DIM_MAX], radius;        /* ball, cylinder (radius)                           [m]  */
+    real point[DIM_MAX], normal[DIM_MAX];/* half-space: (X - point) . normal <= 0                  */
+};
+
+/* Union and difference in the order of the list; an empty list means everywhere. */
+struct region {
+    int n;
+    struct solid *solid;
+};
+
+/* Points this close to a surface count as on it, and so inside [spacings]. */
+#define ON_SURFACE 1e-8
+
+/* Closed set, grown by `tolerance` [m] (shrunk where negative). */
+bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
+
+/* Smallest box round the added solids; returns false if it is unbounded. */
+bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX]);
+void region_free(struct region *r);
+
+/* Ascending numbers. */
+struct number_list { int n; real *value; };
+
+/* ---- functions of time ---------------------------------------------------------------------------- */
+
+enum time_kind { TIME_CONSTANT, TIME_STEP, TIME_PULSE, TIME_RAMP, TIME_TABLE };
+
+/* A dimensionless factor:
+ *   CONSTANT  1
+ *   STEP      1 for from <= t < until, else 0
+ *   PULSE     sin^2(pi (t - from) / (until - from)) inside, 0 outside
+ *   RAMP      0 before from, linear to 1 at until, 1 after
+ *   TABLE     piecewise linear through (t[k], value[k]); the end values are held */
+struct time_function {
+    enum time_kind kind;
+    real from, until;                    /* [s] */
+    int n;
+    real *t, *value;                     /* [s], [1] */
+};
+
+real time_function_at(const struct time_function *f, real t);
+/* Its integral from 0 to t >= 0 [s]. */
+real time_function_integral(const struct time_function *f, real t);
+
+/* ---- cracks --------------------------------------------------------------------------------------- */
+
+/* A pre-crack: a point in 1D (corner[0]), a segment in 2D (corner[0..1]), a plane convex polygon in 3D. */
+struct crack {
+    int n;                               /* corners */
+    real (*corner)[DIM_MAX];             /* [m] */
+};
+
+/* Does the crack cut the bond between two reference positions? Symmetric in a and b to the last bit. A
+ * particle closer to the crack's plane than 1e-9 lengths counts as on its positive side; a bond that passes
+ * exactly through a crack's end is cut. */
+bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
+/* False: it cuts no bond of a particle at X that is no longer than `reach` [m]. Quick, for the many that are far away. */
+bool crack_near(const struct crack *c, const real *X, real reach, int dim);
+
+/* ---- waves ---------------------------------------------------------------------------------------- */
+
+/* A plane wave: at t = 0 v = velocity exp(-(xi/r)^2) along `polarisation`, xi = (X - at) . direction, r a quarter of the
+ * width. It moves along `direction` into material at rest and leaves displaced material behind. Its particles move along
+ * or across its direction: a longitudinal or a transverse wave. */
+struct wave_pulse {
+    real at[DIM_MAX];                    /* centre                    [m]   */
+    real direction[DIM_MAX];             /* unit vector                     */
+    real width;                          /* four radii r              [m]   */
+    real velocity;                       /* of particles, largest     [m/s] */
+    real polarisation[DIM_MAX];          /* unit vector                     */
+    bool transverse;
+};
+
+/* Velocity along the polarisation [m/s], displacement along it [m] and its slope du/dxi [1] at X, in material of wave speed
+ * c [m/s]: v = -c du/dxi. */
+struct wave_state { real velocity, displacement, strain; };
+struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim);
+
+#endif

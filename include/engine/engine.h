@@ -1,0 +1,189 @@
+/* floor 5: the engine owns everything of a run, by value. */
+#ifndef CLEAVE_ENGINE_H
+#define CLEAVE_ENGINE_H
+
+#include <signal.h>
+
+#include "bonds/bonds.h"
+#include "coupling/carry.h"
+#include "data/cells.h"
+#include "coupling/convert.h"
+#include "critical_step.h"
+#include "scene/fill.h"
+#include "data/grid.h"
+#include "kernels/kernels.h"
+#include "loads/loads.h"
+#include "mesh/mesh_make.h"
+#include "output/output.h"
+#include "data/particles.h"
+#include "probes/probes.h"
+#include "active/rest_points.h"
+#include "coupling/rim.h"
+#include "base/rise.h"
+#include "scene/scene.h"
+#include "solver.h"
+#include "base/team.h"
+#include "fracture/tips.h"
+#include "base/warnings.h"
+#include "probes/watch.h"
+
+/* Frame of a body, and why where the scene does not say current. */
+struct frame_choice { bool reference; const char *reason; };
+
+struct engine {
+    const struct scene *scene;           /* borrowed                                                  */
+    struct kernels kernels;
+    struct particles part;
+    struct cells cells;                  /* search over reference positions                           */
+    struct bond_source source;
+    struct bonds bonds;
+    struct state_modulus *modulus;       /* [materials] of state-based models, else NULL              */
+    int *mirror_axis;                    /* [boundaries] -1: clamped                                  */
+    real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
+    real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
+    real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */
+    struct elastic *elastic;             /* [materials]                                               */
+    struct grid grid;
+    struct transfer_order order;         /* of the material points                                    */
+    struct rest_points rest_points;      /* which of them the maps leave out                         */
+    struct carried carried;              /* peridynamic particles that the grid moves (coupling pm .. pgg) */
+    struct partial_stress partial;
+    struct transfer_data transfer;
+    struct frame_choice *frame;          /* [bodies]                                                  */
+    struct mesh mesh;                    /* of the bodies in the reference frame                      */
+    struct mesh_source mesh_source;
+    struct elastic *cell_elastic;        /* [materials] constants of its cells                        */
+    real mesh_speed;                     /* largest component of a nodal velocity              [m/s]  */
+    bool wild;                           /* a peridynamic particle is out of hand                     */
+    struct loads loads;
+    struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
+    struct solver solver;
+    struct conversion conversion;
+    struct region start_region;          /* peridynamic from the start; no solid: none                */
+    struct watch watch;
+    struct tips tips;
+    struct growth *growth;               /* [scene->growths] cracks that grow as they are told        */
+    struct probes probes;
+    struct wave_pulse *pulse;            /* [pulses] of the initial states                            */
+    int pulses;
+    struct baseline baseline;            /* for pulse probes, made at the end                         */
+    bool has_baseline;
+    struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
+    struct laps laps;
+    real t, dt, dt_critical;             /* [s]                                                       */
+    struct rise speed_rise, excess_rise; /* of the largest speed^2 [m^2/s^2]; of energy from nowhere [J] */
+    bool lost;                           /* an energy of the last sample is no finite number         */
+    real start_speed;                    /* largest at t = 0                                 [m/s]    */
+    int64_t step, steps;
+    real wave_speed;                     /* fastest of the materials [m/s]                            */
+    real residual_step0;                 /* largest nodal force of the first step, for patch probes [N] */
+    real strain_stress;                  /* largest component of the initial stress [Pa]              */
+    real smallest_mass;                  /* of a node that moves [kg]                                 */
+    real mass;                           /* of the body [kg]                                          */
+    bool sort_needed;                    /* material points moved to other cells or converted         */
+    enum coupling coupling;              /* of the scene; hand-shake where nothing meets              */
+    uint8_t *bonded;                     /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
+    struct rim rim;                      /* damped beside peridynamic particles (FLIP, partial stress) */
+    real damped;                         /* energy that the rim's damping, and conversion of moving cells, took [J] */
+    real rim_share;                      /* of a step; 0: not at all                                  */
+    bool uses_partial;                   /* points know what bonds carry: partial stress, ends of state-based bonds */
+    real *record;                        /* one line of history.csv                                   */
+    int optional;                        /* WITH_* arrays of the particles                            */
+    int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
+    int64_t bond_visits;
+    real rested;                         /* share of the body at rest, summed over the steps ...      */
+    struct { real rested; int64_t step; } sampled;   /* ... and over those before the last sample, which was at this one */
+    double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
+    struct {                             /* a sample in the making (engine_report.h)                  */
+        bool due;
+        real kinetic, work, held_work;
+        real *before[DIM_MAX];           /* velocities at its begin, where something is on the grid [m/s] */
+        struct energy energy;            /* of the positions of t_n; kinetic comes last               */
+    } sampling;
+    status history_status;               /* of the last line written                                  */
+    double began, started, last_progress, last_checkpoint;   /* wall clock: made, first step of this process, ... [s] */
+    double checkpoint_seconds;           /* of the longest checkpoint so far                          */
+    int64_t step_started;                /* first step of this process                                */
+    struct warnings warnings;            /* what engine_warn and the run found                        */
+    bool quiet;
+    const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never        */
+};
+
+/* Everything up to step 0: particles, cells, loads, bonds, grid, time step. `out` may be NULL. */
+status engine_make(struct engine *e, const struct scene *s, struct output *out);
+/* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family [byte]. */
+real engine_memory(const struct engine *e);
+/* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal asked for it. */
+status engine_run(struct engine *e);
+/* What it does with a solver that is not explicit (solver.c), and what that needs. */
+status engine_solve(struct engine *e);
+status solver_make(struct engine *e);
+/* One step in time. */
+status engine_step(struct engine *e);
+void engine_free(struct engine *e);
+/* What material points leave to the bonds of now, and the rim beside them. */
+void engine_partial_make(struct engine *e);
+/* The time step and the number of steps (engine_time.c). */
+status engine_time_make(struct engine *e);
+/* Internal forces of the places of now, of the nodes of a mesh first of all: of bonds into part.f, of bonds and cells into the
+ * mesh's nodes (engine_mesh.c). What bonds see of the mesh's points and images is brought up to date. The same parts as in a
+ * step, without any motion; bonds beyond their limit break. */
+void engine_forces(struct engine *e);
+/* Of those the part of the mesh: forces of bonds, already in part.f, and of cells on its nodes. */
+void engine_nodes_force(struct engine *e);
+/* Material points at the end of state-based bonds hear from their cells, or from their stress. */
+void engine_ends_know(struct engine *e);
+/* Sum of v . f over points on the grid where they are now, without any motion [W]; accounts of loads change. `middle`: half a step
+ * later [s]. */
+real engine_grid_power(struct engine *e, real middle);
+/* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
+ * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
+ * of some; after conversion. */
+status engine_frames(struct engine *e);
+bool engine_has_mesh(const struct engine *e);
+/* Would `auto` put this body into the reference frame, did the scene not ask for the current one? */
+bool engine_frame_allowed(const struct engine *e, int body);
+/* Where the nodes lie, by the frames. */
+void engine_grid_make(struct engine *e);
+status engine_mesh_make(struct engine *e);
+real engine_mesh_critical_step(const struct engine *e);
+void engine_mesh_move(struct engine *e, real middle, real dt_velocity);
+void engine_mesh_show(struct engine *e);
+void engine_mesh_look(void *engine, const int32_t *list, int64_t n);
+void engine_mesh_follow(struct engine *e, int64_t converted);
+void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n);
+/* Return to material points (engine_return.c): whether the scene allows it; before a step, what is due; anew the rim of the
+ * material points, and which of them have bonds. */
+status engine_return_check(const struct engine *e);
+void engine_return(struct engine *e);
+void engine_rim_make(struct engine *e);
+/* After the run: the same scene on material points alone, if a pulse probe wants to be compared with it. */
+status engine_baseline(struct engine *e);
+/* Share of the body at rest now (rest.h). */
+real engine_rest(const struct engine *e);
+/* Saves or restores the state between two steps (engine_archive.c); says on standard error where a checkpoint was written
+ * with other kernels. */
+status engine_archive(void *engine, struct archive *a);
+/* Everything about the scene that is allowed but probably not meant, into e->warnings. Call once, before the first step. */
+void engine_warn(struct engine *e);
+/* What shows while a run goes on: into e->warnings and, the first time, on standard error. */
+void engine_say(struct engine *e, const char *text);
+/* Runs out of hand (engine_alarm.c). `make`: what the scene starts with. `alarm`, after every step: FAILED with place, step,
+ * cause and cure where something moves faster than waves do; `runaway` is the same, of peridynamic particles and points of a mesh
+ * only if told so. `cure`: what to change, from how `value` has grown and what the loads have done. */
+enum { ENGINE_CURE = 640 };
+void engine_alarm_make(struct engine *e);
+status engine_alarm(struct engine *e);
+/* After a sample: FAILED where the balance of energies says what places do not. At the end: a warning of what is no alarm, but
+ * more than results should be trusted with. */
+status engine_energy_alarm(struct engine *e);
+void engine_say_balance(struct engine *e);
+status engine_runaway(const struct engine *e, bool peridynamic, bool meshed);
+void engine_cure(const struct engine *e, const struct rise *rise, real value, char *text, size_t room);
+/* What probes may look at. */
+struct observed engine_observed(const struct engine *e);
+
+/* summary.json of the run so far; s is its status, `threads` and `wall_seconds` as measured by the caller. */
+status summary_write(const struct engine *e, status s, int threads, double wall_seconds);
+
+#endif

@@ -1,0 +1,198 @@
+/* floor 3: prescribed velocities, forces, walls and mirrors as functions of time; and the account of what they
+ * put in: impulse and work. */
+#ifndef CLEAVE_LOADS_H
+#define CLEAVE_LOADS_H
+
+#include "base/archive.h"
+#include "bonds/bonds.h"
+#include "data/grid.h"
+#include "kernels/kernels.h"
+#include "data/particles.h"
+#include "data/region.h"
+
+enum boundary_kind {
+    BOUNDARY_VELOCITY,       /* holds components of the velocity (`fixed` is this with value 0)          */
+    BOUNDARY_TRACTION,       /* surface force on the face that a body shows along an axis [Pa]           */
+    BOUNDARY_BODY_FORCE,     /*                                                            [N/m^3]       */
+    BOUNDARY_MIRROR          /* plane of symmetry (roller) or of antisymmetry (fixed end)                */
+};
+
+/* Factor on a body force over the reference position: sin(2 pi (X - origin) . direction/wavelength). */
+enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
+struct profile {
+    enum profile_kind kind;
+    real wavelength;                     /* [m]                                                       */
+    real origin[DIM_MAX];                /* where it is 0 and rises along `direction`         [m]     */
+    real direction[DIM_MAX];             /* of any length                                     [1]     */
+};
+
+/* One boundary condition, as the scene says it. */
+struct boundary {
+    char name[NAME_MAX_LENGTH];
+    enum boundary_kind kind;
+    struct region region;                /* of reference positions; empty: everywhere                 */
+    int body;                            /* -1: any                                                   */
+    uint8_t components;                  /* bit d: component d is held (VELOCITY)                     */
+    real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3]                                    */
+    struct time_function time;           /* factor on value                                           */
+    struct profile profile;              /* BODY_FORCE: factor on value                               */
+    int face;                            /* TRACTION: axis of the face's normal                       */
+    int side;                            /* TRACTION: +1 upper face, -1 lower face                    */
+    real section;                        /* TRACTION: of all bodies, in line [m^2], in the plane [m], 1 in space; 0: a
+                                            particle's area is its volume over the spacing            */
+    int axis;                            /* MIRROR: normal of the plane ...                           */
+    real at;                             /*         ... and where it is                   [m]         */
+    bool hold_tangential;                /* MIRROR: displacement odd in all components, not only normal */
+};
+
+/* A boundary condition at work on particles. */
+struct load {
+    const struct boundary *boundary;     /* borrowed from the scene                                   */
+    int64_t n;
+    int32_t *particle;                   /* ascending                                                 */
+    real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
+                                            column's first particle, -1/2 on the next; BODY_FORCE: volume times profile [m^3].
+                                            Equal ones are one array, of several components or loads  */
+    int leader;                          /* TRACTION, BODY_FORCE: first load of the same particles, which acts for it; -1 */
+    real *before[DIM_MAX];               /* [n] of a leader, components with a value: where they were in this step [m] */
+    real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
+                                            moves the driven particles themselves             [N]     */
+    real displacement[DIM_MAX];          /* of the driven particles, accumulated              [m]     */
+    int outside;                         /* MIRROR: side of the plane without body, -1 or +1          */
+};
+
+/* A component of a node that is held as long as the grid keeps its box. */
+struct held { int32_t node; uint8_t component, load; };
+
+struct held_set {
+    int64_t n, room, lasting;            /* the first `lasting` do not hang on who has mass           */
+    struct held *held;
+    int64_t first[DIM_MAX], count[DIM_MAX];   /* of the box of nodes they were found in                */
+};
+
+struct loads {
+    int n;
+    struct load *load;
+    uint8_t *loaded;                     /* [n] LOADED, WAITS; NULL: no particle is                   */
+    int64_t listed;
+    int32_t *list;                       /* [listed] those that are not 0, ascending                  */
+    int64_t images;
+    struct image *image;
+    real impulse[DIM_MAX];               /* given by loads and supports since the start       [N s]   */
+    real work;                           /* done by applied forces, up to where particles are [J]     */
+    real held_work;                      /* done by supports, up to the velocities, half a step behind [J] */
+    real spacing, reach;                 /* [m]; of bonds                                             */
+    real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
+                                            loads' moment [1/s^2], 0: none                            */
+    real place_step[DIM_MAX];            /* places across mirrors are multiples of it; 0: as they are [m] */
+    real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
+    int64_t share_room;
+    struct held_set held, held_mesh;     /* nodes in driven regions and on mirrors; driven ones of the mesh */
+};
+
+/* Something else than bonds and the grid may move a particle; it waits for bonds of others, across a clamped plane nearby. */
+enum { LOADED = 1, WAITS = 2 };
+static inline bool is_loaded(const struct loads *l, int64_t i) { return l->loaded && l->loaded[i] & LOADED; }
+/* Is it a mirror that holds motion along its plane, too? Along a line there is none: it is one of symmetry. */
+static inline bool is_clamp(const struct boundary *b, int dim)
+{
+    return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
+}
+
+/* Finds the particles of one boundary (of a mirror those in its plane, if it is clamped), ascending, and their shares; marks
+ * FLAG_DRIVEN. Refuses a force on a region without particles, a traction on one without a free face. */
+status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
+
+/* The face of a traction (loads_columns.c): of each column of particles along the normal the first that nothing hides bears its
+ * area, and that along the face together with the next where `two` are wanted. */
+struct face {
+    real *normal, *along;                /* [particles] area for the component along the normal, and for the others [m^2] */
+};
+void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+               bool two);
+void face_free(struct face *f);
+
+/* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
+ * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is that of the columns that bear
+ * tractions. Refuses what load_select does. */
+status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
+                  real reach, int optional);
+void loads_free(struct loads *l);
+
+/* ---- applied forces (loads_applied.c) --------------------------------------------------------------- */
+
+/* The part of loads_make that joins loads of the same particles; its end. */
+void loads_join(struct loads *l, int dim);
+void loads_applied_free(struct loads *l);
+/* The parts of loads_apply and loads_hold that add forces and impulse, and book their work. */
+void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity);
+void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
+
+#define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
+
+/* ---- mirrors (loads_mirror.c) ---------------------------------------------------------------------- */
+
+/* The part of loads_make that checks mirrors and appends their images. Refuses a mirror that cuts its body. */
+status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional);
+
+/* WAITS of those whose bonds may cross a clamped plane. */
+void loads_mirrors_mark(struct loads *l, const struct particles *p);
+
+/* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. Places of the sources across the
+ * mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */
+void loads_mirror(const struct loads *l, struct particles *p);
+
+/* Before bonds: f = 0 on every loaded particle (loads_applied.c). After bonds: books what mirror images gave, adds applied forces; for
+ * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step, where the kick
+ * ends that began dt_velocity before. */
+void loads_clear(struct loads *l, struct particles *p);
+void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
+
+/* Walls of the grid: nodes in a driven region or on a mirror plane, and nodes at least half of whose mass belongs to
+ * driven points; and nodes beyond a mirror plane, which follow their images if the plane stands on a node or half-way
+ * between two, else are held as those on it. Call after the first map. */
+void loads_walls(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
+                 real half_width, real t, real dt);
+
+/* The same for the mesh: found once, and again whenever it has lost points; their velocities in every step. */
+void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p);
+void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
+
+/* After the gather: driven material points take their velocity exactly; books reactions of walls and the work of
+ * applied forces. */
+void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt, real dt_velocity);
+/* Reactions of the walls of one grid, or of the mesh. */
+void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
+
+/* Does a mirror's plane stand on a node of the grid or half-way between two? */
+bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);
+
+/* ---- static equilibrium (loads_static.c) ------------------------------------------------------------- */
+
+/* Boundaries of a static problem in pseudo-time, n of them into `to`: forces have their value at `duration`, and what is
+ * driven goes as far as it goes until then. Both grow evenly from 0 to `ramp` [s] and stay. */
+void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp);
+
+/* Of such boundaries once they have grown: displacement of every driven component [m], and which are driven (bits of
+ * `held` by particle); where two overlap the later one holds, as in a run. */
+void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement, uint8_t *held);
+
+/* A body that nothing holds in the plane has no equilibrium under loads that turn it, and those on the scattered particles
+ * of a shaken lattice always do a little: from now on the forces of its inertia in that turn belong to the applied ones
+ * (inertia relief). Returns the moment over the largest that forces of their size could make there [1]. */
+real loads_static_balance(struct loads *l, const struct particles *p);
+/* Adds the applied forces to part.f. */
+void loads_static_force(const struct loads *l, struct particles *p);
+
+/* Forces on driven components become reactions and leave f. */
+void loads_static_hold(struct loads *l, struct particles *p);
+
+/* Half the applied force times the displacement, and half of reactions times theirs: the work of loads that grow in
+ * proportion on a linear body, into `work` and `held_work`. */
+void loads_static_work(struct loads *l, const struct particles *p);
+
+status loads_archive(struct loads *l, struct archive *a);
+
+enum { BOUNDARIES_MAX = 255 };           /* their number fits the byte of struct held and struct image; scene_keys.c */
+
+#endif

@@ -1,0 +1,42 @@
+/* floor 4: how the files of a run are made: paths, and whole files written aside, synced and renamed. */
+#ifndef CLEAVE_OUTPUT_FILES_H
+#define CLEAVE_OUTPUT_FILES_H
+
+#include "base/base.h"
+
+/* Room of a path, and of the longest name that is put behind a folder; output_open refuses longer folders. */
+enum { PATH_ROOM = 4096, PATH_NAME_ROOM = 300 };
+
+struct path { char text[PATH_ROOM]; };
+
+struct path path_join(const char *folder, const char *name);
+/* PATH.tmp, where a file is written before it is renamed. */
+struct path path_aside(const char *path);
+bool path_exists(const char *path);
+bool path_is_link(const char *path);
+bool path_is_file(const char *path);
+bool path_is_folder(const char *path);
+
+/* FAILED with `cannot write PATH: cause; cure`; `cause` is an errno, 0 if it is not known. */
+status file_fault(const char *path, int cause);
+
+/* Writes `length` bytes as the whole file `path`: aside, sync, rename, sync of the folder. */
+status file_put(const char *path, const void *bytes, size_t length);
+/* The same for one of many: the folder is synced once, by file_settle for any of them. */
+status file_put_unsettled(const char *path, const void *bytes, size_t length);
+/* Makes the name of a new file or folder last: syncs the folder it is in, where that may be read. */
+status file_settle(const char *path);
+
+/* Appends `length` bytes (0: none) to PATH.tmp and syncs it. On a fault PATH.tmp is removed. */
+status file_seal(const char *path, const void *tail, size_t length);
+
+/* Renames the sealed PATH.tmp to `path` and syncs the folder. On a fault PATH.tmp is removed. */
+status file_publish(const char *path);
+
+/* Removes PATH.tmp and gives its space back even if somebody still holds it open. */
+void file_discard(const char *path);
+
+/* Reads a whole regular file; a 0 stands behind its last byte. Free with memory_free. */
+status file_get(const char *path, char **text, size_t *length);
+
+#endif

@@ -1,0 +1,15 @@
+/* floor 4: figures out of a finished run's summary.json. */
+#ifndef CLEAVE_SUMMARY_READ_H
+#define CLEAVE_SUMMARY_READ_H
+
+#include "base/base.h"
+
+/* The number at `dotted_key` (names of objects and places in lists, from 0: "crack.tips.0.x") in
+ * folder/summary.json, in the file's own units (SI). The whole file must be sound JSON. FAILED: no file, not JSON,
+ * no such figure, or not a number; *value is NAN then. */
+status summary_number(const char *folder, const char *dotted_key, double *value);
+
+/* The same for a text; escapes other than \" and \\ are kept as they stand. At most size - 1 bytes; "" on FAILED. */
+status summary_string(const char *folder, const char *dotted_key, char *text, size_t size);
+
+#endif

@@ -1,0 +1,34 @@
+/* floor 4: a gnuplot that draws one picture: commands and binary data go down a pipe, the picture appears under its
+ * name only when it is whole. */
+#ifndef CLEAVE_GNUPLOT_H
+#define CLEAVE_GNUPLOT_H
+
+#include <stdio.h>
+
+#include "base/base.h"
+
+enum picture_format { PICTURE_PNG, PICTURE_SVG };
+
+struct gnuplot {
+    FILE *to;                            /* its standard input                                        */
+    FILE *complaints;                    /* its standard error                                        */
+    int process;
+    char *aside, *path;                  /* name while it is drawn, name when it is whole             */
+};
+
+/* Colours that people with any colour vision tell apart (Okabe & Ito 2008), as gnuplot writes them. */
+enum { CURVE_COLOURS = 7 };
+extern const char *const curve_colour[CURVE_COLOURS];
+
+/* Starts gnuplot on the picture `path`, `width` x `height` pixels, in the house style: thin grey axes below and
+ * left, clean font, key outside on the right. FAILED: gnuplot is missing (the message names the package) or
+ * cannot be started. */
+status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
+
+/* Waits for the picture. FAILED with gnuplot's own complaint if there is none. */
+status gnuplot_close(struct gnuplot *g);
+
+/* Writes `text` as a gnuplot string of its own: nothing in it is interpreted. */
+void gnuplot_quote(FILE *to, const char *text);
+
+#endif

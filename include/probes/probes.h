@@ -1,0 +1,144 @@
+/* floor 3: what a run watches besides its frames: time series, profiles, and the figures scripts rely on. */
+#ifndef CLEAVE_PROBES_H
+#define CLEAVE_PROBES_H
+
+#include "base/archive.h"
+#include "bonds/bonds.h"
+#include "fracture/growth.h"
+#include "data/cells.h"
+#include "exact.h"
+#include "loads/loads.h"
+#include "data/particles.h"
+#include "data/region.h"
+#include "fracture/sif.h"
+#include "fracture/tips.h"
+
+enum probe_kind {
+    PROBE_TIP,               /* one crack tip (the longest, or the one nearest to `at`)                    */
+    PROBE_BREAK,             /* first cut bond in a region                                                 */
+    PROBE_REACTION,          /* force of the support at a named boundary                                   */
+    PROBE_PATCH,             /* largest nodal force residual over stress x h under uniform strain          */
+    PROBE_SPALL,             /* separated end of a bar                                                     */
+    PROBE_POINT,             /* displacement, velocity, stress, damage of the particle nearest to `at`     */
+    PROBE_LINE,              /* profile from `from` to `to` in `points` stations, at the end and per frame */
+    PROBE_ENERGY,            /* energies of the particles of a region                                      */
+    PROBE_MOMENTUM,          /* momentum of the particles of a region                                      */
+    PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
+    PROBE_EXACT,             /* a bar against a closed form                                                */
+    PROBE_SIF,               /* stress-intensity factors of a crack tip                                    */
+    PROBE_GROWTH,            /* a crack that grows as it is told: its tip, the path it took                */
+    PROBE_RIGID,             /* a body that turns as a whole (plane)                                       */
+    PROBES
+};
+
+/* Figures of EXACT; all but the last three by the stress of bond flux (probes_parts.h), those with `_strain` the same of
+ * E x strain against E x exact strain; strain by central differences over the neighbours in the bar:
+ *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
+ *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
+ *   plateau                 mean stress behind the last front, off fronts and ends (exact_plateau) [Pa]
+ *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
+ *   end_displacement        of the outermost particle at the loaded end, half a spacing inside [m]
+ *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, with velocities when they are known */
+
+/* As the scene asks for it. */
+struct probe_request {
+    char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
+    enum probe_kind kind;
+    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere  */
+    bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface  [m]     */
+    bool has_direction;                  /* SIF                                                       */
+    real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */
+    real from[DIM_MAX], to[DIM_MAX];     /* LINE                                              [m]     */
+    int points;                          /* LINE                                                      */
+    char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
+    char of[NAME_MAX_LENGTH];            /* GROWTH: name of the crack; "": the first                    */
+    real experiment;                     /* GROWTH: angle in an experiment, for pictures; NAN: none [degree]    */
+    enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]:   */
+    real amplitude, period, wavelength, origin;
+    struct number_list contours;         /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
+    real inner, outer, core;             /* SIF; NAN or 0: half of outer; 20 spacings; 1.5 horizons   [m]   */
+    real reach;                          /* SIF: rho_m in spacings; 0: 1.5                            [1]   */
+    real speed;                          /* SIF: of a moving tip; NAN: measured                       [m/s] */
+    int diffraction;                     /* SIF */
+    enum sif_weight weight;
+    enum gradient_method gradient;
+    enum sif_stress stress;
+};
+
+/* A column of history.csv or a figure of summary.json. */
+struct column { char name[2 * NAME_MAX_LENGTH]; char unit[16]; };
+
+/* The same run on material points alone (engine_baseline), at its end. */
+struct baseline {
+    real *v[DIM_MAX];                    /* [n] velocities                                    [m/s]   */
+    real energy_change;                  /* of all energy since the start                     [1]     */
+};
+
+/* What probes may look at; borrowed, read only. */
+struct observed {
+    const struct particles *part;
+    const struct cells *cells;           /* reference search                                          */
+    const struct bonds *bonds;
+    const struct loads *loads;
+    const struct grid *grid;
+    const struct tips *tips;
+    const struct material *material;
+    const struct partial_stress *partial;
+    real spacing;                        /* [m]                                                       */
+    real thickness;                      /* section, thickness or 1                                   */
+    real strain_stress;                  /* largest |component| of the initial stress [Pa], for PATCH */
+    real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
+    real t;                              /* [s]                                                       */
+    real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
+    const struct growth *growth;         /* cracks that grow as they are told                         */
+    int growths;
+    const struct baseline *baseline;     /* NULL: none                                                */
+    real t_velocity;                     /* when velocities are known, half a step before t   [s]     */
+    const struct wave_pulse *pulse;      /* initial pulses, for EXACT                                 */
+    int pulses;
+    enum space space;                    /* ... and what SIF needs: horizon [m], pre-cracks           */
+    real horizon;
+    const struct crack *crack;
+    int cracks;
+};
+
+struct probe;                            /* probes.c */
+struct probes {
+    int n;
+    struct probe *probe;
+    int columns;                         /* of all probes together                                    */
+    struct column *column;
+    real *value;                         /* at the last sample, by column                             */
+};
+
+/* Binds requests to particles. Refuses a point outside the body, an unknown boundary name, or a bar that is not that of
+ * the closed form. */
+status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
+void probes_free(struct probes *s);
+/* Fills value[]. */
+void probes_sample(struct probes *s, const struct observed *o);
+/* What needs the motion at a sample's own time (SIF), while velocities are known half a step before and after. `keep`,
+ * before the step: remembers displacements and velocities of o->t and o->t_velocity. `sample_end`, after it, when
+ * velocities are those of t_velocity: fills the rest of value[] for the time kept. Without a `keep` before, the body is
+ * in equilibrium. */
+void probes_keep(struct probes *s, const struct observed *o);
+void probes_sample_end(struct probes *s, const struct observed *o, real t_velocity);
+/* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_CUT marks that bonds
+ * broke, REACTION adds up its largest and rms force. */
+void probes_step(struct probes *s, const struct observed *o);
+/* Calls `emit` for every figure of every probe: probe name, quantity, value (SI). Figures a run does not have
+ * (NAN) are left out. */
+void probes_figures(const struct probes *s, const struct observed *o,
+                    void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
+/* The profiles of LINE and EXACT probes as csv, each handed to `put` as the file <name>_<frame>.csv; and how many they are. */
+typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
+status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame);
+int64_t probes_profiled(const struct probes *s);
+/* Name of the file of a frame of the k-th of them, into `name` [PROFILE_NAME]; false: there is none. */
+enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
+bool probes_profile_name(const struct probes *s, int k, int frame, char *name);
+/* Factors of the named SIF probe at the last sample, and the direction of its tip then; false: none yet. */
+bool probes_ruling(const struct probes *s, const char *name, struct ruling *found);
+status probes_archive(struct probes *s, struct archive *a);
+
+#endif

@@ -1,0 +1,165 @@
+/* floor 4: a scene: everything a run needs, as read and checked. Only scene_yaml.c knows libyaml (info.c asks for
+ * its version). Every length is in
+ * metres, every time in seconds: units are gone. */
+#ifndef CLEAVE_SCENE_H
+#define CLEAVE_SCENE_H
+
+#include <stdio.h>
+
+#include "bonds/bonds.h"
+#include "coupling/convert.h"
+#include "fracture/growth.h"
+#include "kernels/kernels.h"
+#include "loads/loads.h"
+#include "data/material.h"
+#include "probes/probes.h"
+#include "data/region.h"
+
+/* AUTO and STATIC stand for one of the others, which a scene that was read has. */
+enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
+enum grid_frame { FRAME_CURRENT, FRAME_REFERENCE, FRAME_AUTO };
+enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
+
+enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
+
+enum { PLACE_LENGTH = 512 };             /* of how a refusal begins */
+
+struct scene_body {
+    char name[NAME_MAX_LENGTH];
+    int material;                        /* index into scene.material                                 */
+    struct region shape;                 /* filled with a lattice ...                                 */
+    char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
+    uint64_t contents;                   /* hash of that file; 0: not read                            */
+    char place[PLACE_LENGTH];            /* where the scene names that list, `file:line:column: key: `; "": unknown */
+    real velocity[DIM_MAX];              /* [m/s]                                                     */
+    enum grid_frame frame;               /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
+    const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not                 */
+};
+
+/* Initial state of the particles in a region; later entries overwrite earlier ones. */
+struct scene_initial {
+    struct region region;
+    int body;                            /* -1: any                                                   */
+    bool sets_velocity, sets_strain;
+    real velocity[DIM_MAX];              /* [m/s]                                                     */
+    real velocity_gradient[DIM_MAX * DIM_MAX];     /* v += G (X - centre), row major dim x dim [1/s]  */
+    real displacement_gradient[DIM_MAX * DIM_MAX]; /* x = X + H (X - centre), stress = C : sym H [1]  */
+    real centre[DIM_MAX];                /* [m]                                                       */
+    bool sets_pulse;                     /* a plane longitudinal wave, added to what is there         */
+    struct wave_pulse pulse;
+};
+
+/* What `method: auto` chose, and why: from the chart's problem that the scene is like. */
+struct scene_choice {
+    bool made;
+    char like[80], feature[40];          /* that problem; what the spacing resolves                   */
+    real size, points;                   /* of the feature [m], in spacings                           */
+    real resolution;                     /* as that problem counts                                    */
+    real accuracy, error;                /* asked, expected [1]                                       */
+    real seconds;                        /* of the loop on one thread of the chart's machine, about   */
+    char picked[80];                     /* the chart's method                                        */
+    real horizon, step;                  /* [spacings], 0 without bonds; share of the critical step   */
+    char second[80];                     /* the next best method and how much longer it takes; "": none */
+    real second_error, second_share;     /* [1], its time over that of the choice                     */
+};
+
+struct scene {
+    char *path;                          /* file it came from, as given on the command line           */
+    char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending        */
+    enum space space;
+    int dim;
+    real thickness;                      /* 2D [m]; 1 in 3D                                           */
+    real section;                        /* 1D: cross-section A [m^2]; key `section`, default 1       */
+    real duration;                       /* [s]                                                       */
+    enum method method;
+    enum model model;
+    enum solver_kind solver;             /* other than explicit: static equilibrium (solver.h)         */
+    real solver_tolerance;               /* relative residual                                 [1]     */
+    int solver_steps;                    /* at the most                                               */
+
+    int materials;  struct material *material;
+    int bodies;     struct scene_body *body;
+
+    bool has_accuracy; real accuracy;    /* asked of method auto                              [1]     */
+    struct scene_choice choice;
+
+    real spacing, horizon, irregularity; /* [m], in spacings, [1]                                     */
+    uint64_t seed;
+
+    enum volume_rule volume;
+    enum calibration calibration;
+    enum surface_rule surface;           /* resolved: never "auto" here                               */
+    enum shell_rule shells;
+    enum influence influence;            /* resolved                                                  */
+    bool bulk;                           /* state-based: normalised as full families are              */
+    bool whole_force;                    /* of a bond in the step in which it breaks                  */
+    bool has_pd_region;  struct region pd_region;      /* peridynamic from the start (adaptive)       */
+
+    real cell;                           /* grid node distance, in spacings                           */
+    enum shape shape;
+    enum transfer transfer;
+    bool has_shape, has_transfer;        /* to be written out: the scene says so, or no frame hangs on it */
+    enum grid_frame frame;               /* of the grid, of bodies that do not say theirs             */
+    bool small_strain;                   /* of a mesh in the reference frame                          */
+    bool lattice_constants;              /* its elastic constants are those of the bonds' lattice     */
+    bool has_grid_origin; real grid_origin[DIM_MAX];   /* a node of the grid [m]                      */
+
+    enum coupling coupling;
+    real rim_damping;                    /* of the rim of the material points (rim.h), in c/h         */
+    bool has_rim_damping;                /* as has_shape                                              */
+    const char *frame_wish;              /* what the scene says that has a meaning in the current frame only; NULL: nothing */
+    struct conversion_rule conversion;
+
+    int cracks;     struct crack *crack;
+    int growths;    struct growth_rule *growth;        /* cracks that grow as they are told           */
+    int initials;   struct scene_initial *initial;
+    int boundaries; struct boundary *boundary;
+    int probes;     struct probe_request *probe;
+
+    real time_step;                      /* [s]; 0: automatic                                         */
+    bool rest;                           /* what nothing has reached is skipped (rest.h)                  */
+    real safety;                         /* of the automatic step                                     */
+    int frames;                          /* frames after the one at t = 0                             */
+    bool has_frames;                     /* the scene says how many                                   */
+    struct number_list times;            /* of these frames, ascending [s]; none: evenly spread       */
+    int samples;                         /* samples of history.csv after the one at t = 0             */
+    real wall;                           /* wall clock after which a process ends with a checkpoint; INFINITY [s] */
+    real checkpoint_interval;            /* wall clock between checkpoints [s]                        */
+    bool compress;                       /* gzip the frames                                           */
+    real speed_window;                   /* of the crack tip's speed [s]                              */
+
+    char *text;                          /* the scene as run: every key, defaults written out, YAML    */
+};
+
+struct scene_override { const char *key, *value; };    /* of `-s key=value` */
+
+/* What a length (line), an area (plane) or a volume (solid) is multiplied with to be a volume: [m^2], [m], [1]. */
+static inline real scene_section(const struct scene *s)
+{
+    return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
+}
+
+/* Reads and checks a file. On REFUSED the message is `file:line:column: what; what would be right`; nothing is
+ * left to free. */
+status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides);
+/* The same from memory; no file is touched, not even to see whether particle lists exist. `name` stands in messages. */
+status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
+                       const struct scene_override *override, int overrides);
+void scene_free(struct scene *s);
+/* What was chosen and why, in a few lines; nothing where the scene says itself (auto.c). */
+void scene_choice_print(const struct scene *s, FILE *out);
+
+/* Why a body cannot be in the reference frame whatever it does, and why `mpm.frame: auto` would not put it there of its own; NULL: it can,
+ * it would. */
+const char *scene_frame_obstacle(const struct scene *s, int body);
+const char *scene_frame_reluctance(const struct scene *s, int body);
+
+/* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
+status scene_help(FILE *out, const char *key);
+
+/* Writes the manual page cleave.1 (troff). */
+status scene_manual(FILE *out);
+/* What a run promises, and which test holds it to that. */
+status trust_print(FILE *out);
+
+#endif

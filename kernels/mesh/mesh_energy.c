@@ -1,0 +1,112 @@
+/* floor 2: energies of the mesh, for the ledger. */
+#include "mesh_cut.h"
+#include "mesh_run.h"
+#include "base/team.h"
+
+static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct grid *g = context;
+    for (int d = 0; d < g->dim; d++) {
+        const real *mass = g->mass, *v = g->velocity[d];
+        real total = 0;
+#pragma omp simd reduction(+ : total)
+        for (int64_t I = first; I < end; I++) total += mass[I] * square(v[I]);
+        sum[0] += 0.5 * total;
+    }
+}
+
+real mesh_kinetic(const struct mesh *mesh)
+{
+    real sum = 0;
+    if (mesh->points > 0) team_sums(mesh->grid.n, 1, kinetic_block, &mesh->grid, &sum);
+    return sum;
+}
+
+static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct mesh *mesh = context;
+    for (int d = 0; d < mesh->grid.dim; d++) {
+        const real *inverse_mass = mesh->inverse_mass, *force = mesh->grid.force[d];
+        real total = 0;
+#pragma omp simd reduction(+ : total)
+        for (int64_t I = first; I < end; I++) total += square(force[I]) * inverse_mass[I];
+        sum[0] += 0.25 * total;
+    }
+}
+
+real mesh_kick(const struct mesh *mesh, real dt)
+{
+    real sum = 0;
+    if (mesh->points == 0) return 0;
+    team_sums(mesh->grid.n, 1, kick_block, mesh, &sum);
+    for (int64_t k = 0; k < mesh->grid.walls; k++) {     /* held ones change as they are told, and their work is booked as they move */
+        const struct wall *w = &mesh->grid.wall[k];
+        sum -= 0.25 * square(mesh->grid.force[w->component][w->node]) * mesh->inverse_mass[w->node];
+    }
+    return dt * dt * sum;
+}
+
+struct strain_sum { const struct mesh *mesh; const struct particles *p; const struct elastic *elastic; bool finite; };
+
+static ALWAYS_INLINE real lanes_sum(lanes a)
+{
+    real all = 0;
+    for (int l = 0; l < LANES; l++) all += a[l];
+    return all;
+}
+
+/* Of a group of cut cells; behind the last lies no stiffness. */
+static ALWAYS_INLINE real cut_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
+{
+    const struct mesh *mesh = s->mesh;
+    struct mesh_cell cell;
+    lanes u[CORNERS_MAX][3];
+    mesh_cut_load(mesh, group, u, dim);
+    cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
+    cut_law(mesh, s->p, group, &cell, dim);
+    return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
+}
+
+/* Of a run, eight cells at a time; cells behind its end count nothing. */
+static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_run *run, const int dim, const bool finite)
+{
+    const struct mesh *mesh = s->mesh;
+    lanes sum = lanes_of(0);
+    for (int64_t k = 0; k < run->cells; k += LANES) {
+        struct mesh_cell cell;
+        lanes u[CORNERS_MAX][3];
+        mesh_run_load(mesh, run, k, u, dim);
+        cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
+        cell_law(&s->elastic[run->material], &cell, dim);
+        sum += cell_energy(&cell, mesh->volume * (1 << dim), dim);
+    }
+    return lanes_sum(sum);
+}
+
+#define TERM(D, FINITE)                                                                                              \
+    static real run_term_##D##_##FINITE(const void *context, int64_t r)                                              \
+    {                                                                                                                \
+        const struct strain_sum *s = context;                                                                        \
+        return run_energy(s, &s->mesh->run[r], D, FINITE);                                                           \
+    }                                                                                                                \
+    static real cut_term_##D##_##FINITE(const void *context, int64_t group)                                          \
+    {                                                                                                                \
+        return cut_energy(context, group, D, FINITE);                                                                \
+    }
+TERM(1, 0)
+TERM(2, 0)
+TERM(2, 1)
+TERM(3, 0)
+TERM(3, 1)
+
+real mesh_strain(const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite)
+{
+    static real (*const run[DIM_MAX + 1][2])(const void *, int64_t) = {
+        {NULL, NULL}, {run_term_1_0, run_term_1_0}, {run_term_2_0, run_term_2_1}, {run_term_3_0, run_term_3_1}};
+    static real (*const cut[DIM_MAX + 1][2])(const void *, int64_t) = {
+        {NULL, NULL}, {cut_term_1_0, cut_term_1_0}, {cut_term_2_0, cut_term_2_1}, {cut_term_3_0, cut_term_3_1}};
+    struct strain_sum s = {mesh, p, m, finite};
+    const int dim = mesh->grid.dim;
+    if (mesh->points == 0) return 0;
+    return team_sum(mesh_groups(mesh), cut[dim][finite], &s) + team_sum(mesh->runs, run[dim][finite], &s);
+}

@@ -1,0 +1,106 @@
+/* floor 2: what the material points of one cell of a mesh have by its nodes, plainly: what the closed forms of mesh_law.h add up.
+ *
+ * Points lie at a quarter and three quarters along every axis: from corners to points, and from points to corners, values go
+ * by one axis after the other, near + (far - near)/4. A quarter is exact: all ways to a point give the same bits. */
+#ifndef CLEAVE_MESH_POINT_H
+#define CLEAVE_MESH_POINT_H
+
+#include "kernels/kernels.h"
+#include "kernels/pd/polar.h"
+#include "kernels/mpm/stress.h"
+
+static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
+{
+    const real by = 0.25 * (*high - *low), near = *low + by;
+    *high = *high - by;
+    *low = near;
+}
+
+/* Values at the corners to values at the places, in place; and, the matrix being symmetric, shares of places to corners. */
+static ALWAYS_INLINE void mesh_places(real *v, const int dim)
+{
+    for (int d = 0; d < dim; d++)
+        for (int c = 0; c < 1 << dim; c++)
+            if (!(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
+}
+
+/* The value at place q alone. */
+static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
+{
+    for (int d = 0; d < dim; d++)
+        for (int c = 0; c < 1 << dim; c++)
+            if (!(c & ((2 << d) - 1))) {
+                const real low = v[c], high = v[c | 1 << d], by = 0.25 * (high - low);
+                v[c] = q >> d & 1 ? high - by : low + by;
+            }
+    return v[0];
+}
+
+/* Values of a nodal field at the corners of cell I. */
+static ALWAYS_INLINE void mesh_corners(const struct mesh *mesh, const real *field, int64_t I, real *v, const int dim)
+{
+    for (int c = 0; c < 1 << dim; c++) v[c] = field[I + mesh->corner[c]];
+}
+
+/* Gradients of the displacement at the places of cell I, row major. */
+static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, real g[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+{
+    const real inverse = 1 / mesh->grid.h;
+    for (int a = 0; a < dim; a++) {
+        real u[CORNERS_MAX];
+        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
+        for (int b = 0; b < dim; b++) {
+            real v[CORNERS_MAX];
+            for (int c = 0; c < 1 << dim; c++) v[c] = u[c ^ 1 << b] - u[c];
+            for (int c = 0; c < 1 << dim; c++) v[c] *= c >> b & 1 ? -inverse : inverse;
+            for (int d = 0; d < dim; d++)
+                for (int c = 0; c < 1 << dim; c++)
+                    if (d != b && !(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
+            for (int q = 0; q < 1 << dim; q++) g[q][a * dim + b] = v[q];
+        }
+    }
+}
+
+/* e = R^T F_p - 1 at the places of cell I, R the rotation of its mean gradient (1 at small strain). Row major; only the
+ * symmetric part is strain. */
+static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real *R, real e[CORNERS_MAX][DIM_MAX * DIM_MAX],
+                                       const int dim, bool finite)
+{
+    real g[CORNERS_MAX][DIM_MAX * DIM_MAX], mean[DIM_MAX * DIM_MAX];
+    mesh_gradients(mesh, I, g, dim);
+    if (!finite || dim == 1) {
+        for (int a = 0; a < dim * dim; a++) R[a] = a % (dim + 1) == 0;
+        for (int q = 0; q < 1 << dim; q++)
+            for (int a = 0; a < dim * dim; a++) e[q][a] = g[q][a];
+        return;
+    }
+    for (int a = 0; a < dim * dim; a++) {
+        real sum = 0;
+        for (int q = 0; q < 1 << dim; q++) sum += g[q][a];
+        mean[a] = sum / (1 << dim) + (a % (dim + 1) == 0);
+    }
+    polar_rotation(mean, R, dim);
+    for (int q = 0; q < 1 << dim; q++)
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < dim; b++) {
+                e[q][a * dim + b] = R[b * dim + a] - (a == b);
+                for (int k = 0; k < dim; k++) e[q][a * dim + b] += R[k * dim + a] * g[q][k * dim + b];
+            }
+}
+
+/* C : sym e, symmetric components. */
+static ALWAYS_INLINE void mesh_point_stress(const struct elastic *m, const real *e, real *s, const int dim)
+{
+    for (int a = 0; a < dim; a++) {
+        s[a] = m->c11 * e[a * dim + a];
+        for (int b = 0; b < dim; b++)
+            if (b != a) s[a] += m->c12 * e[b * dim + b];
+    }
+    for (int k = dim; k < symmetric_count(dim); k++) {
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
+        s[k] = m->shear * (e[a * dim + b] + e[b * dim + a]);
+    }
+}
+
+#endif

@@ -1,0 +1,358 @@
+/* floor 2: what the material points of a mesh know: their motion, their stress, and whether it asks for conversion. */
+#include "mesh_cut.h"
+#include "mesh_point.h"
+#include "mesh_run.h"
+#include "kernels/pd/turn.h"
+
+/* One body for every number of axes; the parallel region stands in each instance. */
+#define DIMENSIONS(X) X(1) X(2) X(3)
+
+/* ---- motion ------------------------------------------------------------------------------------------------- */
+
+/* Of the points at the places set in `places`: u_p = sum N u_I, v_p = sum N v_I with constant weights. */
+static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places, const int dim)
+{
+    const int32_t *point = &mesh->point[I << dim];
+    for (int a = 0; a < dim; a++) {
+        real u[CORNERS_MAX], v[CORNERS_MAX];
+        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
+        mesh_corners(mesh, mesh->grid.velocity[a], I, v, dim);
+        mesh_places(u, dim);
+        mesh_places(v, dim);
+        for (int q = 0; q < 1 << dim; q++) {
+            const int32_t i = point[q];
+            if (i < 0 || !(places >> q & 1)) continue;
+            p->x[a][i] = p->X[a][i] + u[q];
+            p->v[a][i] = v[q];
+        }
+    }
+}
+
+static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *p, int64_t i, const int dim)
+{
+    const int64_t I = mesh->place[i] >> dim;
+    const int q = mesh->place[i] & ((1 << dim) - 1);
+    for (int a = 0; a < dim; a++) {
+        real u[CORNERS_MAX], v[CORNERS_MAX];
+        mesh_corners(mesh, mesh->displacement[a], I, u, dim);
+        mesh_corners(mesh, mesh->grid.velocity[a], I, v, dim);
+        p->x[a][i] = p->X[a][i] + mesh_place_value(u, q, dim);
+        p->v[a][i] = mesh_place_value(v, q, dim);
+    }
+}
+
+enum { FEW = 128 };                      /* cells whose points one thread moves in less time than a team */
+
+#define MOVE(D)                                                                                                      \
+    static void all_move_##D(const struct mesh *mesh, struct particles *p)                                           \
+    {                                                                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                      \
+            if (mesh->kind[I]) cell_move(mesh, p, I, ~0u, D);                                                        \
+    }                                                                                                                \
+    static void seen_move_##D(const struct mesh *mesh, struct particles *p)                                          \
+    {                                                                                                                \
+        TEAM_LOOP(mesh->seen > FEW, for (int64_t k = 0; k < mesh->seen; k++)                                         \
+            cell_move(mesh, p, mesh->see[k].cell, mesh->see[k].places, D););                                         \
+    }                                                                                                                \
+    static void points_move_##D(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)        \
+    {                                                                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < n; k++)                                 \
+            if (mesh->place[list[k]] >= 0) point_move(mesh, p, list[k], D);                                          \
+    }
+DIMENSIONS(MOVE)
+
+void mesh_points_move(const struct mesh *mesh, struct particles *p)
+{
+    if (p->dim == 1) all_move_1(mesh, p);
+    else if (p->dim == 2) all_move_2(mesh, p);
+    else all_move_3(mesh, p);
+}
+
+void mesh_seen_move(const struct mesh *mesh, struct particles *p)
+{
+    if (p->dim == 1) seen_move_1(mesh, p);
+    else if (p->dim == 2) seen_move_2(mesh, p);
+    else seen_move_3(mesh, p);
+}
+
+void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
+{
+    if (p->dim == 1) points_move_1(mesh, p, list, n);
+    else if (p->dim == 2) points_move_2(mesh, p, list, n);
+    else points_move_3(mesh, p, list, n);
+}
+
+/* ---- what points at the end of bonds know ------------------------------------------------------------------- */
+
+/* Rotations of the cells of a group, as particles.end_turn has them; where strain is small by the skew part of the gradient. */
+static ALWAYS_INLINE void cells_turn(const struct mesh_cell *s, lanes *turn, const int dim, const bool turns)
+{
+    lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_of(0);
+    for (int a = 0; a < dim && turns; a++)
+        for (int b = 0; b < dim; b++) R[a * dim + b] = s->R[a][b];
+    for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        w[k] = 0.25 * (s->mode[1 << i][j] - s->mode[1 << j][i]);     /* half the angle */
+        square += w[k] * w[k];
+    }
+    if (dim == 2) {
+        turn[0] = turns ? R[0] - 1.0 : -2.0 * square / (1.0 + square);
+        turn[1] = turns ? R[2] : 2.0 * w[2] / (1.0 + square);
+        return;
+    }
+    if (turns) {
+        turn_make(turn, R, lanes_of(0.5), 3);
+        return;
+    }
+    turn[3] = lanes_inverse_root(1.0 + square);
+    for (int k = 0; k < 3; k++) turn[k] = w[k] * turn[3];
+}
+
+static ALWAYS_INLINE void group_ends_know(const struct mesh *mesh, struct particles *p, int64_t group, const int dim, const bool finite)
+{
+    struct mesh_cell s;
+    lanes u[CORNERS_MAX][3], v[MODES_MAX], turn[ROTATION];
+    const int n = mesh_modes(dim);
+    if (mesh->ends[group] == mesh->ends[group + 1]) return;
+    mesh_cut_load(mesh, group, u, dim);
+    cell_strain(&s, mesh->grid.h, u, dim, finite);
+    cut_modes(&s, v, dim);
+    if (p->end_turn[0]) cells_turn(&s, turn, dim, finite);
+    for (int32_t k = mesh->ends[group]; k < mesh->ends[group + 1]; k++) {
+        const struct mesh_end *end = &mesh->end[k];
+        const real *share = mesh->end_share + (int64_t)k * n;
+        real strain = 0;
+        for (int m = 0; m < n; m++) strain += share[m] * v[m][end->lane];
+        p->end_strain[end->point] = strain;
+        for (int c = 0; p->end_turn[0] && c < (dim == 2 ? 2 : ROTATION); c++) p->end_turn[c][end->point] = turn[c][end->lane];
+    }
+}
+
+#define ENDS(D, FINITE)                                                                                              \
+    static void ends_know_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
+    {                                                                                                                \
+        TEAM_LOOP(mesh_groups(mesh) > FEW / LANES, for (int64_t k = 0; k < mesh_groups(mesh); k++)                   \
+            group_ends_know(mesh, p, k, D, FINITE););                                                                \
+    }
+ENDS(2, false)
+ENDS(2, true)
+ENDS(3, false)
+ENDS(3, true)
+
+void mesh_ends_know(const struct mesh *mesh, struct particles *p, bool finite)
+{
+    if (!mesh->ends) return;
+    if (p->dim == 2) (finite ? ends_know_2_true : ends_know_2_false)(mesh, p);
+    if (p->dim == 3) (finite ? ends_know_3_true : ends_know_3_false)(mesh, p);
+}
+
+/* ---- what points take ---------------------------------------------------------------------------------------- */
+
+static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places, const int dim)
+{
+    const int32_t *point = &mesh->point[I << dim];
+    for (int a = 0; a < dim; a++) {
+        real f[CORNERS_MAX];
+        for (int q = 0; q < 1 << dim; q++) f[q] = places >> q & 1 ? p->f[a][point[q]] : 0;
+        mesh_places(f, dim);
+        for (int c = 0; c < 1 << dim; c++) mesh->grid.force[a][I + mesh->corner[c]] += f[c];
+    }
+}
+
+void mesh_seen_force(struct mesh *mesh, const struct particles *p)
+{
+    for (int64_t k = 0; k < mesh->seen; k++) {   /* few, and several share a node: in order */
+        const struct mesh_seen s = mesh->see[k];
+        if (p->dim == 1) cell_pull(mesh, p, s.cell, s.places, 1);
+        else if (p->dim == 2) cell_pull(mesh, p, s.cell, s.places, 2);
+        else cell_pull(mesh, p, s.cell, s.places, 3);
+    }
+}
+
+/* ---- stress -------------------------------------------------------------------------------------------------- */
+
+/* Cauchy stress R sym(s U) R^T/det U of a point with the strain e, and its volume. */
+static ALWAYS_INLINE void point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R, const real *e,
+                                       const int dim, bool finite)
+{
+    const int n = symmetric_count(dim);
+    real s[SYM_MAX], S[9], T[9], det = 1;
+    mesh_point_stress(m, e, s, dim);
+    if (!finite) {
+        for (int k = 0; k < n; k++) p->stress[k][i] = s[k];
+        return;
+    }
+    for (int k = 0; k < n; k++) {
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
+        S[a * dim + b] = S[b * dim + a] = s[k];
+    }
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) {
+            T[a * dim + b] = S[a * dim + b];
+            for (int k = 0; k < dim; k++) T[a * dim + b] += S[a * dim + k] * 0.5 * (e[k * dim + b] + e[b * dim + k]);
+        }
+    if (dim == 1) det = 1 + e[0];
+    if (dim == 2) det = (1 + e[0]) * (1 + e[3]) - e[1] * e[2];
+    if (dim == 3)
+        det = (1 + e[0]) * ((1 + e[4]) * (1 + e[8]) - e[5] * e[7]) - e[1] * (e[3] * (1 + e[8]) - e[5] * e[6]) +
+              e[2] * (e[3] * e[7] - (1 + e[4]) * e[6]);
+    for (int k = 0; k < n; k++) {
+        int a, b;
+        real sum = 0;
+        symmetric_axes(dim, k, &a, &b);
+        for (int c = 0; c < dim; c++)
+            for (int d = 0; d < dim; d++)
+                sum += R[a * dim + c] * 0.5 * (T[c * dim + d] + T[d * dim + c]) * R[b * dim + d];
+        p->stress[k][i] = sum / det;
+    }
+    p->volume[i] = p->volume0[i] * det;
+}
+
+static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
+                                      const int dim, bool finite)
+{
+    real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX];
+    mesh_strains(mesh, I, R, e, dim, finite);
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        if (i >= 0) point_stress(p, &m[p->material[i]], i, R, e[q], dim, finite);
+    }
+}
+
+#define STRESS(D)                                                                                                    \
+    static void stress_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)       \
+    {                                                                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                      \
+            if (mesh->kind[I]) cell_stress(mesh, p, m, I, D, finite);                                                \
+    }
+DIMENSIONS(STRESS)
+
+void mesh_points_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)
+{
+    if (p->dim == 1) stress_1(mesh, p, m, finite);
+    else if (p->dim == 2) stress_2(mesh, p, m, finite);
+    else stress_3(mesh, p, m, finite);
+}
+
+/* ---- conversion ------------------------------------------------------------------------------------------- */
+
+/* Marks the points of a cell whose largest principal stress passes the trigger. */
+static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
+                                    const int dim, bool finite)
+{
+    real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX], s[SYM_MAX];
+    mesh_strains(mesh, I, R, e, dim, finite);
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        if (i < 0) continue;
+        const struct elastic *own = &m[p->material[i]];
+        mesh_point_stress(own, e[q], s, dim);
+        if (stress_bound(s, dim) > own->trigger && stress_principal(s, dim) > own->trigger) p->flag[i] |= FLAG_STRESSED;
+    }
+}
+
+/* Strain of eight cells at place q: the mean, and what bends times the place's coordinates +-1/4. */
+static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
+{
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) {
+            e[i][j] = s->e[i][j];
+            SETS for (int M = 3; M < 1 << dim; M++)
+                if (M & (M - 1) && M >> j & 1) {
+                    real x = 1;
+                    for (int d = 0; d < dim; d++)
+                        if (d != j && M >> d & 1) x *= q >> d & 1 ? 0.25 : -0.25;
+                    e[i][j] += x * s->mode[M][i];
+                }
+        }
+}
+
+/* A bound of the largest principal stress, closer than that of mesh_force: place by place, where there are points (`there`,
+ * NULL: everywhere). */
+static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there, const int dim)
+{
+    lanes most = lanes_of(-INFINITY), e[3][3], P[3][3];
+    SETS for (int q = 0; q < 1 << dim; q++) {
+        cells_strain_at(s, q, e, dim);
+        stress_of(m, e, P, dim);
+        lanes bound = P[0][0];
+        for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
+        most = lanes_max(most, there ? lanes_choose(there[q], bound, most) : bound);
+    }
+    return most;
+}
+
+/* Does a cell hold points of another material? */
+static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct particles *p, int64_t I, uint8_t material, const int dim)
+{
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        if (i >= 0 && p->material[i] != material) return true;
+    }
+    return false;
+}
+
+static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
+                                   const struct mesh_run *run, const int dim, const bool finite)
+{
+    const struct elastic *own = &m[run->material];
+    for (int64_t k = 0; k < run->cells; k += LANES) {
+        struct mesh_cell s;
+        lanes u[CORNERS_MAX][3];
+        mesh_run_load(mesh, run, k, u, dim);
+        cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+        const lanes tension = cells_tension(own, &s, NULL, dim);
+        for (int64_t l = 0; l < LANES && l < run->cells - k; l++)
+            if (tension[l] > own->trigger) cell_mark(mesh, p, m, run->cell + k + l, dim, finite);
+    }
+}
+
+static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t group,
+                                     const int dim, const bool finite)
+{
+    const int64_t first = group * LANES;
+    struct mesh_cell s;
+    lanes u[CORNERS_MAX][3], tension = lanes_of(0);
+    lanes_mask there[CORNERS_MAX] = {{0}};
+    for (int q = 0; q < 1 << dim; q++)
+        for (int l = 0; l < LANES; l++) there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->cut[first + l] << dim) + q] >= 0);
+    mesh_cut_load(mesh, group, u, dim);
+    cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+    for (int64_t k = first; k < first + LANES && k < mesh->cuts; k++) {
+        const uint8_t material = mesh->cut_material[k];
+        if (k == first || material != mesh->cut_material[k - 1]) tension = cells_tension(&m[material], &s, there, dim);
+        if (mesh->cut_stressed[k] && (tension[k - first] > m[material].trigger || cell_mixed(mesh, p, mesh->cut[k], material, dim)))
+            cell_mark(mesh, p, m, mesh->cut[k], dim, finite);
+    }
+}
+
+static inline bool group_stressed(const struct mesh *mesh, int64_t group)
+{
+    bool any = false;
+    for (int l = 0; l < LANES; l++) any |= mesh->cut_stressed[group * LANES + l];
+    return any;
+}
+
+#define MARK(D, FINITE)                                                                                              \
+    static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)     \
+    {                                                                                                                \
+        for (int64_t k = 0; k < mesh_groups(mesh); k++)                                                              \
+            if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                       \
+        for (int64_t r = 0; r < mesh->runs; r++)                                                                     \
+            if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                               \
+    }
+MARK(1, false)
+MARK(2, false)
+MARK(2, true)
+MARK(3, false)
+MARK(3, true)
+
+void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)
+{
+    if (p->dim == 1) cells_mark_1_false(mesh, p, m);
+    else if (p->dim == 2) (finite ? cells_mark_2_true : cells_mark_2_false)(mesh, p, m);
+    else (finite ? cells_mark_3_true : cells_mark_3_false)(mesh, p, m);
+}

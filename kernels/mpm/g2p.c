@@ -1,0 +1,220 @@
+/* floor 2: nodes to points at the end of the step: position, velocity gradient, stress, volume, and the mark of a point
+ * whose largest principal stress passed the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49, corrected:
+ * L from the second map, rotation W sigma - sigma W).
+ *     FLIP (MUSL)  x += dt sum N v_I,  L = sum v2_I (x) grad N  with the velocity v2 of the second map
+ *     and bonds    x += dt sum N v2_I
+ *     APIC         v = sum N v_I, x += dt v,  L = sum v_I (x) grad N
+ * Eq. 40 moves all with v_I. Forces of bonds reach points through N M^-1 N^T, whose adjoint in the mass is the second map: where
+ * bonds ask for places, v2 makes the linear step the leap-frog of one energy; with v_I each displacement has
+ * dt^2 (1 - N M^-1 N^T m) N M^-1 f more, and bonds gain energy from stress. Nothing linear asks where other points are, but
+ * weights follow them in long runs: a free plate of GIMP that turns loses a tenth of its energy in 1e5 steps with v_I, and gains
+ * 40 % with v2 (bench/stability/failing_motion.c).
+ * Every point is written by one thread. */
+#include "kernels/kernels.h"
+#include "plastic.h"
+#include "scatter.h"
+#include "shape.h"
+#include "stress.h"
+#include "kernels/simd/variants.h"
+
+/* Constants of the points, of one material as a rule. */
+static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p, const struct transfer_data *t,
+                                                      const int32_t *point, const int dim)
+{
+    const struct elastic *first = &t->elastic[p->material[point[0]]];
+    struct elastic_points m = {points_of(first->c11), points_of(first->c12), points_of(first->shear),
+                               points_of(first->trigger), points_of(first->yield)};
+    for (int k = 1; k < AT_ONCE(dim); k++) {
+        const struct elastic *own = &t->elastic[p->material[point[k]]];
+        if (own == first) continue;
+        m.c11[k] = own->c11, m.c12[k] = own->c12, m.shear[k] = own->shear;
+        m.trigger[k] = own->trigger, m.yield[k] = own->yield;
+    }
+    return m;
+}
+
+/* Stress and volume; volume follows tr eps of the space; in plane stress the strain through the thickness is
+ * left out (below 1 % strain it changes the volume by less than 0.5 %). */
+static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, const struct elastic_points *m,
+                                        const int32_t *point, const row_of_points *L, const int dim, const enum shape shape)
+{
+    const int n = dim * (dim + 1) / 2;
+    row_of_points stress[SYM_MAX];
+    for (int c = 0; c < n; c++) stress[c] = points_load(p->stress[c], point, dim);
+    const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim);
+    points_store(p->volume, point, volume + volume * trace, dim);
+    for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
+    if (shape == SHAPE_CPGIMP)
+        for (int d = 0; d < dim; d++) {
+            const row_of_points stretch = points_load(p->stretch[d], point, dim);
+            points_store(p->stretch[d], point, stretch + stretch * (t->dt * L[d * dim + d]), dim);
+        }
+    const int near = points_signs(m->trigger - stress_bounds(stress, dim));
+    for (int k = 0; k < AT_ONCE(dim) && __builtin_expect(near, 0); k++) {
+        real own[SYM_MAX];
+        for (int c = 0; c < n; c++) own[c] = stress[c][k];
+        if (near >> k & 1 && stress_principal(own, dim) > m->trigger[k]) p->flag[point[k]] |= FLAG_STRESSED;
+    }
+}
+
+/* Rotations of points that may be ends of bonds, by the spin of the step (Cayley). */
+static ALWAYS_INLINE void points_turn(struct particles *p, const int32_t *point, const row_of_points *L, real dt, const int dim)
+{
+    if (dim == 2) {
+        const row_of_points half = 0.25 * dt * (L[2] - L[1]), scale = 2.0 / (1.0 + half * half);
+        const row_of_points less = -half * half * scale, sine = half * scale;          /* cos - 1, sin */
+        const row_of_points a = points_load(p->end_turn[0], point, dim), b = points_load(p->end_turn[1], point, dim);
+        points_store(p->end_turn[0], point, a + less + a * less - b * sine, dim);
+        points_store(p->end_turn[1], point, b + b * less + (1.0 + a) * sine, dim);
+        return;
+    }
+    const row_of_points w[3] = {0.25 * dt * (L[7] - L[5]), 0.25 * dt * (L[2] - L[6]), 0.25 * dt * (L[3] - L[1])};
+    row_of_points q[ROTATION], next[ROTATION];
+    for (int c = 0; c < ROTATION; c++) q[c] = points_load(p->end_turn[c], point, dim);
+    for (int k = 0; k < 3; k++) next[k] = q[k] + q[3] * w[k] + w[(k + 1) % 3] * q[(k + 2) % 3] - w[(k + 2) % 3] * q[(k + 1) % 3];
+    next[3] = q[3] - w[0] * q[0] - w[1] * q[1] - w[2] * q[2];
+    row_of_points size2 = points_of(0);
+    for (int c = 0; c < ROTATION; c++) size2 += next[c] * next[c];
+    for (int k = 0; k < AT_ONCE(dim); k++) {
+        const real inverse = 1 / sqrt(size2[k]);
+        for (int c = 0; c < ROTATION; c++) next[c][k] *= inverse;
+    }
+    for (int c = 0; c < ROTATION; c++) points_store(p->end_turn[c], point, next[c], dim);
+}
+
+/* What the trial stress has beyond the yield surface becomes plastic strain; the mark is that of the stress that stays.
+ * Last of all and on what is stored, so that points that cannot yield keep their registers. */
+static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    const bool keeps_zz = dim == 2 && m->space == SPACE_PLANE_STRAIN;
+    real stress[SYM_MAX], zz = keeps_zz ? p->out_of_plane[i] : 0;
+    for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
+    const real more = plastic_return(m, stress, p->plastic_strain[i], &zz);
+    if (more == 0) return;
+    p->plastic_strain[i] += more;
+    if (keeps_zz) p->out_of_plane[i] = zz;
+    for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
+    if (!(stress_principal(stress, dim) > m->trigger)) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
+}
+
+/* Returns which points left their cell, a bit each. */
+static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
+                                     const struct stencil *s, const row_of_points *step, const int dim)
+{
+    points_mask inside = (points_mask){0} - 1;
+    for (int d = 0; d < dim; d++) {
+        const row_of_points x = s->x[d] + step[d];
+        const row_of_points place = (x - g->anchor[d]) * (1 / g->h);       /* grid_place */
+        points_store(p->x[d], s->point, x, dim);
+        inside &= (place >= c->place[d]) & (place < c->place[d] + 1);
+    }
+    return points_signs((row_of_points)~inside);
+}
+
+/* -1 of points that bonds meet, 1 of others. */
+static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
+{
+    row_of_points bonded = points_of(t->bare ? -1 : 1);
+    for (int k = 0; t->bonded && !t->bare && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
+    return bonded;
+}
+
+/* Velocity and its gradient at the points. Nodes of a row are added up first: all share the weights across. */
+static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct stencil *s,
+                                        const row_of_points bonded, row_of_points *velocity, row_of_points *L, const int dim,
+                                        const enum shape shape, const enum transfer transfer)
+{
+    const int along = ROW_DIMS(dim, shape);
+    const bool any = transfer == TRANSFER_FLIP && points_signs(bonded) != 0;
+    for (int d = 0; d < dim; d++) velocity[d] = points_of(0);
+    for (int k = 0; k < dim * dim; k++) L[k] = points_of(0);
+    FOR_ANY_TOUCHED(s, dim, shape) {
+        const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
+        const int64_t I = cell_row(c, g, k1, k2, dim);
+        for (int d = 0; d < dim; d++) {
+            const real *moving = g->velocity[d] + I, *straining = transfer == TRANSFER_APIC ? moving : g->momentum[d] + I;
+            row_of_points moved = points_of(0), strained = points_of(0), slope[2] = {points_of(0), points_of(0)};
+            FOR_NODES(dim, shape) {
+                const int64_t node = row_node(g, k, dim, shape);
+                moved += s->N[k] * moving[node];
+                strained += s->N[k] * straining[node];
+                for (int e = 0; e < along; e++) slope[e] += s->D[e][k] * straining[node];
+            }
+            velocity[d] += weight * (any ? points_choose(bonded, strained, moved) : moved);
+            for (int e = 0; e < dim; e++)
+                L[d * dim + e] += e < along ? weight * slope[e] : stencil_slopes(s, k1, k2, e, dim, shape) * strained;
+        }
+    }
+}
+
+/* Returns how many of the n points, at most AT_ONCE, left the cell. */
+static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, struct particles *p,
+                                    const struct transfer_data *t, const int32_t *list, int n, const int dim,
+                                    const enum shape shape, const enum transfer transfer)
+{
+    struct stencil s;
+    row_of_points velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
+    stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
+    points_gather(g, c, &s, points_bonded(t, s.point, dim), velocity, L, dim, shape, transfer);
+    if (transfer == TRANSFER_APIC) {
+        for (int d = 0; d < dim; d++) points_store(p->v[d], s.point, velocity[d], dim);
+        for (int k = 0; k < dim * dim; k++) points_store(p->gradient[k], s.point, L[k], dim);
+    }
+    const struct elastic_points m = elastic_of(p, t, s.point, dim);
+    if (!t->bare) points_strain(p, t, &m, s.point, L, dim, shape);
+    if (dim > 1 && __builtin_expect(p->end_turn[0] != NULL, 0)) points_turn(p, s.point, L, t->dt, dim);
+    for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
+    const int moved = points_move(g, c, p, &s, velocity, dim);
+    if (__builtin_expect(points_signs(-m.yield), 0))
+        for (int k = 0; k < n; k++)
+            if (m.yield[k] > 0) point_yield(p, &t->elastic[p->material[list[k]]], list[k], dim);
+    return __builtin_popcount(moved & ((1 << n) - 1));
+}
+
+static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
+{
+    int64_t i;
+    if (!fetch_now(list, k, &i)) return;
+    fetch(p->volume + i);
+    for (int d = 0; d < dim; d++) fetch(p->x[d] + i);
+    for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
+}
+
+/* Returns how many points left the cell, which is found anew for each round: most have but one, and nothing need be kept. */
+static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
+                                      const int32_t *list, int n, const int dim, const enum shape shape,
+                                      const enum transfer transfer)
+{
+    int64_t moved = 0;
+    for (int k = 0; k < n; k++) g2p_fetch(p, list, k, dim);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        const struct cell c = cell_make(g, p, list[k], dim, shape);
+        moved += g2p_points(g, &c, p, t, list + k, at_once(n - k, dim), dim, shape, transfer);
+    }
+    return moved;
+}
+
+#define INSTANCE(D, S, T)                                                                                           \
+    static int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)   \
+    {                                                                                                               \
+        const struct transfer_order *o = t->order;                                                                  \
+        int64_t moved = 0;                                                                                          \
+        _Pragma("omp parallel reduction(+ : moved)")                                                                \
+        {                                                                                                           \
+            struct grid nodes = *g;            /* as in scatter.h */                                                \
+            struct particles points = *p;                                                                           \
+            struct transfer_data data = *t;                                                                         \
+            _Pragma("omp for schedule(static)")                                                                     \
+            for (int32_t k = 0; k < o->cells; k++)                                                                  \
+                moved += g2p_cell(&nodes, &points, &data, o->particle + o->cell_start[k],                           \
+                                  o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T);             \
+        }                                                                                                           \
+        return moved;                                                                                               \
+    }
+#define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
+SHAPE_VARIANTS(BOTH)
+
+#define ENTRY(D, S, T) [D][SHAPE_##S][TRANSFER_##T] = g2p_##D##d_##S##_##T,
+#define ENTRIES(D, S) TRANSFER_VARIANTS(ENTRY, D, S)
+g2p_fn *const g2p_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIES)};

@@ -1,0 +1,85 @@
+/* floor 2: the second map of MUSL: points take the change of the nodal velocities (FLIP), then give their new momentum
+ * back to the nodes with the same weights:  v_p += sum N dv_I,   P_I = sum m v_p N  (Zeng et al. 2022, eqs. 39, 42). */
+#include "kernels/kernels.h"
+#include "scatter.h"
+#include "shape.h"
+#include "kernels/simd/variants.h"
+
+/* By rows of a cell's nodes: the sums of momentum. */
+typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
+
+/* Points take the change of velocity; their momentum then [kg m/s]. */
+static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct stencil *s, const struct grid *g,
+                                       const struct cell *c, struct particles *p, const int dim, const enum shape shape)
+{
+    row_of_points gain[DIM_MAX];
+    for (int d = 0; d < dim; d++) gain[d] = points_of(0);
+    FOR_ANY_TOUCHED(s, dim, shape) {
+        const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
+        for (int d = 0; d < dim; d++) {
+            const real *change = g->force[d] + cell_row(c, g, k1, k2, dim);
+            row_of_points sum = points_of(0);
+            FOR_NODES(dim, shape) sum += s->N[k] * change[row_node(g, k, dim, shape)];
+            gain[d] += weight * sum;
+        }
+    }
+    const row_of_points mass = points_load(p->mass, s->point, dim);
+    for (int d = 0; d < dim; d++) {
+        const row_of_points v = points_load(p->v[d], s->point, dim) + gain[d];
+        points_store(p->v[d], s->point, v, dim);
+        momentum[d] = mass * v;
+    }
+}
+
+static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
+{
+    int64_t i;
+    if (!fetch_now(list, k, &i)) return;
+    fetch(p->mass + i);
+    for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i);
+}
+
+static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
+                                       const struct transfer_data *t, const int32_t *list, int n, const int dim,
+                                       const enum shape shape)
+{
+    struct stencil s;
+    row_of_points momentum[DIM_MAX];
+    stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
+    remap_gather(momentum, &s, g, c, p, dim, shape);
+    stencil_turn(&s, dim, shape);
+    for (int at = 0; at < n; at++) {
+        const row_of_nodes N = stencil_touch(&s, at, g->h, dim, shape).N;
+        row_of_nodes given[DIM_MAX];
+        remap_fetch(p, list, at, dim);
+        for (int d = 0; d < dim; d++) given[d] = momentum[d][at] * N;
+        FOR_TOUCHED(&s, at, dim, shape) {
+            const real weight = stencil_row(&s, at, k1, k2, dim, shape);
+            for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] += weight * given[d];
+        }
+    }
+}
+
+static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
+                                     const int32_t *list, int n, const int dim, const enum shape shape)
+{
+    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    cell_rows sum;
+    FOR_ROWS(dim, shape)
+        for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
+    for (int k = 0; k < n; k += AT_ONCE(dim))
+        remap_points(sum, g, &c, p, t, list + k, at_once(n - k, dim), dim, shape);
+    FOR_ROWS(dim, shape)
+        for (int d = 0; d < dim; d++)
+            nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
+}
+
+#define INSTANCE(D, S)                                                                                              \
+    static void remap_##D##d_##S(struct grid *g, struct particles *p, const struct transfer_data *t)                \
+    {                                                                                                               \
+        SCATTER(D, t, g, p, remap_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));                             \
+    }
+SHAPE_VARIANTS(INSTANCE)
+
+#define ENTRY(D, S) [D][SHAPE_##S] = remap_##D##d_##S,
+remap_fn *const remap_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS(ENTRY)};

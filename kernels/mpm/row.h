@@ -1,0 +1,117 @@
+/* floor 2: numbers of the four nodes of a row, or of as many points as fit into a register, one in each lane. Maps take from
+ * nodes with points in the lanes, and give to nodes with nodes in the lanes: neither adds up across lanes. */
+#ifndef CLEAVE_ROW_H
+#define CLEAVE_ROW_H
+
+#include "base/base.h"
+
+#ifdef __AVX__
+#include <immintrin.h>
+enum { ROW = 4, POINTS = 4 };
+#else
+enum { ROW = 4, POINTS = 2 };
+#endif
+
+typedef real row_of_nodes __attribute__((vector_size(ROW * sizeof(real))));
+typedef real row_anywhere __attribute__((vector_size(ROW * sizeof(real)), aligned(sizeof(real)), may_alias));
+typedef real pair_of_nodes __attribute__((vector_size(2 * sizeof(real))));
+typedef real pair_anywhere __attribute__((vector_size(2 * sizeof(real)), aligned(sizeof(real)), may_alias));
+typedef real row_of_points __attribute__((vector_size(POINTS * sizeof(real))));
+typedef int64_t points_mask __attribute__((vector_size(POINTS * sizeof(int64_t))));
+
+static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
+static ALWAYS_INLINE row_of_points points_of(real a) { return a - (row_of_points){0}; }
+
+/* a where `sign` is negative, else b. */
+static ALWAYS_INLINE row_of_points points_choose(row_of_points sign, row_of_points a, row_of_points b)
+{
+#ifdef __AVX__
+    return (row_of_points)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)sign);
+#else
+    const points_mask mask = sign < 0;
+    return (row_of_points)((mask & (points_mask)a) | (~mask & (points_mask)b));
+#endif
+}
+
+static ALWAYS_INLINE row_of_points points_max(row_of_points a, row_of_points b)
+{
+#ifdef __AVX__
+    return (row_of_points)_mm256_max_pd((__m256d)a, (__m256d)b);
+#else
+    return points_choose(b - a, a, b);
+#endif
+}
+
+static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
+{
+#ifdef __AVX__
+    return (row_of_points)_mm256_min_pd((__m256d)a, (__m256d)b);
+#else
+    return points_choose(a - b, a, b);
+#endif
+}
+
+static ALWAYS_INLINE row_of_points points_size(row_of_points a)
+{
+    const points_mask digits = (points_mask){0} + INT64_MAX;
+    return (row_of_points)((points_mask)a & digits);
+}
+
+/* Bit k: that of point k is negative. */
+static ALWAYS_INLINE int points_signs(row_of_points a)
+{
+#ifdef __AVX__
+    return _mm256_movemask_pd((__m256d)a);
+#else
+    const points_mask bits = (points_mask)a;
+    return (bits[0] < 0) | (bits[1] < 0) << 1;
+#endif
+}
+
+/* Points taken at once: as many as a cell has as a rule, but two in 1D. Lanes beyond are copies. */
+#define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
+
+static ALWAYS_INLINE int smaller(int a, int b) { return a < b ? a : b; }
+static ALWAYS_INLINE int at_once(int left, const int dim) { return smaller(left, AT_ONCE(dim)); }
+
+/* All lanes are one point: the branch pays where cells hold one, and costs nothing where they hold four. */
+static ALWAYS_INLINE bool points_alone(const int32_t *point, const int dim) { return dim > 1 && point[0] == point[POINTS - 1]; }
+
+/* An array's numbers of a few points, wherever they stand. Storing, a point named twice has to agree with itself. */
+static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
+{
+    if (points_alone(point, dim)) return points_of(from[point[0]]);
+    row_of_points a;
+    for (int k = 0; k < POINTS; k++) a[k] = from[point[k % AT_ONCE(dim)]];
+    return a;
+}
+
+static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
+{
+    to[point[0]] = a[0];
+    if (points_alone(point, dim)) return;
+    for (int k = 1; k < AT_ONCE(dim); k++) to[point[k]] = a[k];
+}
+
+/* Rows by nodes, a lane for each point, to rows by points, a lane for each node. */
+static ALWAYS_INLINE void rows_turn(const row_of_points from[ROW], row_of_nodes to[POINTS])
+{
+#ifdef __AVX__
+#define EVEN(u, v) VECTOR_PICK(points_mask, u, v, 0, 4, 2, 6)
+#define ODD(u, v) VECTOR_PICK(points_mask, u, v, 1, 5, 3, 7)
+#define FIRST(u, v) VECTOR_PICK(points_mask, u, v, 0, 1, 4, 5)
+#define LAST(u, v) VECTOR_PICK(points_mask, u, v, 2, 3, 6, 7)
+    const row_of_points a = EVEN(from[0], from[1]), b = ODD(from[0], from[1]);
+    const row_of_points c = EVEN(from[2], from[3]), d = ODD(from[2], from[3]);
+    to[0] = FIRST(a, c), to[1] = FIRST(b, d);
+    to[2] = LAST(a, c), to[3] = LAST(b, d);
+#undef EVEN
+#undef ODD
+#undef FIRST
+#undef LAST
+#else
+    for (int k = 0; k < POINTS; k++) to[k] = (row_of_nodes){from[0][k], from[1][k], from[2][k], from[3][k]};
+#endif
+}
+
+#endif

@@ -1,0 +1,297 @@
+/* floor 2: shape functions of the background grid, and the nodes of a cell.
+ *
+ * A place t is counted from the lower node of the point's cell in node distances h, l is the half width of the particle
+ * over h. A shape gives the weights N and the slopes dN/dt of four nodes in a row, from the one below the cell: wide enough
+ * for every shape, and the same four for all points of a cell. Two and three dimensions are products. All shapes are
+ * partitions of unity and reproduce linear fields. Linear and GIMP: Bardenhagen & Kober 2004, Zeng et al. 2021, eq. 9. */
+#ifndef CLEAVE_SHAPE_H
+#define CLEAVE_SHAPE_H
+
+#include "kernels/kernels.h"
+#include "row.h"
+
+/* ---- one direction, a few points -----------------------------------------------------------------------
+ *
+ * Weights are made for a few points of a cell at once, one in each lane, so that nothing is added up across lanes. */
+
+/* Hat functions: 1 - t, t. */
+static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
+{
+    N[0] = N[3] = dN[0] = dN[3] = points_of(0);
+    N[1] = 1 - t, N[2] = t;
+    dN[1] = points_of(-1), dN[2] = points_of(1);
+}
+
+/* Mean of the hat functions over the particle's width 2l <= 2. The hats of the cell's two nodes go on as straight lines beyond
+ * the cell; what reaches over its lower end by b = (l - t)_+ gives the node below b^2/4l and bends both lines by as much, and so
+ * at the upper end. So a node that the particle just touches gets a weight of the size that it should, never below 0: it may have
+ * no other, and what a node without mass is given is lost. GIMP keeps 2l <= 1 and has three nodes. A stretched particle
+ * (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous particles then share out
+ * every hat without gap or overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen & Kober
+ * 2004). */
+static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width, row_of_points N[ROW],
+                                     row_of_points dN[ROW])
+{
+    const row_of_points rest = 1 - t, below = points_max(l - t, points_of(0)), above = points_max(l - rest, points_of(0));
+    dN[0] = -below * inverse_width, dN[3] = above * inverse_width;
+    N[0] = -0.5 * below * dN[0], N[3] = 0.5 * above * dN[3];
+    N[1] = rest - 2 * N[0] + N[3], N[2] = t + N[0] - 2 * N[3];
+    dN[1] = dN[3] - 2 * dN[0] - 1, dN[2] = dN[0] - 2 * dN[3] + 1;
+}
+
+/* Cubic B-spline: t^3/6 and 2/3 - t^2 + t^3/2, from either end. */
+static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
+{
+    const row_of_points rest = 1 - t, t2 = t * t, rest2 = rest * rest;
+    N[0] = rest2 * rest * (1.0 / 6), N[3] = t2 * t * (1.0 / 6);
+    N[1] = 2.0 / 3 + t2 * (0.5 * t - 1), N[2] = 2.0 / 3 + rest2 * (0.5 * rest - 1);
+    dN[0] = -0.5 * rest2, dN[3] = 0.5 * t2;
+    dN[1] = t * (1.5 * t - 2), dN[2] = rest * (2 - 1.5 * rest);
+}
+
+/* Weights must add up to 1 to the last bit: every map gives momentum (sum N) times what it takes, and on a lattice all points
+ * have the same round-off, which grows with the steps. The nearer node of the cell, never a light one, takes what is
+ * missing. */
+static ALWAYS_INLINE void whole(row_of_points t, row_of_points N[ROW])
+{
+    const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
+    N[1] += points_choose(t - 0.5, missing, points_of(0));
+    N[2] += points_choose(t - 0.5, points_of(0), missing);
+}
+
+/* The quadratic B-spline is the mean of a hat over a whole cell. */
+static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row_of_points l, row_of_points inverse_width,
+                                    row_of_points N[ROW], row_of_points dN[ROW])
+{
+    switch (shape) {
+    case SHAPE_LINEAR: shape_linear(t, N, dN); return;
+    case SHAPE_QUADRATIC: shape_gimp(t, points_of(0.5), points_of(1), N, dN); break;
+    case SHAPE_CUBIC: shape_cubic(t, N, dN); break;
+    default: shape_gimp(t, l, inverse_width, N, dN);
+    }
+    whole(t, N);
+}
+
+/* ---- the nodes of a cell ----------------------------------------------------------------------------
+ *
+ * The points of a cell share a patch of nodes: rows of four along x, and one row beside the other in the directions across.
+ * Linear shapes in two and three dimensions, which reach only the corners, take the four corners of a face z = const as
+ * one row instead, so that no place of a vector is idle. */
+
+enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
+
+#define IS_FACE(dim, shape) ((shape) == SHAPE_LINEAR && (dim) > 1)
+/* Directions that lie in a row; the others are across it. */
+#define ROW_DIMS(dim, shape) (IS_FACE(dim, shape) ? 2 : 1)
+/* Rows of the patch along y and z. */
+#define ROWS_Y(dim, shape) ((dim) > 1 && !IS_FACE(dim, shape) ? ACROSS : 1)
+#define ROWS_Z(dim, shape) ((dim) > 2 ? IS_FACE(dim, shape) ? 2 : ACROSS : 1)
+#define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
+
+/* A point of a shape with three nodes skips the rest in 3D; in 2D a weight of zero costs less than finding its rows. */
+#define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
+
+/* Loop over the nodes k of a row; the ends of a linear one have no weight. */
+#define ROW_END(dim, shape) ((shape) == SHAPE_LINEAR && !IS_FACE(dim, shape) ? 1 : 0)
+#define FOR_NODES(dim, shape) for (int k = ROW_END(dim, shape); k < ROW - ROW_END(dim, shape); k++)
+
+/* Loops over the rows k1, k2 of a patch, over those that point `at` of a stencil touches, and that any of its points does. */
+#define FOR_SPAN(low2, end2, low1, end1)                                                                             \
+    for (int k2 = (low2), above = (end2); k2 < above; k2++)                                                          \
+        for (int k1 = (low1), beyond = (end1); k1 < beyond; k1++)
+#define FOR_ROWS(dim, shape) FOR_SPAN(0, ROWS_Z(dim, shape), 0, ROWS_Y(dim, shape))
+#define FOR_TOUCHED(s, at, dim, shape)                                                                               \
+    FOR_SPAN(SKIPS(dim, shape) ? (s)->low[2][at] : 0, SKIPS(dim, shape) ? k2 + 3 : ROWS_Z(dim, shape),               \
+             SKIPS(dim, shape) ? (s)->low[1][at] : 0, SKIPS(dim, shape) ? k1 + 3 : ROWS_Y(dim, shape))
+#define FOR_ANY_TOUCHED(s, dim, shape)                                                                               \
+    FOR_SPAN(SKIPS(dim, shape) ? (s)->lowest[2] : 0, SKIPS(dim, shape) ? (s)->end[2] : ROWS_Z(dim, shape),           \
+             SKIPS(dim, shape) ? (s)->lowest[1] : 0, SKIPS(dim, shape) ? (s)->end[1] : ROWS_Y(dim, shape))
+/* Place of a row in the arrays of a patch. */
+#define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
+
+struct cell {
+    int64_t node;                        /* index of the patch's lowest node                            */
+    real place[DIM_MAX];                 /* of its lower corner, in node distances from the anchor      */
+};
+
+/* The cell of point i. */
+static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct particles *p, int64_t i, const int dim,
+                                           const enum shape shape)
+{
+    struct cell c = {0};
+    for (int d = 0; d < dim; d++) {
+        const int64_t k = grid_cell(g, d, p->x[d][i]);
+        c.place[d] = (real)k;
+        c.node += (k - (IS_FACE(dim, shape) ? 0 : 1) - g->first[d]) * g->stride[d];
+    }
+    return c;
+}
+
+/* First node of a row. */
+static ALWAYS_INLINE int64_t cell_row(const struct cell *c, const struct grid *g, int k1, int k2, const int dim)
+{
+    return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
+}
+
+/* Node k of a row, counted from its first. */
+static ALWAYS_INLINE int64_t row_node(const struct grid *g, int k, const int dim, const enum shape shape)
+{
+    return IS_FACE(dim, shape) ? k % 2 + k / 2 * g->stride[1] : k;
+}
+
+static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes a, const int dim, const enum shape shape)
+{
+    if (IS_FACE(dim, shape)) {
+        *(pair_anywhere *)to += (pair_of_nodes){a[0], a[1]};
+        *(pair_anywhere *)(to + g->stride[1]) += (pair_of_nodes){a[2], a[3]};
+    } else {
+        *(row_anywhere *)to += a;
+    }
+}
+
+/* ---- the weights of a few points of a cell --------------------------------------------------------------- */
+
+struct stencil {
+    int32_t point[POINTS];               /* where fewer are left: the last one, again                     */
+    row_of_points x[DIM_MAX];            /* position                                                  [m] */
+    row_of_points t[DIM_MAX];            /* place in the cell                                         [1] */
+    row_of_points N[ROW], D[2][ROW];     /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
+    row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D seen from each point                          */
+    row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS]; /* of rows: weights [1], slopes [1/m], by the direction across */
+    int low[DIM_MAX][POINTS];            /* first row that a point of three nodes touches                 */
+    int lowest[DIM_MAX], end[DIM_MAX];   /* first that any touches, and first beyond that none does       */
+};
+
+/* The nodes of a row seen from one point: weights [1], slopes in the directions along it [1/m]. */
+struct touch { row_of_nodes N, D[2]; };
+
+/* Largest half width over h of cpGIMP: four nodes reach no further. A particle stretched beyond it keeps it, and numerical
+ * fracture starts: at a stretch of 4 with two particles per cell. */
+#define HALF_WIDTH_MOST 1
+
+/* Corners of a face: products of two hats. */
+static ALWAYS_INLINE void stencil_face(struct stencil *s, real inverse, const int dim)
+{
+    const row_of_points X[2] = {1 - s->t[0], s->t[0]}, Y[2] = {1 - s->t[1], s->t[1]};
+    for (int k = 0; k < ROW; k++) {
+        s->N[k] = X[k % 2] * Y[k / 2];
+        s->D[0][k] = Y[k / 2] * (k % 2 ? inverse : -inverse);
+        s->D[1][k] = X[k % 2] * (k / 2 ? inverse : -inverse);
+    }
+    if (dim < 3) return;
+    s->A[2][0] = 1 - s->t[2], s->A[2][1] = s->t[2];
+    s->B[2][0] = points_of(-inverse), s->B[2][1] = points_of(inverse);
+}
+
+/* Points whose place is below l leave out the node above their cell, the others the one below. Nothing here may branch:
+ * at the edges of a lattice's particles the answers are as good as random. */
+static ALWAYS_INLINE void stencil_touched(struct stencil *s, row_of_points l, int d)
+{
+    const int all = (1 << POINTS) - 1, upper = ~points_signs(s->t[d] - l) & all;
+    for (int k = 0; k < POINTS; k++) s->low[d][k] = upper >> k & 1;
+    s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
+}
+
+static ALWAYS_INLINE void stencil_direction(struct stencil *s, const struct particles *p, real inverse, real half_width,
+                                            int d, const int dim, const enum shape shape)
+{
+    row_of_points l = points_of(half_width * inverse), inverse_width = points_of(0.5 / (half_width * inverse));
+    row_of_points N[ROW], dN[ROW];
+    if (shape == SHAPE_CPGIMP) {
+        l = points_min(l * points_load(p->stretch[d], s->point, dim), points_of(HALF_WIDTH_MOST));
+        inverse_width = 0.5 / l;
+    }
+    shape_row(shape, s->t[d], l, inverse_width, N, dN);
+    for (int k = 0; k < ROW; k++) {
+        if (d == 0) s->N[k] = N[k], s->D[0][k] = dN[k] * inverse;
+        else s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse;
+    }
+    if (SKIPS(dim, shape) && d > 0) stencil_touched(s, shape == SHAPE_GIMP ? l : points_of(0.5), d);
+}
+
+/* Of the n points of a list, at most AT_ONCE. */
+static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, const struct cell *c,
+                                       const struct particles *p, const int32_t *list, int n, real half_width, const int dim,
+                                       const enum shape shape)
+{
+    const real inverse = 1 / g->h;
+    for (int k = 0; k < POINTS; k++) s->point[k] = list[smaller(k % AT_ONCE(dim), n - 1)];
+    for (int d = 0; d < dim; d++) {
+        s->x[d] = points_load(p->x[d], s->point, dim);
+        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d];           /* grid_place */
+    }
+    if (IS_FACE(dim, shape)) stencil_face(s, inverse, dim);
+    else
+        for (int d = 0; d < dim; d++) stencil_direction(s, p, inverse, half_width, d, dim, shape);
+}
+
+/* Rows seen from each point, for maps that add to nodes. */
+static ALWAYS_INLINE void stencil_turn(struct stencil *s, const int dim, const enum shape shape)
+{
+    if (IS_FACE(dim, shape)) return;
+    rows_turn(s->N, s->from_N);
+    rows_turn(s->D[0], s->from_D);
+}
+
+/* A row seen from point `at`. Corners of a face are cheaper one by one than turned. */
+static ALWAYS_INLINE struct touch stencil_touch(const struct stencil *s, int at, real h, const int dim, const enum shape shape)
+{
+    if (!IS_FACE(dim, shape)) return (struct touch){s->from_N[at], {s->from_D[at]}};
+    const row_of_nodes right = {-1, 1, -1, 1}, up = {-1, -1, 1, 1};
+    const row_of_nodes X = (row_of_nodes){1, 0, 1, 0} + s->t[0][at] * right, Y = (row_of_nodes){1, 1, 0, 0} + s->t[1][at] * up;
+    return (struct touch){X * Y, {Y * (right * (1 / h)), X * (up * (1 / h))}};
+}
+
+/* Weights of a row, a lane for each point, and its slopes in the direction d across it [1/m]. */
+static ALWAYS_INLINE row_of_points stencil_rows(const struct stencil *s, int k1, int k2, const int dim, const enum shape shape)
+{
+    row_of_points weight = points_of(1);
+    if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1];
+    if (dim > 2) weight *= s->A[2][k2];
+    return weight;
+}
+
+static ALWAYS_INLINE row_of_points stencil_slopes(const struct stencil *s, int k1, int k2, int d, const int dim,
+                                                  const enum shape shape)
+{
+    row_of_points slope = points_of(1);
+    if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1] : s->A[1][k1];
+    if (dim > 2) slope *= d == 2 ? s->B[2][k2] : s->A[2][k2];
+    return slope;
+}
+
+/* The same of point `at` alone. */
+static ALWAYS_INLINE real stencil_row(const struct stencil *s, int at, int k1, int k2, const int dim, const enum shape shape)
+{
+    real weight = 1;
+    if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1][at];
+    if (dim > 2) weight *= s->A[2][k2][at];
+    return weight;
+}
+
+static ALWAYS_INLINE real stencil_slope(const struct stencil *s, int at, int k1, int k2, int d, const int dim,
+                                        const enum shape shape)
+{
+    real slope = 1;
+    if (dim > 1 && !IS_FACE(dim, shape)) slope *= d == 1 ? s->B[1][k1][at] : s->A[1][k1][at];
+    if (dim > 2) slope *= d == 2 ? s->B[2][k2][at] : s->A[2][k2][at];
+    return slope;
+}
+
+/* From point `at` to the nodes of a row in the direction d along it, and to those of row k across it [m]. */
+static ALWAYS_INLINE row_of_nodes stencil_along(const struct stencil *s, int at, real h, int d, const int dim,
+                                                const enum shape shape)
+{
+    const row_of_nodes nodes = !IS_FACE(dim, shape) ? (row_of_nodes){-1, 0, 1, 2}
+                               : d == 0             ? (row_of_nodes){0, 1, 0, 1}
+                                                    : (row_of_nodes){0, 0, 1, 1};
+    return (nodes - s->t[d][at]) * h;
+}
+
+static ALWAYS_INLINE real stencil_across(const struct stencil *s, int at, real h, int d, int k, const int dim,
+                                         const enum shape shape)
+{
+    return (k - (IS_FACE(dim, shape) ? 0 : 1) - s->t[d][at]) * h;
+}
+
+#endif

@@ -1,0 +1,211 @@
+/* floor 2: constitutive update of a material point: linear elasticity in the rate form of Jaumann:
+ *     sigma += C : eps + W sigma - sigma W,   eps = sym(A) - W W / 2,  W = skew(A),  A = L dt
+ * The second order of eps makes turns free of strain: places that turn by the angle w in a step have sym(A) = -w^2/2 across the
+ * axis (Hughes and Winget 1980, to second order). With sym(A) alone a body of points grows by w^2/2 a step, points and bonds no
+ * longer agree on what is unstrained, and a disc with a peridynamic core gains half its energy in four turns.
+ * Components as in base.h; plane stress and plane strain differ in their constants only. */
+#ifndef CLEAVE_STRESS_H
+#define CLEAVE_STRESS_H
+
+#include <math.h>
+
+#include "kernels/kernels.h"
+#include "row.h"
+
+/* Angle of a step above which the exact rotation replaces the one by two terms, whose error is a sixth of its cube [rad]. */
+#define SPIN_SMALL 1e-3
+/* Below this one term will do: it lets stresses grow by the square of the angle, 1e-4 in 1e5 steps. */
+#define SPIN_NONE 3e-5
+
+/* R s R^T with the rotation by the angle -w of x towards y (w = W_xy). */
+static inline void stress_rotate_2d(real *s, real w)
+{
+    const real c = cos(2 * w), n = sin(2 * w), mean = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
+    const real turned = half * c + s[2] * n;
+    s[2] = s[2] * c - half * n;
+    s[0] = mean + turned, s[1] = mean - turned;
+}
+
+/* a b, 3x3 */
+static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], real c[3][3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+}
+
+/* R s R^T with R = exp W (Rodrigues); W_xy, W_yz, W_zx. */
+static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
+{
+    const real S[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
+    const real W[3][3] = {{0, wxy, -wzx}, {-wxy, 0, wyz}, {wzx, -wyz, 0}};
+    const real angle2 = wxy * wxy + wyz * wyz + wzx * wzx, angle = sqrt(angle2);
+    const real first = sin(angle) / angle, second = (1 - cos(angle)) / angle2;
+    real WW[3][3], R[3][3], RS[3][3], turned[3][3];
+    product_3d(W, W, WW);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) R[a][b] = (a == b) + first * W[a][b] + second * WW[a][b];
+    product_3d(R, S, RS);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) turned[a][b] = RS[a][0] * R[b][0] + RS[a][1] * R[b][1] + RS[a][2] * R[b][2];
+    s[0] = turned[0][0], s[1] = turned[1][1], s[2] = turned[2][2];
+    s[3] = turned[0][1], s[4] = turned[1][2], s[5] = turned[2][0];
+}
+
+/* W s - s W = W s + (W s)^T of the stress of a few points; w: W_xy, in 3D W_yz and W_zx too. */
+static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_points *w, row_of_points *more, const int dim)
+{
+    if (dim == 2) {
+        more[0] = 2 * w[0] * s[2], more[1] = -more[0], more[2] = w[0] * (s[1] - s[0]);
+        return;
+    }
+    const row_of_points xy = w[0] * s[3], yz = w[1] * s[4], zx = w[2] * s[5];
+    more[0] = 2 * (xy - zx), more[1] = 2 * (yz - xy), more[2] = 2 * (zx - yz);
+    more[3] = w[0] * (s[1] - s[0]) + w[1] * s[5] - w[2] * s[4];
+    more[4] = w[1] * (s[2] - s[1]) + w[2] * s[3] - w[0] * s[5];
+    more[5] = w[2] * (s[0] - s[2]) + w[0] * s[4] - w[1] * s[3];
+}
+
+/* Turns the stress of a few points; each by its own angle, exactly where that is large. */
+static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w, const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    row_of_points more[SYM_MAX], angle2 = w[0] * w[0];
+    if (dim == 3) angle2 += w[1] * w[1] + w[2] * w[2];
+    stress_spin(s, w, more, dim);
+    if (__builtin_expect(points_signs(SPIN_NONE * SPIN_NONE - angle2), 0)) {
+        row_of_points middle[SYM_MAX], second[SYM_MAX];
+        for (int c = 0; c < n; c++) middle[c] = s[c] + 0.5 * more[c];
+        stress_spin(middle, w, second, dim);
+        for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_NONE * SPIN_NONE - angle2, second[c], more[c]);
+    }
+    const int large = points_signs(SPIN_SMALL * SPIN_SMALL - angle2);
+    for (int k = 0; k < POINTS && __builtin_expect(large, 0); k++) {
+        real turned[SYM_MAX];
+        if (!(large >> k & 1)) continue;
+        for (int c = 0; c < n; c++) turned[c] = s[c][k];
+        if (dim == 2) stress_rotate_2d(turned, w[0][k]);
+        else stress_rotate_3d(turned, w[0][k], w[1][k], w[2][k]);
+        for (int c = 0; c < n; c++) more[c][k] = turned[c] - s[c][k];
+    }
+    for (int c = 0; c < n; c++) s[c] += more[c];
+}
+
+/* struct elastic of a few points. */
+struct elastic_points { row_of_points c11, c12, shear, trigger, yield; };   /* [Pa] */
+
+/* Updates s by the velocity gradient L[a dim + b] = dv_a/dx_b; returns the trace of the strain increment. */
+static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_points *L, const struct elastic_points *m, real dt,
+                                                 const int dim)
+{
+    if (dim == 1) {
+        s[0] += m->c11 * L[0] * dt;
+        return L[0] * dt;
+    }
+    if (dim == 2) {
+        const row_of_points spin = 0.5 * (L[1] - L[2]) * dt, turned = 0.5 * spin * spin;
+        const row_of_points xx = L[0] * dt + turned, yy = L[3] * dt + turned;
+        stress_rotate(s, &spin, dim);
+        s[0] += m->c11 * xx + m->c12 * yy;
+        s[1] += m->c12 * xx + m->c11 * yy;
+        s[2] += m->shear * (L[1] + L[2]) * dt;
+        return xx + yy;
+    }
+    const row_of_points spin[3] = {0.5 * (L[1] - L[3]) * dt, 0.5 * (L[5] - L[7]) * dt, 0.5 * (L[6] - L[2]) * dt};
+    const row_of_points half[3] = {0.5 * spin[0] * spin[0], 0.5 * spin[1] * spin[1], 0.5 * spin[2] * spin[2]};
+    const row_of_points xx = L[0] * dt + half[0] + half[2], yy = L[4] * dt + half[0] + half[1], zz = L[8] * dt + half[1] + half[2];
+    const row_of_points trace = xx + yy + zz, pressure = m->c12 * trace, twice = m->c11 - m->c12;
+    stress_rotate(s, spin, dim);
+    s[0] += pressure + twice * xx;
+    s[1] += pressure + twice * yy;
+    s[2] += pressure + twice * zz;
+    s[3] += m->shear * ((L[1] + L[3]) * dt - spin[1] * spin[2]);
+    s[4] += m->shear * ((L[5] + L[7]) * dt - spin[0] * spin[2]);
+    s[5] += m->shear * ((L[6] + L[2]) * dt - spin[0] * spin[1]);
+    return trace;
+}
+
+/* Largest principal stress; in 3D by the trigonometric solution of the cubic. */
+static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
+{
+    if (dim == 1) return s[0];
+    if (dim == 2) return 0.5 * (s[0] + s[1]) + sqrt(0.25 * (s[0] - s[1]) * (s[0] - s[1]) + s[2] * s[2]);
+    const real mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
+    const real off = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+    const real j2 = 0.5 * (a * a + b * b + c * c) + off;
+    if (j2 <= 0) return mean;
+    const real j3 = a * b * c + 2 * s[3] * s[4] * s[5] - a * s[4] * s[4] - b * s[5] * s[5] - c * s[3] * s[3];
+    real cosine = 1.5 * sqrt(3.0) * j3 / (j2 * sqrt(j2));
+    cosine = cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
+    return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
+}
+
+/* No principal stress exceeds this; cheap, to look closer only where it may matter. */
+static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
+{
+    if (dim == 1) return s[0];
+    if (dim == 2) return 0.5 * (s[0] + s[1]) + 0.5 * fabs(s[0] - s[1]) + fabs(s[2]);
+    real most = s[0] > s[1] ? s[0] : s[1];
+    most = most > s[2] ? most : s[2];
+    return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
+}
+
+/* The same for a few points. */
+static ALWAYS_INLINE row_of_points stress_bounds(const row_of_points *s, const int dim)
+{
+    if (dim == 1) return s[0];
+    if (dim == 2) return points_max(s[0], s[1]) + points_size(s[2]);
+    return points_max(points_max(s[0], s[1]), s[2]) + 2 * (points_size(s[3]) + points_size(s[4]) + points_size(s[5]));
+}
+
+/* The stress a point gives to the grid: all of it, or what the crossing bonds leave (src/coupling/partial_stress.c). */
+static ALWAYS_INLINE void stress_given(const struct particles *p, const struct partial_stress *partial, int64_t i,
+                                       real *stress, const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    for (int s = 0; s < n; s++) stress[s] = p->stress[s][i];
+    if (!partial || !partial->index || partial->index[i] < 0) return;
+    const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
+    real carried[SYM_MAX];
+    for (int a = 0; a < n; a++) {
+        carried[a] = 0;
+        for (int b = 0; b < n; b++) carried[a] += M[a * n + b] * stress[b];
+    }
+    for (int a = 0; a < n; a++) stress[a] -= carried[a];
+    if (!partial->local) return;
+    const real *local = partial->local + (int64_t)partial->index[i] * n, pull = p->end_pull[i] / p->volume[i];
+    for (int a = 0; a < n; a++) stress[a] += pull * local[a];
+}
+
+/* v turned by a quaternion. */
+static inline void turn_by(const real *q, real *v)
+{
+    real u[3], old[3] = {v[0], v[1], v[2]};
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        u[k] = q[3] * old[k] + q[i] * old[j] - q[j] * old[i];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        v[k] = old[k] + 2 * (q[i] * u[j] - q[j] * u[i]);
+    }
+}
+
+/* The skew part of what an end of bonds gives [Pa]: it balances the moment of its bonds; of sigma_ab in the order xy yz zx. False:
+ * there is none. */
+static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const struct partial_stress *partial, int64_t i,
+                                            real *skew, const int dim)
+{
+    if (!partial || !partial->local || !p->end_moment[0] || partial->index[i] < 0) return false;
+    const real half = 0.5 / p->volume[i];
+    if (dim == 2) {
+        skew[0] = half * p->end_moment[0][i];
+        return true;
+    }
+    const real turn[ROTATION] = {p->end_turn[0][i], p->end_turn[1][i], p->end_turn[2][i], p->end_turn[3][i]};
+    real moment[3] = {p->end_moment[0][i], p->end_moment[1][i], p->end_moment[2][i]};
+    turn_by(turn, moment);
+    for (int c = 0; c < 3; c++) skew[c] = half * moment[(c + 2) % 3];
+    return true;
+}
+
+#endif

@@ -1,0 +1,170 @@
+/* floor 2: the rule of breaking, scalar and exact: a bond whose stretch is larger than its critical stretch is broken
+ * for ever; equality keeps it. Its energy is booked half at each end. */
+#include <math.h>
+
+#include "bond_laws.h"
+#include "bond_slot.h"
+#include "kernels/kernels.h"
+#include "state_laws.h"
+
+#define LIMIT_MARGIN 1e-9                /* vectors look that much below a limit for their round-off; the scalar rule decides */
+#define ROUND_OFF 1e-14                  /* of a squared elongation, where limits are smaller than that margin tells */
+
+/* Stretch of stored bond q between i and j [1]. */
+static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
+{
+    real distance2 = 0;
+    for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][j] - p->x[d][i]);
+    return sqrt(distance2) * fabs(b->inverse_length[q]) - 1;
+}
+
+/* Flags are set by the owner of a row and read by its neighbours' owners at the same time; the bit they read does not
+ * change, the atomics only say so. */
+static bool is_driven(const struct particles *p, int32_t i)
+{
+    return __atomic_load_n(&p->flag[i], __ATOMIC_RELAXED) & FLAG_DRIVEN;
+}
+
+static void set_flag(struct particles *p, int32_t i, int flag)
+{
+    __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
+}
+
+/* Half the energy of a bond [J]. Of a state-based one it is not to be had: its row loses what state_row_energy tells. */
+static real half_energy(const struct bonds *b, int64_t q, real stretch)
+{
+    return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / fabs(b->inverse_length[q]);
+}
+
+/* A bond without weight is broken for ever; what it held must be booked before. */
+static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j)
+{
+    b->w[q] = 0;
+    b->inverse_length[q] = -b->inverse_length[q];
+    bonds_changed(b, row, q);
+    b->broken[row]++;
+    b->broken_volume[row] += (float)p->volume0[j];
+    set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_CUT : FLAG_CUT | FLAG_CRACKED);
+    if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
+}
+
+static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
+{
+    if (!b->state.modulus) b->fracture_energy[row] += half_energy(b, q, stretch);
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_stored(b, q);
+    bond_end(b, p, row, q, i, j);
+}
+
+/* Weights of a row have changed. */
+static void row_changed(struct bonds *b, int64_t row)
+{
+    if (b->state.modulus && b->state.local && b->whole[row]) b->state.weighted[row] = state_weight_left(b, row);
+}
+
+void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
+{
+    const int32_t i = b->particle[row], j = b->nbr[q];
+    const bool state = b->state.modulus != NULL;
+    const real stretch = bond_stretch(b, p, q, i, j);
+    const real before = state ? state_row_energy(b, p, row) : half_energy(b, q, stretch);
+    if (w > 0) b->w[q] = w;
+    else if (b->inverse_length[q] > 0) bond_end(b, p, row, q, i, j);
+    else b->w[q] = 0;
+    bonds_changed(b, row, q);
+    row_changed(b, row);
+    b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row) : half_energy(b, q, stretch)));
+}
+
+/* The rule of breaking on one row. */
+static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
+{
+    const int32_t i = b->particle[row];
+    int64_t broken = 0;
+    real before = 0;
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
+        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        if (b->w[q] == 0) continue;
+        const int32_t j = b->nbr[q];
+        const real stretch = bond_stretch(b, p, q, i, j);
+        if (!(stretch > limit->critical_stretch[p->material[i] * limit->materials + p->material[j]])) continue;
+        if (b->state.modulus && broken == 0) before = state_row_energy(b, p, row);
+        bond_break(b, p, row, q, i, j, stretch);
+        broken++;
+    }
+    if (broken == 0 || !b->state.modulus) return broken;
+    row_changed(b, row);
+    b->fracture_energy[row] += before - state_row_energy(b, p, row);
+    return broken;
+}
+
+/* No bond breaks below this stretch, less a margin for the vectors' round-off. */
+static real least_limit(const struct bond_limit *limit)
+{
+    real least = limit->critical_stretch[0];
+    for (int k = 1; k < limit->materials * limit->materials; k++) least = real_min(least, limit->critical_stretch[k]);
+    return least * (1 - LIMIT_MARGIN);
+}
+
+/* The larger of each row's squared elongation so far and that of its bond in a slot: no root. Broken bonds have a negative
+ * one. */
+static ALWAYS_INLINE lanes largest_of(lanes largest, const struct particles *p, const lanes *x, const struct slot s, const int dim)
+{
+    const lanes inverse = slot_inverse_length(s);
+    lanes distance2 = lanes_of(0);
+    for (int d = 0; d < dim; d++) {
+        const lanes y = slot_at(s, p->x[d]) - x[d];
+        distance2 += y * y;
+    }
+    return slot_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
+}
+
+/* Which rows of a group have a bond beyond this stretch. */
+static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, real least,
+                                          const int dim)
+{
+    const int32_t *row = b->particle + g * LANES;
+    lanes x[DIM_MAX], largest = lanes_of(0);
+    for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
+#define VISIT(SLOT) largest = largest_of(largest, p, x, SLOT, dim)
+    FOR_SLOTS(b, g, VISIT);
+#undef VISIT
+    return largest > lanes_of(square(1 + least) * (1 - ROUND_OFF));
+}
+
+/* The same in the body's dimension. */
+static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
+{
+    const real least = least_limit(limit);
+    return p->dim == 1 ? rows_past(b, p, g, least, 1) : p->dim == 2 ? rows_past(b, p, g, least, 2) : rows_past(b, p, g, least, 3);
+}
+
+int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
+{
+    const lanes_mask past = rows_due(b, p, limit, group);
+    int64_t broken = 0;
+    for (int l = 0; l < LANES && group * LANES + l < b->rows && lanes_any(past); l++)
+        if (past[l]) broken += break_row(b, p, limit, group * LANES + l);
+    return broken;
+}
+
+/* Padding rows are asked with the last, whose kind they have. */
+bool bond_break_asks(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+{
+    bool asks = false;
+    if (!b->state.modulus) return false;
+#pragma omp parallel for schedule(static) reduction(|| : asks)
+    for (int64_t g = 0; g < b->groups; g++) {
+        if (asks || group_whole(b, g)) continue;
+        const lanes_mask past = rows_due(b, p, limit, g);
+        for (int l = 0; l < LANES; l++) asks = asks || (past[l] && p->kind[b->particle[g * LANES + l]] == KIND_MPM);
+    }
+    return asks;
+}
+
+int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit)
+{
+    int64_t broken = 0;
+#pragma omp parallel for schedule(static) reduction(+ : broken)
+    for (int64_t g = 0; g < b->groups; g++) broken += bond_break_group(b, p, limit, g);
+    return broken;
+}

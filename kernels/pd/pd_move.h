@@ -1,0 +1,62 @@
+/* floor 2: the leap-frog step of eight peridynamic particles, for whoever only moves them (pd_move.c) and for sweeps of forces
+ * (sweep.h). */
+#ifndef CLEAVE_PD_MOVE_H
+#define CLEAVE_PD_MOVE_H
+
+#include "kernels/alarm.h"
+#include "kernels/kernels.h"
+
+/* Which of the first n of eight particles move, a bit each: neither the grid moves them, nor do they wait for loads. */
+static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t *list, int n, const uint8_t *loaded)
+{
+    const int32_t first = list[0];
+    unsigned bits = 0;
+    if (n == LANES && list_together(list) && eight_bytes(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
+        !(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_CARRIED)) && !(loaded && eight_bytes(loaded + first)))
+        return UINT8_MAX;
+    for (int l = 0; l < n; l++) bits |= (unsigned)(!particle_on_grid(p, list[l]) && !(loaded && loaded[list[l]])) << l;
+    return bits;
+}
+
+static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together, unsigned movers, lanes a)
+{
+    if (together) lanes_store(to + list[0], a);
+    else
+        for (int l = 0; l < LANES; l++)
+            if (movers >> l & 1) to[list[l]] = a[l];
+}
+
+/* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of those of eight particles that move; `together`: all, and they are
+ * consecutive. Is one of them out of hand? */
+static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m,
+                                  const int dim, const bool together)
+{
+    const int32_t first = together ? list[0] : -1;
+    const lanes inverse_mass = m->dt_velocity / lanes_at(p->mass, first, list);
+    lanes speed2 = lanes_of(0), place = lanes_of(0), v[DIM_MAX], x[DIM_MAX];
+    for (int d = 0; d < dim; d++) {
+        v[d] = lanes_at(p->v[d], first, list) + lanes_at(p->f[d], first, list) * inverse_mass;
+        x[d] = lanes_at(p->x[d], first, list) + v[d] * m->dt;
+        speed2 += v[d] * v[d], place += lanes_size(x[d]);
+    }
+    for (int d = 0; d < dim; d++) {
+        pd_store(p->v[d], list, together, movers, v[d]);
+        pd_store(p->x[d], list, together, movers, x[d]);
+    }
+    const lanes_mask wild = out_of_hand(speed2, place, square(m->fastest));
+    bool any = together && lanes_any(wild);
+    for (int l = 0; l < LANES && !together; l++) any |= (movers >> l & 1) && wild[l];
+    return any;
+}
+
+/* The same of the first n of eight particles, in ascending order from a 32-byte boundary on, but for those that do not move. */
+static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
+                                        const struct pd_motion *m, const int dim)
+{
+    const unsigned movers = pd_movers(p, list, n, loaded);
+    if (movers == 0) return false;
+    if (movers == UINT8_MAX && list_together(list)) return pd_step(p, list, movers, m, dim, true);
+    return pd_step(p, list, movers, m, dim, false);
+}
+
+#endif

@@ -1,0 +1,52 @@
+/* floor 2: the rotation R nearest to a matrix M: R maximises R : M, that is M = R U with U symmetric and positive. */
+#ifndef CLEAVE_POLAR_H
+#define CLEAVE_POLAR_H
+
+#include <math.h>
+
+#include "base/base.h"
+
+/* In the plane: the angle of (M11 + M22, M21 - M12). */
+static inline void polar_rotation_2d(const real *M, real *R)
+{
+    const real c = M[0] + M[3], s = M[2] - M[1], size = sqrt(c * c + s * s);
+    R[0] = R[3] = size > 0 ? c / size : 1;
+    R[2] = size > 0 ? s / size : 0;
+    R[1] = -R[2];
+}
+
+/* Newton's iteration R <- (R + R^-T)/2 (Higham 1986), from M over its size; cut families may leave M singular or turned
+ * inside out: then the rotation is none. */
+static inline void polar_rotation_3d(const real *M, real *R)
+{
+    real size = 0;
+    for (int c = 0; c < 9; c++) size += M[c] * M[c];
+    size = sqrt(size / 3);
+    for (int c = 0; c < 9; c++) R[c] = size > 0 ? M[c] / size : c % 4 == 0;
+    for (int step = 0; step < 30; step++) {
+        const real cofactor[9] = {
+            R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
+            R[2] * R[7] - R[1] * R[8], R[0] * R[8] - R[2] * R[6], R[1] * R[6] - R[0] * R[7],
+            R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
+        const real determinant = R[0] * cofactor[0] + R[1] * cofactor[1] + R[2] * cofactor[2];
+        real change = 0;
+        if (!(determinant > 1e-12)) {
+            for (int c = 0; c < 9; c++) R[c] = c % 4 == 0;
+            return;
+        }
+        for (int c = 0; c < 9; c++) {
+            const real next = 0.5 * (R[c] + cofactor[c] / determinant);
+            change = real_max(change, fabs(next - R[c]));
+            R[c] = next;
+        }
+        if (change < 1e-15) return;
+    }
+}
+
+static inline void polar_rotation(const real *M, real *R, const int dim)
+{
+    if (dim == 2) polar_rotation_2d(M, R);
+    else polar_rotation_3d(M, R);
+}
+
+#endif

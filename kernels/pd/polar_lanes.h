@@ -1,0 +1,54 @@
+/* floor 2: polar.h for eight matrices at once: entry c of lane l is M[c][l]. */
+#ifndef CLEAVE_POLAR_LANES_H
+#define CLEAVE_POLAR_LANES_H
+
+#include "kernels/simd/lanes.h"
+#include "polar.h"
+
+#define POLAR_TINY 1e-300                /* keeps the root of nothing finite */
+
+static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
+{
+    const lanes c = M[0] + M[3], s = M[2] - M[1], size2 = c * c + s * s;
+    const lanes inverse = lanes_inverse_root(size2 + POLAR_TINY);
+    R[0] = R[3] = lanes_choose(size2 > 0.0, c * inverse, lanes_of(1));
+    R[2] = s * inverse;
+    R[1] = -R[2];
+}
+
+/* One step of R <- (R + R^-T)/2; lanes that are singular or inside out lose their bit of `sound`. Returns the determinant that
+ * R had. */
+static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
+{
+    const lanes cofactor[9] = {
+        R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
+        R[2] * R[7] - R[1] * R[8], R[0] * R[8] - R[2] * R[6], R[1] * R[6] - R[0] * R[7],
+        R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
+    const lanes determinant = R[0] * cofactor[0] + R[1] * cofactor[1] + R[2] * cofactor[2];
+    *sound &= determinant > 1e-12;
+    const lanes half = lanes_choose(*sound, 0.5 / determinant, lanes_of(0));
+    for (int c = 0; c < 9; c++) R[c] = 0.5 * R[c] + cofactor[c] * half;
+    return determinant;
+}
+
+/* After a step no singular value is below 1, since (s + 1/s)/2 is not, and their product bounds how far each is above. A step
+ * squares that and halves it: from 1e-8 what is left is below round-off. */
+static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
+{
+    lanes size2 = lanes_of(POLAR_TINY);
+    for (int c = 0; c < 9; c++) size2 += M[c] * M[c];
+    const lanes inverse = lanes_inverse_root(size2 * (1.0 / 3));
+    lanes_mask sound = size2 > 2 * POLAR_TINY;
+    for (int c = 0; c < 9; c++) R[c] = M[c] * inverse;
+    for (int step = 0; step < 30; step++)
+        if (!lanes_any(polar_step(R, &sound) > 1 + 1e-8) && step > 0) break;
+    for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_of(c % 4 == 0));
+}
+
+static ALWAYS_INLINE void polar_rotation_lanes(const lanes *M, lanes *R, const int dim)
+{
+    if (dim == 2) polar_rotation_lanes_2d(M, R);
+    else polar_rotation_lanes_3d(M, R);
+}
+
+#endif

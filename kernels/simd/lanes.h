@@ -1,0 +1,179 @@
+/* floor 2: eight doubles as one value. Written with the compiler's vector extension, so the same source becomes AVX-512, AVX2
+ * or SSE code. Where AVX-512 has one instruction for what is several elsewhere, it is named, beside a twin for narrower
+ * vectors. The twins work with signs and bits: comparisons of eight doubles become eight comparisons there. */
+#ifndef CLEAVE_LANES_H
+#define CLEAVE_LANES_H
+
+#include <math.h>
+
+#include "data/particles.h"
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+typedef real lanes __attribute__((vector_size(LANES * sizeof(real))));
+typedef real lanes_anywhere __attribute__((vector_size(LANES * sizeof(real)), aligned(sizeof(real)), may_alias));
+typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))));
+typedef uint64_t lanes_bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
+typedef int16_t lanes_units __attribute__((vector_size(LANES * sizeof(int16_t)), may_alias));
+
+static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (const lanes_anywhere *)from; }
+static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to = a; }
+static ALWAYS_INLINE lanes lanes_of(real a) { return (lanes){a, a, a, a, a, a, a, a}; }
+
+static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_i32gather_pd(_mm256_load_si256((const __m256i *)index), from, sizeof(real));
+#else
+    return (lanes){from[index[0]], from[index[1]], from[index[2]], from[index[3]],
+                   from[index[4]], from[index[5]], from[index[6]], from[index[7]]};
+#endif
+}
+
+/* Eight of a list of n from the k-th on; the last ones of all are copied to `room`, and filled up with the first of them: fewer than
+ * eight never look consecutive. */
+static ALWAYS_INLINE const int32_t *list_eight(const int32_t *list, int64_t k, int64_t n, int32_t room[LANES])
+{
+    if (k + LANES <= n) return list + k;
+    for (int l = 0; l < LANES; l++) room[l] = list[k + l < n ? k + l : k];
+    return room;
+}
+
+/* Are eight of an ascending list consecutive? */
+static ALWAYS_INLINE bool list_together(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
+
+/* Eight values: consecutive from `first` on, or where that is negative those of `index`. */
+static ALWAYS_INLINE lanes lanes_at(const real *from, int32_t first, const int32_t *index)
+{
+    return first >= 0 ? lanes_load(from + first) : lanes_gather(from, index);
+}
+
+/* a where the mask is set, else b. */
+static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
+{
+    return (lanes)((mask & (lanes_mask)a) | (~mask & (lanes_mask)b));
+}
+
+/* Lanes with a sign. */
+static ALWAYS_INLINE lanes_mask lanes_negative(lanes a) { return (lanes_mask)-((lanes_bits)a >> 63); }
+
+static ALWAYS_INLINE lanes_mask lanes_less(lanes a, lanes b)
+{
+#ifdef __AVX512F__
+    return a < b;
+#else
+    return lanes_negative(a - b);
+#endif
+}
+
+static ALWAYS_INLINE lanes lanes_max(lanes a, lanes b)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_max_pd((__m512d)a, (__m512d)b);
+#else
+    return lanes_choose(lanes_less(b, a), a, b);
+#endif
+}
+
+static ALWAYS_INLINE lanes lanes_size(lanes a)
+{
+    const lanes_mask digits = (lanes_mask){0} + INT64_MAX;
+    return (lanes)((lanes_mask)a & digits);
+}
+
+/* Lanes with a bit. */
+static ALWAYS_INLINE lanes_mask lanes_of_bits(uint8_t bits)
+{
+    const uint64_t a = bits;
+    return (lanes_mask)-(-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
+}
+
+/* a where the lane has a bit, else 0. */
+static ALWAYS_INLINE lanes lanes_keep(uint8_t bits, lanes a)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_maskz_mov_pd(bits, (__m512d)a);
+#else
+    return (lanes)(lanes_of_bits(bits) & (lanes_mask)a);
+#endif
+}
+
+/* The larger where the lane has a bit, else a. */
+static ALWAYS_INLINE lanes lanes_max_kept(uint8_t bits, lanes a, lanes b)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_mask_max_pd((__m512d)a, bits, (__m512d)a, (__m512d)b);
+#else
+    return lanes_choose(lanes_of_bits(bits) & lanes_negative(a - b), b, a);
+#endif
+}
+
+/* a, and so many units of its last place more. Eight at a 16-byte boundary. */
+static ALWAYS_INLINE lanes lanes_excess(real a, const int16_t *units)
+{
+#ifdef __AVX512F__
+    const lanes_mask more = (lanes_mask)_mm512_cvtepi16_epi64(_mm_load_si128((const __m128i *)units));
+#else
+    const lanes_mask more = __builtin_convertvector(*(const lanes_units *)units, lanes_mask);
+#endif
+    return (lanes)((lanes_mask)lanes_of(a) + more);
+}
+
+static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
+{
+#ifdef __AVX512F__
+    return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+#else
+    int64_t any = 0;
+    for (int l = 0; l < LANES; l++) any |= mask[l];
+    return any != 0;
+#endif
+}
+
+#if defined __AVX512F__ || defined __FMA__
+
+/* 1/sqrt(a), roughly. Halving the exponent with the bits behind it and turning it round is right to 3.5 % for any normal
+ * number (the constant makes the largest error least); one round of the series below leaves 6e-6. */
+static ALWAYS_INLINE lanes lanes_estimate(lanes a)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_rsqrt14_pd((__m512d)a);
+#else
+    const lanes y = (lanes)(UINT64_C(0x5fe6eb50c7b537a9) - ((lanes_bits)a >> 1)), c = 1.0 - (a * y) * y;
+    return y + (y * c) * (0.5 + c * (0.375 + c * 0.3125));
+#endif
+}
+
+/* 1/sqrt(a) of normal numbers to full double precision, from an estimate y of 14 bits: with c = 1 - a y^2 below 2^-13 the
+ * series y (1 + c/2 + 3c^2/8 + 5c^3/16) leaves 35 c^4/128 < 2^-53. A third of a root and a division, and shorter than two
+ * steps of Newton. */
+static ALWAYS_INLINE lanes lanes_inverse_root(lanes a)
+{
+    const lanes y = lanes_estimate(a), c = 1.0 - (a * y) * y;
+    return y + (y * c) * (0.5 + c * (0.375 + c * 0.3125));
+}
+
+/* sqrt(a), in the same way. */
+static ALWAYS_INLINE lanes lanes_root(lanes a)
+{
+    const lanes y = lanes_estimate(a), root = a * y, c = 1.0 - root * y;
+    return root + (root * c) * (0.5 + c * (0.375 + c * 0.3125));
+}
+
+#else
+
+/* With vectors of two, roots and divisions are no slower. */
+static ALWAYS_INLINE lanes lanes_root(lanes a)
+{
+    lanes y;
+    for (int l = 0; l < LANES; l++) y[l] = sqrt(a[l]);
+    return y;
+}
+
+static ALWAYS_INLINE lanes lanes_inverse_root(lanes a) { return 1.0 / lanes_root(a); }
+
+#endif
+
+#endif

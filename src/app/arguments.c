@@ -1,0 +1,66 @@
+/* floor 5: the command line of the commands that read a scene. */
+#include "arguments.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static status add_override(struct run_arguments *a, const char *text)
+{
+    const char *equals = strchr(text, '=');
+    if (!equals || equals == text)
+        return status_set(REFUSED, "-s %s: a key and its value are wanted, as in -s particles.spacing=0.5mm", text);
+    char *copy = NEW("arguments.text", strlen(text) + 1, char);
+    strcpy(copy, text);
+    copy[equals - text] = '\0';
+    a->override[a->overrides++] = (struct scene_override){copy, copy + (equals - text) + 1};
+    return OK;
+}
+
+static status read_threads(struct run_arguments *a, const char *text)
+{
+    char *end;
+    long n = strtol(text, &end, 10);
+    if (*end || end == text || n < 1 || n > 4096)
+        return status_set(REFUSED, "-t %s: a number of threads from 1 to 4096 is wanted", text);
+    a->threads = (int)n;
+    return OK;
+}
+
+static status read_all(struct run_arguments *a, int argc, char **argv, const char *usage)
+{
+    for (int k = 1; k < argc; k++) {
+        const char *word = argv[k];
+        bool takes = !strcmp(word, "-o") || !strcmp(word, "-s") || !strcmp(word, "-t");
+        if (takes && k + 1 >= argc) return status_set(REFUSED, "%s wants a value; usage: cleave %s", word, usage);
+        if (!strcmp(word, "-o")) a->folder = argv[++k];
+        else if (!strcmp(word, "-s")) TRY(add_override(a, argv[++k]));
+        else if (!strcmp(word, "-t")) TRY(read_threads(a, argv[++k]));
+        else if (!strcmp(word, "--resume")) a->resume = true;
+        else if (!strcmp(word, "--overwrite")) a->overwrite = true;
+        else if (!strcmp(word, "-q")) a->quiet = true;
+        else if (word[0] == '-' && word[1])
+            return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
+        else if (a->scene) return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
+        else a->scene = word;
+    }
+    if (a->resume && a->overwrite) return status_set(REFUSED, "--resume goes on with a run and --overwrite replaces it: one of them");
+    return a->scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
+}
+
+status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage)
+{
+    memset(a, 0, sizeof *a);
+    a->override = NEW("arguments.override", argc, struct scene_override);
+    status s = read_all(a, argc, argv, usage);
+    if (s != OK) arguments_free(a);
+    return s;
+}
+
+void arguments_free(struct run_arguments *a)
+{
+    for (int k = 0; k < a->overrides; k++) memory_free((char *)a->override[k].key);
+    memory_free(a->override);
+    memset(a, 0, sizeof *a);
+}

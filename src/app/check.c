@@ -1,0 +1,117 @@
+/* floor 5: `cleave check`: what a scene would cost, and whether it is sound; nothing is written. */
+#include <math.h>
+#include <stdio.h>
+
+#include "check_parts.h"
+#include "commands.h"
+#include "engine/engine.h"
+
+static void say_particles(const struct engine *e)
+{
+    int64_t driven = 0;
+    for (int64_t i = 0; i < e->part.n; i++) driven += (e->part.flag[i] & FLAG_DRIVEN) != 0;
+    printf("particles      %lld: %lld peridynamic, %lld material points", (long long)e->part.n,
+           (long long)e->part.n_of[KIND_PD], (long long)e->part.n_of[KIND_MPM]);
+    if (driven) printf("; %lld driven", (long long)driven);
+    if (e->loads.images) printf("; %lld mirror images", (long long)e->loads.images);
+    printf("\nbonds          %lld directed in %lld rows\n", (long long)e->bonds.n, (long long)e->bonds.rows);
+}
+
+static void say_frames(const struct engine *e)
+{
+    for (int b = 0; b < e->scene->bodies; b++)
+        if (e->frame[b].reason)
+            printf("frame          body %s: %s, as %s\n", e->scene->body[b].name,
+                   e->frame[b].reference ? "reference" : "current", e->frame[b].reason);
+    if (e->mesh.points > 0)
+        printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n", (long long)e->mesh.points);
+}
+
+static void say_contact(const struct engine *e)
+{
+    int on_grid = 0;
+    for (int b = 0; b < e->scene->bodies; b++) on_grid += e->scene->method != METHOD_PD && !e->frame[b].reference;
+    if (on_grid > 1)
+        printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
+               "cells opens\n");
+}
+
+static void say_time_step(const struct engine *e)
+{
+    if (e->scene->solver != SOLVER_EXPLICIT)
+        printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n", e->scene->solver_tolerance,
+               (long long)e->steps);
+    else
+        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->dt, e->dt / e->dt_critical,
+               e->dt_critical, (long long)e->steps, e->scene->duration);
+}
+
+/* Why the time of a run is what it is. */
+static void say_basis(const struct engine *e, const struct cost *c)
+{
+    if (c->basis == COST_SCALED)
+        printf("; steps take %.2g times the first ones, as where the spacing is %.3g times as large", c->growth, c->coarser);
+    if (c->basis == COST_FIRST)
+        printf("; steps like the first ones%s", e->scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
+    if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
+}
+
+static void say_cost(const struct engine *e, const struct cost *c, int threads)
+{
+    const char *many = threads > 1 ? "s" : "";
+    if (e->scene->solver != SOLVER_EXPLICIT)
+        printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
+    else {
+        printf("run time       %s %.2g s on %d thread%s, %.1g s of it to write: %.3g ns a particle and step at first",
+               c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about", c->run, threads, many,
+               c->output, 1e9 * c->step / (double)e->part.n);
+        say_basis(e, c);
+    }
+    printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
+}
+
+static void say_materials(const struct engine *e)
+{
+    for (int m = 0; m < e->scene->materials; m++) {
+        const struct material *a = &e->scene->material[m];
+        printf("material       %s: waves at %.4g m/s", a->name, a->wave_speed);
+        if (a->rayleigh_speed > 0) printf(", Rayleigh %.4g m/s", a->rayleigh_speed);
+        if (isfinite(a->critical_stretch)) printf(", bonds break at a stretch of %.4g", a->critical_stretch);
+        else printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
+        if (isfinite(e->elastic[m].trigger)) printf(", conversion above %.4g Pa", e->elastic[m].trigger);
+        printf("\n");
+    }
+}
+
+status command_check(int argc, char **argv)
+{
+    struct run_arguments a;
+    TRY(arguments_read(&a, argc, argv, "check SCENE [-s KEY=VALUE]... [-t THREADS]"));
+    int threads = team_make(a.threads);
+    struct scene s = {0};
+    struct engine e = {0};
+    struct cost cost = {0};
+    const double start = team_clock();
+    status result = scene_read(&s, a.scene, a.override, a.overrides);
+    s.rest = false;                              /* what it costs once waves are everywhere */
+    if (result == OK) result = engine_make(&e, &s, NULL);
+    cost.make = team_clock() - start;
+    if (result == OK) {
+        printf("%s is sound\n", shown_name(a.scene).text);
+        scene_choice_print(&s, stdout);
+        say_particles(&e);
+        say_materials(&e);
+        say_frames(&e);
+        say_time_step(&e);
+        say_contact(&e);
+        engine_warn(&e);
+        warnings_print(&e.warnings, 0, stdout);
+        advise(&e, stdout);
+        result = cost_measure(&cost, &e, &a);
+        if (result == OK) say_cost(&e, &cost, threads);
+    }
+    engine_free(&e);
+    scene_free(&s);
+    arguments_free(&a);
+    return result;
+}

@@ -1,0 +1,165 @@
+/* floor 5: what a run costs, from steps that are thrown away: no table of figures knows the machine, its load and the scene as
+ * well as they do. A short run is tried as a whole. Of a long one the first steps are timed, all of the body awake; what
+ * waking, converting and comparing make of them is what they make of the same scene with larger particles, tried as a whole. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "check_parts.h"
+#include "src/engine/engine_report.h"
+#include "base/memory.h"
+#include "src/engine/solver_parts.h"
+
+enum { PERIODS_MOST = 200 };
+#define SECONDS_ENOUGH 0.15
+#define SECONDS_MOST 1.0
+#define SECONDS_WHOLE 1.5                /* of what is tried as a whole                                       */
+#define PATIENCE 3.0                     /* with it, where converting or a busy machine makes it longer       */
+#define COARSER_MOST 4.0                 /* a body of so much larger particles still breaks in the same places, about */
+#define FRAME_BYTES 72                   /* of a particle: copied for the writer, its room and its order      */
+#define OUTPUT_BYTES 2.7e6               /* of the library that writes                                        */
+#define FILE_SECONDS 2.5e-3              /* frames, checkpoints and profiles, however small; measured, as the next:     */
+#define FILE_SECONDS_PARTICLE 8e-8       /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
+#define BONDS_MOST 2e8                   /* of a body that is made peridynamic to see what that costs         */
+
+/* Of the steps after the first, which meets cold memory; from sample to sample, so that these have their share. */
+static status time_steps(struct engine *e, double *step)
+{
+    const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
+    const int64_t period = e->steps / samples > 0 ? e->steps / samples : 1;
+    double spent[PERIODS_MOST], all = 0;
+    int n = 0;
+    e->quiet = true;
+    TRY(engine_report_start(e));
+    const double begun = team_clock();
+    TRY(engine_step(e));
+    const double first = team_clock() - begun;
+    while (n < PERIODS_MOST && all < SECONDS_MOST && (n < 3 || all < SECONDS_ENOUGH)) {
+        const double start = team_clock();
+        int64_t taken = 0;
+        for (; taken < period && e->step < e->steps - 1 && team_clock() - start < SECONDS_MOST; taken++) TRY(engine_step(e));
+        if (taken == 0) break;
+        all += team_clock() - start;
+        spent[n++] = (team_clock() - start) / (double)taken;
+    }
+    *step = n > 0 ? median_of(spent, n) : first;
+    return OK;
+}
+
+/* A static solver asks for the bonds' forces once in an iteration. */
+static double time_iteration(struct engine *e)
+{
+    double spent[PERIODS_MOST], all = 0;
+    int n = 0;
+    while (n < PERIODS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
+        const double start = team_clock();
+        solver_bond_force(e);
+        all += spent[n++] = team_clock() - start;
+    }
+    return median_of(spent, n);
+}
+
+/* ---- other scenes ------------------------------------------------------------------------------------------------ */
+
+/* The scene with one key more; the caller frees both whatever comes of it. */
+static status make_other(struct scene *s, struct engine *e, const struct run_arguments *a, const char *key, const char *value,
+                         bool rest)
+{
+    struct scene_override *override = NEW("check.override", a->overrides + 1, struct scene_override);
+    memcpy(override, a->override, (size_t)a->overrides * sizeof *override);
+    override[a->overrides] = (struct scene_override){key, value};
+    const status read = scene_read(s, a->scene, override, key ? a->overrides + 1 : a->overrides);
+    memory_free(override);
+    TRY(read);
+    s->rest = s->rest && rest;
+    return engine_make(e, s, NULL);
+}
+
+/* Seconds of all steps; NAN where they fail or take far longer than was thought. */
+static double all_steps(struct engine *e)
+{
+    const double start = team_clock();
+    e->quiet = true;
+    memory_reuse(true);
+    if (engine_report_start(e) != OK) return NAN;
+    laps_start(&e->laps);
+    while (e->step < e->steps) {
+        if (engine_step(e) != OK || engine_alarm(e) != OK || engine_report(e) != OK) return NAN;
+        if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;
+    }
+    return engine_baseline(e) == OK ? team_clock() - start : NAN;
+}
+
+/* Seconds that all steps take [s] where `whole`, else a step of the first; NAN: it cannot be known. */
+static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole)
+{
+    struct scene s = {0};
+    struct engine e = {0};
+    double seconds = NAN;
+    if (make_other(&s, &e, a, key, value, whole) == OK) {
+        if (whole) seconds = all_steps(&e);
+        else if (time_steps(&e, &seconds) == OK) seconds *= (double)e.steps;
+        else seconds = NAN;
+    }
+    engine_free(&e);
+    scene_free(&s);
+    return seconds;
+}
+
+/* What all steps take beside what the first say, of the same scene with larger particles; NAN: it cannot be known. */
+static double growth_of(struct cost *c, const struct engine *e, const struct run_arguments *a, double first)
+{
+    const struct scene *s = e->scene;
+    char value[32];
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].file) return NAN;
+    c->coarser = ceil(pow(first / SECONDS_WHOLE, 1.0 / s->dim) * 4) / 4;
+    if (c->coarser <= 1 || c->coarser > COARSER_MOST) return NAN;
+    snprintf(value, sizeof value, "%.17g", c->coarser * s->spacing);
+    c->growth = try_other(a, "particles.spacing", value, true) / try_other(a, "particles.spacing", value, false);
+    return c->growth;
+}
+
+/* ---- the estimate -------------------------------------------------------------------------------------------------- */
+
+/* Neighbours of a particle inside the body, by the volume that they fill. */
+static double family_size(const struct family *f) { return f->full / f->cell_volume; }
+
+/* Frames, the one of the start and two checkpoints among them. */
+static double output_seconds(const struct engine *e)
+{
+    const double files = (double)(e->scene->frames < e->steps ? e->scene->frames : e->steps) + 3;
+    return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n + FILE_SECONDS * (double)probes_profiled(&e->probes));
+}
+
+static void cost_run(struct cost *c, const struct engine *e, const struct run_arguments *a)
+{
+    const double first = c->step * (double)e->steps;
+    double loop = NAN;
+    if (first < PATIENCE * SECONDS_WHOLE) loop = try_other(a, NULL, NULL, true);
+    c->basis = COST_TRIED;
+    if (isnan(loop)) {
+        const double growth = growth_of(c, e, a, first);
+        c->basis = isnan(growth) ? COST_FIRST : COST_SCALED;
+        loop = first * (isnan(growth) ? 1 : growth);
+    }
+    c->run = c->make + loop + c->output;
+}
+
+status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a)
+{
+    const double n = (double)e->part.n;
+    c->all_peridynamic = NAN;
+    if (e->scene->solver != SOLVER_EXPLICIT) {
+        c->step = time_iteration(e);
+        c->bytes = (double)memory_peak() + OUTPUT_BYTES + n * FRAME_BYTES;
+        return OK;
+    }
+    TRY(time_steps(e, &c->step));
+    c->bytes = (double)memory_peak() + OUTPUT_BYTES + n * FRAME_BYTES;
+    c->output = output_seconds(e);
+    cost_run(c, e, a);
+    if (e->scene->method == METHOD_ADAPTIVE && n * family_size(&e->source.family) < BONDS_MOST)
+        c->all_peridynamic = c->make + try_other(a, "method", "pd", false) + c->output;
+    return OK;
+}

@@ -1,0 +1,337 @@
+/* floor 5: `cleave compare A B`: how far two runs are apart: fields, energies, cracks, time taken. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "output/history.h"
+#include "base/memory.h"
+#include "output/output.h"
+#include "src/plot/plot.h"
+#include "output/summary_read.h"
+
+enum { KEY_LENGTH = 64 };
+
+/* Two frames count as taken at one time if they are closer than this share of the time between frames: runs with
+ * different steps do not hit the same instant. */
+static const double SAME_TIME = 0.05;
+
+struct pair {
+    const char *folder[2];
+    bool frames_differ;                  /* no fields were compared                    */
+    double spacing;                      /* of the first run; 0 if there are no frames [m] */
+    int dim;
+};
+
+/* A folder with at least one of the files that are compared. */
+static bool holds_run(const char *folder)
+{
+    return run_holds(folder, "summary.json") || run_holds(folder, "history.csv") ||
+           run_holds(folder, "frames.hdf.series");
+}
+
+/* ---- rows of the table ----------------------------------------------------------------------------- */
+
+static void print_number(double a)
+{
+    if (isnan(a)) printf(" %14s", "-");
+    else printf(" %14.7g", a);
+}
+
+/* One figure of both runs and their difference B - A; left out where neither has it. */
+static void print_row(const char *label, const char *unit, double a, double b)
+{
+    char text[KEY_LENGTH];
+    if (isnan(a) && isnan(b)) return;
+    snprintf(text, sizeof text, "%s%s%s%s", label, *unit ? " [" : "", unit, *unit ? "]" : "");
+    printf("  %-28s", text);
+    print_number(a);
+    print_number(b);
+    print_number(b - a);
+    putchar('\n');
+}
+
+static void print_head(const char *what) { printf("\n%-30s %14s %14s %14s\n", what, "A", "B", "B - A"); }
+
+/* ---- which frames ---------------------------------------------------------------------------------- */
+
+struct times { int n; struct listed_frame *list; };
+
+static double interval(const struct times *t)
+{
+    return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
+}
+
+/* Last frames of the same time; false if there are none. */
+static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
+{
+    double near = SAME_TIME * fmin(interval(a), interval(b));
+    *i = a->n - 1;
+    *j = b->n - 1;
+    while (*i >= 0 && *j >= 0) {
+        double late = a->list[*i].time - b->list[*j].time;
+        if (late == 0 || fabs(late) <= near) return true;
+        if (late > 0) (*i)--;
+        else (*j)--;
+    }
+    return false;
+}
+
+/* ---- fields ---------------------------------------------------------------------------------------- */
+
+struct difference {
+    double largest, rms, scale;          /* of |a - b|; scale: largest |a| */
+    int64_t where;                       /* particle of the largest        */
+};
+
+/* Distance of two vector (or tensor component) fields over n particles. */
+static struct difference field_difference(float *const *a, float *const *b, int components, int64_t n)
+{
+    struct difference d = {0};
+    double sum = 0;
+    for (int64_t i = 0; i < n; i++) {
+        double apart = 0, size = 0;
+        for (int k = 0; k < components; k++) {
+            apart += square((double)a[k][i] - b[k][i]);
+            size += square((double)a[k][i]);
+        }
+        sum += apart;
+        d.scale = fmax(d.scale, sqrt(size));
+        if (sqrt(apart) <= d.largest) continue;
+        d.largest = sqrt(apart);
+        d.where = i;
+    }
+    d.rms = n > 0 ? sqrt(sum / (double)n) : 0;
+    return d;
+}
+
+static void print_field(const char *label, const char *unit, const struct frame *f, struct difference d)
+{
+    char text[KEY_LENGTH];
+    snprintf(text, sizeof text, "%s%s%s%s", label, *unit ? " [" : "", unit, *unit ? "]" : "");
+    printf("  %-28s %14.7g %14.7g %14.7g", text, d.largest, d.rms, d.scale);
+    if (d.largest > 0) {
+        printf("   (%.5g", f->X[0][d.where]);
+        for (int k = 1; k < f->dim; k++) printf(", %.5g", f->X[k][d.where]);
+        printf(")");
+    }
+    putchar('\n');
+}
+
+static void print_fields(const struct frame *a, const struct frame *b)
+{
+    int64_t other_kind = 0;
+    for (int64_t i = 0; i < a->n; i++) other_kind += a->kind[i] != b->kind[i];
+    printf("\n%-30s %14s %14s %14s   %s\n", "fields, |B - A|", "largest", "rms", "largest |A|", "largest at X [m]");
+    print_field("displacement", "m", a, field_difference(a->u, b->u, a->dim, a->n));
+    print_field("velocity", "m/s", a, field_difference(a->v, b->v, a->dim, a->n));
+    print_field("stress", "Pa", a, field_difference(a->stress, b->stress, frame_stresses(a->dim), a->n));
+    print_field("damage", "", a, field_difference(&a->damage, &b->damage, 1, a->n));
+    printf("  %-28s %14lld of %lld\n", "particles of another kind", (long long)other_kind, (long long)a->n);
+}
+
+/* Why the particles of two frames cannot be set against each other; NULL if they can. */
+static const char *particles_differ(const struct frame *a, const struct frame *b)
+{
+    if (a->dim != b->dim) return "the dimensions differ";
+    if (a->n != b->n) return "the numbers of particles differ";
+    if (memcmp(a->id, b->id, (size_t)a->n * sizeof *a->id) != 0) return "the particles are numbered differently";
+    return NULL;
+}
+
+static void compare_particles(struct pair *p, const struct frame *a, const struct frame *b)
+{
+    const char *why = particles_differ(a, b);
+    p->dim = a->dim;
+    p->spacing = frame_spacing(a);
+    printf("\nlast common frame: t = %.7g s (A), %.7g s (B); step %lld, %lld; particles %lld, %lld\n", a->t, b->t,
+           (long long)a->step, (long long)b->step, (long long)a->n, (long long)b->n);
+    p->frames_differ = why != NULL;
+    if (why != NULL) {
+        printf("fields are not compared: %s\n", why);
+        return;
+    }
+    struct difference start = field_difference(a->X, b->X, a->dim, a->n);
+    if (start.largest > 1e-4 * p->spacing)
+        printf("the same particles start up to %.4g m apart (%.3g spacings)\n", start.largest,
+               start.largest / p->spacing);
+    print_fields(a, b);
+}
+
+static status compare_frames(struct pair *p)
+{
+    struct times t[2] = {{0}};
+    struct frame f[2] = {{0}};
+    int at[2];
+    status s = OK;
+    p->frames_differ = true;
+    for (int k = 0; k < 2 && s == OK; k++)
+        if (run_holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].list);
+    if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
+        printf("\nfields are not compared: %s has no frames\n", shown_name(p->folder[t[0].n == 0 ? 0 : 1]).text);
+    } else if (s == OK && !last_common(&t[0], &t[1], &at[0], &at[1])) {
+        printf("\nfields are not compared: no frames of the same time\n");
+    } else if (s == OK) {
+        for (int k = 0; k < 2 && s == OK; k++) s = run_frame(&f[k], p->folder[k], t[k].list[at[k]].number);
+        if (s == OK) compare_particles(p, &f[0], &f[1]);
+        for (int k = 0; k < 2; k++) frame_free(&f[k]);
+    }
+    for (int k = 0; k < 2; k++) memory_free(t[k].list);
+    return s;
+}
+
+/* ---- energies -------------------------------------------------------------------------------------- */
+
+static double last_of(const struct history *h, const char *name)
+{
+    return h->rows > 0 ? history_at(h, h->rows - 1, history_column(h, name)) : NAN;
+}
+
+static status compare_energies(const struct pair *p)
+{
+    static const struct { const char *name, *label, *unit; } figure[] = {
+        {"time", "time", "s"},
+        {"kinetic", "kinetic", "J"},
+        {"strain", "strain", "J"},
+        {"plastic", "plastic", "J"},
+        {"fracture", "fracture", "J"},
+        {"damped", "damped", "J"},
+        {"external_work", "external work", "J"},
+        {"balance_error", "balance error", ""},
+        {"momentum_error", "momentum error", ""},
+        {"pd_share", "peridynamic share", ""},
+    };
+    struct history h[2];
+    for (int k = 0; k < 2; k++) {
+        if (run_holds(p->folder[k], "history.csv")) continue;
+        printf("\nenergies are not compared: %s has no history.csv\n", shown_name(p->folder[k]).text);
+        return OK;
+    }
+    TRY(history_read(&h[0], p->folder[0]));
+    status s = history_read(&h[1], p->folder[1]);
+    if (s != OK) {
+        history_free(&h[0]);
+        return s;
+    }
+    print_head("at the end of history.csv");
+    for (int k = 0; k < (int)COUNT_OF(figure); k++)
+        print_row(figure[k].label, figure[k].unit, last_of(&h[0], figure[k].name), last_of(&h[1], figure[k].name));
+    for (int k = 0; k < 2; k++) history_free(&h[k]);
+    return OK;
+}
+
+/* ---- cracks ---------------------------------------------------------------------------------------- */
+
+/* A figure of summary.json; NAN without. */
+static double figure_of(const char *folder, const char *key)
+{
+    double value;
+    return summary_number(folder, key, &value) == OK ? value : NAN;
+}
+
+/* Where tip k of a run is; false past the last. */
+static bool tip_place(const char *folder, int k, double place[DIM_MAX])
+{
+    bool found = false;
+    for (int d = 0; d < DIM_MAX; d++) {
+        char key[KEY_LENGTH];
+        snprintf(key, sizeof key, "crack.tips.%d.%c", k, 'x' + d);
+        place[d] = figure_of(folder, key);
+        found = found || isfinite(place[d]);
+        if (!isfinite(place[d])) place[d] = 0;       /* a component the space does not have */
+    }
+    return found;
+}
+
+/* Every tip of A with the nearest one of B. */
+static void print_tips(const struct pair *p)
+{
+    double a[DIM_MAX], b[DIM_MAX];
+    for (int i = 0; tip_place(p->folder[0], i, a); i++) {
+        double least = INFINITY;
+        for (int j = 0; tip_place(p->folder[1], j, b); j++)
+            least = fmin(least, sqrt(square(a[0] - b[0]) + square(a[1] - b[1]) + square(a[2] - b[2])));
+        printf("  tip %d at (%.5g, %.5g, %.5g) m: ", i, a[0], a[1], a[2]);
+        if (!isfinite(least)) printf("B has no tip\n");
+        else if (p->spacing > 0) printf("nearest of B %.4g m away, %.3g spacings\n", least, least / p->spacing);
+        else printf("nearest of B %.4g m away\n", least);
+    }
+}
+
+static void compare_cracks(const struct pair *p)
+{
+    static const struct { const char *key, *label, *unit; } figure[] = {
+        {"crack.start_time", "first break", "s"}, {"crack.tip_start_time", "tip starts", "s"},
+        {"crack.arrest_time", "tip arrests", "s"}, {"crack.angle_deg", "angle", "degree"},
+        {"crack.length_end", "length", "m"},       {"crack.tip_speed_mean", "mean speed", "m/s"},
+        {"crack.tip_speed_max", "largest speed", "m/s"}};
+    print_head("crack");
+    for (int k = 0; k < (int)COUNT_OF(figure); k++)
+        print_row(figure[k].label, figure[k].unit, figure_of(p->folder[0], figure[k].key),
+                  figure_of(p->folder[1], figure[k].key));
+    print_tips(p);
+}
+
+static void compare_time(const struct pair *p)
+{
+    static const struct { const char *key, *label, *unit; } figure[] = {
+        {"steps", "steps", ""}, {"time_step", "time step", "s"}, {"threads", "threads", ""},
+        {"memory_peak_bytes", "peak memory", "byte"}, {"loop_seconds", "loop", "s"}};
+    print_head("time taken");
+    for (int k = 0; k < (int)COUNT_OF(figure); k++)
+        print_row(figure[k].label, figure[k].unit, figure_of(p->folder[0], figure[k].key),
+                  figure_of(p->folder[1], figure[k].key));
+    double a = figure_of(p->folder[0], "loop_seconds"), b = figure_of(p->folder[1], "loop_seconds");
+    if (a > 0 && b > 0) printf("  A/B = %.4g, t_r = 1 - A/B = %.4g\n", a / b, 1 - a / b);
+}
+
+/* ---- the command ----------------------------------------------------------------------------------- */
+
+static status read_words(struct pair *p, int argc, char **argv)
+{
+    for (int k = 1; k < argc; k++)
+        if (argv[k][0] == '-')
+            return status_set(REFUSED, "compare: unknown option %s; usage: cleave compare DIR DIR", argv[k]);
+    if (argc != 3)
+        return status_set(REFUSED, "compare: two folders are expected, not %d; usage: cleave compare DIR DIR",
+                          argc - 1);
+    for (int k = 0; k < 2; k++) {
+        p->folder[k] = argv[k + 1];
+        if (holds_run(p->folder[k])) continue;
+        return status_set(REFUSED, "%s: no run there: no summary.json, history.csv or frames", p->folder[k]);
+    }
+    return OK;
+}
+
+/* Name, method and state of a run; what is there must be readable. */
+static status print_run(const char *letter, const char *folder)
+{
+    char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];
+    if (!run_holds(folder, "summary.json")) {
+        printf("%s  %s: no summary.json yet\n", letter, shown_name(folder).text);
+        return OK;
+    }
+    TRY(summary_string(folder, "name", name, sizeof name));
+    if (summary_string(folder, "method", method, sizeof method) != OK)
+        snprintf(method, sizeof method, "unknown method");
+    if (summary_string(folder, "status", state, sizeof state) != OK) snprintf(state, sizeof state, "unknown state");
+    printf("%s  %s: %s, %s, %s\n", letter, shown_name(folder).text, name, method, state);
+    return OK;
+}
+
+status command_compare(int argc, char **argv)
+{
+    struct pair p = {.dim = 0};
+    TRY(read_words(&p, argc, argv));
+    TRY(print_run("A", p.folder[0]));
+    TRY(print_run("B", p.folder[1]));
+    TRY(compare_frames(&p));
+    TRY(compare_energies(&p));
+    compare_cracks(&p);
+    compare_time(&p);
+    printf("\ncomparable particle by particle: %s\n", p.frames_differ ? "no" : "yes");
+    if (fflush(stdout) != 0 || ferror(stdout)) return status_set(FAILED, "standard output: %s", strerror(errno));
+    return OK;
+}

@@ -1,0 +1,88 @@
+/* floor 5: the program: one command, one exit status. */
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "commands.h"
+#include "base/last_words.h"
+#include "output/output.h"
+#include "scene/scene.h"
+#include "engine/simd.h"
+
+/* Builds that report as they exit (leaks, what has run) say exit. */
+#ifndef LEAVE
+#define LEAVE _exit
+#endif
+
+struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
+
+static const struct command commands[] = {
+    {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]", "runs a scene", command_run},
+    {"check", "SCENE [-s KEY=VALUE]...", "what the scene would cost and whether it is sound", command_check},
+    {"plot", "DIR", "pictures of a finished or running run", command_plot},
+    {"compare", "DIR DIR", "how far two runs are apart", command_compare},
+    {"bench", "[NAME...] [--quick]", "kernels, efficiency, coupling", command_bench},
+    {"help", "[KEY|trust]", "every scene key: type, unit, range, default; what a run promises", command_help},
+    {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
+};
+
+static status usage(status result)
+{
+    FILE *to = result == OK ? stdout : stderr;
+    fprintf(to, "cleave: dynamic fracture by peridynamics and the material point method\n");
+    for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)
+        fprintf(to, "  cleave %-8s %-78s %s\n", c->name, c->words, c->meaning);
+    return result;
+}
+
+status command_help(int argc, char **argv)
+{
+    if (argc > 2) return status_set(REFUSED, "usage: cleave help [KEY]");
+    if (argc == 2 && !strcmp(argv[1], "--manual")) return scene_manual(stdout);
+    if (argc == 2 && !strcmp(argv[1], "trust")) return trust_print(stdout);
+    return scene_help(stdout, argc == 2 ? argv[1] : NULL);
+}
+
+static status call(int argc, char **argv)
+{
+    if (argc < 2) return usage(REFUSED);
+    output_start();
+    TRY(simd_start());
+    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) return usage(OK);
+    if (!strcmp(argv[1], "--version")) argv[1] = "info";
+    for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)
+        if (!strcmp(argv[1], c->name)) return c->call(argc - 1, argv + 1);
+    return status_set(REFUSED, "unknown command %s; cleave --help lists them", argv[1]);
+}
+
+/* OpenMP's threads wait for each other by spinning, for milliseconds: on a machine that is busy otherwise that slows a
+ * run many times over. A short spin is asked for before the library starts, unless the user has an opinion. */
+static void wait_politely(char **argv)
+{
+    if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
+    if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv);   /* where there is none: as it was */
+}
+
+/* Daemons close their first descriptors before they start a program; the next file opened would get one, and what is printed. */
+static void keep_descriptors(void)
+{
+    int fd;
+    do fd = open("/dev/null", O_RDWR);
+    while (fd >= 0 && fd <= STDERR_FILENO);
+    if (fd > STDERR_FILENO) close(fd);
+}
+
+int main(int argc, char **argv)
+{
+    keep_descriptors();
+    wait_politely(argv);
+    last_words_start();
+    status result = call(argc, argv);
+    const bool lost = fflush(stdout) != 0 || ferror(stdout);
+    if (lost && result == OK) result = status_set(FAILED, "cannot write to standard output");
+    if (result != OK && status_message()[0]) fprintf(stderr, "%s\n", status_message());
+    fflush(stderr);
+    LEAVE(result);                           /* libraries that failed to write may not survive their exit handlers */
+}

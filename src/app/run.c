@@ -1,0 +1,110 @@
+/* floor 5: `cleave run` and `cleave check`: from a scene file to results, or to what it would cost. */
+#include <math.h>
+#include <omp.h>
+#include <signal.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "arguments.h"
+#include "commands.h"
+#include "engine/engine.h"
+
+/* The one variable that a signal may reach. */
+static volatile sig_atomic_t stop_asked;
+
+static void on_signal(int number)
+{
+    if (stop_asked) _exit(128 + number);     /* the second time: at once */
+    stop_asked = 1;
+}
+
+/* What batch systems send ahead of the end, some of it every second. */
+static void on_notice(int number)
+{
+    (void)number;
+    stop_asked = 1;
+}
+
+/* A signal that whoever started the program ignores stays ignored: nohup, or `&` in a script, asks for that. */
+static void listen_to_signals(void)
+{
+    static const struct { int number; void (*handler)(int); } heard[] = {
+        {SIGINT, on_signal}, {SIGTERM, on_signal}, {SIGHUP, on_signal},
+        {SIGXCPU, on_notice}, {SIGUSR1, on_notice}, {SIGUSR2, on_notice}};
+    for (size_t k = 0; k < COUNT_OF(heard); k++) {
+        const struct sigaction action = {.sa_handler = heard[k].handler};
+        struct sigaction before;
+        if (sigaction(heard[k].number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(heard[k].number, &action, NULL);
+    }
+}
+
+/* ---- run -------------------------------------------------------------------------------------------------------- */
+
+static void print_summary(const struct engine *e, const char *folder, double wall)
+{
+    const struct shown_name shown = shown_name(folder);
+    const struct tip *tip = tips_longest(&e->tips);
+    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n, (long long)e->step,
+           e->dt, wall);
+    bool broke = !isnan(e->watch.break_time);
+    if (broke) printf("  first bond cut at %.4g s", e->watch.break_time);
+    if (tip)
+        printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
+               tip_angle(tip, e->part.dim));
+    if (broke || tip) printf("\n");
+    printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n",
+           100.0 * (double)e->conversion.start / (double)e->part.n,
+           100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n);
+    printf("  energy balance %.2g, momentum %.2g\n", e->watch.now.balance_error, e->watch.now.momentum_error);
+    printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", shown.text,
+           shown.text, shown.text);
+}
+
+static status open_folder(struct output *out, const struct scene *s, const struct run_arguments *a)
+{
+    char folder[sizeof s->name + sizeof "results/"];
+    snprintf(folder, sizeof folder, "results/%s", s->name);
+    const enum output_mode mode = a->resume ? OUTPUT_RESUME : a->overwrite ? OUTPUT_OVERWRITE : OUTPUT_FIRST;
+    return output_open(out, a->folder ? a->folder : folder, s->text, mode, s->compress);
+}
+
+static status run_engine(struct engine *e, const struct scene *s, struct output *out, const struct run_arguments *a,
+                         int threads)
+{
+    double start = team_clock();
+    TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
+    TRY(open_folder(out, s, a));
+    e->quiet = a->quiet;
+    if (!a->quiet) scene_choice_print(s, stderr);
+    engine_warn(e);
+    warnings_print(&e->warnings, 0, stderr);
+    if (threads > 2 * omp_get_num_procs())
+        fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads, omp_get_num_procs());
+    e->stop = &stop_asked;
+    if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
+    status ran = engine_run(e);
+    if (ran == OK) ran = engine_baseline(e);
+    status written = ran == REFUSED ? OK : summary_write(e, ran, threads, team_clock() - start);
+    if (ran != OK) return ran;
+    TRY(written);
+    if (!a->quiet) print_summary(e, out->folder, team_clock() - start);
+    return OK;
+}
+
+status command_run(int argc, char **argv)
+{
+    struct run_arguments a;
+    TRY(arguments_read(&a, argc, argv, "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
+    int threads = team_make(a.threads);
+    struct scene s = {0};
+    struct engine e = {0};
+    struct output out = {0};
+    status result = scene_read(&s, a.scene, a.override, a.overrides);
+    listen_to_signals();
+    if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
+    engine_free(&e);
+    output_close(&out);
+    scene_free(&s);
+    arguments_free(&a);
+    return result;
+}

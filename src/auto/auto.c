@@ -1,0 +1,267 @@
+/* floor 4: `method: auto`: reads the scene once to see what it is like (auto_match.c), picks from the chart (auto_pick.c),
+ * and lays spacing, method, horizon and step over the scene as if the user had written them. What the user wrote stays and
+ * restricts the choice. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "auto.h"
+#include "base/memory.h"
+#include "src/scene/scene_internal.h"
+
+static const real usual_accuracy = 0.01;
+
+/* What rules a choice: the scene as read, and as written. */
+struct ask {
+    const struct scene *scene;
+    const struct node *root;
+    struct auto_match match;
+    bool slow_loads;                     /* nothing but constant tractions loads it: they may grow slowly     */
+    real accuracy;
+};
+
+/* ---- reading the scene before anything is chosen ---------------------------------------------------------------- */
+
+/* With stand-ins for what is to be chosen, of which no other key complains. */
+static status read_first(struct reader *r, const char *text, size_t length, struct scene *s)
+{
+    static const char *const dropped[] = {"accuracy", "accuracy_chart", "pd.surface", "particles.spacing"};
+    struct reader first = *r;
+    struct node *root;
+    first.scene = s;
+    status read = scene_tree(&first, text, length, &root);
+    for (size_t k = 0; k < COUNT_OF(dropped) && read == OK; k++)
+        if (tree_at(root, dropped[k])) read = tree_set(&first, root, dropped[k], "");
+    const struct node *space = read == OK ? tree_at(root, "space") : NULL;
+    const bool line = space && strcmp(space->text, "line") == 0, yields = read == OK && tree_at(root, "material.yield_stress");
+    if (read == OK) read = tree_set(&first, root, "particles.spacing", "1");
+    if (read == OK) read = tree_set(&first, root, "method", "adaptive");
+    if (read == OK) read = tree_set(&first, root, "solver", "explicit");
+    if (read == OK && !line && !yields) read = tree_set(&first, root, "model", "mospd");
+    if (read == OK) read = scene_from_tree(&first, root);
+    r->arena = first.arena;
+    return read;
+}
+
+/* ---- what a method can do ---------------------------------------------------------------------------------------- */
+
+static bool has_states(const struct chart_point *p)
+{
+    return chart_says(p, "model", "ospd") || chart_says(p, "model", "mospd");
+}
+
+static bool has_bonds(const struct chart_point *p) { return !chart_says(p, "method", "mpm"); }
+
+/* Bonds impose Poisson's ratio; one velocity field does not crack; a reference frame knows no neighbours but its own. */
+static bool can_do(const struct chart_point *p, const struct ask *a)
+{
+    const struct scene *s = a->scene;
+    const real bond = material_bond_poisson(s->space);
+    const bool coupled = strncmp(p->method, "coupled", 7) == 0, slow = chart_says(p, "solver", "explicit");
+    if (has_bonds(p) && (a->match.points_only || (s->dim > 1 && !has_states(p) && fabs(s->material[0].poisson - bond) > 1e-6)))
+        return false;
+    if (!has_bonds(p) && a->match.needs_bonds && !(a->match.gap && chart_says(p, "mpm.frame", "reference"))) return false;
+    if (s->bodies > 1 && (chart_says(p, "method", "pd") || chart_says(p, "mpm.frame", "reference"))) return false;
+    if (coupled != s->has_pd_region && !(s->has_pd_region && strncmp(p->method, "adaptive", 8) == 0)) return false;
+    if (chart_says(p, "mpm.strain", "small") && 100 * a->match.strain > a->accuracy) return false;
+    return !a->match.at_rest || !slow || a->slow_loads;
+}
+
+/* ---- what the user wrote ------------------------------------------------------------------------------------------- */
+
+static bool same_value(const char *a, const char *b)
+{
+    char *end_a, *end_b;
+    const double x = strtod(a, &end_a), y = strtod(b, &end_b);
+    if (end_a != a && end_b != b && !*end_a && !*end_b) return fabs(x - y) <= 1e-9 * fabs(y);
+    return strcmp(a, b) == 0;
+}
+
+/* The default; where it hangs on the method as resolve_defaults has it, else the first word of what explains it: `(gimp;
+ * ..`. */
+static void usual_value(const struct key *k, const struct chart_point *p, char *text, size_t room)
+{
+    const char *from = k->fallback + (*k->fallback == '(');
+    if (strcmp(k->path, "mpm.frame") == 0) from = "current";      /* charts of before the frame was chosen */
+    if (strcmp(k->path, "pd.surface") == 0) from = chart_says(p, "method", "pd") && !has_states(p) ? "volume" : "none";
+    if (strcmp(k->path, "pd.influence") == 0) from = has_states(p) ? "inverse" : "one";
+    if (strcmp(k->path, "pd.normalisation") == 0) from = chart_says(p, "model", "mospd") ? "bulk" : "local";
+    snprintf(text, room, "%.*s", (int)strcspn(from, *k->fallback == '(' ? "; )" : ""), from);
+}
+
+/* Does a key of this group mean anything to the method? */
+static bool concerns(const char *path, const struct chart_point *p)
+{
+    if (strncmp(path, "pd.", 3) == 0 || strcmp(path, "model") == 0) return has_bonds(p);
+    if (strcmp(path, "mpm.shape") == 0 || strcmp(path, "mpm.transfer") == 0)
+        return !chart_says(p, "method", "pd") && !chart_says(p, "mpm.frame", "reference");
+    if (strncmp(path, "mpm.", 4) == 0) return !chart_says(p, "method", "pd") && strcmp(path, "mpm.origin") != 0;
+    if (strcmp(path, "coupling") == 0 || strncmp(path, "conversion.", 11) == 0) return chart_says(p, "method", "adaptive");
+    return false;
+}
+
+static bool agrees(const struct chart_point *p, const struct node *root)
+{
+    char value[CHART_WORD];
+    for (int i = 0; i < keys_count; i++) {
+        const struct node *n = keys[i].type <= KEY_CHOICE ? tree_at(root, keys[i].path) : NULL;
+        if (!n || n->kind != NODE_SCALAR || !concerns(keys[i].path, p)) continue;
+        if (strcmp(keys[i].path, "mpm.frame") == 0 && strcmp(n->text, "auto") == 0) continue;
+        if (!chart_key(p, keys[i].path, value, sizeof value)) usual_value(&keys[i], p, value, sizeof value);
+        if (!same_value(n->text, value)) return false;
+    }
+    const struct node *solver = tree_at(root, "solver");
+    return !solver || !chart_key(p, "solver", value, sizeof value) || strcmp(solver->text, "static") == 0 ||
+           strcmp(solver->text, value) == 0;
+}
+
+static bool allows(const struct chart_point *p, const void *context)
+{
+    const struct ask *a = context;
+    const struct scene *s = a->scene;
+    if (tree_at(a->root, "particles.horizon") && p->horizon > 0 && fabs(p->horizon - s->horizon) > 1e-9) return false;
+    if (tree_at(a->root, "time.safety") && fabs(p->step - s->safety) > 1e-9) return false;
+    return can_do(p, a) && agrees(p, a->root);
+}
+
+/* ---- saying it -------------------------------------------------------------------------------------------------------- */
+
+/* The chart's time, by the number of particles and of steps: steps of waves go as the way that they go. */
+static real seconds_of(const struct ask *a, const struct auto_point *p, real spacing)
+{
+    real particles = 0;
+    for (int b = 0; b < a->scene->bodies; b++) {
+        real count = 1;
+        for (int d = 0; d < a->scene->dim; d++) count *= auto_extent(a->scene, b, d) / spacing;
+        particles += count;
+    }
+    const real steps = a->match.kind->travel > 0 ? a->match.travel / a->match.kind->travel : 1;
+    return p->seconds * particles / p->particles * steps;
+}
+
+static void keep_choice(struct scene_choice *c, const struct ask *a, const struct auto_found *f, real spacing)
+{
+    const struct auto_match *m = &a->match;
+    c->made = true;
+    snprintf(c->like, sizeof c->like, "%s (%s of the chart)", m->kind->title, m->kind->problem);
+    snprintf(c->feature, sizeof c->feature, "%s", m->kind->feature);
+    const bool gap = m->needs_bonds && !has_bonds(f->best.of);
+    snprintf(c->picked, sizeof c->picked, "%.40s%s", f->best.of->method, gap ? ", the crack a gap of one cell" : "");
+    c->size = m->feature, c->points = m->feature / spacing, c->resolution = c->points / m->kind->per_resolution;
+    c->accuracy = a->accuracy, c->error = m->growth * f->best.error;
+    c->horizon = f->best.of->horizon, c->step = f->best.of->step;
+    c->seconds = seconds_of(a, &f->best, spacing);
+    c->second[0] = '\0';
+    if (!f->second.of) return;
+    snprintf(c->second, sizeof c->second, "%.60s", f->second.of->method);
+    c->second_error = m->growth * f->second.error, c->second_share = f->second.seconds / f->best.seconds;
+}
+
+void scene_choice_print(const struct scene *s, FILE *out)
+{
+    const struct scene_choice *c = &s->choice;
+    if (!c->made) return;
+    fprintf(out, "auto           like %s: %s is %.4g m, %.4g spacings\n", c->like, c->feature, c->size, c->points);
+    fprintf(out, "auto           %s", c->picked);
+    if (c->horizon > 0) fprintf(out, ", horizon %.4g", c->horizon);
+    fprintf(out, ", spacing %.4g m, %.3g of the critical step:\n", s->spacing, c->step);
+    fprintf(out, "auto           the cheapest for an error of %.2g %% where %.2g %% is asked, in about %.2g s on one thread of "
+            "the chart's machine\n", 100 * c->error, 100 * c->accuracy, c->seconds);
+    if (!c->second[0]) return;
+    fprintf(out, "auto           next best: %s, %.2g %% in %.2f times that time\n", c->second, 100 * c->second_error,
+            c->second_share);
+}
+
+/* ---- all ----------------------------------------------------------------------------------------------------------------- */
+
+static bool loads_may_wait(const struct scene *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->boundaries; k++) {
+        const struct boundary *b = &s->boundary[k];
+        if (b->kind == BOUNDARY_MIRROR) continue;
+        if (b->kind != BOUNDARY_TRACTION || b->time.kind != TIME_CONSTANT) return false;
+        any = true;
+    }
+    return any;
+}
+
+static status make_ask(struct reader *r, struct ask *a)
+{
+    const struct node *solver = tree_at(a->root, "solver"), *method = tree_at(a->root, "method");
+    const struct node *accuracy = tree_at(a->root, "accuracy");
+    const bool at_rest = solver && strcmp(solver->text, "explicit") != 0;
+    a->slow_loads = loads_may_wait(a->scene);
+    a->accuracy = usual_accuracy;
+    if (accuracy) TRY(read_number(r, key_find("", "accuracy"), accuracy, &a->accuracy));
+    if (auto_match_find(&a->match, a->scene, at_rest) != OK) {
+        char why[400];
+        snprintf(why, sizeof why, "%s", status_message());
+        return fault(r, method, "%s", why);
+    }
+    if (a->match.strain > a->accuracy)
+        return fault(r, method, "strains of about %.2g are more than the accuracy of %.2g, and the chart's problems are "
+                     "linear; write method and particles.spacing", a->match.strain, a->accuracy);
+    return OK;
+}
+
+static status fault_unreached(struct reader *r, const struct ask *a, const struct auto_found *f)
+{
+    const struct node *at = tree_at(a->root, "accuracy");
+    const struct auto_match *m = &a->match;
+    if (!at) at = tree_at(a->root, "method");
+    if (!f->finest.of)
+        return fault(r, at, "no method of the chart for %s does what this scene asks and fits what it fixes; leave keys of "
+                     "pd, mpm, model and spacing to auto, or write method and particles.spacing", m->kind->title);
+    return fault(r, at, "an error of %.2g %% is not reached by the chart of %s; %.2g %% is, by %s with %.4g spacings in %s: "
+                 "ask for that, or write method and particles.spacing", 100 * a->accuracy, m->kind->title,
+                 100 * m->growth * f->finest.error, f->finest.of->method, f->finest.resolution * m->kind->per_resolution,
+                 m->kind->feature);
+}
+
+static status choose(struct reader *r, struct node *root, struct ask *a, const struct chart *chart)
+{
+    const real unit = a->match.feature / a->match.kind->per_resolution;      /* resolution x spacing */
+    const struct node *spacing = tree_at(a->root, "particles.spacing");
+    struct auto_wish w = {.match = &a->match, .accuracy = a->accuracy / a->match.growth, .allows = allows, .context = a};
+    struct auto_found f;
+    real h = NAN;
+    if (spacing) TRY(read_number(r, key_find("particles", "spacing"), spacing, &h));
+    if (spacing) w.resolution = unit / h;
+    auto_pick(&f, chart, &w);
+    if (!f.best.of) return fault_unreached(r, a, &f);
+    if (!spacing) h = auto_spacing_fit(a->scene, unit / f.best.resolution, !chart_says(f.best.of, "method", "pd"));
+    keep_choice(&r->scene->choice, a, &f, h);
+    return auto_lay(r, root, &a->match, a->scene, f.best.of, h);
+}
+
+/* In the scene's folder, or where the program was started. */
+static status read_chart(struct reader *r, const struct node *root, struct chart *chart)
+{
+    const struct node *n = tree_at(root, "accuracy_chart");
+    const char *slash = strrchr(r->name, '/');
+    char path[4096];
+    if (!n) return chart_read(chart, NULL);
+    if (n->kind != NODE_SCALAR || !*n->text)
+        return fault(r, n, "%s is no file name; results/bench/chart.csv is one", shown(r, n));
+    snprintf(path, sizeof path, "%.*s%s", slash && n->text[0] != '/' ? (int)(slash - r->name) + 1 : 0, r->name, n->text);
+    return chart_read(chart, access(path, R_OK) == 0 ? path : n->text);
+}
+
+status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length)
+{
+    const struct node *method = root->kind == NODE_MAP ? tree_at(root, "method") : NULL;
+    struct chart chart = {0};
+    struct scene first = {0};
+    if (!method || strcmp(method->text, "auto") != 0) return OK;
+    struct ask a = {.scene = &first, .root = root};
+    status s = read_first(r, text, length, &first);
+    if (s == OK) s = read_chart(r, root, &chart);
+    if (s == OK) s = make_ask(r, &a);
+    if (s == OK) s = choose(r, root, &a, &chart);
+    chart_free(&chart);
+    scene_free(&first);
+    return s;
+}

@@ -1,0 +1,62 @@
+/* floor 0: the one message that goes with a status. */
+#include "base/base.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { MESSAGE_LENGTH = 1024 };
+
+/* As errno: each thread has its own, so that a worker's fault never mixes with another's. */
+static _Thread_local char message[MESSAGE_LENGTH];
+
+status status_set(status s, const char *format, ...)
+{
+    char text[MESSAGE_LENGTH];           /* the old message may be among the arguments */
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    text_harmless(text);
+    snprintf(message, sizeof message, "%s", text);
+    return s;
+}
+
+const char *status_message(void) { return message; }
+
+/* Bytes of a character that a terminal acts on instead of showing it; 0: it shows it. Control characters: a byte below a blank, 127, and
+ * U+0080 to U+009F, in UTF-8 C2 80 to C2 9F. What turns the direction of writing or ends lines: U+200E, U+200F, U+2028 to U+202E and
+ * U+2066 to U+2069, in UTF-8 E2 80 8E, and so on. */
+static int harmful_bytes(const unsigned char *c)
+{
+    if (*c < ' ' || *c == 127) return 1;
+    if (c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0) return 2;
+    if (c[0] == 0xE2 && c[1] == 0x80 && (c[2] == 0x8E || c[2] == 0x8F || (c[2] >= 0xA8 && c[2] <= 0xAE))) return 3;
+    return c[0] == 0xE2 && c[1] == 0x81 && c[2] >= 0xA6 && c[2] <= 0xA9 ? 3 : 0;
+}
+
+void text_harmless(char *text)
+{
+    for (unsigned char *c = (unsigned char *)text; *c; c++)
+        for (int n = harmful_bytes(c); n > 0; n--) c[n - 1] = '?';
+}
+
+struct shown_name shown_name(const char *name)
+{
+    struct shown_name s;
+    snprintf(s.text, sizeof s.text, "%s", name);
+    text_harmless(s.text);
+    return s;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double median_of(double *value, int64_t n)
+{
+    qsort(value, (size_t)n, sizeof *value, by_size);
+    return value[n / 2];
+}

@@ -1,0 +1,104 @@
+/* floor 0: Lanczos' iteration for the largest eigenvalue. */
+#include "base/eigenvalue.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+
+#define STATIONARY 1e-3                  /* what the last iterations may add                          */
+#define EXHAUSTED 1e-12                  /* of the eigenvalue: the vectors found span all there is    */
+enum { ITERATIONS_LEAST = 16, ITERATIONS_MOST = 200, ITERATIONS_SEEN = 8 };
+
+/* The next vector w, the newest v and the one before it. */
+struct lanczos { int64_t n; real *v, *before, *w; };
+
+static void overlap_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct lanczos *l = context;
+    for (int64_t k = first; k < end; k++) {
+        sum[0] += l->v[k] * l->w[k];
+        sum[1] += l->w[k] * l->w[k];
+    }
+}
+
+static void start(struct lanczos *l)
+{
+    uint64_t seed = 1;
+    real sum[2];
+    for (int64_t k = 0; k < l->n; k++) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        l->w[k] = (real)(seed >> 11) * 0x1p-52 - 1;
+        l->v[k] = l->before[k] = 0;
+    }
+    team_sums(l->n, 2, overlap_block, l, sum);
+    for (int64_t k = 0; k < l->n; k++) l->v[k] = l->w[k] / sqrt(sum[1]);
+}
+
+/* w = A v less its parts along v and the one before; returns its length, and the part along v. */
+static real next(struct lanczos *l, operator_fn *apply, void *context, real last, real *diagonal)
+{
+    real sum[2];
+    apply(context, l->v, l->w);
+    team_sums(l->n, 2, overlap_block, l, sum);
+    *diagonal = sum[0];
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < l->n; k++) l->w[k] -= *diagonal * l->v[k] + last * l->before[k];
+    team_sums(l->n, 2, overlap_block, l, sum);
+    return sqrt(sum[1]);
+}
+
+/* The newest vector becomes the one before, and w of length `size` the newest. */
+static void turn(struct lanczos *l, real size)
+{
+    real *spare = l->before;
+    l->before = l->v, l->v = l->w, l->w = spare;
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < l->n; k++) l->v[k] /= size;
+}
+
+/* Is x above all eigenvalues of the symmetric tridiagonal matrix (Sturm)? b[k] stands between a[k] and a[k + 1]. */
+static bool above_all(const real *a, const real *b, int n, real x)
+{
+    real pivot = x - a[0];
+    for (int k = 1; k < n && pivot > 0; k++) pivot = x - a[k] - b[k - 1] * (b[k - 1] / pivot);
+    return pivot > 0;
+}
+
+static real largest_of_tridiagonal(const real *a, const real *b, int n)
+{
+    real low = a[0], high = 0;
+    for (int k = 0; k < n; k++) {
+        low = real_max(low, a[k]);
+        high = real_max(high, a[k] + (k > 0 ? b[k - 1] : 0) + (k + 1 < n ? b[k] : 0));
+    }
+    for (int k = 0; k < 50; k++) {
+        const real middle = 0.5 * (low + high);
+        if (above_all(a, b, n, middle)) high = middle;
+        else low = middle;
+    }
+    return high;
+}
+
+real largest_eigenvalue(int64_t n, operator_fn *apply, void *context)
+{
+    real a[ITERATIONS_MOST], b[ITERATIONS_MOST], found[ITERATIONS_MOST] = {0};
+    const int most = n < ITERATIONS_MOST ? (int)n : ITERATIONS_MOST;
+    int k = 0;
+    if (n == 0) return 0;
+    struct lanczos l = {n, NEW("eigenvalue.v", n, real), NEW("eigenvalue.before", n, real), NEW("eigenvalue.w", n, real)};
+    start(&l);
+    while (k < most) {
+        b[k] = next(&l, apply, context, k > 0 ? b[k - 1] : 0, &a[k]);
+        found[k] = largest_of_tridiagonal(a, b, k + 1);
+        k++;
+        if (!(b[k - 1] > EXHAUSTED * fabs(found[k - 1]))) break;
+        if (k > ITERATIONS_LEAST && found[k - 1] - found[k - 1 - ITERATIONS_SEEN] <= STATIONARY * found[k - 1]) break;
+        turn(&l, b[k - 1]);
+    }
+    memory_free(l.v);
+    memory_free(l.before);
+    memory_free(l.w);
+    return real_max(0, found[k - 1]);
+}

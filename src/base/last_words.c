@@ -1,0 +1,87 @@
+/* floor 0: last words of a process that a library ends. HDF5 without memory leaves by exit(-1), or reads through a pointer to nothing, and
+ * so it does with some damaged files; it says nothing. */
+#include "base/last_words.h"
+
+#include "base/base.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#define OUT_OF_MEMORY "out of memory: a library could not go on; results up to the last checkpoint are whole: go on with --resume where there " \
+                      "is more memory, or with fewer threads (-t), or choose a larger particles.spacing\n"
+
+/* The file that HDF5 reads, harmless to a terminal; "": none. */
+static char reading[512];
+
+void last_words_reading(const char *path)
+{
+    const struct shown_name shown = shown_name(path ? path : "");
+    memcpy(reading, shown.text, sizeof reading);
+}
+
+/* What a signal handler may do: no more than write and leave. */
+static void say(const char *text)
+{
+    for (size_t done = 0, length = strlen(text); done < length;) {
+        const ssize_t more = write(STDERR_FILENO, text + done, length - done);
+        if (more <= 0) break;
+        done += (size_t)more;
+    }
+}
+
+static _Noreturn void say_and_leave(void)
+{
+    say(OUT_OF_MEMORY);
+    _exit(FAILED);
+}
+
+static _Noreturn void say_damaged_and_leave(void)
+{
+    say("cannot read ");
+    say(reading);
+    say(": the HDF5 library crashed over it; it is damaged, or not what it seems\n");
+    _exit(FAILED);
+}
+
+/* Is so little left that an array of a library may not have found room? */
+static bool memory_is_tight(void)
+{
+    enum { PLENTY = 256 << 20 };
+    void *room = mmap(NULL, PLENTY, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED) return true;
+    munmap(room, PLENTY);
+    return false;
+}
+
+static void on_crash(int number)
+{
+    if (memory_is_tight()) say_and_leave();
+    if (reading[0]) say_damaged_and_leave();
+    signal(number, SIG_DFL);                 /* the fault comes again, and ends the process as it should */
+}
+
+/* This program leaves by _exit: whoever calls exit is a library, and -1 is HDF5 without memory. */
+#ifdef __GLIBC__
+static void on_library_exit(int result, void *unused)
+{
+    (void)unused;
+    if ((result & 0xFF) == 0xFF) say_and_leave();
+}
+#endif
+
+void last_words_start(void)
+{
+    static char room[1 << 16];               /* a stack that finds no memory to grow cannot hold the handler */
+    const stack_t apart = {.ss_sp = room, .ss_size = sizeof room};
+    const struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
+    sigaltstack(&apart, NULL);
+    sigaction(SIGSEGV, &action, NULL);
+    sigaction(SIGBUS, &action, NULL);
+#ifdef __GLIBC__
+    on_exit(on_library_exit, NULL);
+#endif
+}

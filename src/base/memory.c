@@ -1,0 +1,234 @@
+/* floor 0: aligned arrays, touched first by their threads; the end of the run where there is no memory. */
+#include "base/memory.h"
+
+#include <malloc.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+/* A cache line and the widest vector [byte]; the pieces in which pages are touched; a page, a large one, and the arrays that
+ * lie on such. */
+enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 4 << 20 };
+
+/* Pages of its own: where the system gives them, and not under the address sanitizer, which sees the heap alone. */
+#if defined __SANITIZE_ADDRESS__
+enum { HEAP_ALONE = 1 };
+#else
+enum { HEAP_ALONE = 0 };
+#endif
+
+/* From this size on an array has pages of its own: pages used before would lie where somebody else's threads touched them
+ * first; and new ones are zero, so that they need not be written twice. */
+enum { OWN_PAGES = 1 << 20 };
+/* Where asked, some of those that are freed wait for an array of about their size, which is mostly the same one made anew: the system takes
+ * longer to give a page than it takes to write one. */
+enum { KEPT = 64, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
+
+/* Stands before the array. */
+struct block { void *whole; size_t mapped; };    /* what to free; its bytes if it has its own pages, else 0 */
+_Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
+
+static _Noreturn void out_of_memory(const char *label, int64_t count, size_t size)
+{
+    fprintf(stderr, "out of memory: %s needs %lld entries of %zu bytes; this run has used %.1f MB so far\n", label,
+            (long long)count, size, (double)memory_peak() * 1e-6);
+    _exit(FAILED);
+}
+
+/* Writes zeros piece by piece in the static partition of the loops that will use the array, so that a page
+ * lies in the memory of the processor whose thread works on it; of fresh pages only a byte each. */
+static void zero(char *bytes, size_t length, bool fresh)
+{
+    int64_t pieces = (int64_t)((length + PIECE - 1) / PIECE);
+    if (pieces < 2) {
+        if (!fresh) memset(bytes, 0, length);
+        return;
+    }
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < pieces; k++) {
+        size_t first = (size_t)k * PIECE, end = length - first < PIECE ? length : first + PIECE;
+        if (!fresh) memset(bytes + first, 0, end - first);
+        for (size_t at = first; fresh && at < end; at += PAGE) ((volatile char *)bytes)[at] = 0;
+    }
+}
+
+/* Large blocks all begin at the same place of a page, and a cache has room for eight or twelve lines of one place: loops that
+ * read twenty arrays side by side would push out their own. So each array begins some lines further on than the last. */
+static size_t offset(size_t length)
+{
+    static unsigned arrays;
+    if (length < 4 * PAGE) return 0;
+    return __atomic_fetch_add(&arrays, 13, __ATOMIC_RELAXED) % (PAGE / ALIGNMENT) * ALIGNMENT;
+}
+
+#ifdef MAP_ANONYMOUS
+static struct block waiting[KEPT];
+static int waiting_longest;
+static size_t waiting_bytes;
+static bool reusing;
+
+/* Sizes come in steps of a quarter at most, and with half as much again where blocks wait for others, so that what has grown a
+ * little finds its old place; pages beyond an array are never touched. */
+static size_t room_of(size_t length)
+{
+    size_t step = OWN_PAGES / 4;
+    while (step * 8 <= length) step *= 2;
+    return (length + step - 1) / step * step;
+}
+
+/* The smallest block that waits and holds so many bytes, but not far too many; `whole` NULL: none does. */
+static struct block take_kept(size_t least)
+{
+    struct block block = {NULL, 0};
+#pragma omp critical(memory_kept)
+    {
+        int best = -1;
+        for (int k = 0; k < KEPT; k++)
+            if (waiting[k].mapped >= least && waiting[k].mapped / 4 <= least && (best < 0 || waiting[k].mapped < waiting[best].mapped))
+                best = k;
+        if (best >= 0) block = waiting[best], waiting[best] = (struct block){NULL, 0}, waiting_bytes -= block.mapped;
+    }
+    return block;
+}
+
+/* Lets a block wait in place of the one that has done so longest, and of more if all are too many bytes. */
+static void keep(struct block block)
+{
+    if (!reusing || block.mapped > KEPT_MOST) {
+        munmap(block.whole, block.mapped);
+        return;
+    }
+#pragma omp critical(memory_kept)
+    do {
+        const struct block oldest = waiting[waiting_longest];
+        waiting[waiting_longest] = block;
+        waiting_bytes += block.mapped - oldest.mapped;
+        if (oldest.whole) munmap(oldest.whole, oldest.mapped);
+        block = (struct block){NULL, 0};
+        waiting_longest = (waiting_longest + 1) % KEPT;
+    } while (waiting_bytes > KEPT_ALL);
+}
+
+static void keep_none(void)
+{
+    waiting_longest = 0;
+#pragma omp critical(memory_kept)
+    for (int k = 0; k < KEPT; k++) {
+        if (waiting[k].whole) munmap(waiting[k].whole, waiting[k].mapped);
+        waiting[k] = (struct block){NULL, 0};
+    }
+    waiting_bytes = 0;
+}
+#endif
+
+/* `length` bytes from an alignment on; `whole` NULL: there are none. `fresh`: they are zero. */
+static char *block_make(struct block *block, size_t length, size_t alignment, bool *fresh)
+{
+    *block = (struct block){NULL, 0}, *fresh = false;
+#ifdef MAP_ANONYMOUS
+    if (!HEAP_ALONE && length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
+        const size_t beside = alignment > PAGE ? alignment : 0, room = room_of(reusing ? length + length / 2 : length) + beside;
+        *block = take_kept(length + beside);
+        if (!block->whole) {
+            void *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+            if (pages == MAP_FAILED) return NULL;
+            *block = (struct block){pages, room}, *fresh = true;
+        }
+        return (char *)(((uintptr_t)block->whole + alignment - 1) / alignment * alignment);
+    }
+#endif
+    if (posix_memalign(&block->whole, alignment, length) != 0) block->whole = NULL;
+    return block->whole;
+}
+
+enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN };
+
+static void *array_make(const char *label, int64_t count, size_t size, enum content content)
+{
+    size_t length;
+    struct block block;
+    if (count < 0 || __builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
+        out_of_memory(label, count, size);
+    const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;   /* also for count 0 */
+    const bool large = rounded >= LARGE_ARRAY && content != MOSTLY_UNWRITTEN;
+    bool fresh;
+    char *from = block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, &fresh);
+    if (!block.whole) out_of_memory(label, count, size);
+#ifdef MADV_HUGEPAGE
+    if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
+    if (content == MOSTLY_UNWRITTEN && block.mapped > 0) madvise(block.whole, block.mapped, MADV_NOHUGEPAGE);
+#endif
+    char *pointer = from + ahead;
+    if (content == ZEROED) zero(pointer, rounded, fresh);
+    memcpy(pointer - sizeof block, &block, sizeof block);
+    return pointer;
+}
+
+void *memory_new(const char *label, int64_t count, size_t size) { return array_make(label, count, size, ZEROED); }
+void *memory_bare(const char *label, int64_t count, size_t size) { return array_make(label, count, size, WRITTEN_SOON); }
+void *memory_sparse(const char *label, int64_t count, size_t size) { return array_make(label, count, size, MOSTLY_UNWRITTEN); }
+
+void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
+{
+    assert(pointer == NULL || old_count >= 0);
+    char *grown = memory_new(label, count, size);
+    int64_t kept = old_count < count ? old_count : count;
+    if (pointer != NULL && kept > 0) memcpy(grown, pointer, (size_t)kept * size);
+    memory_free(pointer);
+    return grown;
+}
+
+void memory_free(void *pointer)
+{
+    struct block block;
+    if (!pointer) return;
+    memcpy(&block, (char *)pointer - sizeof block, sizeof block);
+#ifdef MAP_ANONYMOUS
+    if (block.mapped > 0) {
+        keep(block);
+        return;
+    }
+#endif
+    free(block.whole);
+}
+
+void memory_reuse(bool reuse)
+{
+#ifdef __GLIBC__                          /* nor does the heap give back pages, or merge small pieces whenever a large one is freed */
+    if (reuse) mallopt(M_TRIM_THRESHOLD, KEPT_ALL), mallopt(M_MXFAST, 0);
+#endif
+#ifdef MAP_ANONYMOUS
+    reusing = reuse;
+    if (!reuse) keep_none();
+#else
+    (void)reuse;
+#endif
+}
+
+/* VmHWM is of this program alone; ru_maxrss remembers the program that started it. */
+static int64_t peak_of_program(void)
+{
+    FILE *f = fopen("/proc/self/status", "r");
+    char line[128];
+    long long kilobytes = 0;
+    while (f && fgets(line, sizeof line, f))
+        if (sscanf(line, "VmHWM: %lld", &kilobytes) == 1) break;
+    if (f) fclose(f);
+    return kilobytes * 1024;
+}
+
+int64_t memory_peak(void)
+{
+    int64_t peak = peak_of_program();
+    if (peak > 0) return peak;
+    struct rusage usage;
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+#ifdef __APPLE__
+    return usage.ru_maxrss;              /* bytes there, kilobytes elsewhere */
+#else
+    return (int64_t)usage.ru_maxrss * 1024;
+#endif
+}

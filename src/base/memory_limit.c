@@ -1,0 +1,79 @@
+/* floor 0: how much memory this process may take: its own limits, and those of the control groups it is in (containers, batch
+ * systems). */
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+static int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
+
+/* ---- control groups ------------------------------------------------------------------------------------- */
+
+/* The number in a file; INT64_MAX where there is none: no such file, or `max`. */
+static int64_t number_in(const char *path)
+{
+    FILE *f = fopen(path, "r");
+    long long number;
+    const bool found = f && fscanf(f, "%lld", &number) == 1 && number >= 0;
+    if (f) fclose(f);
+    return found ? number : INT64_MAX;
+}
+
+/* Of a group and all above it; a container sees its own as the highest. */
+static int64_t group_and_above(const char *base, char *group, const char *file)
+{
+    int64_t limit = INT64_MAX;
+    char path[2048];
+    for (;;) {
+        if (snprintf(path, sizeof path, "%s%s/%s", base, group, file) < (int)sizeof path) limit = least(limit, number_in(path));
+        char *slash = strrchr(group, '/');
+        if (!slash) return limit;
+        *slash = '\0';
+    }
+}
+
+/* /proc/self/cgroup has lines `number:controllers:group`, of version 2 `0::group`. */
+static int64_t groups_limit(void)
+{
+    FILE *f = fopen("/proc/self/cgroup", "r");
+    int64_t limit = INT64_MAX;
+    char line[1024];
+    while (f && fgets(line, sizeof line, f)) {
+        line[strcspn(line, "\n")] = '\0';
+        char *controllers = strchr(line, ':'), *group = controllers ? strchr(controllers + 1, ':') : NULL;
+        if (!group) continue;
+        *group++ = '\0';
+        if (strcmp(controllers, ":") == 0) limit = least(limit, group_and_above("/sys/fs/cgroup", group, "memory.max"));
+        else if (strstr(controllers, "memory"))
+            limit = least(limit, group_and_above("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
+    }
+    if (f) fclose(f);
+    return limit;
+}
+
+/* ---- limits of the process --------------------------------------------------------------------------------- */
+
+/* What a limit leaves beside what is taken already [pages]. */
+static int64_t left_of(int resource, long long taken)
+{
+    struct rlimit l;
+    if (getrlimit(resource, &l) != 0 || l.rlim_cur == RLIM_INFINITY || l.rlim_cur > INT64_MAX) return INT64_MAX;
+    const int64_t left = (int64_t)l.rlim_cur - taken * sysconf(_SC_PAGESIZE);
+    return left > 1 ? left : 1;
+}
+
+int64_t memory_limit(void)
+{
+    FILE *f = fopen("/proc/self/statm", "r");
+    long long size = 0, data = 0;
+    if (f && fscanf(f, "%lld %*d %*d %*d %*d %lld", &size, &data) != 2) size = data = 0;
+    if (f) fclose(f);
+    int64_t limit = least(groups_limit(), left_of(RLIMIT_DATA, data));
+#ifdef RLIMIT_AS
+    limit = least(limit, left_of(RLIMIT_AS, size));
+#endif
+    return limit;
+}

@@ -1,0 +1,31 @@
+/* floor 3: how long the last tenfold rise of something took. */
+#include "base/rise.h"
+
+#include <math.h>
+
+#define NOTHING 1e-30                    /* of a value: what was zero or less counts as that                   */
+#define SOMETHING 0.03                   /* of a value: no mere background on which something faster has grown */
+
+void rise_note(struct rise *r, int64_t step, real value)
+{
+    if (r->n > 0 && step < r->at[(r->n - 1) % RISE_VALUES].step + RISE_CLOSEST) return;
+    r->at[r->n % RISE_VALUES].step = step;
+    r->at[r->n++ % RISE_VALUES].value = value;
+}
+
+enum rise_pace rise_pace(const struct rise *r, int64_t step, real value, real *steps)
+{
+    real newer = value, older = 0, least = 0;
+    *steps = INFINITY;
+    for (int64_t k = r->n; k-- > 0 && k >= r->n - RISE_VALUES;) {
+        const real most = (real)(step - r->at[k % RISE_VALUES].step);
+        older = real_max(r->at[k % RISE_VALUES].value, NOTHING * value);
+        if (older <= 0.1 * value) {
+            *steps = least + (most - least) * log(newer / (0.1 * value)) / log(newer / older);
+            break;
+        }
+        newer = older, least = most;
+    }
+    if (least >= RISE_STEPS || (*steps > RISE_STEPS && older >= SOMETHING * value && isfinite(*steps))) return RISE_SLOW;
+    return *steps <= RISE_STEPS ? RISE_FAST : RISE_UNSURE;
+}

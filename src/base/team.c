@@ -1,0 +1,285 @@
+/* floor 0: the team of threads on the machine's cores, sums that do not depend on it, and clocks. */
+#include "base/team.h"
+
+#include <hwloc.h>
+#include <omp.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <time.h>
+#include <unistd.h>
+
+#ifdef __SSE__
+#include <immintrin.h>
+#endif
+
+#include "base/memory.h"
+
+/* ---- the machine ----------------------------------------------------------------------------------- */
+
+/* What hwloc says of the machine and what this process may use of it. */
+struct place {
+    hwloc_topology_t topology;
+    hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
+};
+
+/* The machine's memory, or what this process may take of it [byte], noted by whoever looks first; looking takes some 6 ms, a hundred
+ * steps of a small scene. In a container hwloc may not see it, in a virtual machine only what that began with: the system says the rest. */
+static int64_t memory;
+
+static void note_memory(hwloc_topology_t topology)
+{
+    const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;
+    const int64_t told = (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
+    const int64_t all = seen > told ? seen : told, limit = memory_limit();
+    memory = limit < all ? limit : all;
+}
+
+/* The k-th physical core of the mask; NULL past the last. */
+static hwloc_obj_t core_at(const struct place *place, int k)
+{
+    hwloc_obj_t core = NULL;
+    while ((core = hwloc_get_next_obj_by_type(place->topology, HWLOC_OBJ_CORE, core)) != NULL)
+        if (hwloc_bitmap_intersects(core->cpuset, place->mask) && k-- == 0) return core;
+    return NULL;
+}
+
+/* Looking takes the calling thread to every core in turn and leaves it on the last, where it would share a helper's core for some
+ * 20 ms, until the scheduler sees it: it goes to the first, and may go wherever it might. */
+static void come_home(const struct place *place)
+{
+    const hwloc_obj_t core = core_at(place, 0);
+    if (!core) return;
+    hwloc_bitmap_t home = hwloc_bitmap_dup(core->cpuset);
+    hwloc_bitmap_and(home, home, place->mask);
+    hwloc_set_cpubind(place->topology, home, HWLOC_CPUBIND_THREAD);
+    hwloc_set_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD);
+    hwloc_bitmap_free(home);
+}
+
+static bool place_make(struct place *place)
+{
+    setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
+    setenv("HWLOC_PLUGINS_PATH", "", 0);     /* plugins look for graphics and the like: 3 MB and up to 60 ms for nothing asked here */
+    note_memory(NULL);
+    if (hwloc_topology_init(&place->topology) != 0) return false;
+    if (hwloc_topology_load(place->topology) != 0) {
+        hwloc_topology_destroy(place->topology);
+        return false;
+    }
+    note_memory(place->topology);
+    hwloc_const_cpuset_t allowed = hwloc_topology_get_allowed_cpuset(place->topology);
+    place->mask = hwloc_bitmap_alloc();
+    if (hwloc_get_cpubind(place->topology, place->mask, HWLOC_CPUBIND_THREAD) != 0)
+        hwloc_bitmap_copy(place->mask, allowed);
+    hwloc_bitmap_and(place->mask, place->mask, allowed);
+    if (hwloc_bitmap_iszero(place->mask)) hwloc_bitmap_copy(place->mask, allowed);
+    come_home(place);
+    return true;
+}
+
+static void place_free(struct place *place)
+{
+    hwloc_bitmap_free(place->mask);
+    hwloc_topology_destroy(place->topology);
+}
+
+/* Physical cores of the mask; where hwloc sees none (some virtual machines), its hardware threads. */
+static int core_count(const struct place *place)
+{
+    int cores = 0;
+    while (core_at(place, cores) != NULL) cores++;
+    return cores > 0 ? cores : hwloc_bitmap_weight(place->mask);
+}
+
+static int64_t cache_size(hwloc_topology_t topology, hwloc_obj_type_t level)
+{
+    hwloc_obj_t cache = hwloc_get_obj_by_depth(topology, hwloc_get_type_depth(topology, level), 0);
+    return cache != NULL ? (int64_t)cache->attr->cache.size : 0;
+}
+
+static const char *processor_name(hwloc_topology_t topology)
+{
+    hwloc_obj_t package = hwloc_get_next_obj_by_type(topology, HWLOC_OBJ_PACKAGE, NULL);
+    const char *name = package != NULL ? hwloc_obj_get_info_by_name(package, "CPUModel") : NULL;
+    if (name == NULL) name = hwloc_obj_get_info_by_name(hwloc_get_root_obj(topology), "CPUModel");
+    return name != NULL ? name : "unknown processor";
+}
+
+struct machine team_machine(void)
+{
+    struct machine m = {.cores = omp_get_num_procs(), .threads_allowed = omp_get_num_procs()};
+    struct place place;
+    const bool known = place_make(&place);
+    snprintf(m.model, sizeof m.model, "unknown processor");
+    m.memory = memory;
+    if (!known) return m;
+    m.cores = core_count(&place);
+    m.threads_allowed = hwloc_bitmap_weight(place.mask);
+    m.cache[1] = cache_size(place.topology, HWLOC_OBJ_L1CACHE);
+    m.cache[2] = cache_size(place.topology, HWLOC_OBJ_L2CACHE);
+    m.cache[3] = cache_size(place.topology, HWLOC_OBJ_L3CACHE);
+    snprintf(m.model, sizeof m.model, "%s", processor_name(place.topology));
+    place_free(&place);
+    return m;
+}
+
+int64_t team_memory(void) { return memory > 0 ? memory : team_machine().memory; }
+
+/* ---- the team -------------------------------------------------------------------------------------- */
+
+/* Each helper to a core of its own, or back to the whole mask where there are not enough cores. The calling
+ * thread stays free: its mask is what tells the next call (another team size) what the process may use, and the
+ * programs it starts inherit it. */
+static void bind_helpers(const struct place *place, int threads)
+{
+    bool apart = core_at(place, threads - 1) != NULL;
+#pragma omp parallel num_threads(threads)
+    {
+        int k = omp_get_thread_num();
+        hwloc_bitmap_t mine = hwloc_bitmap_dup(place->mask);
+        if (apart) hwloc_bitmap_and(mine, mine, core_at(place, k)->cpuset);
+        if (k > 0) hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD);   /* a wish: refusal does no harm */
+        hwloc_bitmap_free(mine);
+    }
+}
+
+static bool user_binds(void) { return getenv("OMP_PROC_BIND") != NULL || getenv("OMP_PLACES") != NULL; }
+
+/* As many as the user's places hold, no more than OpenMP would take. */
+static int bound_threads(void)
+{
+    int held = 0, most = omp_get_max_threads();
+    for (int k = 0; k < omp_get_num_places(); k++) held += omp_get_place_num_procs(k);
+    return held > 0 && held < most ? held : most;
+}
+
+/* Numbers too small to be normal count as 0, in every thread alike: ahead of a wave what is mapped from node to node falls
+ * below 1e-308 within some steps, and such numbers would cost a hundred times an ordinary one. */
+static void flush_tiny_numbers(int threads)
+{
+#ifdef __SSE__
+#pragma omp parallel num_threads(threads)
+    _mm_setcsr(_mm_getcsr() | 0x8040);   /* results, and operands */
+#else
+    (void)threads;
+#endif
+}
+
+static void *wait_for(void *mutex)
+{
+    pthread_mutex_lock(mutex);
+    pthread_mutex_unlock(mutex);
+    return NULL;
+}
+
+enum { LIBRARY_ROOM = 16 << 20 };        /* what OpenMP's library may want besides stacks [byte] */
+
+/* Can so many be had at once? OpenMP's library ends the process where they cannot, and not in one line. */
+static bool threads_start(int threads)
+{
+    void *room = threads > 1 ? mmap(NULL, LIBRARY_ROOM, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) : NULL;
+    pthread_mutex_t all = PTHREAD_MUTEX_INITIALIZER;
+    pthread_t *made = malloc((size_t)threads * sizeof *made);
+    int n = 0;
+    pthread_mutex_lock(&all);
+    while (made && n < threads - 1 && pthread_create(&made[n], NULL, wait_for, &all) == 0) n++;
+    pthread_mutex_unlock(&all);
+    for (int k = 0; k < n; k++) pthread_join(made[k], NULL);
+    const bool started = made && n == threads - 1 && room != MAP_FAILED;
+    free(made);
+    if (room && room != MAP_FAILED) munmap(room, LIBRARY_ROOM);
+    return started;
+}
+
+int team_make(int threads)
+{
+    struct place place;
+    bool known = place_make(&place);
+    if (threads <= 0) {
+        /* a user who binds has left this thread one place of many: the mask does not tell how many threads are wanted */
+        if (getenv("OMP_NUM_THREADS") != NULL) threads = omp_get_max_threads();
+        else if (user_binds()) threads = bound_threads();
+        else threads = known ? core_count(&place) : omp_get_num_procs();
+    }
+    if (!threads_start(threads)) {
+        fprintf(stderr, "%d threads cannot be started: no memory for their stacks, or a limit of processes; choose fewer with -t\n", threads);
+        _exit(FAILED);
+    }
+    omp_set_dynamic(0);                  /* always this many: partitions must not change between loops */
+    omp_set_num_threads(threads);
+    flush_tiny_numbers(threads);
+    if (known) {
+        if (!user_binds()) bind_helpers(&place, threads);
+        place_free(&place);
+    }
+    return threads;
+}
+
+/* ---- sums ------------------------------------------------------------------------------------------ */
+
+enum { FEW_BLOCKS = 16 };                /* sums that need no memory of their own: steps ask for short ones several times */
+
+static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+                      const void *context, int64_t b, real *part)
+{
+    const int64_t first = b * SUM_BLOCK, end = first + SUM_BLOCK;
+    real own[TERMS_MAX] = {0};
+    block(context, first, end < n ? end : n, own);
+    for (int k = 0; k < terms; k++) part[k] = own[k];
+}
+
+void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+               const void *context, real *sum)
+{
+    int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
+    real few[FEW_BLOCKS * TERMS_MAX], *part = blocks <= FEW_BLOCKS ? few : NEW("team.sums", blocks * terms, real);
+    assert(terms <= TERMS_MAX);
+    TEAM_LOOP(blocks > 1, for (int64_t b = 0; b < blocks; b++) sum_block(n, terms, block, context, b, part + b * terms););
+    for (int k = 0; k < terms; k++) sum[k] = 0;
+    for (int64_t b = 0; b < blocks; b++)
+        for (int k = 0; k < terms; k++) sum[k] += part[b * terms + k];
+    if (part != few) memory_free(part);
+}
+
+struct single { real (*term)(const void *context, int64_t i); const void *context; };
+
+static void single_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct single *s = context;
+    for (int64_t i = first; i < end; i++) sum[0] += s->term(s->context, i);
+}
+
+real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context)
+{
+    real sum;
+    team_sums(n, 1, single_block, &(struct single){term, context}, &sum);
+    return sum;
+}
+
+/* ---- clocks ---------------------------------------------------------------------------------------- */
+
+double team_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+const char *const lap_name[LAPS] = {
+    [LAP_BONDS] = "bonds",     [LAP_SCATTER] = "scatter", [LAP_GRID] = "grid",     [LAP_GATHER] = "gather",
+    [LAP_CONVERT] = "convert", [LAP_WATCH] = "watch",     [LAP_OUTPUT] = "output",
+};
+
+void laps_start(struct laps *l)
+{
+    *l = (struct laps){.last = team_clock()};
+}
+
+void lap(struct laps *l, enum lap which)
+{
+    double now = team_clock();
+    l->spent[which] += now - l->last;
+    l->last = now;
+}

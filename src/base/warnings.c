@@ -1,0 +1,53 @@
+/* floor 0: what a run has to say that is no error. */
+#include "base/warnings.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { WARNING_LONGEST = 1024 };
+
+bool warnings_add(struct warnings *w, const char *format, ...)
+{
+    char text[WARNING_LONGEST];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    for (int k = 0; k < w->n; k++)
+        if (strcmp(w->text[k], text) == 0) return false;
+    w->text = memory_resize("warnings", w->text, w->n, w->n + 1, sizeof *w->text);
+    w->text[w->n] = NEW("warnings.text", strlen(text) + 1, char);
+    strcpy(w->text[w->n++], text);
+    return true;
+}
+
+void warnings_print(const struct warnings *w, int first, FILE *out)
+{
+    for (int k = first; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);
+}
+
+/* All in one text, each with its end. */
+status warnings_archive(struct warnings *w, struct archive *a)
+{
+    int64_t length = 0;
+    for (int k = 0; k < w->n; k++) length += (int64_t)strlen(w->text[k]) + 1;
+    ARCHIVE_VALUE(a, "warnings/length", length);
+    if (length < 0 || (!a->saving && length > 0 && a->stored_size(a, "warnings/text") != length))
+        return status_set(FAILED, "the checkpoint's warnings do not fit their length");
+    if (length == 0) return OK;
+    char *text = NEW("warnings.all", length + 1, char), *to = text;
+    for (int k = 0; k < w->n && a->saving; k++) to = stpcpy(to, w->text[k]) + 1;
+    const status s = a->exchange(a, "warnings/text", text, (size_t)length);
+    for (const char *from = text; s == OK && !a->saving && from < text + length; from += strlen(from) + 1) warnings_add(w, "%s", from);
+    memory_free(text);
+    return s;
+}
+
+void warnings_free(struct warnings *w)
+{
+    for (int k = 0; k < w->n; k++) memory_free(w->text[k]);
+    memory_free(w->text);
+    *w = (struct warnings){0};
+}

@@ -1,0 +1,132 @@
+/* floor 1: bonds to images in clamped planes, and the particles that they pull at: made with the rows. */
+#include "bonds_parts.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+/* P of an image: how the displacement of its root turns round on the way. True if a clamped plane is on it. */
+static bool image_turns(const struct bond_source *s, const struct particles *p, int64_t j, int8_t *sign)
+{
+    bool clamp = false;
+    memset(sign, 1, DIM_MAX);
+    for (; j >= p->n; j = s->image[j - p->n].source) {
+        const int axis = s->mirror_axis[s->image[j - p->n].load];
+        clamp = clamp || axis < 0;
+        for (int d = 0; d < p->dim; d++)
+            if (axis < 0 || axis == d) sign[d] = (int8_t)-sign[d];
+    }
+    return clamp;
+}
+
+/* Images in clamped planes: 1, others: 0; NULL: there is none. */
+static uint8_t *clamped_images(const struct bond_source *s, const struct particles *p)
+{
+    bool any = false;
+    int8_t sign[DIM_MAX];
+    if (!s->mirror_axis || p->n_all == p->n) return NULL;
+    uint8_t *is = NEW("clamped.images", p->n_all - p->n, uint8_t);
+    for (int64_t k = 0; k < p->n_all - p->n; k++) any |= is[k] = image_turns(s, p, p->n + k, sign);
+    if (any) return is;
+    memory_free(is);
+    return NULL;
+}
+
+/* Counts the intact bonds of slot k of a group to such images, or notes them. */
+static void slot_note(struct clamped *c, const struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g, int64_t k)
+{
+    for (int l = 0; l < group_rows(b, g); l++) {
+        const struct bond bond = bond_read(b, g, k, l);
+        if (bond.w == 0 || bond.nbr < p->n || !is[bond.nbr - p->n]) continue;
+        if (c->entry) {
+            c->entry[c->n] = bond_index(b, g, k, l);
+            c->from[c->n] = b->particle[g * LANES + l], c->to[c->n] = bond.nbr;
+            c->inverse_length[c->n] = bond.inverse_length, c->w[c->n] = bond.w;
+        }
+        c->n++;
+    }
+}
+
+/* Images come behind the body: of most slots one look tells that they have none. */
+static void bonds_note(struct clamped *c, const struct bonds *b, const struct particles *p, const uint8_t *is)
+{
+    c->n = 0;
+    for (int64_t g = 0; g < b->groups; g++)
+        for (int64_t k = 0; k < b->slot_count[g]; k++) {
+            const struct pattern *pattern = b->pattern[g];
+            const int64_t first = pattern ? b->particle[g * LANES] + pattern->slot[k].offset : b->first[b->slot[g] + k];
+            if (first < 0 || first + LANES > p->n) slot_note(c, b, p, is, g, k);
+        }
+}
+
+/* Sorts ends by particle, those of a particle in the order of the bonds. */
+static void ends_sort(struct clamped *c, const struct clamp_end *end, const int32_t *of, int64_t n, int64_t particles)
+{
+    int64_t *next = NEW("clamped.next", particles + 1, int64_t);
+    for (int64_t k = 0; k < n; k++) next[of[k] + 1]++;
+    for (int64_t i = 0; i < particles; i++) c->held += next[i + 1] > 0;
+    c->particle = NEW("clamped.particle", c->held, int32_t);
+    c->first = NEW("clamped.first", c->held + 1, int64_t);
+    c->held = 0;
+    for (int64_t i = 0; i < particles; i++) {
+        if (next[i + 1] > 0) c->first[c->held] = next[i], c->particle[c->held++] = (int32_t)i;
+        next[i + 1] += next[i];
+    }
+    c->first[c->held] = n;
+    for (int64_t k = 0; k < n; k++) c->end[next[of[k]]++] = end[k];
+    memory_free(next);
+}
+
+/* Bonds that know but themselves have in their row the force of both its ends: the half that belongs to the image's row leaves it.
+ * Of state-based ones the row has its own half only (clamped images know nothing), but for the source there is nothing yet. */
+static void ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
+{
+    const int each = s->modulus ? 1 : 2;
+    struct clamp_end *end = NEW("clamped.unsorted", each * c->n, struct clamp_end);
+    int32_t *of = NEW("clamped.of", each * c->n, int32_t);
+    for (int64_t k = 0; k < c->n; k++) {
+        image_turns(s, p, c->to[k], end[k].sign);
+        end[k].bond = (int32_t)k, of[k] = (int32_t)image_root(p, s->image, c->to[k]);
+        if (each == 1) continue;
+        end[c->n + k] = (struct clamp_end){(int32_t)k, {1, 1, 1}};
+        of[c->n + k] = c->from[k];
+    }
+    c->end = NEW("clamped.end", each * c->n, struct clamp_end);
+    ends_sort(c, end, of, each * c->n, p->n);
+    memory_free(end);
+    memory_free(of);
+}
+
+void clamped_make(struct bonds *b, const struct particles *p, const struct bond_source *s)
+{
+    struct clamped *c = &b->clamped;
+    uint8_t *is = clamped_images(s, p);
+    if (!is) return;
+    bonds_note(c, b, p, is);
+    if (c->n > 0) {
+        const int64_t room = c->n + LANES;
+        c->entry = NEW("clamped.entry", c->n, int64_t);
+        c->from = NEW("clamped.from", room, int32_t);
+        c->to = NEW("clamped.to", room, int32_t);
+        c->inverse_length = NEW("clamped.inverse_length", room, real);
+        c->w = NEW("clamped.w", room, real);
+        for (int d = 0; d < p->dim; d++) c->reaction[d] = NEW("clamped.reaction", room, real);
+        bonds_note(c, b, p, is);
+        ends_make(c, p, s);
+    }
+    memory_free(is);
+}
+
+void clamped_free(struct bonds *b)
+{
+    struct clamped *c = &b->clamped;
+    memory_free(c->entry);
+    memory_free(c->from);
+    memory_free(c->to);
+    memory_free(c->inverse_length);
+    memory_free(c->w);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(c->reaction[d]);
+    memory_free(c->particle);
+    memory_free(c->first);
+    memory_free(c->end);
+}

@@ -1,0 +1,220 @@
+/* floor 1: one row of bonds while it is made: search, weigh, carry over what load has done to it. */
+#include "bonds_parts.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+
+/* Vectors look for bonds above this share of their limit, the scalar rule decides: a margin for their round-off. */
+#define TRIGGER_MARGIN 1e-9
+
+void row_room_make(struct row *row, int room)
+{
+    row->nbr = BARE("bonds.row", room + 1, int32_t);       /* row_copy writes one too many */
+    row->inverse_length = BARE("bonds.row", room + 1, real);
+    row->w = BARE("bonds.row", room + 1, real);
+    row->plastic = BARE("bonds.row", room + 1, struct bond_plasticity);
+}
+
+void row_room_free(struct row *row)
+{
+    memory_free(row->nbr);
+    memory_free(row->inverse_length);
+    memory_free(row->w);
+    memory_free(row->plastic);
+}
+
+/* ---- who is whose neighbour ------------------------------------------------------------------------ */
+
+int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
+{
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    int n = cells_near(s->cells, p, X, s->family.cutoff, i, found, room), kept = 0;
+    if (n > room) return n;
+    for (int k = 0; k < n; k++)
+        if (p->body[found[k]] == p->body[i]) found[kept++] = found[k];
+    return kept;
+}
+
+int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
+{
+    const int n = l && l->at && i < p->n ? lattice_family(l, p, i, found) : -1;
+    return n >= 0 ? n : family_search(s, p, i, found, room);
+}
+
+int bonds_room(const struct bond_source *s)
+{
+    if (s->room > 0) return s->room;
+    return cells_most(s->cells, s->family.cutoff);
+}
+
+bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    particle_place(p, i, a);
+    particle_place(p, j, b);
+    for (int c = 0; c < cracks; c++)
+        if (crack_cuts(&crack[c], a, b, p->dim)) return true;
+    return false;
+}
+
+bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i)
+{
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    for (int c = 0; c < s->cracks; c++)
+        if (crack_near(&s->crack[c], X, s->family.cutoff, p->dim)) return true;
+    return false;
+}
+
+/* ---- one row --------------------------------------------------------------------------------------- */
+
+static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+                         int32_t i, int32_t j, const real *xi, real r)
+{
+    /* Written so that i and j may be exchanged without changing a bit. */
+    real weight = family_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
+    weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
+    if (s->neighbour_volume)             /* volume method, Le & Bobaru 2018 */
+        weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
+    return weight;
+}
+
+/* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */
+static void row_search(struct row *row, const struct lattice *lattice, const struct bond_source *s, const struct particles *p,
+                       int32_t i, int room)
+{
+    int n = family_of(lattice, s, p, i, row->nbr, room), kept = 0;
+    row->family_volume = 0;
+    for (int k = 0; k < n; k++) {
+        row->family_volume += p->volume0[row->nbr[k]];
+        if (p->kind[i] == KIND_PD || p->kind[row->nbr[k]] == KIND_PD) row->nbr[kept++] = row->nbr[k];
+    }
+    row->n = kept;
+}
+
+/* Elastic strain C^-1 sigma of material point i along e. */
+static real elastic_strain_along(const struct particles *p, const struct material *m, int64_t i, const real *e)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real compliance[SYM_MAX * SYM_MAX], sum = 0;
+    material_compliance(&m[p->material[i]], dim, compliance);
+    for (int s = 0; s < n; s++) {
+        int a, b;
+        real strain = 0;
+        symmetric_axes(dim, s, &a, &b);
+        for (int t = 0; t < n; t++) strain += compliance[s * n + t] * p->stress[t][i];
+        sum += (s < dim ? 1 : 2) * e[a] * e[b] * strain;
+    }
+    return sum;
+}
+
+/* A bond between material points that have yielded starts with the stretch that their stress does not explain, and with
+ * their plastic strain: in a bar it then carries their stress to the last digit. Alike from both ends. */
+static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
+                                                   int32_t j, real r)
+{
+    const int32_t other = j < p->n ? j : i;      /* an image holds no stress of its own */
+    real e[DIM_MAX], length2 = 0;
+    if (!p->plastic_strain || p->plastic_strain[i] + p->plastic_strain[other] <= 0) return (struct bond_plasticity){0, 0};
+    for (int d = 0; d < p->dim; d++) e[d] = p->x[d][j] - p->x[d][i], length2 += square(e[d]);
+    const real length = sqrt(length2);
+    for (int d = 0; d < p->dim; d++) e[d] /= length;
+    const real elastic = elastic_strain_along(p, s->material, i, e) + elastic_strain_along(p, s->material, other, e);
+    return (struct bond_plasticity){length / r - 1 - 0.5 * elastic, 0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
+}
+
+/* Vectors look for bonds above this, a margin below their limit. */
+real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
+{
+    return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * (1 - TRIGGER_MARGIN);
+}
+
+/* Lengths, weights and what cracks cut, of the bonds that row_search has found. */
+static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
+                      const struct pair_table *pairs, int32_t i)
+{
+    const bool near = cracks_near(s, p, i);
+    row->trigger = INFINITY, row->cut_volume = 0;
+    for (int k = 0; k < row->n; k++) {
+        int32_t j = row->nbr[k];
+        real xi[DIM_MAX], r2 = 0;
+        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
+        bool cut = near && cracks_part(s->crack, s->cracks, p, i, j);
+        const real r = sqrt(r2);
+        if (cut) row->cut_volume += p->volume0[j];
+        row->inverse_length[k] = (cut ? -1 : 1) / r;
+        row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
+        if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
+        row->trigger = real_min(row->trigger, row_trigger(s, p, i, j));
+    }
+}
+
+static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t group, int64_t k, int lane)
+{
+    const int64_t q = (b->slot[group] + k) * LANES + lane;
+    return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
+}
+
+/* What load had done to the bonds of the row before stays: broken ones stay broken, yielded ones yielded. */
+static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
+{
+    int64_t group = old_row / LANES;
+    int lane = (int)(old_row % LANES);
+    int m = 0;                           /* neighbours ascend in both */
+    for (int64_t k = 0; k < old->slot_count[group]; k++) {
+        const struct bond bond = bond_read(old, group, k, lane);
+        if (bond.inverse_length == 0) continue;
+        while (m < row->n && row->nbr[m] < bond.nbr) m++;
+        if (m == row->n || row->nbr[m] != bond.nbr || row->w[m] == 0) continue;
+        if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, group, k, lane);
+        if (bond.w != 0) continue;
+        row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
+        row->cut_volume += p->volume0[row->nbr[m]];
+    }
+}
+
+static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
+{
+    const int64_t group = old_row / LANES, slots = old->slot_count[group];
+    row->n = 0;
+    for (int64_t k = 0; k < slots; k++) {        /* padding is written over */
+        const struct bond bond = bond_read(old, group, k, (int)(old_row % LANES));
+        row->nbr[row->n] = bond.nbr;
+        row->n += bond.inverse_length != 0;
+    }
+}
+
+static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
+{
+    const int64_t group = old_row / LANES, slots = old->slot_count[group];
+    int n = 0;
+    for (int64_t k = 0; k < slots; k++) {
+        const struct bond bond = bond_read(old, group, k, (int)(old_row % LANES));
+        row->inverse_length[n] = bond.inverse_length;
+        row->w[n] = bond.w;
+        if (old->plastic_stretch) row->plastic[n] = stored_plasticity(old, group, k, (int)(old_row % LANES));
+        n += bond.inverse_length != 0;
+    }
+    row->trigger = old->trigger[old_row];
+    row->family_volume = old->family_volume[old_row];
+    row->cut_volume = old->broken_volume[old_row];
+}
+
+void row_find(struct row *row, const struct row_maker *m, int32_t i)
+{
+    if (row_lasts(m, i)) row_copy_neighbours(row, m->old, m->old->row_of[i]);
+    else row_search(row, m->lattice, m->source, m->p, i, m->room);
+}
+
+void row_finish(struct row *row, const struct row_maker *m, int32_t i)
+{
+    const int64_t before = m->old ? m->old->row_of[i] : -1;
+    if (row_lasts(m, i)) {
+        row_copy(row, m->old, before);
+        return;
+    }
+    row_weigh(row, m->source, m->p, m->pairs, i);
+    if (before >= 0) row_inherit(row, m->p, m->old, before);
+}

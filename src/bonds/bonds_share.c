@@ -1,0 +1,58 @@
+/* floor 1: what the eight bonds of a slot have in common, so that the hot loops need not read it eight times. */
+#include <math.h>
+#include <string.h>
+
+#include "bonds_parts.h"
+#include "base/memory.h"
+
+/* Numbers of one sign are ordered as their bits are: neighbours differ by 1. */
+static int64_t bits_of(real a)
+{
+    int64_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    return bits;
+}
+
+void lattice_lengths(struct bonds *b, real spacing)
+{
+    b->lattice = NEW("bonds.lattice", BOND_LATTICE, struct bond_length);
+    for (int k = 1; k < BOND_LATTICE; k++) b->lattice[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
+}
+
+int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess)
+{
+    int one = 0;
+    while (one < LANES - 1 && inverse[one] == 0) one++;
+    const real squares = square(b->lattice[1].inverse / inverse[one]);
+    if (!(squares >= 0.5 && squares < BOND_LATTICE - 0.5)) return 0;
+    const int lattice = (int)(squares + 0.5);
+    const int64_t zero = bits_of(b->lattice[lattice].inverse);
+    int64_t outside = 0;
+    for (int l = 0; l < LANES; l++) {
+        const int64_t units = inverse[l] == 0 ? 0 : bits_of(fabs(inverse[l])) - zero;
+        outside |= units != (int16_t)units;
+        excess[l] = (int16_t)units;
+    }
+    return outside ? 0 : lattice;
+}
+
+void bonds_share(const struct bonds *b, int64_t slot)
+{
+    const real *w = b->w + slot * LANES;
+    struct bond_slot *c = &b->common[slot];
+    *c = (struct bond_slot){.first = b->first[slot]};
+    if (c->first >= 0) c->lattice = (uint8_t)lattice_length(b, b->inverse_length + slot * LANES, c->excess);
+    c->alike = c->lattice != 0;
+    bool same = w[0] != 0;
+    for (int l = 1; l < LANES; l++) same &= w[l] == w[0];
+    if (same) {                          /* most slots */
+        c->w = w[0], c->intact = UINT8_MAX;
+        return;
+    }
+    for (int l = 0; l < LANES; l++) {
+        if (w[l] == 0) continue;
+        if (c->intact != 0 && w[l] != c->w) c->alike = 0;
+        c->w = w[l];
+        c->intact |= (uint8_t)(1 << l);
+    }
+}

@@ -1,0 +1,230 @@
+/* floor 1: sums over the bonds of all particles as if all were peridynamic: volumes of neighbours, and the critical step. */
+#include "bonds_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#define WHOLE 1e-12                      /* of a volume: sums of up to some hundred terms in other orders      */
+
+/* Volume of the neighbours of particle i. */
+static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
+                        const struct lattice *lattice, int64_t i, int32_t *found, int room)
+{
+    const int n = family_of(lattice, s, p, (int32_t)i, found, room);
+    real volume = 0;
+    for (int k = 0; k < n; k++) {
+        real xi[DIM_MAX];
+        for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][found[k]] - p->X[d][i];
+        volume += p->volume0[found[k]] * family_weight(f, xi, sqrt(dot(xi, xi, p->dim)));
+    }
+    return volume;
+}
+
+/* Of particles i .. i + 7 whose bonds the map of sites knows, where all neighbours count as much. */
+static void volumes_near(real *volume, const struct particles *p, const struct lattice_bonds *bonds, real weight, int64_t i)
+{
+    real sum[LANES] = {0};
+    for (int k = 0; k < bonds->n; k++)
+        for (int l = 0; l < LANES; l++)
+            sum[l] += l >= bonds->from[k] && l <= bonds->to[k] ? p->volume0[i + bonds->offset[k] + l] * weight : 0;
+    for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
+}
+
+/* Whole families have the volume of the lattice's to the last bit, in whatever order it was added up: inside a body weights are 1
+ * then, and slots need none (kernels/pd/bond_slot.h). */
+static void whole_volumes(real *volume, int64_t n, real full)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < n; i++)
+        if (fabs(volume[i] - full) <= WHOLE * full) volume[i] = full;
+}
+
+void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
+{
+    const int most = bonds_room(s);
+    struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
+    struct lattice lattice = {0};
+    plain.shell_weight[0] = plain.shell_weight[1] = 1;
+    plain.influence = INFLUENCE_ONE;
+    if (family_plain(&plain)) lattice_make(&lattice, s, p);
+#pragma omp parallel
+    {
+        int32_t *found = NEW("bonds.found", most, int32_t);
+        struct lattice_bonds bonds;
+        lattice_bonds_make(&bonds, &lattice);
+#pragma omp for schedule(static)
+        for (int64_t first = 0; first < p->n_all; first += LANES) {
+            if (lattice.at && first + LANES <= p->n && lattice_bonds(&lattice, p, first, &bonds)) {
+                const int64_t twin = twin_of(&bonds, NULL, first);
+                if (twin >= 0) memcpy(volume + first, volume + twin, LANES * sizeof *volume);
+                else volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
+                continue;
+            }
+            for (int64_t i = first; i < first + LANES && i < p->n_all; i++)
+                volume[i] = volume_near(p, s, &plain, &lattice, i, found, most);
+        }
+        lattice_bonds_free(&bonds);
+        memory_free(found);
+    }
+    lattice_free(&lattice);
+    whole_volumes(volume, p->n, s->family.full);
+    for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
+}
+
+/* omega^2 m of one particle [N/m]. */
+static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
+{
+    struct spring_bound bound = {{{0}}, 0};
+    for (int k = 0; k < row->n; k++) {
+        real n[DIM_MAX] = {0};
+        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][row->nbr[k]] - p->X[d][i]) * row->inverse_length[k];
+        spring_bound_add(&bound, stiffness * row->w[k] * row->inverse_length[k], n, p->dim);
+    }
+    return spring_bound_of(&bound, p->dim);
+}
+
+real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row)
+{
+    const int64_t g = row / LANES, i = b->particle[row];
+    struct spring_bound bound = {{{0}}, 0};
+    for (int64_t k = 0; k < b->slot_count[g]; k++) {
+        const struct bond bond = bond_read(b, g, k, (int)(row % LANES));
+        real n[DIM_MAX] = {0};
+        if (bond.w == 0) continue;
+        for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond.nbr] - p->X[d][i]) * bond.inverse_length;
+        spring_bound_add(&bound, b->stiffness * bond.w * bond.inverse_length, n, p->dim);
+    }
+    return spring_bound_of(&bound, p->dim);
+}
+
+/* The same of eight consecutive particles side by side: springs to eight consecutive others, of those there are none where
+ * w = 0. Zeros added leave the bits alone. */
+struct eight_bounds { real block[DIM_MAX][DIM_MAX][LANES], total[LANES]; };
+
+static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
+                                     const real *inverse, const real *w, real stiffness, const int dim)
+{
+    real n[DIM_MAX][LANES], K[LANES];
+    for (int d = 0; d < dim; d++)
+        for (int l = 0; l < LANES; l++) n[d][l] = (p->X[d][j + l] - p->X[d][i + l]) * inverse[l];
+    for (int l = 0; l < LANES; l++) K[l] = stiffness * w[l] * inverse[l];
+    for (int a = 0; a < dim; a++)
+        for (int c = 0; c < dim; c++)
+            for (int l = 0; l < LANES; l++) bound->block[a][c][l] += K[l] * n[a][l] * n[c][l];
+    for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
+}
+
+static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j, const real *inverse,
+                           const real *w, real stiffness)
+{
+    switch (p->dim) {
+    case 1: bounds_add(bound, p, i, j, inverse, w, stiffness, 1); break;
+    case 2: bounds_add(bound, p, i, j, inverse, w, stiffness, 2); break;
+    default: bounds_add(bound, p, i, j, inverse, w, stiffness, 3); break;
+    }
+}
+
+/* Largest omega^2 of particles i .. i + 7. */
+static real bounds_frequency(const struct eight_bounds *bounds, const struct particles *p, int64_t i)
+{
+    real largest = 0;
+    for (int l = 0; l < LANES; l++) {
+        struct spring_bound one = {.total = bounds->total[l]};
+        for (int a = 0; a < p->dim; a++)
+            for (int c = 0; c < p->dim; c++) one.block[a][c] = bounds->block[a][c][l];
+        largest = real_max(largest, spring_bound_of(&one, p->dim) / p->mass[i + l]);
+    }
+    return largest;
+}
+
+/* Of a regular group whose rows are not made. */
+static real group_frequency(const struct lattice_bonds *bonds, const struct bond_source *s, const struct particles *p,
+                            const struct pair_table *pairs, int64_t i, real stiffness)
+{
+    struct eight_bounds bounds = {0};
+    for (int k = 0; k < bonds->n; k++) {
+        real inverse[LANES];
+        real w[LANES];
+        lattice_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
+        for (int l = 0; l < LANES; l++) w[l] = l >= bonds->from[k] && l <= bonds->to[k] ? w[l] : 0;
+        bounds_add_any(&bounds, p, i, i + bonds->offset[k], inverse, w, stiffness);
+    }
+    return bounds_frequency(&bounds, p, i);
+}
+
+/* Of group g, as it is made. */
+static real group_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
+{
+    const int64_t slots = b->slot_count[g];
+    bool regular = b->aligned[g];
+    real largest = 0;
+    for (int64_t k = 0; k < slots && regular && !b->pattern[g]; k++) regular = b->first[b->slot[g] + k] >= 0;
+    if (!regular) {
+        for (int64_t r = g * LANES; r < g * LANES + group_rows(b, g); r++)
+            largest = real_max(largest, bonds_row_bound(b, p, r) / p->mass[b->particle[r]]);
+        return largest;
+    }
+    struct eight_bounds bounds = {0};
+    struct slot_copy slot;
+    for (int64_t k = 0; k < slots; k++) {
+        slot_read(&slot, b, g, k);
+        bounds_add_any(&bounds, p, b->particle[g * LANES], slot.first, slot.inverse_length, slot.w, b->stiffness);
+    }
+    return bounds_frequency(&bounds, p, b->particle[g * LANES]);
+}
+
+real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
+{
+    real largest = 0;
+#pragma omp parallel for schedule(static) reduction(max : largest)
+    for (int64_t g = 0; g < b->groups; g++) largest = real_max(largest, group_frequency_made(b, p, g));
+    return largest > 0 ? 2 / sqrt(largest) : INFINITY;
+}
+
+real bonds_critical_step(const struct particles *p, const struct bond_source *s)
+{
+    real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
+    struct pair_table pairs = pairs_make(s);
+    uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);
+    struct particles all = *p;
+    memset(kind, KIND_PD, (size_t)p->n_all);
+    all.kind = kind;
+    struct lattice lattice;
+    const struct row_maker maker = {.source = s, .p = &all, .pairs = &pairs, .lattice = &lattice, .room = bonds_room(s)};
+    lattice_make(&lattice, s, p);
+#pragma omp parallel reduction(max : largest)
+    {
+        struct row row = {0};
+        struct lattice_bonds regular;
+        row_room_make(&row, maker.room);
+        lattice_bonds_make(&regular, &lattice);
+#pragma omp for schedule(static)
+        for (int64_t first = 0; first < p->n; first += LANES) {
+            if (lattice.at && first + LANES <= p->n && group_regular(&lattice, s, &all, first, &regular)) {
+                if (twin_of(&regular, s->neighbour_volume, first) < 0)     /* that of a twin is in `largest` */
+                    largest = real_max(largest, group_frequency(&regular, s, p, &pairs, first, stiffness));
+                continue;
+            }
+            for (int64_t i = first; i < first + LANES && i < p->n; i++) {
+                row_find(&row, &maker, (int32_t)i);
+                row_finish(&row, &maker, (int32_t)i);
+                largest = real_max(largest, row_stiffness(&row, &all, (int32_t)i, stiffness) / p->mass[i]);
+            }
+        }
+        lattice_bonds_free(&regular);
+        row_room_free(&row);
+    }
+    lattice_free(&lattice);
+    memory_free(kind);
+    memory_free(pairs.ratio);
+    return largest > 0 ? 2 / sqrt(largest) : INFINITY;
+}
+
+real bonds_fracture_energy(const struct bonds *b)
+{
+    real sum = 0;                        /* few rows have any; a serial sum is the same on any number of threads */
+    for (int64_t r = 0; r < b->rows; r++) sum += b->fracture_energy[r];
+    return sum;
+}

@@ -1,0 +1,139 @@
+/* floor 1: the family of a peridynamic particle: who belongs to it, with what weight, and the sums over a full
+ * family on the lattice that calibrate the micro-modulus (Silling & Askari 2005; partial volumes: Seleson 2014). */
+#include <math.h>
+#include <string.h>
+
+#include "bonds/bonds.h"
+#include "base/memory.h"
+
+#define DISTANCE_TOLERANCE 1e-7          /* relative: lattice points at exactly the horizon belong to the family */
+
+static real ramp(const struct family *f, real r)
+{
+    /* Distances equal on paper must weigh the same: round-off of 1e-16 must not reach the single-precision weight. */
+    real share = (f->horizon + 0.5 * f->spacing - r) / f->spacing;
+    share = nearbyint(share * 1e9) * 1e-9;
+    return share > 1 ? 1 : share < 0 ? 0 : share;
+}
+
+/* Volume share beta of a neighbour at distance r [1]. */
+static real family_beta(const struct family *f, real r) { return f->volume == VOLUME_WHOLE ? 1 : ramp(f, r); }
+
+static real influence(const struct family *f, real r)
+{
+    switch (f->influence) {
+    case INFLUENCE_GAUSSIAN: return exp(-square(r / f->horizon));
+    case INFLUENCE_INVERSE: return f->horizon / r;
+    case INFLUENCE_INVERSE_SQUARE: return square(f->horizon / r);
+    case INFLUENCE_LINEAR: return 1 - r / (f->horizon + f->spacing);
+    default: return 1;
+    }
+}
+
+/* Neighbours on a lattice have the length that they would have without the round-off of positions: like bonds weigh alike, to
+ * the last bit. */
+static real true_length(const struct family *f, real r)
+{
+    const real squares = square(r / f->spacing), whole = floor(squares + 0.5);
+    return fabs(squares - whole) < 1e-9 * whole ? f->spacing * sqrt(whole) : r;
+}
+
+real family_weight(const struct family *f, const real *xi, real r)
+{
+    int dim = space_dim(f->space);
+    real fourth = 0;
+    if (family_plain(f)) return f->shell_weight[0];
+    r = true_length(f, r);
+    for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
+    /* mean of n1^4 + .. over all directions: 1, 3/4, 3/5 */
+    bool axial = fourth > 3.0 / (dim + 2) + 1e-9;
+    return family_beta(f, r) * influence(f, r) * f->shell_weight[axial ? 0 : 1];
+}
+
+/* Sums over the lattice points of a full family. */
+struct lattice_sums {
+    real volume;                         /* sum V beta                    */
+    real sigma;                          /* sum r V beta shell            */
+    real weighted;                       /* sum r^2 of the weights as bonds store them */
+    real axial[2], mixed[2];             /* sum r V beta n1^4, n1^2 n2^2, by class of direction */
+};
+
+static void sum_point(const struct family *f, const real *xi, int dim, struct lattice_sums *s)
+{
+    real r = sqrt(dot(xi, xi, dim)), V = f->cell_volume;
+    if (r == 0 || r > f->cutoff) return;
+    real beta = family_beta(f, r), fourth = 0;
+    for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
+    int class = fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1;
+    s->volume += V * beta;
+    s->sigma += r * V * family_weight(f, xi, r);
+    s->weighted += r * r * family_weight(f, xi, r);
+    s->axial[class] += r * V * beta * fourth / dim;
+    s->mixed[class] += dim > 1 ? r * V * beta * (1 - fourth) / (dim * (dim - 1)) : 0;
+}
+
+static struct lattice_sums lattice_sums(const struct family *f)
+{
+    struct lattice_sums s = {0};
+    int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);
+    int low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
+    for (int d = 0; d < dim; d++) low[d] = -reach, high[d] = reach;
+    for (int c = low[2]; c <= high[2]; c++)
+        for (int b = low[1]; b <= high[1]; b++)
+            for (int a = low[0]; a <= high[0]; a++) {
+                real xi[DIM_MAX] = {a * f->spacing, b * f->spacing, c * f->spacing};
+                sum_point(f, xi, dim, &s);
+            }
+    return s;
+}
+
+/* Two weights, for bonds nearer the axes and nearer the diagonals, such that sum r n1^4 = 3 sum r n1^2 n2^2: C11 =
+ * C12 + 2 C44 with C12 = C44, an isotropic solid. Their scale leaves sum r V unchanged. */
+static void shells_isotropic(struct family *f)
+{
+    if (space_dim(f->space) == 1) return;
+    struct lattice_sums s = lattice_sums(f);
+    real ratio = -(s.axial[1] - 3 * s.mixed[1]) / (s.axial[0] - 3 * s.mixed[0]);   /* axial over diagonal */
+    if (!(ratio > 0 && isfinite(ratio))) return;   /* horizon of one spacing: no diagonal bonds to weigh */
+    f->shell_weight[0] = ratio, f->shell_weight[1] = 1;
+    real scale = s.sigma / lattice_sums(f).sigma;
+    f->shell_weight[0] *= scale, f->shell_weight[1] *= scale;
+}
+
+void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section)
+{
+    f->space = space;
+    f->spacing = spacing;
+    f->section = section;
+    f->cell_volume = lattice_volume(section, spacing, space_dim(space));
+    f->horizon = horizon_in_spacings * spacing;
+    f->shell_weight[0] = f->shell_weight[1] = 1;
+    if (f->calibration == CALIBRATION_VMPD)      /* whole neighbours cover (m + 1/2) spacings exactly (Zeng et al. 2021) */
+        f->horizon = (floor(horizon_in_spacings * (1 + DISTANCE_TOLERANCE)) + 0.5) * spacing;
+    f->cutoff = f->volume == VOLUME_RAMP ? f->horizon + 0.5 * spacing : f->horizon;
+    f->cutoff *= 1 + DISTANCE_TOLERANCE;
+    if (f->shells == SHELLS_ISOTROPIC) shells_isotropic(f);
+    f->full = lattice_sums(f).volume;
+    f->weighted = lattice_sums(f).weighted;
+}
+
+real family_micro_modulus(const struct family *f, const struct material *m)
+{
+    if (f->calibration == CALIBRATION_LATTICE) return material_micro_modulus(m, f->space, lattice_sums(f).sigma);
+    return material_micro_modulus_continuum(m, f->space, f->horizon, f->section);
+}
+
+void family_constants(const struct family *f, const struct material *m, real *c11, real *c12)
+{
+    const int reach = (int)ceil(f->cutoff / f->spacing), dim = space_dim(f->space);
+    const real scale = 0.5 * family_micro_modulus(f, m) * f->cell_volume;
+    *c11 = *c12 = 0;
+    for (int z = dim > 2 ? -reach : 0; z <= (dim > 2 ? reach : 0); z++)
+        for (int y = dim > 1 ? -reach : 0; y <= (dim > 1 ? reach : 0); y++)
+            for (int x = -reach; x <= reach; x++) {
+                const real xi[DIM_MAX] = {x * f->spacing, y * f->spacing, z * f->spacing}, r = sqrt(dot(xi, xi, dim));
+                if (r == 0 || r > f->cutoff) continue;
+                const real k = scale * family_weight(f, xi, r) / (r * r * r);
+                *c11 += k * square(square(xi[0])), *c12 += k * square(xi[0] * xi[1]);
+            }
+}

@@ -1,0 +1,426 @@
+/* floor 3: partial stress: the share of its stress that a material point leaves to the bonds that cross its cell.
+ * The bonds between a peridynamic particle and a material point already carry, in uniform strain,
+ *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
+ * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives the
+ * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Geometric, exact in one dimension, and the Hessian of an
+ * energy: C - T_q is the stiffness of the bonds that cells stand for.
+ *
+ * State-based bonds answer to the strain's trace and in other directions, too (struct response): their T_q is not symmetric, and
+ * taken as it is it flutters at every time step. So a point j at the end of such bonds has the energy of one family,
+ *     E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q) sum w xi (x) xi
+ * of whose mean strain S its own bonds know a part and its cell the rest; R is the cell's rotation (kernels/mesh/mesh_law.h), for ordinary
+ * models the second term is that of the bonds' stretch. What S and R owe to the cell acts back on it (particles.end_pull, end_moment).
+ * Its cell keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which leaves of the patch test the part of T that no energy has:
+ * 1 to 4 % of S h at flat interfaces. T' is taken as far as the energy of the point stays positive (partial_positive.c). */
+#include <math.h>
+#include <string.h>
+
+#include "coupling/convert.h"
+#include "base/memory.h"
+#include "partial_parts.h"
+
+enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
+
+/* ---- geometry ---------------------------------------------------------------------------------------- */
+
+real segment_share(const real *a, const real *b, const real *X, real half, int dim)
+{
+    real in = 0, out = 1;
+    for (int d = 0; d < dim; d++) {
+        real from = a[d] - X[d], along = b[d] - a[d];
+        if (fabs(along) < 1e-14 * half) {
+            if (fabs(from) >= half) return 0;
+            continue;
+        }
+        real t0 = (-half - from) / along, t1 = (half - from) / along;
+        in = real_max(in, real_min(t0, t1));
+        out = real_min(out, real_max(t0, t1));
+    }
+    return out > in ? out - in : 0;
+}
+
+struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
+{
+    struct reflection r = {.sign = {1, 1, 1}, .root = i};
+    while (r.root >= p->n) {                     /* X of this image = reflection of X of its source along one axis */
+        int64_t source = s->image[r.root - p->n].source;
+        for (int d = 0; d < p->dim; d++) {
+            if (p->X[d][source] == p->X[d][r.root]) continue;
+            r.offset[d] += r.sign[d] * (p->X[d][source] + p->X[d][r.root]);
+            r.sign[d] = -r.sign[d];
+        }
+        r.root = source;
+    }
+    return r;
+}
+
+/* ---- the tensor -------------------------------------------------------------------------------------- */
+
+static bool same(int a, int b) { return a == b; }
+
+void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim)
+{
+    real share = segment_share(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
+    if (share == 0) return;
+    for (int d = 0; d < dim; d++) e[d] = xm[d] - xp[d], length += square(e[d]);
+    length = sqrt(length);
+    for (int d = 0; d < dim; d++) e[d] /= length;
+    const int n = symmetric_count(dim);
+    for (int s = 0; s < n; s++)
+        for (int t = 0; t < n; t++) {
+            int a, b, c, d;
+            symmetric_axes(dim, s, &a, &b);
+            symmetric_axes(dim, t, &c, &d);
+            real turned = e[b] * e[d] * same(a, c) + e[b] * e[c] * same(a, d) + e[a] * e[d] * same(b, c) +
+                          e[a] * e[c] * same(b, d);
+            T[s * n + t] += share * (k.central * e[a] * e[b] * e[c] * e[d] + k.pressure * e[a] * e[b] * same(c, d) +
+                                     0.25 * k.vector * turned);
+        }
+}
+
+/* V/Q of a particle of a row: of a full family where it has no row of its own [m]. */
+static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
+{
+    int32_t row = i < p->n ? b->row_of[i] : -1;
+    return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
+}
+
+struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
+                            const struct bond *bond)
+{
+    const int32_t j = bond->nbr;
+    const real r = fabs(1 / bond->inverse_length), D = p->dim;
+    if (!s->modulus) return (struct response){.central = b->stiffness * bond->w * r};
+    const struct state_modulus *m = &s->modulus[p->material[i]], *n = &s->modulus[p->material[j]];
+    const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = bond->w * r * r;
+    const real spring = scale * (m->B * first + n->B * second);
+    return (struct response){.pressure = scale * (m->A * first + n->A * second) / D,
+                             .central = s->turns ? 0 : spring, .vector = s->turns ? spring : 0};
+}
+
+/* What all bonds of a row lie in; rows are far longer than the few cells that one of them crosses. */
+struct box { real low[DIM_MAX], high[DIM_MAX]; };
+
+static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
+{
+    struct box box;
+    for (int d = 0; d < p->dim; d++) {
+        const real *X = p->X[d];
+        box.low[d] = box.high[d] = X[b->particle[row]];
+        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
+            const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+            if (bond.w == 0) continue;
+            box.low[d] = real_min(box.low[d], X[bond.nbr]);
+            box.high[d] = real_max(box.high[d], X[bond.nbr]);
+        }
+    }
+    return box;
+}
+
+static bool box_passes(const struct box *box, const real *X, real half, int dim)
+{
+    for (int d = 0; d < dim; d++)
+        if (box->high[d] <= X[d] - half || box->low[d] >= X[d] + half) return true;
+    return false;
+}
+
+/* All crossing bonds that end at material point (or image) j. */
+static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                           const struct box *box, int64_t j, const real *X, real half)
+{
+    if (j < p->n && (b->row_of[j] < 0 || box_passes(&box[b->row_of[j]], X, half, p->dim))) return;
+    struct reflection r = reflection_of(s, p, j);
+    int32_t row = b->row_of[r.root];
+    if (row < 0 || p->kind[r.root] != KIND_MPM) return;
+    real xp[DIM_MAX], xm[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) xp[d] = p->X[d][j];
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        if (bond.w == 0) continue;
+        bool apart = false;                      /* most bonds of a row pass by: seen without a division */
+        for (int d = 0; d < p->dim; d++) {
+            xm[d] = r.sign[d] * p->X[d][bond.nbr] + r.offset[d];
+            apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
+        }
+        if (apart) continue;
+        tensor_add(T, xp, xm, X, half, response_of(p, b, s, b->particle[row], &bond), p->dim);
+    }
+}
+
+real half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
+}
+
+/* T V of point i from each bond around; any cloud of particles. */
+static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                       const struct box *box, int64_t i, struct near *near)
+{
+    const real half = half_edge(p, s, i);
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    near_find(near, s->cells, p, i, s->family.cutoff + half * sqrt(p->dim), true);
+    for (int k = 0; k < near->n; k++)
+        if (p->kind[near->at[k]] == KIND_MPM && p->body[near->at[k]] == p->body[i])
+            tensor_add_row(T, p, b, s, box, near->at[k], X, half);
+}
+
+/* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). False if no bond crosses. */
+static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real compliance[SYM_MAX * SYM_MAX];
+    material_compliance(&s->material[p->material[i]], dim, compliance);
+    real largest = 0;
+    for (int a = 0; a < n; a++)
+        for (int c = 0; c < n; c++) {
+            M[a * n + c] = 0;
+            for (int k = 0; k < n; k++)
+                M[a * n + c] += T[a * n + k] * (k < dim ? 1 : 2) * compliance[k * n + c] / p->volume0[i];
+            largest = real_max(largest, fabs(M[a * n + c]));
+        }
+    return largest > 0;
+}
+
+/* Numbers of an entry: M, and L of state-based models. */
+static int entry_size(const struct bond_source *s, int dim)
+{
+    const int n = symmetric_count(dim);
+    return n * n + (s->modulus ? n : 0);
+}
+
+/* An entry of state-based models from T V. Hand-shake leaves nothing, but an entry tells that a point is an end of bonds. */
+static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p, const struct bonds *b,
+                        const struct bond_source *s, int64_t i)
+{
+    const int n = symmetric_count(p->dim);
+    const bool end = partial_positive(T, entry + n * n, p, b, s, i);
+    if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
+    memset(entry, 0, sizeof *entry * (size_t)entry_size(s, p->dim));
+    return end;
+}
+
+static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    partial_positive_bonds(T, p, s, i);
+    return partial_matrix(entry, T, p, s, i);
+}
+
+/* ---- who needs one ----------------------------------------------------------------------------------- */
+
+/* What is made anew: points around what has changed; and the rows whose bonds may cross their cells. */
+struct renewal {
+    int32_t *list;                       /* points and others there, ascending                              */
+    int64_t n;
+    int32_t *row;                        /* rows of material points, where there are cells that the table does not know */
+    int64_t rows;
+    bool *own;                           /* [n] has changed itself                                          */
+};
+
+enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
+
+/* Marks who is within the radius of what has changed, and who within `reach` of those; NULL: all peridynamic particles. */
+static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
+                       const int32_t *changed, int64_t n)
+{
+    struct near near = {0};
+    for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
+        const int64_t i = changed ? changed[k] : p->list[KIND_PD][k];
+        near_find_any(&near, s->cells, p, i, radius + reach, true);
+        for (int m = 0; m < near.n; m++) {
+            real r2 = 0;
+            for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);
+            mark[image_root(p, s->image, near.at[m])] |= r2 <= radius * radius ? OTHERS_ROW | DIRTY : OTHERS_ROW;
+        }
+        mark[i] |= OWN;
+    }
+    memory_free(near.at);
+}
+
+/* Lists who has a mark, ascending, and returns how many; `list` NULL: only that. */
+static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
+{
+    int64_t found = 0;
+    for (int64_t first = 0; first < n; first += LANES) {
+        if (!eight_bytes(mark + first)) continue;
+        for (int64_t i = first; i < first + LANES; i++) {
+            if (mark[i] && list) list[found] = (int32_t)i;
+            found += mark[i] != 0;
+        }
+    }
+    return found;
+}
+
+static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                         const struct partial_table *table, const int32_t *changed, int64_t n)
+{
+    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice, within its
+     * own length: the middle of the cell lies in the box that it spans */
+    const bool strange = !partial_table_serves_all(table);
+    const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
+    uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t);            /* nobody marks who is behind the body */
+    mark_dirty(mark, p, s, radius, strange ? radius : 0, changed, n);
+    const int64_t most = marked(mark, p->n, NULL);
+    int32_t *list = NEW("partial.marked", most, int32_t);
+    marked(mark, p->n, list);
+    *r = (struct renewal){.list = NEW("partial.list", most, int32_t), .row = NEW("partial.row", strange ? most : 0, int32_t),
+                          .own = NEW("partial.own", most, bool)};
+    for (int64_t k = 0; k < most; k++) {
+        const int32_t i = list[k], row = b->row_of[i];
+        if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->made[row / LANES] > 0) r->row[r->rows++] = row;
+        if (!(mark[i] & DIRTY)) continue;
+        r->own[r->n] = !changed || mark[i] & OWN;
+        r->list[r->n++] = i;
+    }
+    memory_free(list);
+    memory_free(mark);
+}
+
+static void renewal_free(struct renewal *r)
+{
+    memory_free(r->list);
+    memory_free(r->row);
+    memory_free(r->own);
+}
+
+/* ---- entries ----------------------------------------------------------------------------------------- */
+
+static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
+{
+    if (partial->index[i] < 0) {
+        if (partial->entries == partial->room) {
+            const int64_t had = partial->room, room = had ? 2 * had : 256;
+            partial->matrix = memory_resize("partial.matrix", partial->matrix, had * size, room * size, sizeof(real));
+            if (local) partial->local = memory_resize("partial.local", partial->local, had * local, room * local, sizeof(real));
+            partial->room = room;
+        }
+        partial->index[i] = (int32_t)partial->entries++;
+    }
+    memcpy(partial->matrix + (int64_t)partial->index[i] * size, M, (size_t)size * sizeof *M);
+    if (local) memcpy(partial->local + (int64_t)partial->index[i] * local, M + size, (size_t)local * sizeof *M);
+}
+
+/* Entries that nobody has any more are squeezed out once they are the most: points that return come and go. */
+static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
+{
+    int64_t live = 0;
+    for (int64_t i = 0; i < p->n; i++) live += partial->index[i] >= 0;
+    if (partial->entries <= 2 * live + 256) return;
+    struct partial_stress old = *partial;
+    partial->matrix = NULL, partial->local = NULL;
+    partial->entries = partial->room = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const int64_t at = partial->index[i];
+        real M[ENTRY_MOST];
+        if (at < 0) continue;
+        memcpy(M, old.matrix + at * size, (size_t)size * sizeof *M);
+        if (local) memcpy(M + size, old.local + at * local, (size_t)local * sizeof *M);
+        partial->index[i] = -1;
+        entry_put(partial, i, M, size, local);
+    }
+    memory_free(old.matrix);
+    memory_free(old.local);
+}
+
+/* Is the entry of point i this matrix already, bit by bit? */
+static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int local)
+{
+    const int64_t at = partial->index[i];
+    return at >= 0 && memcmp(partial->matrix + at * size, M, (size_t)size * sizeof *M) == 0 &&
+           (local == 0 || memcmp(partial->local + at * local, M + size, (size_t)local * sizeof *M) == 0);
+}
+
+static void touch(struct partial_stress *partial, int64_t i)
+{
+    if (partial->touches == partial->touched_room) {
+        const int64_t more = partial->touched_room ? 2 * partial->touched_room : 256;
+        partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *partial->touched);
+        partial->touched_room = more;
+    }
+    partial->touched[partial->touches++] = (int32_t)i;
+}
+
+/* Entries of all points of the renewal. */
+static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
+                         const struct particles *p, const struct bonds *b, const struct bond_source *s)
+{
+    const bool served = partial_table_serves(partial->table);
+    const int each = entry_size(s, p->dim);
+    struct box *box = NEW("partial.box", r->rows > 0 ? b->rows : 0, struct box);
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < r->rows; k++) box[r->row[k]] = box_of(p, b, r->row[k]);
+#pragma omp for schedule(dynamic, 16)
+        for (int64_t k = 0; k < r->n; k++) {
+            const int64_t i = r->list[k];
+            real T[SYM_MAX * SYM_MAX] = {0};
+            if (p->kind[i] != KIND_MPM) continue;
+            if (served && partial_table_knows(p, s, i)) partial_table_sum(partial->table, p, b, s, i, &near, T);
+            else tensor_sum(T, p, b, s, box, i, &near);
+            crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i) : bond_entry(entry + k * each, T, p, s, i);
+        }
+        memory_free(near.at);
+    }
+    memory_free(box);
+}
+
+void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
+                         const struct bond_source *source, const int32_t *changed, int64_t n)
+{
+    const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
+    const int whole = entry_size(source, p->dim), local = whole - size;
+    const bool all = !changed || !partial->index;
+    struct renewal r;
+    if (!partial->index) {
+        partial->index = NEW("partial.index", p->n, int32_t);
+        for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
+        partial->table = partial_table_make(p, source, size);
+    }
+    renewal_make(&r, p, b, source, partial->table, changed, n);
+    if (partial_table_serves(partial->table)) partial_table_ask(partial->table, p, b, source, all ? NULL : r.list, r.n);
+    real *M = NEW("partial.new", r.n * whole, real);
+    bool *crossed = NEW("partial.crossed", r.n, bool);
+    entries_make(M, crossed, partial, &r, p, b, source);
+    for (int64_t k = 0; k < r.n; k++) {
+        const int64_t i = r.list[k];
+        const bool same = crossed[k] ? entry_is(partial, i, M + k * whole, size, local) : partial->index[i] < 0;
+        if (!same || r.own[k]) touch(partial, i);
+        if (same) continue;
+        if (crossed[k]) entry_put(partial, i, M + k * whole, size, local);
+        else partial->index[i] = -1;
+    }
+    entries_squeeze(partial, p, size, local);
+    memory_free(crossed);
+    memory_free(M);
+    renewal_free(&r);
+}
+
+void partial_ends_know(const struct partial_stress *partial, struct particles *p, const struct material *material)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];
+    bool known[UINT8_MAX + 1] = {false};
+    if (!partial->index || !partial->local) return;
+    for (int64_t k = 0; k < p->n_free; k++) {
+        const int64_t i = p->list_free[k], entry = partial->index[i];
+        const int m = p->material[i];
+        if (entry < 0) continue;
+        if (!known[m]) material_compliance(&material[m], dim, compliance[m]), known[m] = true;
+        p->end_strain[i] = 0;
+        for (int c = 0; c < n; c++)
+            for (int d = 0; d < n; d++)
+                p->end_strain[i] += partial->local[entry * n + c] * (c < dim ? 1 : 2) * compliance[m][c * n + d] * p->stress[d][i];
+    }
+}
+
+void partial_stress_free(struct partial_stress *partial)
+{
+    memory_free(partial->index);
+    memory_free(partial->matrix);
+    memory_free(partial->local);
+    memory_free(partial->touched);
+    if (partial->table) partial_table_free(partial->table);
+    *partial = (struct partial_stress){.gives_all = partial->gives_all};
+}

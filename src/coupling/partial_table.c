@@ -1,0 +1,429 @@
+/* floor 3: partial stress on a lattice. Which share of a bond lies in the cell of a point depends only on where the bond starts
+ * from the point and on the bond's vector: found once for all, and so is the tensor of every direction. What remains to be
+ * done for a point is a sum of responses by direction, and one of a few dozen tensors. */
+#include <math.h>
+#include <string.h>
+
+#include "src/bonds/bonds_parts.h"
+#include "base/memory.h"
+#include "partial_parts.h"
+
+#define WHOLE 1e-12                      /* of a cell: a particle's volume is one but for round-off */
+enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
+enum { ROWS_AHEAD = 6 };                 /* answers lie in farther caches */
+
+/* A bond of this vector, from the place in question, crosses the cell of the point by this share of its length. */
+struct crossing { int16_t vector, direction; real share; };
+
+/* A place within a bond's length, the middle included. */
+struct near_place { int16_t place, at[DIM_MAX]; };
+
+/* What rows of material points answer, which lasts until something changes within their reach. */
+struct answers {
+    int32_t *of;                         /* [n] of a particle, -1: none of its bonds counts                    */
+    real *answer;                        /* [room][vectors][parts]                                             */
+    int64_t n, room, frees;
+    int32_t *free;                       /* [room] those of nobody, `frees` of them                            */
+};
+
+/* Places are numbered like the cells of a cube; `reach` cells to either side of the middle. */
+struct partial_table {
+    int dim, reach, parts, size;         /* parts of a response; numbers of a tensor                           */
+    real spacing, per_spacing;           /* [m] [1/m]                                                          */
+    int vectors, directions;             /* directions: a vector and its opposite                              */
+    struct near_place *near;             /* [vectors + 1] ascending                                            */
+    int16_t *vector;                     /* [places] number of the vector to a place, -1: no bond              */
+    int16_t *mirror;                     /* [2^dim][vectors] vector with signs changed                         */
+    int32_t *start;                      /* [places + 1] crossings of bonds from a place: start .. next start  */
+    struct crossing *crossing;
+    real *tensor;                        /* [directions][parts][size]                                          */
+    bool uniform;                        /* knows all cells                                                    */
+    struct answers answers;
+};
+
+/* ---- places ------------------------------------------------------------------------------------------ */
+
+static int64_t places_of(const struct partial_table *t)
+{
+    int64_t n = 1;
+    for (int d = 0; d < t->dim; d++) n *= 2 * t->reach + 1;
+    return n;
+}
+
+static void place_to(const struct partial_table *t, int64_t place, int *at)
+{
+    for (int d = 0; d < t->dim; d++, place /= 2 * t->reach + 1) at[d] = (int)(place % (2 * t->reach + 1)) - t->reach;
+}
+
+static int64_t place_from(const struct partial_table *t, const int *at)
+{
+    int64_t place = 0;
+    for (int d = t->dim - 1; d >= 0; d--) {
+        if (at[d] < -t->reach || at[d] > t->reach) return -1;
+        place = place * (2 * t->reach + 1) + at[d] + t->reach;
+    }
+    return place;
+}
+
+/* Place of `to` seen from `from`, both of the lattice; -1: too far. */
+static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
+{
+    int64_t place = 0;
+    for (int d = t->dim - 1; d >= 0; d--) {
+        const int k = (int)((to[d] - from[d]) * t->per_spacing + (t->reach + 1.5)) - 1;     /* rounded, and counted from the reach on */
+        if (k < 0 || k > 2 * t->reach) return -1;
+        place = place * (2 * t->reach + 1) + k;
+    }
+    return place;
+}
+
+/* ---- making it --------------------------------------------------------------------------------------- */
+
+static void vectors_make(struct partial_table *t, real cutoff)
+{
+    const int64_t places = places_of(t), middle = (places - 1) / 2;
+    t->vector = NEW("partial.vector", places, int16_t);
+    for (int64_t k = 0; k < places; k++) {
+        int at[DIM_MAX];
+        real length2 = 0;
+        place_to(t, k, at);
+        for (int d = 0; d < t->dim; d++) length2 += square(at[d] * t->spacing);
+        const bool bond = k != middle && sqrt(length2) <= cutoff * (1 + LATTICE_NEAR);
+        t->vector[k] = bond && t->vectors <= VECTORS_MOST ? (int16_t)t->vectors++ : -1;      /* one too many tells */
+    }
+    t->directions = t->vectors / 2;      /* places k and places - 1 - k are opposite */
+    t->near = NEW("partial.near", t->vectors + 1, struct near_place);
+    for (int64_t k = 0, n = 0; k < places && n <= t->vectors; k++) {
+        int at[DIM_MAX] = {0};
+        if (t->vector[k] < 0 && k != middle) continue;
+        place_to(t, k, at);
+        t->near[n++] = (struct near_place){(int16_t)k, {(int16_t)at[0], (int16_t)at[1], (int16_t)at[2]}};
+    }
+}
+
+static int direction_of(const struct partial_table *t, int vector)
+{
+    return vector < t->directions ? vector : t->vectors - 1 - vector;
+}
+
+static void mirrors_make(struct partial_table *t)
+{
+    t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
+    for (int64_t k = 0; k < places_of(t); k++)
+        for (int signs = 0; signs < 1 << t->dim && t->vector[k] >= 0; signs++) {
+            int at[DIM_MAX];
+            place_to(t, k, at);
+            for (int d = 0; d < t->dim; d++) at[d] = signs >> d & 1 ? -at[d] : at[d];
+            t->mirror[signs * t->vectors + t->vector[k]] = t->vector[place_from(t, at)];
+        }
+}
+
+/* Cells that a bond from the middle to a place crosses: calls for each of those in its box, in lattice units. */
+static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
+{
+    int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
+    const real from[DIM_MAX] = {0};
+    real end[DIM_MAX], X[DIM_MAX];
+    place_to(t, k, to);
+    for (int d = 0; d < t->dim; d++) end[d] = to[d], low[d] = to[d] < 0 ? to[d] : 0, high[d] = to[d] > 0 ? to[d] : 0;
+    for (cell[2] = low[2]; cell[2] <= high[2]; cell[2]++)
+        for (cell[1] = low[1]; cell[1] <= high[1]; cell[1]++)
+            for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
+                int start[DIM_MAX];
+                for (int d = 0; d < t->dim; d++) X[d] = cell[d], start[d] = -cell[d];
+                const real share = segment_share(from, end, X, 0.5, t->dim);
+                const int64_t place = place_from(t, start);
+                if (share <= 0) continue;
+                if (count) next[place + 1]++;
+                else t->crossing[next[place]++] = (struct crossing){t->vector[k], (int16_t)direction_of(t, t->vector[k]), share};
+            }
+}
+
+static void crossings_make(struct partial_table *t)
+{
+    const int64_t places = places_of(t);
+    int64_t *next = NEW("partial.next", places + 1, int64_t);
+    for (int64_t k = 0; k < places; k++)
+        if (t->vector[k] >= 0) crossings_of(t, k, next, true);
+    for (int64_t k = 0; k < places; k++) next[k + 1] += next[k];
+    t->start = NEW("partial.start", places + 1, int32_t);
+    for (int64_t k = 0; k <= places; k++) t->start[k] = (int32_t)next[k];
+    t->crossing = NEW("partial.crossing", next[places], struct crossing);
+    for (int64_t k = 0; k < places; k++)
+        if (t->vector[k] >= 0) crossings_of(t, k, next, false);
+    memory_free(next);
+}
+
+/* Tensors of bonds whose whole length counts, for each part of a response alone. */
+static void tensors_make(struct partial_table *t, const struct bond_source *s)
+{
+    t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
+    for (int64_t k = 0; k < places_of(t); k++) {
+        const real from[DIM_MAX] = {0};
+        real to[DIM_MAX];
+        int at[DIM_MAX];
+        if (t->vector[k] < 0 || t->vector[k] >= t->directions) continue;
+        place_to(t, k, at);
+        for (int d = 0; d < t->dim; d++) to[d] = at[d];
+        for (int part = 0; part < t->parts; part++) {
+            const struct response one = {.central = part == 0 && !s->turns, .vector = part == 0 && s->turns, .pressure = part == 1};
+            tensor_add(t->tensor + ((int64_t)t->vector[k] * t->parts + part) * t->size, from, to, from, 2 * t->reach + 1, one, t->dim);
+        }
+    }
+}
+
+/* Do all particles of each body, and their images, stand on one lattice? */
+static bool on_lattice(const struct particles *p, real spacing)
+{
+    int64_t first[BODIES_MOST];
+    bool regular = true;
+    for (int k = 0; k < BODIES_MOST; k++) first[k] = -1;
+    for (int64_t i = 0; i < p->n_all; i++)
+        if (first[p->body[i]] < 0) first[p->body[i]] = i;
+#pragma omp parallel for schedule(static) reduction(&& : regular)
+    for (int64_t i = 0; i < p->n_all; i++)
+        for (int d = 0; d < p->dim; d++) {
+            real k;
+            regular = regular && lattice_site(p->X[d][i], p->X[d][first[p->body[i]]], spacing, &k);
+        }
+    return regular;
+}
+
+static bool all_known(const struct particles *p, const struct bond_source *s)
+{
+    bool known = true;
+#pragma omp parallel for schedule(static) reduction(&& : known)
+    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_knows(p, s, i);
+    return known;
+}
+
+struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size)
+{
+    const struct family *f = &s->family;
+    struct partial_table *t = NEW("partial.table", 1, struct partial_table);
+    *t = (struct partial_table){.dim = p->dim, .reach = (int)floor(f->cutoff / f->spacing * (1 + LATTICE_NEAR)),
+                                .parts = s->modulus ? 2 : 1, .size = size, .spacing = f->spacing, .per_spacing = 1 / f->spacing};
+    if (!on_lattice(p, f->spacing)) return t;
+    vectors_make(t, f->cutoff);
+    if (t->vectors * t->parts > VECTORS_MOST) t->vectors = 0;
+    if (t->vectors == 0) return t;
+    t->uniform = all_known(p, s);
+    mirrors_make(t);
+    crossings_make(t);
+    tensors_make(t, s);
+    t->answers.of = NEW("partial.answer_of", p->n, int32_t);
+    return t;
+}
+
+void partial_table_free(struct partial_table *t)
+{
+    if (!t) return;
+    memory_free(t->vector);
+    memory_free(t->near);
+    memory_free(t->mirror);
+    memory_free(t->start);
+    memory_free(t->crossing);
+    memory_free(t->tensor);
+    memory_free(t->answers.of);
+    memory_free(t->answers.answer);
+    memory_free(t->answers.free);
+    memory_free(t);
+}
+
+/* ---- what the bonds of rows answer ------------------------------------------------------------------- */
+
+bool partial_table_serves(const struct partial_table *t) { return t->vectors > 0; }
+bool partial_table_serves_all(const struct partial_table *t) { return t->uniform; }
+
+static real *answer_at(const struct partial_table *t, int64_t k) { return t->answers.answer + k * t->vectors * t->parts; }
+
+/* Room for so many that are open at once. */
+static void answers_room(struct partial_table *t, int64_t open)
+{
+    struct answers *a = &t->answers;
+    const int64_t each = (int64_t)t->vectors * t->parts;
+    if (open <= a->room) return;
+    const int64_t room = open + open / 4;
+    real *answer = BARE("partial.answer", room * each, real);
+    if (a->n > 0) memcpy(answer, a->answer, (size_t)(a->n * each) * sizeof *answer);
+    memory_free(a->answer);
+    a->answer = answer;
+    a->free = memory_resize("partial.free", a->free, a->room, room, sizeof *a->free);
+    a->room = room;
+}
+
+static void answer_open(struct partial_table *t, int64_t i)
+{
+    struct answers *a = &t->answers;
+    if (a->of[i] < 0) a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
+}
+
+static void answer_close(struct partial_table *t, int64_t i)
+{
+    struct answers *a = &t->answers;
+    if (a->of[i] < 0) return;
+    a->free[a->frees++] = a->of[i];
+    a->of[i] = -1;
+}
+
+/* By vector. */
+static void answer_make(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                        int64_t row, real *answer)
+{
+    real X[DIM_MAX];
+    memset(answer, 0, sizeof *answer * (size_t)(t->vectors * t->parts));
+    particle_place(p, b->particle[row], X);
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        real to[DIM_MAX];
+        if (bond.w == 0) continue;
+        particle_place(p, bond.nbr, to);
+        const int64_t place = place_between(t, X, to);
+        assert(place >= 0 && t->vector[place] >= 0);
+        const struct response r = response_of(p, b, s, b->particle[row], &bond);
+        real *part = answer + t->vector[place] * t->parts;
+        part[0] = s->turns ? r.vector : r.central;
+        if (t->parts > 1) part[1] = r.pressure;
+    }
+}
+
+/* Rows of a group with an intact bond: who is asked next is mostly of the same group. */
+struct group_intact { int64_t group; unsigned rows; };
+
+static bool has_bonds(struct group_intact *last, const struct particles *p, const struct bonds *b, int64_t i)
+{
+    const int64_t row = b->row_of[i], group = row / LANES;
+    if (p->kind[i] != KIND_MPM || row < 0) return false;
+    if (last->group != group) *last = (struct group_intact){group, bonds_intact(b, group)};
+    return last->rows >> row % LANES & 1;
+}
+
+void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                       const int32_t *list, int64_t n)
+{
+    struct answers *a = &t->answers;
+    struct group_intact last = {.group = -1};
+    if (!list) {
+        a->n = a->frees = 0;
+        for (int64_t i = 0; i < p->n; i++) a->of[i] = -1;
+        list = p->list[KIND_MPM], n = p->n_of[KIND_MPM];
+    }
+    int64_t more = 0;
+    bool *has = NEW("partial.has", n, bool);
+    for (int64_t k = 0; k < n; k++) {
+        has[k] = has_bonds(&last, p, b, list[k]);
+        if (!has[k]) answer_close(t, list[k]);
+        else more += a->of[list[k]] < 0;
+    }
+    answers_room(t, a->n - a->frees + more);
+    for (int64_t k = 0; k < n; k++)
+        if (has[k]) answer_open(t, list[k]);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t k = 0; k < n; k++)
+        if (has[k]) answer_make(t, p, b, s, b->row_of[list[k]], answer_at(t, a->of[list[k]]));
+    memory_free(has);
+}
+
+/* ---- one point --------------------------------------------------------------------------------------- */
+
+/* A row that may cross the cell of a point: of a particle or an image, its place, and what it answers. A bond starts within its
+ * length of any cell that it crosses. */
+struct crosser { int32_t j, place, answer; };
+
+/* Adds what the row of a point or image at a place leaves in the cell, by direction. */
+static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *answer, int signs, const int parts)
+{
+    const int16_t *mirror = t->mirror + signs * t->vectors;
+    for (int32_t c = t->start[place]; c < t->start[place + 1]; c++) {
+        const struct crossing *x = &t->crossing[c];
+        const real *part = answer + mirror[x->vector] * parts;
+        for (int k = 0; k < parts; k++) sum[x->direction * parts + k] += x->share * part[k];
+    }
+}
+
+/* Asks memory for what sum_row will read. */
+static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crosser *row)
+{
+    const real *answer = answer_at(t, row->answer);
+    for (int32_t c = t->start[row->place]; c < t->start[row->place + 1]; c++)
+        __builtin_prefetch(answer + t->crossing[c].vector * t->parts);
+}
+
+static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
+{
+    for (int k = 0; k < t->directions * t->parts; k++) {
+        const real *tensor = t->tensor + (int64_t)k * t->size;
+        if (sum[k] == 0) continue;
+        for (int c = 0; c < t->size; c++) T[c] += sum[k] * tensor[c];
+    }
+}
+
+bool partial_table_knows(const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
+}
+
+/* Puts j among n others, ascending, if it is a material point's and answers; returns how many there are. */
+static int crosser_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int32_t j,
+                       int64_t place, struct crosser *to, int n)
+{
+    const int32_t answer = p->kind[j] == KIND_MPM ? t->answers.of[image_root(p, s->image, j)] : -1;
+    int at = n;
+    if (answer < 0) return n;
+    for (; at > 0 && to[at - 1].j > j; at--) to[at] = to[at - 1];
+    to[at] = (struct crosser){j, (int32_t)place, answer};
+    return n + 1;
+}
+
+/* By the map of sites: particles stand in their order, images, which come last of all, anywhere. */
+static int crossers_by_site(const struct partial_table *t, const struct lattice *l, const struct particles *p,
+                            const struct bond_source *s, int64_t i, struct crosser *to)
+{
+    const int32_t *own = l->at + lattice_site_of(l, p, i);
+    int n = 0;
+    for (int k = 0; k <= t->vectors; k++) {
+        const struct near_place *near = &t->near[k];
+        const int32_t j = own[near->at[0] + near->at[1] * l->stride[1] + near->at[2] * l->stride[2]] - 1;
+        if (j >= 0) n = crosser_add(t, p, s, j, near->place, to, n);
+    }
+    return n;
+}
+
+/* The same in the same order. */
+static int crossers_by_search(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
+                              struct near *near, struct crosser *to)
+{
+    real X[DIM_MAX], Y[DIM_MAX];
+    int n = 0;
+    particle_place(p, i, X);
+    near_find(near, s->cells, p, i, s->family.cutoff, true);
+    for (int k = 0; k < near->n; k++) {
+        const int32_t j = near->at[k];
+        if (p->body[j] != p->body[i]) continue;
+        particle_place(p, j, Y);
+        n = crosser_add(t, p, s, j, place_between(t, X, Y), to, n);
+    }
+    return n;
+}
+
+void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
+                       const struct bond_source *s, int64_t i, struct near *near, real *T)
+{
+    real sum[VECTORS_MOST];
+    struct crosser row[VECTORS_MOST + 1];
+    const bool mapped = b->sites && b->sites->at;
+    const int rows = mapped ? crossers_by_site(t, b->sites, p, s, i, row) : crossers_by_search(t, p, s, i, near, row);
+    memset(sum, 0, sizeof *sum * (size_t)(t->directions * t->parts));
+    for (int k = 0; k < rows; k++) {
+        const real *answer = answer_at(t, row[k].answer);
+        if (k + ROWS_AHEAD < rows) row_fetch(t, &row[k + ROWS_AHEAD]);
+        int signs = 0;
+        if (row[k].j >= p->n) {
+            const struct reflection r = reflection_of(s, p, row[k].j);
+            for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
+        }
+        if (t->parts == 1) sum_row(t, sum, row[k].place, answer, signs, 1);
+        else sum_row(t, sum, row[k].place, answer, signs, 2);
+    }
+    sum_tensors(t, sum, T);
+}

@@ -1,0 +1,110 @@
+/* floor 1: the background grid: a box of nodes that grows with its material points. */
+#include "data/grid.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Nodes beyond the outermost point: reach of the widest shape and one cell of motion. */
+enum { MARGIN = 3 };
+#define NODE_FARTHEST 1e15               /* cells: farther, an index is no whole number of a double any more */
+
+static void grid_arrays_free(struct grid *g)
+{
+    memory_free(g->mass);
+    memory_free(g->follower);
+    memory_free(g->held);
+    for (int d = 0; d < g->dim; d++) {
+        memory_free(g->momentum[d]);
+        memory_free(g->force[d]);
+        memory_free(g->velocity[d]);
+    }
+}
+
+static void grid_arrays_make(struct grid *g)
+{
+    g->n = 1;
+    for (int d = 0; d < g->dim; d++) {
+        g->stride[d] = g->n;
+        g->n *= g->count[d];
+    }
+    g->mass = NEW("grid.mass", g->n, real);
+    g->follower = g->light_mass > 0 ? BARE("grid.follower", g->n, struct follower) : NULL;
+    g->held = g->light_mass > 0 ? NEW("grid.held", g->n, uint8_t) : NULL;
+    g->followers = 0;
+    for (int d = 0; d < g->dim; d++) {
+        g->momentum[d] = NEW("grid.momentum", g->n, real);
+        g->force[d] = NEW("grid.force", g->n, real);
+        g->velocity[d] = NEW("grid.velocity", g->n, real);
+    }
+}
+
+/* Boxes grow by steps of this many nodes. */
+enum { BOX_STEP = 4 };
+static int64_t box_floor(int64_t k) { return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP; }
+
+status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
+{
+    int64_t first[DIM_MAX], end[DIM_MAX];
+    real nodes = 1, low[DIM_MAX], high[DIM_MAX];
+    *changed = g->n == 0;
+    for (int d = 0; d < g->dim; d++) {
+        low[d] = floor((from[d] - g->anchor[d]) / g->h), high[d] = floor((to[d] - g->anchor[d]) / g->h);
+        if (!(fabs(low[d]) < NODE_FARTHEST && fabs(high[d]) < NODE_FARTHEST))
+            return status_set(FAILED, "a material point is at %.3g m, %.3g cells from where the grid begins; is the run unstable?",
+                              fabs(low[d]) < NODE_FARTHEST ? to[d] : from[d], real_max(fabs(low[d]), fabs(high[d])));
+    }
+    for (int d = 0; d < g->dim; d++) {
+        first[d] = box_floor((int64_t)low[d] - MARGIN);
+        end[d] = box_floor((int64_t)high[d] + MARGIN + BOX_STEP);
+        if (g->n > 0 && first[d] >= g->first[d]) first[d] = g->first[d]; else *changed = true;
+        if (g->n > 0 && end[d] <= g->first[d] + g->count[d]) end[d] = g->first[d] + g->count[d]; else *changed = true;
+        nodes *= (real)(end[d] - first[d]);
+    }
+    if (!(nodes <= (real)most))
+        return status_set(FAILED, "the material points have spread so far that their grid would need %.3g nodes; "
+                                  "is the run unstable, or does a fragment fly away?", nodes);
+    if (!*changed) return OK;
+    if (g->n > 0) grid_arrays_free(g);
+    for (int d = 0; d < g->dim; d++) {
+        g->first[d] = first[d];
+        g->count[d] = end[d] - first[d];
+    }
+    grid_arrays_make(g);
+    return OK;
+}
+
+void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load)
+{
+    if (g->walls == g->walls_room) {
+        int64_t room = g->walls_room ? 2 * g->walls_room : 256;
+        g->wall = memory_resize("grid.wall", g->wall, g->walls_room, room, sizeof *g->wall);
+        g->walls_room = room;
+    }
+    g->wall[g->walls++] = (struct wall){(int32_t)node, (int16_t)component, (int16_t)load, velocity, change, 0};
+}
+
+void grid_add_fold(struct grid *g, const struct fold *fold)
+{
+    if (g->folds == g->folds_room) {
+        int64_t room = g->folds_room ? 2 * g->folds_room : 256;
+        g->fold = memory_resize("grid.fold", g->fold, g->folds_room, room, sizeof *g->fold);
+        g->folds_room = room;
+    }
+    g->fold[g->folds++] = *fold;
+}
+
+void grid_idle(struct grid *g)
+{
+    g->walls = 0;
+    for (int64_t k = 0; k < g->folds; k++) memset(g->fold[k].reaction, 0, sizeof g->fold[k].reaction);
+}
+
+void grid_free(struct grid *g)
+{
+    if (g->n > 0) grid_arrays_free(g);
+    memory_free(g->fold);
+    memory_free(g->wall);
+    memset(g, 0, sizeof *g);
+}

@@ -1,0 +1,121 @@
+/* floor 1: elastic constants of a material in its space, and what bond-based peridynamics makes of them. */
+#include "data/material.h"
+
+#include <math.h>
+
+static const real pi = 3.14159265358979323846;
+
+real material_bond_poisson(enum space space)
+{
+    static const real poisson[] = {
+        [SPACE_LINE] = NAN, [SPACE_PLANE_STRESS] = 1.0 / 3, [SPACE_PLANE_STRAIN] = 0.25, [SPACE_SOLID] = 0.25};
+    return poisson[space];
+}
+
+/* Energy of a uniform expansion s: bonds 1/4 c s^2 Sigma; classical 1/2 E s^2, 2 k2 s^2, 9/2 K s^2. */
+real material_micro_modulus(const struct material *m, enum space space, real sigma)
+{
+    static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
+    assert(sigma > 0);
+    return factor[space_dim(space)] * m->bulk / sigma;
+}
+
+/* The same with the integral of r over the horizon in place of the sum. */
+real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section)
+{
+    switch (space_dim(space)) {
+    case 1: return 2 * m->bulk / (section * square(horizon));
+    case 2: return 12 * m->bulk / (pi * section * horizon * square(horizon));
+    default: return 18 * m->bulk / (pi * square(square(horizon)));
+    }
+}
+
+/* The energy of all bonds across a unit area at s_c is G_c; the thickness cancels. */
+static real critical_bond(const struct material *m, enum space space, real horizon)
+{
+    real ratio = m->energy_release_rate / (m->bulk * horizon);
+    switch (space_dim(space)) {
+    case 1: return sqrt(3 * ratio);
+    case 2: return sqrt(pi / 3 * ratio);
+    default: return sqrt(5.0 / 9 * ratio);
+    }
+}
+
+real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model)
+{
+    const real G = m->shear, dim = space_dim(space);
+    real stiffness = dim == 2 ? 6 * G / pi + 16 * (m->bulk - 2 * G) / (9 * pi * pi)
+                              : 3 * G + 81.0 / 256 * (m->bulk - 5 * G / 3);
+    if (model == STRETCH_BOND) return critical_bond(m, space, horizon);
+    return sqrt(m->energy_release_rate / (horizon * stiffness));
+}
+
+/* Rayleigh's function D(v) = 4 a_d a_s - (1 + a_s^2)^2, positive below the Rayleigh speed (Freund 1990). */
+static real rayleigh_function(real v, real longitudinal, real shear)
+{
+    real d2 = 1 - square(v / longitudinal), s2 = 1 - square(v / shear);
+    return 4 * sqrt(d2 * s2) - square(1 + s2);
+}
+
+/* Its root lies between 0.68 (nu = -1) and 0.96 (nu = 1/2) of the shear speed; v = 0 is a second, trivial root. */
+static real rayleigh_speed(real longitudinal, real shear)
+{
+    real low = 0.5 * shear, high = shear;
+    for (int k = 0; k < 60; k++) {
+        real middle = 0.5 * (low + high);
+        if (rayleigh_function(middle, longitudinal, shear) > 0) low = middle;
+        else high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+real material_stress_at(const struct material *m, real strain)
+{
+    const real elastic = m->young * strain;
+    if (!material_yields(m) || elastic <= m->yield_stress) return elastic;
+    return m->yield_stress + m->yield_tangent * (strain - m->yield_stress / m->young);
+}
+
+void material_derive(struct material *m, enum space space)
+{
+    real E = m->young, nu = m->poisson;
+    m->yield_hardening = E * m->yield_tangent / (E - m->yield_tangent);
+    if (space == SPACE_LINE) {
+        m->c11 = m->bulk = E;
+        m->c12 = m->shear = m->shear_speed = m->rayleigh_speed = 0;
+        m->wave_speed = sqrt(E / m->density);
+        return;
+    }
+    bool thin = space == SPACE_PLANE_STRESS;
+    m->shear = E / (2 * (1 + nu));
+    m->c12 = thin ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
+    m->c11 = m->c12 + 2 * m->shear;
+    m->bulk = m->c12 + 2 * m->shear / space_dim(space);
+    m->wave_speed = sqrt(m->c11 / m->density);
+    m->shear_speed = sqrt(m->shear / m->density);
+    m->rayleigh_speed = rayleigh_speed(m->wave_speed, m->shear_speed);
+}
+
+/* Isotropic: `diagonal` and `off` between normal components, `shear` on the diagonal of the others. */
+static void isotropic_matrix(int dim, real diagonal, real off, real shear, real *matrix)
+{
+    int n = symmetric_count(dim);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            bool normal = i < dim && j < dim;
+            matrix[i * n + j] = normal ? (i == j ? diagonal : off) : (i == j ? shear : 0);
+        }
+}
+
+void material_stiffness(const struct material *m, int dim, real *matrix)
+{
+    isotropic_matrix(dim, m->c11, m->c12, 2 * m->shear, matrix);
+}
+
+void material_compliance(const struct material *m, int dim, real *matrix)
+{
+    real c11 = m->c11, c12 = m->c12;
+    real determinant = (c11 - c12) * (c11 + (dim - 1) * c12);
+    real shear = dim > 1 ? 1 / (2 * m->shear) : 0;
+    isotropic_matrix(dim, (c11 + (dim - 2) * c12) / determinant, -c12 / determinant, shear, matrix);
+}

@@ -1,0 +1,221 @@
+/* floor 1: the table of the particles' arrays, and the loops over it that make, grow, sort and free them. */
+#include "data/particles.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static int one(int dim, int optional) { return (void)dim, (void)optional, 1; }
+static int vector(int dim, int optional) { return (void)optional, dim; }
+static int symmetric(int dim, int optional) { return (void)optional, symmetric_count(dim); }
+static int if_gradient(int dim, int optional) { return optional & WITH_GRADIENT ? dim * dim : 0; }
+static int if_stretch(int dim, int optional) { return optional & WITH_STRETCH ? dim : 0; }
+static int if_plastic(int dim, int optional) { return (void)dim, optional & WITH_PLASTIC ? 1 : 0; }
+static int if_out_of_plane(int dim, int optional) { return (void)dim, optional & WITH_OUT_OF_PLANE ? 1 : 0; }
+
+static int if_ends(int dim, int optional) { return (void)dim, optional & WITH_ENDS ? 1 : 0; }
+static int if_turns(int dim, int optional) { return optional & WITH_TURNS ? (dim > 2 ? ROTATION : 2) : 0; }
+static int if_moment(int dim, int optional) { return optional & WITH_TURNS ? (dim > 2 ? 3 : 1) : 0; }
+static int if_return(int dim, int optional) { return (void)dim, optional & WITH_RETURN ? 1 : 0; }
+
+#define FIELD(member, type, count, unit, meaning) \
+    {#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count}
+
+const struct particle_field particle_fields[] = {
+    FIELD(X, real, vector, "m", "reference position"),
+    FIELD(x, real, vector, "m", "position"),
+    FIELD(v, real, vector, "m/s", "velocity, half a step behind the position"),
+    FIELD(f, real, vector, "N", "bond and applied force"),
+    FIELD(mass, real, one, "kg", "mass"),
+    FIELD(volume0, real, one, "m^3", "reference volume"),
+    FIELD(volume, real, one, "m^3", "current volume"),
+    FIELD(stress, real, symmetric, "Pa", "Cauchy stress of material points"),
+    FIELD(gradient, real, if_gradient, "1/s", "velocity gradient"),
+    FIELD(stretch, real, if_stretch, "1", "axial stretch"),
+    FIELD(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
+    FIELD(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
+    FIELD(end_strain, real, if_ends, "1", "what cells add to the mean strain of a point at the end of bonds"),
+    FIELD(end_turn, real, if_turns, "1", "rotation of a point at the end of bonds"),
+    FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),
+    FIELD(end_moment, real, if_moment, "N m", "moment of its bonds about it"),
+    FIELD(quiet, real, if_return, "s", "since when the stress of a peridynamic particle is low"),
+    FIELD(damage, real, one, "1", "share of broken bonds"),
+    FIELD(kind, uint8_t, one, "1", "0 material point, 1 peridynamic"),
+    FIELD(material, uint8_t, one, "1", "index of the material"),
+    FIELD(body, uint8_t, one, "1", "index of the body"),
+    FIELD(flag, uint8_t, one, "1", "sum of flags"),
+    FIELD(returns, uint8_t, if_return, "1", "how often it became a material point again"),
+    FIELD(id, int32_t, one, "1", "order in which the scene made them"),
+};
+const int particle_fields_count = COUNT_OF(particle_fields);
+
+/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, damage, 4 indices, id;
+ * 2 scalars, a rotation and a moment of ends. */
+_Static_assert(sizeof(struct particles) == offsetof(struct particles, X) + (5 * DIM_MAX + 33 + ROTATION) * sizeof(void *),
+               "an array of struct particles is missing in particle_fields");
+
+/* Through bytes: a `real *` must not be read as a `void *`. */
+static void *get(const struct particles *p, const struct particle_field *f, int k)
+{
+    void *array;
+    memcpy(&array, (const char *)p + f->offset + (size_t)k * sizeof array, sizeof array);
+    return array;
+}
+
+static void put(struct particles *p, const struct particle_field *f, int k, void *array)
+{
+    memcpy((char *)p + f->offset + (size_t)k * sizeof array, &array, sizeof array);
+}
+
+void *particle_array(const struct particles *p, const struct particle_field *f, int k)
+{
+    assert(k >= 0 && k < f->count(DIM_MAX, WITH_EVERYTHING));
+    return get(p, f, k);
+}
+
+void particles_make(struct particles *p, int dim, int64_t n, int optional)
+{
+    assert(dim >= 1 && dim <= DIM_MAX && n >= 0 && n <= INT32_MAX - LANES);
+    *p = (struct particles){.n = n, .n_all = n, .dim = dim};
+    p->n_of[KIND_MPM] = n;
+    for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
+        for (int k = 0; k < f->count(dim, optional); k++) put(p, f, k, memory_new(f->name, n + LANES, f->size));
+    for (int kind = 0; kind < KINDS; kind++) p->list[kind] = NEW("particles.list", n, int32_t);
+    p->list_free = NEW("particles.list_free", n, int32_t);
+    particles_list(p);
+}
+
+void particles_add_images(struct particles *p, int64_t images, int optional)
+{
+    assert(images >= 0 && p->n_all + images <= INT32_MAX - LANES);
+    int64_t old = p->n_all + LANES, count = old + images;
+    for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
+        for (int k = 0; k < f->count(p->dim, optional); k++)
+            put(p, f, k, memory_resize(f->name, get(p, f, k), old, count, f->size));
+    p->n_all += images;
+}
+
+void particles_free(struct particles *p)
+{
+    for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
+        for (int k = 0; k < f->count(DIM_MAX, WITH_EVERYTHING); k++) memory_free(get(p, f, k));
+    for (int kind = 0; kind < KINDS; kind++) memory_free(p->list[kind]);
+    memory_free(p->list_free);
+    *p = (struct particles){0};
+}
+
+/* ---- sorting --------------------------------------------------------------------------------------- */
+
+/* Where a particle stands: layer (z) and row (y) in steps of the spacing, place along x, and what breaks ties. */
+struct place {
+    int64_t layer, row;
+    real along;
+    int32_t id, index;
+};
+
+static int compare_places(const void *left, const void *right)
+{
+    const struct place *a = left, *b = right;
+    if (a->layer != b->layer) return a->layer < b->layer ? -1 : 1;
+    if (a->row != b->row) return a->row < b->row ? -1 : 1;
+    if (a->along != b->along) return a->along < b->along ? -1 : 1;
+    if (a->id != b->id) return a->id < b->id ? -1 : 1;
+    return (a->index > b->index) - (a->index < b->index);
+}
+
+void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high)
+{
+    real least = INFINITY, most = -INFINITY;
+    const real *X = p->X[d];
+#pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most)
+    for (int64_t i = 0; i < n; i++) least = real_min(least, X[i]), most = real_max(most, X[i]);
+    *low = least, *high = most;
+}
+
+real particles_longest(const struct particles *p)
+{
+    real low, high, longest = 0;
+    for (int d = 0; d < p->dim; d++) {
+        particles_extent(p, p->n, d, &low, &high);
+        longest = real_max(longest, high - low);
+    }
+    return longest;
+}
+
+/* Rows start a quarter below the first particle: no row of a lattice lies near a boundary between rows, so
+ * round-off cannot split it. */
+static void find_places(const struct particles *p, real spacing, struct place *place)
+{
+    real low[DIM_MAX] = {0}, high;
+    for (int d = 1; d < p->dim; d++) particles_extent(p, p->n, d, &low[d], &high);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) {
+        int64_t row[DIM_MAX] = {0};
+        for (int d = 1; d < p->dim; d++) row[d] = (int64_t)floor((p->X[d][i] - low[d]) / spacing + 0.25);
+        place[i] = (struct place){row[2], row[1], p->X[0][i], p->id[i], (int32_t)i};
+    }
+}
+
+/* array[i] = old array[place[i].index] */
+static void permute(char *array, size_t size, const struct place *place, int64_t n, char *scratch)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < n; i++) memcpy(scratch + (size_t)i * size, array + (size_t)place[i].index * size, size);
+    memcpy(array, scratch, (size_t)n * size);
+}
+
+static bool in_order(const struct place *place, int64_t n)
+{
+    bool sorted = true;
+#pragma omp parallel for schedule(static) reduction(&& : sorted)
+    for (int64_t i = 1; i < n; i++) sorted = sorted && compare_places(&place[i - 1], &place[i]) < 0;
+    return sorted;
+}
+
+void particles_sort(struct particles *p, real spacing, int optional)
+{
+    assert(p->n_all == p->n && spacing > 0);
+    struct place *place = NEW("particles.place", p->n, struct place);
+    find_places(p, spacing, place);
+    if (in_order(place, p->n)) {         /* one lattice is made in this order */
+        memory_free(place);
+        particles_list(p);
+        return;
+    }
+    char *scratch = NEW("particles.scratch", p->n * (int64_t)sizeof(real), char);
+    qsort(place, (size_t)p->n, sizeof *place, compare_places);
+    for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
+        for (int k = 0; k < f->count(p->dim, optional); k++) permute(get(p, f, k), f->size, place, p->n, scratch);
+    memory_free(scratch);
+    memory_free(place);
+    particles_list(p);
+}
+
+/* Are the eight particles from i on of one kind, and all moved by nodes or none? */
+static bool eight_alike(const struct particles *p, int64_t i)
+{
+    const uint64_t meshed = eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
+    return eight_same(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
+}
+
+/* Particles i .. i + more - 1, to the end of a list of n. */
+static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
+{
+    for (int l = 0; l < more; l++) list[*n + l] = (int32_t)i + l;
+    *n += more;
+}
+
+void particles_list(struct particles *p)
+{
+    for (int kind = 0; kind < KINDS; kind++) p->n_of[kind] = 0;
+    p->n_free = 0;
+    for (int64_t i = 0; i < p->n;) {
+        const int alike = i + LANES <= p->n && eight_alike(p, i) ? LANES : 1, kind = p->kind[i];
+        assert(kind < KINDS);
+        list_append(p->list[kind], &p->n_of[kind], i, alike);
+        if (kind == KIND_MPM && !(p->flag[i] & FLAG_MESHED)) list_append(p->list_free, &p->n_free, i, alike);
+        i += alike;
+    }
+}

@@ -1,0 +1,308 @@
+/* floor 1: constructive geometry by signed distances, functions of time, and which bonds a crack cuts. */
+#include "data/region.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+
+/* ---- regions --------------------------------------------------------------------------------------- */
+
+static real distance_to(const real *a, const real *b, int dim)
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++) sum += square(a[d] - b[d]);
+    return sqrt(sum);
+}
+
+/* Unit vector and length of b - a; a length of 0 leaves the vector 0. */
+static real direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
+{
+    real length = distance_to(a, b, dim), divisor = length > 0 ? length : INFINITY;
+    for (int d = 0; d < dim; d++) unit[d] = (b[d] - a[d]) / divisor;
+    return length;
+}
+
+static real box_distance(const struct solid *s, const real *X, int dim)
+{
+    real far = -INFINITY;
+    for (int d = 0; d < dim; d++) far = real_max(far, real_max(s->from[d] - X[d], X[d] - s->to[d]));
+    return far;
+}
+
+static real cylinder_distance(const struct solid *s, const real *X, int dim)
+{
+    real axis[DIM_MAX], arm[DIM_MAX], length = direction(s->from, s->to, dim, axis);
+    for (int d = 0; d < dim; d++) arm[d] = X[d] - s->from[d];
+    real along = dot(arm, axis, dim), across = 0;
+    for (int d = 0; d < dim; d++) across += square(arm[d] - along * axis[d]);
+    return real_max(sqrt(across) - s->radius, real_max(-along, along - length));
+}
+
+static real half_space_distance(const struct solid *s, const real *X, int dim)
+{
+    real length = sqrt(dot(s->normal, s->normal, dim)), above = 0;
+    for (int d = 0; d < dim; d++) above += (X[d] - s->point[d]) * s->normal[d];
+    return length > 0 ? above / length : INFINITY;
+}
+
+/* Negative inside, positive outside, 0 on the surface; the distance itself beside a flat face [m]. */
+static real solid_distance(const struct solid *s, const real *X, int dim)
+{
+    switch (s->kind) {
+    case SOLID_BOX: return box_distance(s, X, dim);
+    case SOLID_BALL: return distance_to(X, s->centre, dim) - s->radius;
+    case SOLID_CYLINDER: return cylinder_distance(s, X, dim);
+    case SOLID_HALF_SPACE: return half_space_distance(s, X, dim);
+    default: return -INFINITY;
+    }
+}
+
+/* What is taken away loses its surface to the region, which stays closed; growing the region shrinks it. */
+bool region_contains(const struct region *r, const real *X, int dim, real tolerance)
+{
+    bool inside = r->n == 0;
+    for (int k = 0; k < r->n; k++) {
+        const struct solid *s = &r->solid[k];
+        if (s->subtract == inside) {
+            real distance = solid_distance(s, X, dim);
+            if (s->subtract ? distance < -tolerance : distance <= tolerance) inside = !inside;
+        }
+    }
+    return inside;
+}
+
+/* The box round one solid in one direction. */
+static void solid_bounds(const struct solid *s, int dim, int d, real *low, real *high)
+{
+    real axis[DIM_MAX], reach;
+    *low = -INFINITY, *high = INFINITY;
+    switch (s->kind) {
+    case SOLID_BOX: *low = s->from[d], *high = s->to[d]; break;
+    case SOLID_BALL: *low = s->centre[d] - s->radius, *high = s->centre[d] + s->radius; break;
+    case SOLID_CYLINDER:
+        direction(s->from, s->to, dim, axis);
+        reach = s->radius * sqrt(real_max(0, 1 - square(axis[d])));
+        *low = real_min(s->from[d], s->to[d]) - reach, *high = real_max(s->from[d], s->to[d]) + reach;
+        break;
+    default: break;
+    }
+}
+
+bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX])
+{
+    bool bounded = r->n > 0;
+    for (int d = 0; d < dim; d++) {
+        from[d] = INFINITY, to[d] = -INFINITY;
+        for (int k = 0; k < r->n; k++) {
+            real low, high;
+            if (r->solid[k].subtract) continue;
+            solid_bounds(&r->solid[k], dim, d, &low, &high);
+            from[d] = real_min(from[d], low), to[d] = real_max(to[d], high);
+        }
+        if (!isfinite(from[d]) || !isfinite(to[d])) bounded = false;
+    }
+    return bounded;
+}
+
+void region_free(struct region *r)
+{
+    memory_free(r->solid);
+    *r = (struct region){0};
+}
+
+/* ---- functions of time ----------------------------------------------------------------------------- */
+
+static real table_at(const struct time_function *f, real t)
+{
+    if (f->n == 0) return 0;
+    if (t <= f->t[0]) return f->value[0];
+    for (int k = 1; k < f->n; k++)
+        if (t < f->t[k]) {
+            real share = (t - f->t[k - 1]) / (f->t[k] - f->t[k - 1]);
+            return f->value[k - 1] + share * (f->value[k] - f->value[k - 1]);
+        }
+    return f->value[f->n - 1];
+}
+
+real time_function_at(const struct time_function *f, real t)
+{
+    static const real pi = 3.14159265358979323846;
+    bool inside = f->from <= t && t < f->until;
+    real share = inside ? (t - f->from) / (f->until - f->from) : 0;
+    switch (f->kind) {
+    case TIME_STEP: return inside ? 1 : 0;
+    case TIME_PULSE: return inside ? square(sin(pi * share)) : 0;
+    case TIME_RAMP: return inside ? share : (t < f->from ? 0 : 1);
+    case TIME_TABLE: return table_at(f, t);
+    default: return 1;
+    }
+}
+
+/* Integral of a table over 0 .. t: piece by piece, and constant outside. */
+static real table_integral(const struct time_function *f, real t)
+{
+    real sum = 0, from = 0;
+    for (int k = 0; k <= f->n && from < t; k++) {
+        const real to = k < f->n ? real_min(f->t[k], t) : t;
+        if (to <= from) continue;
+        /* a jump is a pair of equal times: the middle of the piece tells its mean */
+        sum += (to - from) * table_at(f, 0.5 * (from + to));
+        from = to;
+    }
+    return sum;
+}
+
+real time_function_integral(const struct time_function *f, real t)
+{
+    static const real pi = 3.14159265358979323846;
+    const real length = f->until - f->from;
+    const real past = real_min(real_max(t - f->from, 0), length), before = real_min(real_max(-f->from, 0), length);
+    switch (f->kind) {
+    case TIME_STEP: return past - before;
+    case TIME_PULSE:
+        return 0.5 * (past - before) - length / (4 * pi) * (sin(2 * pi * past / length) - sin(2 * pi * before / length));
+    case TIME_RAMP:
+        return (square(past) - square(before)) / (2 * length) + real_max(t - real_max(f->until, 0), 0);
+    case TIME_TABLE: return table_integral(f, t);
+    default: return t;
+    }
+}
+
+/* ---- cracks ---------------------------------------------------------------------------------------- */
+
+/* What counts as touching, in lengths of the crack. */
+static const real touch = 1e-9;
+
+/* Line (2D) or plane (3D) of a crack: unit normal, and the size that tolerances refer to. */
+struct crack_plane {
+    real normal[DIM_MAX], length;
+};
+
+/* Sum of the cross products of corner vectors: twice the polygon's area along its normal (Newell). */
+static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
+{
+    real sum[DIM_MAX] = {0}, zero[DIM_MAX] = {0};
+    for (int k = 1; k + 1 < c->n; k++) {
+        real u[DIM_MAX], w[DIM_MAX];
+        for (int d = 0; d < 3; d++) {
+            u[d] = c->corner[k][d] - c->corner[0][d];
+            w[d] = c->corner[k + 1][d] - c->corner[0][d];
+        }
+        for (int d = 0; d < 3; d++) sum[d] += u[(d + 1) % 3] * w[(d + 2) % 3] - u[(d + 2) % 3] * w[(d + 1) % 3];
+    }
+    plane->length = 0;
+    for (int k = 1; k < c->n; k++)
+        plane->length = real_max(plane->length, distance_to(c->corner[0], c->corner[k], 3));
+    return direction(zero, sum, 3, plane->normal) > 0;
+}
+
+/* False: not a crack (no extent). */
+static bool crack_plane(const struct crack *c, const real *a, const real *b, int dim, struct crack_plane *plane)
+{
+    real along[DIM_MAX];
+    if (c->n < dim) return false;
+    switch (dim) {
+    case 1:
+        plane->normal[0] = 1;
+        plane->length = fabs(b[0] - a[0]);   /* a point has no length of its own */
+        return true;
+    case 2:
+        plane->length = direction(c->corner[0], c->corner[1], 2, along);
+        plane->normal[0] = -along[1], plane->normal[1] = along[0];
+        return plane->length > 0;
+    default: return polygon_plane(c, plane);
+    }
+}
+
+/* Is a point of the plane inside the closed polygon? On the inner side of every edge. */
+static bool polygon_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
+{
+    for (int k = 0; k < c->n; k++) {
+        const real *from = c->corner[k], *to = c->corner[(k + 1) % c->n], *m = plane->normal;
+        real edge[DIM_MAX], inward = 0;
+        direction(from, to, 3, edge);
+        for (int d = 0; d < 3; d++) {
+            int e = (d + 1) % 3, f = (d + 2) % 3;
+            inward += (m[e] * edge[f] - m[f] * edge[e]) * (P[d] - from[d]);
+        }
+        if (inward < -touch * plane->length) return false;
+    }
+    return true;
+}
+
+static bool segment_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
+{
+    real along[DIM_MAX];
+    direction(c->corner[0], c->corner[1], 2, along);
+    real place = (P[0] - c->corner[0][0]) * along[0] + (P[1] - c->corner[0][1]) * along[1];
+    return place >= -touch * plane->length && place <= (1 + touch) * plane->length;
+}
+
+/* Height above the crack's plane [m]. */
+static real height(const struct crack *c, const struct crack_plane *plane, const real *X, int dim)
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++) sum += plane->normal[d] * (X[d] - c->corner[0][d]);
+    return sum;
+}
+
+/* Do the boxes round the crack and round a bond stay apart, by far more than what counts as touching? */
+static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
+{
+    real low[DIM_MAX], high[DIM_MAX], size = 0;
+    for (int d = 0; d < dim; d++) {
+        low[d] = high[d] = c->corner[0][d];
+        for (int k = 1; k < c->n; k++) low[d] = real_min(low[d], c->corner[k][d]), high[d] = real_max(high[d], c->corner[k][d]);
+        size += fabs(a[d] - b[d]) + high[d] - low[d];
+    }
+    for (int d = 0; d < dim && dim > 1; d++)
+        if (real_max(a[d], b[d]) < low[d] - 1e-3 * size || real_min(a[d], b[d]) > high[d] + 1e-3 * size) return true;
+    return false;
+}
+
+bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
+{
+    struct crack_plane plane;
+    int d = 0;
+    if (far_apart(c, a, b, dim)) return false;
+    while (d < dim && a[d] == b[d]) d++;
+    if (d == dim) return false;
+    if (a[d] > b[d]) {                   /* one order of the ends, so both directions give the same bits */
+        const real *other = a;
+        a = b, b = other;
+    }
+    if (!crack_plane(c, a, b, dim, &plane)) return false;
+    real above_a = height(c, &plane, a, dim), above_b = height(c, &plane, b, dim), snap = touch * plane.length;
+    if ((above_a >= -snap) == (above_b >= -snap)) return false;
+    if (dim == 1) return true;
+    real share = real_min(1, real_max(0, above_a / (above_a - above_b))), P[DIM_MAX];   /* snapped ends: stay between */
+    for (d = 0; d < dim; d++) P[d] = a[d] + share * (b[d] - a[d]);
+    return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
+}
+
+bool crack_near(const struct crack *c, const real *X, real reach, int dim)
+{
+    real far = -INFINITY, size = 0;      /* from the box round its corners; no tolerance above is larger than size/1e9 */
+    for (int d = 0; d < dim; d++) {
+        real low = INFINITY, high = -INFINITY;
+        for (int k = 0; k < c->n; k++) low = real_min(low, c->corner[k][d]), high = real_max(high, c->corner[k][d]);
+        far = real_max(far, real_max(low - X[d], X[d] - high));
+        size = real_max(size, high - low);
+    }
+    const real most = reach * (1 + 1e-6) + 1e-6 * size;
+    struct crack_plane plane;
+    if (far > most) return false;
+    return dim == 1 || (crack_plane(c, X, X, dim, &plane) && fabs(height(c, &plane, X, dim)) <= most);
+}
+
+/* ---- waves ---------------------------------------------------------------------------------------- */
+
+struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim)
+{
+    const real root_of_pi = 1.77245385090551602730, radius = 0.25 * w->width;
+    real xi = 0;
+    for (int d = 0; d < dim; d++) xi += (X[d] - w->at[d]) * w->direction[d];
+    xi /= radius;
+    const real velocity = w->velocity * exp(-xi * xi);
+    return (struct wave_state){velocity, w->velocity / c * radius * 0.5 * root_of_pi * erfc(xi), -velocity / c};
+}

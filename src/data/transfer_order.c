@@ -1,0 +1,249 @@
+/* floor 1: the coloured order of transfers. */
+#include "data/transfer_order.h"
+
+#include <omp.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* ---- blocks --------------------------------------------------------------------------------------------- */
+
+/* Block of cell k in a direction where blocks are `edge` cells long. */
+static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k >= 0 ? k : k - edge + 1) / edge; }
+
+/* The blocks that a grid's box touches. */
+struct block_shape {
+    int64_t first[DIM_MAX], blocks[DIM_MAX];   /* in blocks, counted from node 0 */
+    int dim;
+    int64_t cells_in_block, n;
+};
+
+static struct block_shape block_shape_of(const struct grid *g)
+{
+    struct block_shape s = {.dim = g->dim, .cells_in_block = 1, .n = 1};
+    for (int d = 0; d < g->dim; d++) {
+        s.first[d] = block_of(g->first[d], block_edge(d));
+        s.blocks[d] = block_of(g->first[d] + g->count[d] - 1, block_edge(d)) - s.first[d] + 1;
+        s.cells_in_block *= block_edge(d);
+        s.n *= s.blocks[d];
+    }
+    return s;
+}
+
+static int block_colour(const struct block_shape *s, int64_t block)
+{
+    int colour = 0;
+    for (int d = 0; d < s->dim; d++) {
+        colour |= (int)((block % s->blocks[d] + s->first[d]) & 1) << d;
+        block /= s->blocks[d];
+    }
+    return colour;
+}
+
+/* Ranks blocks: colour by colour, and in their order within one. */
+static void rank_blocks(struct transfer_order *o, const struct block_shape *s, int32_t *rank)
+{
+    int32_t next = 0;
+    for (int c = 0; c <= COLOURS_MAX; c++) {
+        o->blocks_of[c] = next;
+        for (int64_t b = 0; b < s->n && c < 1 << s->dim; b++)
+            if (block_colour(s, b) == c) rank[b] = next++;
+    }
+    o->blocks = next;
+}
+
+/* ---- room ----------------------------------------------------------------------------------------------- */
+
+/* Cells are known last, and grow little from time to time. */
+static void cells_room(struct transfer_order *o, int32_t cells)
+{
+    if (o->cells_room >= cells + 1) return;
+    memory_free(o->cell_start);
+    o->cells_room = cells + cells / 8 + 1;
+    o->cell_start = NEW("transfer.cell_start", o->cells_room, int32_t);
+}
+
+void transfer_order_room(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells)
+{
+    if (o->blocks_room < blocks + 1 || o->room < n) {
+        memory_free(o->particle);
+        memory_free(o->block_start);
+        memory_free(o->block_cell);
+        o->particle = NEW("transfer.particle", n + ORDER_AHEAD, int32_t);
+        o->block_start = NEW("transfer.block_start", blocks + 1, int32_t);
+        o->block_cell = NEW("transfer.block_cell", blocks + 1, int32_t);
+        o->blocks_room = (int)blocks + 1, o->room = n;
+    }
+    cells_room(o, cells);
+}
+
+/* ---- sorting -------------------------------------------------------------------------------------------- */
+
+/* A counting sort by the ranks of blocks, each thread its chunk of the list, then by cell inside each block. Points of a
+ * cell keep the order of the list, so that how many chunks there are shows nowhere. */
+struct sorting {
+    const struct particles *p;
+    const struct grid *g;
+    struct block_shape shape;
+    const int32_t *list;
+    int64_t n;
+    int chunks;
+    int32_t *rank;                       /* [blocks]                                                 */
+    int32_t *fill;                       /* [chunks][blocks] how many; then where the next one goes  */
+    int32_t *key, *bucket;               /* [n] rank of a point's block; points by that              */
+    uint16_t *inside, *sorted;           /* [n] cell in the block; the same by rank                  */
+};
+
+static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
+
+/* Rank of the block of point i, and its cell there. */
+static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint16_t *inside, const int dim)
+{
+    int64_t block = 0, cell = 0;
+#pragma GCC unroll 3
+    for (int d = dim - 1; d >= 0; d--) {
+        const int64_t place = grid_cell(s->g, d, s->p->x[d][i]), b = block_of(place, block_edge(d));
+        block = block * s->shape.blocks[d] + (b - s->shape.first[d]);
+        cell = cell * block_edge(d) + (place - b * block_edge(d));
+    }
+    *inside = (uint16_t)cell;
+    return s->rank[block];
+}
+
+/* Blocks and cells of a chunk's points, and how many there are of each block: those that follow one another in one block are
+ * counted before they are added. */
+static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
+{
+    int32_t *count = s->fill + chunk * s->shape.n, key = 0;
+    memset(count, 0, (size_t)s->shape.n * sizeof *count);
+    int64_t from = chunk_start(s, chunk);
+    for (int64_t k = from; k < chunk_start(s, chunk + 1); k++) {
+        const int32_t own = s->key[k] = find_block(s, s->list[k], &s->inside[k], dim);
+        if (own == key) continue;
+        count[key] += (int32_t)(k - from);
+        key = own, from = k;
+    }
+    count[key] += (int32_t)(chunk_start(s, chunk + 1) - from);
+}
+
+static void find_blocks_of(const struct sorting *s, int chunk)
+{
+    switch (s->shape.dim) {
+    case 1: find_blocks(s, chunk, 1); break;
+    case 2: find_blocks(s, chunk, 2); break;
+    default: find_blocks(s, chunk, 3);
+    }
+}
+
+/* Where blocks begin, and in them the points of each chunk. */
+static void add_up(const struct sorting *s, int32_t *block_start)
+{
+    int32_t next = 0;
+    for (int64_t b = 0; b < s->shape.n; b++) {
+        block_start[b] = next;
+        for (int chunk = 0; chunk < s->chunks; chunk++) {
+            int32_t *at = &s->fill[chunk * s->shape.n + b], count = *at;
+            *at = next, next += count;
+        }
+    }
+    block_start[s->shape.n] = next;
+}
+
+static void put_in_blocks(const struct sorting *s, int chunk)
+{
+    int32_t *fill = s->fill + chunk * s->shape.n, key = 0, at = fill[0];
+    for (int64_t k = chunk_start(s, chunk); k < chunk_start(s, chunk + 1); k++, at++) {
+        if (s->key[k] != key) {
+            fill[key] = at;
+            key = s->key[k], at = fill[key];
+        }
+        s->bucket[at] = s->list[k], s->sorted[at] = s->inside[k];
+    }
+}
+
+enum { CELLS_IN_BLOCK_MOST = BLOCK_LENGTH * BLOCK_EDGE * BLOCK_EDGE };
+
+/* Counting sort of the n particles of a block by their cell; equal cells keep their order. Returns how many cells hold
+ * any. */
+static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int32_t *particle_to, uint16_t *inside_to,
+                             int64_t cells_in_block)
+{
+    int32_t at[CELLS_IN_BLOCK_MOST], cells = 0, next = 0;
+    if (n == 0) return 0;
+    memset(at, 0, (size_t)cells_in_block * sizeof *at);
+    for (int32_t k = 0; k < n; k++) at[inside[k]]++;
+    for (int64_t c = 0; c < cells_in_block; c++) {
+        const int32_t count = at[c];
+        at[c] = next;
+        next += count, cells += count > 0;
+    }
+    for (int32_t k = 0; k < n; k++) {
+        const int32_t to = at[inside[k]]++;
+        particle_to[to] = particle[k], inside_to[to] = inside[k];
+    }
+    return cells;
+}
+
+/* Where cells begin; block_cell[b+1] comes as the number of cells of block b. */
+static void find_cells(struct transfer_order *o, const uint16_t *inside)
+{
+    o->block_cell[0] = 0;
+    for (int b = 0; b < o->blocks; b++) o->block_cell[b + 1] += o->block_cell[b];
+    o->cells = o->block_cell[o->blocks];
+    cells_room(o, o->cells);
+#pragma omp parallel for schedule(static)
+    for (int b = 0; b < o->blocks; b++) {
+        int32_t cell = o->block_cell[b];
+        for (int32_t k = o->block_start[b]; k < o->block_start[b + 1]; k++)
+            if (k == o->block_start[b] || inside[k] != inside[k - 1]) o->cell_start[cell++] = k;
+    }
+    o->cell_start[o->cells] = (int32_t)o->n;
+}
+
+/* All of it is written before it is read. */
+static void sorting_make(struct sorting *s)
+{
+    s->chunks = omp_get_max_threads();
+    s->rank = BARE("transfer.rank", s->shape.n, int32_t), s->fill = BARE("transfer.fill", s->chunks * s->shape.n, int32_t);
+    s->key = BARE("transfer.key", s->n, int32_t), s->bucket = BARE("transfer.bucket", s->n, int32_t);
+    s->inside = BARE("transfer.inside", s->n, uint16_t), s->sorted = BARE("transfer.sorted", s->n, uint16_t);
+}
+
+static void sorting_free(struct sorting *s)
+{
+    memory_free(s->rank), memory_free(s->fill);
+    memory_free(s->key), memory_free(s->bucket);
+    memory_free(s->inside), memory_free(s->sorted);
+}
+
+void transfer_order_sort(struct transfer_order *o, const struct particles *p, const int32_t *list, int64_t n,
+                         const struct grid *g)
+{
+    struct sorting s = {.p = p, .g = g, .shape = block_shape_of(g), .list = list, .n = n};
+    transfer_order_room(o, n, s.shape.n, 0);
+    sorting_make(&s);
+    rank_blocks(o, &s.shape, s.rank);
+    o->n = n;
+#pragma omp parallel for schedule(static)
+    for (int chunk = 0; chunk < s.chunks; chunk++) find_blocks_of(&s, chunk);
+    add_up(&s, o->block_start);
+#pragma omp parallel for schedule(static)
+    for (int chunk = 0; chunk < s.chunks; chunk++) put_in_blocks(&s, chunk);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t b = 0; b < s.shape.n; b++) {
+        const int32_t from = o->block_start[b];
+        o->block_cell[b + 1] = sort_in_block(s.bucket + from, s.sorted + from, o->block_start[b + 1] - from,
+                                             o->particle + from, s.inside + from, s.shape.cells_in_block);
+    }
+    find_cells(o, s.inside);
+    sorting_free(&s);
+}
+
+void transfer_order_free(struct transfer_order *o)
+{
+    memory_free(o->particle);
+    memory_free(o->block_start);
+    memory_free(o->block_cell);
+    memory_free(o->cell_start);
+    memset(o, 0, sizeof *o);
+}

@@ -1,0 +1,41 @@
+/* floor 5: the run that a pulse probe is compared with: the same scene on material points alone, so that what the
+ * interface did is told from what every discretisation does. */
+#include <string.h>
+
+#include "engine/engine.h"
+#include "base/memory.h"
+
+static bool wanted(const struct engine *e)
+{
+    for (int k = 0; k < e->scene->probes; k++)
+        if (e->scene->probe[k].kind == PROBE_PULSE) return e->scene->method != METHOD_MPM;
+    return false;
+}
+
+/* Particles are made and sorted before anyone is peridynamic, so both runs number them alike. */
+static void keep(struct engine *e, const struct engine *twin)
+{
+    const struct particles *p = &twin->part;
+    for (int d = 0; d < p->dim; d++) {
+        e->baseline.v[d] = NEW("baseline.v", p->n, real);
+        memcpy(e->baseline.v[d], p->v[d], (size_t)p->n * sizeof *p->v[d]);
+    }
+    e->baseline.energy_change = engine_observed(twin).energy_change;
+    e->has_baseline = true;
+}
+
+status engine_baseline(struct engine *e)
+{
+    if (!wanted(e)) return OK;
+    struct scene scene = *e->scene;
+    struct engine twin = {0};
+    scene.method = METHOD_MPM;
+    scene.probes = 0;
+    scene.time_step = e->dt;
+    status s = engine_make(&twin, &scene, NULL);
+    twin.quiet = true;
+    if (s == OK) s = engine_run(&twin);
+    if (s == OK) keep(e, &twin);
+    engine_free(&twin);
+    return s;
+}

@@ -1,0 +1,114 @@
+/* floor 5: what of the engine survives a restart. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "engine/engine.h"
+#include "base/memory.h"
+#include "engine/simd.h"
+
+static status particles_archive(struct particles *p, struct archive *a, int optional)
+{
+    for (int f = 0; f < particle_fields_count; f++) {
+        const struct particle_field *field = &particle_fields[f];
+        for (int k = 0; k < field->count(p->dim, optional); k++) {
+            char name[64];
+            snprintf(name, sizeof name, "particles/%s%d", field->name, k);
+            TRY(a->exchange(a, name, particle_array(p, field, k), (size_t)p->n_all * field->size));
+        }
+    }
+    return OK;
+}
+
+#define FAR_AWAY 1e7                     /* spacings, as fill.c */
+
+/* A checkpoint of whole bytes may still hold no sound state: what indexes arrays, and places, are looked at before they are used. */
+static status particles_check(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    const struct scene *s = e->scene;
+    for (int64_t i = 0; i < p->n_all; i++) {
+        real sum = 0;
+        bool good = p->kind[i] < KINDS && p->material[i] < s->materials && p->body[i] < s->bodies && p->mass[i] > 0 && isfinite(p->mass[i]);
+        good = good && (i >= p->n || (p->id[i] >= 0 && p->id[i] < p->n));
+        for (int d = 0; d < p->dim; d++) {
+            good = good && (i >= p->n || fabs(p->X[d][i]) <= FAR_AWAY * s->spacing || !(s->spacing > 0));
+            sum += 0 * (p->X[d][i] + p->x[d][i] + p->v[d][i]);
+        }
+        if (!good || !(sum == 0))
+            return status_set(FAILED, "cannot resume: particle %lld of the checkpoint is in no state that a run can be in", (long long)i);
+    }
+    return OK;
+}
+
+/* Everything that follows from the particles is made again; the rest is read back. */
+static void rebuild(struct engine *e)
+{
+    particles_list(&e->part);
+    bonds_free(&e->bonds);
+    bonds_make(&e->bonds, NULL, &e->part, &e->source);
+    partial_stress_free(&e->partial);
+    e->sort_needed = true;
+}
+
+/* Sets of kernels agree to round-off only: whoever counts on the bits must hear of it. */
+static status kernels_archive(struct engine *e, struct archive *a)
+{
+    char text[256];
+    const struct simd_set *now = simd_in_use();
+    char then[16] = {0};
+    snprintf(then, sizeof then, "%s", now->name);
+    ARCHIVE_VALUE(a, "engine/kernels", then);
+    then[sizeof then - 1] = 0;
+    if (strcmp(then, now->name) == 0) return OK;
+    snprintf(text, sizeof text,
+             "the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, not to the last bit; "
+             "CLEAVE_SIMD=%s keeps the bits, where the processor runs them", then, now->name, then);
+    engine_say(e, text);
+    return OK;
+}
+
+status engine_archive(void *engine, struct archive *a)
+{
+    struct engine *e = engine;
+    TRY(kernels_archive(e, a));
+    TRY(particles_archive(&e->part, a, e->optional));
+    if (!a->saving) TRY(particles_check(e));
+    if (!a->saving) rebuild(e);
+    TRY(bonds_archive(&e->bonds, &e->part, a));
+    if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
+    if (!a->saving) {
+        engine_partial_make(e);
+        mesh_free(&e->mesh);
+        memory_free(e->cell_elastic);
+        TRY(engine_mesh_make(e));
+    }
+    TRY(mesh_archive(&e->mesh, a));
+    if (!a->saving) engine_ends_know(e);
+    ARCHIVE_VALUE(a, "engine/t", e->t);
+    ARCHIVE_VALUE(a, "engine/step", e->step);
+    ARCHIVE_VALUE(a, "engine/steps", e->steps);
+    ARCHIVE_VALUE(a, "engine/dt", e->dt);
+    ARCHIVE_VALUE(a, "engine/damped", e->damped);
+    ARCHIVE_VALUE(a, "engine/residual_step0", e->residual_step0);
+    ARCHIVE_VALUE(a, "engine/particle_steps", e->particle_steps);
+    ARCHIVE_VALUE(a, "engine/bond_visits", e->bond_visits);
+    ARCHIVE_VALUE(a, "engine/rested", e->rested);
+    ARCHIVE_VALUE(a, "engine/sampled", e->sampled);
+    TRY(rest_archive(&e->bonds.rest, "bonds", a));
+    TRY(rest_archive(&e->mesh.rest, "mesh", a));
+    ARCHIVE_VALUE(a, "engine/loop_seconds", e->loop_seconds);
+    TRY(loads_archive(&e->loads, a));
+    TRY(solver_archive(&e->solver, a));
+    TRY(conversion_archive(&e->conversion, a));
+    TRY(watch_archive(&e->watch, a));
+    ARCHIVE_VALUE(a, "engine/speed_rise", e->speed_rise);
+    ARCHIVE_VALUE(a, "engine/excess_rise", e->excess_rise);
+    TRY(tips_archive(&e->tips, a));
+    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->growth[k], k, a));
+    TRY(probes_archive(&e->probes, a));
+    const int known = e->warnings.n;
+    TRY(warnings_archive(&e->warnings, a));
+    warnings_print(&e->warnings, known, stderr);
+    return output_archive(e->out, a);
+}

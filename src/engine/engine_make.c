@@ -1,0 +1,396 @@
+/* floor 5: the engine before its first step: scene -> particles -> loads -> bonds -> grid -> time step. */
+#include <math.h>
+#include <string.h>
+
+#include "engine/engine.h"
+#include "base/memory.h"
+
+static bool has_peridynamics(const struct scene *s) { return s->method != METHOD_MPM; }
+
+/* ---- materials -------------------------------------------------------------------------------------- */
+
+static void make_limits(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
+    for (int a = 0; a < s->materials; a++)       /* a bond between two materials breaks as the weaker of them does */
+        for (int b = 0; b < s->materials; b++)
+            e->pair_stretch[a * s->materials + b] =
+                real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
+    e->source.limit = (struct bond_limit){e->pair_stretch, s->materials, s->whole_force};
+    if (s->solver != SOLVER_EXPLICIT) e->source.limit = bond_limit_never;    /* while an equilibrium is sought */
+}
+
+/* A bond yields where the softer of its materials does: s_y = sigma_y/E and H_b/k_e = H/E, which is the material's own
+ * curve in a bar. */
+static void make_yields(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    bool any = false;
+    for (int m = 0; m < s->materials; m++) any = any || material_yields(&s->material[m]);
+    if (!any) return;
+    e->pair_yield = NEW("engine.pair_yield", s->materials * s->materials, real);
+    e->pair_hardening = NEW("engine.pair_hardening", s->materials * s->materials, real);
+    for (int a = 0; a < s->materials; a++)
+        for (int b = 0; b < s->materials; b++) {
+            const struct material *m = &s->material[a], *n = &s->material[b];
+            const real first = material_yields(m) ? m->yield_stress / m->young : INFINITY;
+            const real second = material_yields(n) ? n->yield_stress / n->young : INFINITY;
+            const struct material *soft = second < first ? n : m;
+            e->pair_yield[a * s->materials + b] = real_min(first, second);
+            e->pair_hardening[a * s->materials + b] = material_yields(soft) ? soft->yield_hardening / soft->young : 0;
+        }
+    e->source.yield = (struct bond_yield){e->pair_yield, e->pair_hardening, s->materials};
+}
+
+/* A and B of kernels/pd/state_laws.h. */
+static void make_states(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    if (s->model == MODEL_BOND) return;
+    e->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
+    for (int k = 0; k < s->materials; k++)
+        e->modulus[k] = state_modulus_of(&s->material[k], s->space, s->model == MODEL_MOSPD);
+    e->source.modulus = e->modulus;
+    e->source.local = !s->bulk, e->source.turns = s->model == MODEL_MOSPD;
+}
+
+/* sigma_max is the stress at s_c, E s_c where nothing yields, unless the scene says otherwise: a larger one lets points
+ * pass the strain at which bonds break. Only adaptive runs convert. */
+static real conversion_trigger(const struct scene *s, const struct material *m)
+{
+    if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
+    real most = isnan(s->conversion.stress) ? material_stress_at(m, m->critical_stretch) : s->conversion.stress;
+    return s->conversion.alpha * most;
+}
+
+static void make_materials(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->elastic = NEW("engine.elastic", s->materials, struct elastic);
+    for (int m = 0; m < s->materials; m++) {
+        const struct material *given = &s->material[m];
+        e->wave_speed = real_max(e->wave_speed, given->wave_speed);
+        e->elastic[m] = (struct elastic){.c11 = given->c11, .c12 = given->c12, .shear = given->shear, .space = s->space,
+                                         .poisson = given->poisson, .trigger = conversion_trigger(s, given)};
+        if (!material_yields(given)) continue;
+        e->elastic[m].yield = given->yield_stress;
+        e->elastic[m].hardening = given->yield_hardening;
+    }
+    make_limits(e);
+    make_yields(e);
+    make_states(e);
+}
+
+/* ---- peridynamics ----------------------------------------------------------------------------------- */
+
+static void make_family(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    struct family *f = &e->source.family;
+    f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
+    f->influence = s->influence;
+    family_make(f, s->space, s->spacing, s->horizon, scene_section(s));
+    e->source.material = s->material, e->source.materials = s->materials;
+    e->source.crack = has_peridynamics(s) ? s->crack : NULL;
+    e->source.cracks = has_peridynamics(s) ? s->cracks : 0;
+}
+
+static void make_mirrors(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
+    for (int b = 0; b < s->boundaries; b++)
+        e->mirror_axis[b] = is_clamp(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
+    e->source.mirror_axis = e->mirror_axis;
+}
+
+static void make_bonds(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    make_mirrors(e);
+    e->source.image = e->loads.image;
+    e->source.room = bonds_room(&e->source);
+    if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
+        e->neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
+        bonds_neighbour_volume(e->neighbour_volume, &e->part, &e->source);
+        e->source.neighbour_volume = e->neighbour_volume;
+    }
+    if (s->method == METHOD_ADAPTIVE) {
+        convert_region(&e->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
+                       s->conversion.tips * e->source.family.horizon);
+        convert_start(&e->part, &e->source, e->start_region.n > 0 ? &e->start_region : NULL);
+    }
+    bonds_make(&e->bonds, NULL, &e->part, &e->source);
+    e->conversion.first_time = NAN;
+    e->conversion.start = e->conversion.peak = e->part.n_of[KIND_PD];
+    e->conversion.peak_bonds = e->bonds.n;
+}
+
+void engine_partial_make(struct engine *e)
+{
+    e->coupling = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
+    e->partial.gives_all = e->coupling != COUPLING_PARTIAL_STRESS;
+    e->uses_partial = !e->partial.gives_all || e->part.end_strain;
+    if (e->uses_partial) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    engine_rim_make(e);
+}
+
+#define RIM_SHARE_MOST (1.0 / 16)        /* rim.h */
+
+static void make_rim_share(struct engine *e)
+{
+    e->rim_share = real_min(e->scene->rim_damping * e->wave_speed * e->dt / e->grid.h, RIM_SHARE_MOST);
+}
+
+/* ---- grid --------------------------------------------------------------------------------------------- */
+
+/* Where a node lies unless the scene names a place: on the first mirror across this axis, which moves nodes beyond it as
+ * their images only there or half-way between two; without one at the body's lower corner. */
+static real node_place(const struct scene *s, int axis, real corner)
+{
+    if (s->has_grid_origin) return s->grid_origin[axis];
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == axis) return s->boundary[b].at;
+    return corner;
+}
+
+/* The corner moved by less than half a spacing, to where it lies midway between particles of a lattice. */
+static real between_particles(const struct engine *e, int axis)
+{
+    const real steps = (e->part.X[axis][0] - e->grid.anchor[axis]) / e->scene->spacing - 0.5;
+    return e->grid.anchor[axis] + (steps - nearbyint(steps)) * e->scene->spacing;
+}
+
+/* The lower corner is that of the first body's shape, of the particles if it comes from a file. */
+void engine_grid_make(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real from[DIM_MAX], to[DIM_MAX];
+    e->grid.dim = s->dim;
+    e->grid.h = s->cell * s->spacing;
+    bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
+    for (int d = 0; d < s->dim; d++) {
+        if (!bounded) {
+            particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
+            from[d] -= 0.5 * s->spacing;
+        }
+        e->grid.anchor[d] = node_place(s, d, from[d]);
+        if (engine_has_mesh(e) && e->grid.anchor[d] == from[d]) e->grid.anchor[d] = between_particles(e, d);
+    }
+    real section = scene_section(s), lightest = INFINITY;
+    for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
+    const real smallest = s->solver == SOLVER_EXPLICIT ? GRID_MASS_SMALLEST : GRID_MASS_STATIC;
+    const real full = lightest * pow(e->grid.h, s->dim) * section;
+    e->smallest_mass = smallest * full;
+    e->grid.light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
+    e->sort_needed = true;
+}
+
+/* ---- what the machine can hold -------------------------------------------------------------------------- */
+
+/* As measured on blocks of 10^6 particles: */
+#define BYTES_PER_PARTICLE 320.0         /* fields, cells, lists, its part of the grid, a frame on its way              */
+#define BYTES_PER_BOND_LATTICE 3.0       /* of patterns: those of surfaces, and what cracks and ends of lines still store */
+#define EXACT_MOST 6000.0                /* spacings; places of longer bodies may be rounded (fill.c), bonds are stored */
+
+/* Share of a body's box that it fills, by places spread evenly in it. */
+static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
+{
+    enum { ACROSS = 24 };
+    int inside = 0, all = 1;
+    for (int d = 0; d < dim; d++) all *= ACROSS;
+    for (int k = 0; k < all; k++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0, rest = k; d < dim; d++, rest /= ACROSS) X[d] = from[d] + (rest % ACROSS + 0.5) / ACROSS * (to[d] - from[d]);
+        inside += region_contains(shape, X, dim, 0);
+    }
+    return real_max(inside, 1) / all;
+}
+
+/* Lattice particles, about, before there are any. The longest edge of all boxes round bodies goes to `longest` [spacings]. */
+static real particles_expected(const struct scene *s, real *longest)
+{
+    real n = 0, from[DIM_MAX], to[DIM_MAX];
+    *longest = 0;
+    for (int b = 0; b < s->bodies; b++) {
+        if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
+        real count = share_filled(&s->body[b].shape, from, to, s->dim);
+        for (int d = 0; d < s->dim; d++) {
+            count *= (to[d] - from[d]) / s->spacing;
+            *longest = real_max(*longest, (to[d] - from[d]) / s->spacing);
+        }
+        n += count;
+    }
+    return n;
+}
+
+static real particles_now(const struct engine *e, real *longest)
+{
+    const real expected = particles_expected(e->scene, longest);
+    return e->part.n > 0 ? (real)e->part.n : expected;
+}
+
+real engine_memory(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real longest;
+    const real n = particles_now(e, &longest);
+    const real bonds = s->method == METHOD_PD ? e->source.family.full / e->source.family.cell_volume : 1;
+    bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
+    for (int b = 0; b < s->bodies; b++) follow = follow && !s->body[b].file;
+    return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
+}
+
+/* A scene beyond what there is to be had is refused before it fills the memory. */
+static status make_affordable(const struct engine *e)
+{
+    const real memory = (real)team_memory(), bytes = engine_memory(e);
+    real longest;
+    if (memory <= 0 || bytes <= memory) return OK;
+    return status_set(REFUSED, "about %.2g particles would need some %.2g GB, and %.2g can be had (memory of the machine, or a limit set by "
+                               "ulimit or a control group); choose a larger particles.spacing", particles_now(e, &longest), bytes * 1e-9,
+                      memory * 1e-9);
+}
+
+/* ---- all ------------------------------------------------------------------------------------------------ */
+
+static real largest_stress(const struct particles *p)
+{
+    real most = 0;
+    for (int c = 0; c < symmetric_count(p->dim); c++)
+        for (int64_t i = 0; i < p->n; i++) most = real_max(most, fabs(p->stress[c][i]));
+    return most;
+}
+
+struct observed engine_observed(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    return (struct observed){
+        .part = &e->part, .cells = &e->cells, .bonds = &e->bonds, .loads = &e->loads, .grid = &e->grid, .tips = &e->tips,
+        .material = s->material, .partial = &e->partial, .spacing = s->spacing, .thickness = e->source.family.section,
+        .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
+        .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
+        .pulse = e->pulse, .pulses = e->pulses,
+        .space = s->space, .horizon = e->source.family.horizon, .crack = s->crack, .cracks = s->cracks,
+        .energy_change = watch_energy_change(&e->watch), .growth = e->growth, .growths = s->growths,
+        .baseline = e->has_baseline ? &e->baseline : NULL};
+}
+
+static void make_pulses(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_pulse) e->pulse[e->pulses++] = s->initial[k].pulse;
+}
+
+/* What shows only with particles has no line, but it has a file; fill_particles names its own. */
+static status named(const struct scene *s, status made)
+{
+    if (made != REFUSED) return made;
+    char why[512];
+    snprintf(why, sizeof why, "%s", status_message());
+    return status_set(REFUSED, "%s: %s", s->path, why);
+}
+
+/* Optional arrays of the particles that the scene calls for. */
+static int optional_arrays(const struct scene *s)
+{
+    int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
+    for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
+        if (material_yields(&s->material[m]))
+            optional |= WITH_PLASTIC | (s->space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0);
+    if (s->method == METHOD_ADAPTIVE && s->conversion.back) optional |= WITH_RETURN;
+    if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND) optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_TURNS : 0);
+    return optional;
+}
+
+static enum pd_model law_of(const struct engine *e)
+{
+    if (e->scene->model == MODEL_OSPD) return PD_OSPD;
+    if (e->scene->model == MODEL_MOSPD) return PD_MOSPD;
+    return e->source.yield.stretch ? PD_BOND_PLASTIC : PD_BOND;
+}
+
+status engine_make(struct engine *e, const struct scene *s, struct output *out)
+{
+    memset(e, 0, sizeof *e);
+    e->scene = s;
+    e->out = out;
+    e->began = team_clock();
+    e->optional = optional_arrays(s);
+    make_materials(e);
+    make_family(e);
+    kernels_choose(&e->kernels, s->dim, law_of(e), s->shape, s->transfer);
+    TRY(named(s, make_affordable(e)));
+    TRY(fill_particles(&e->part, s, e->optional));
+    TRY(named(s, make_affordable(e)));       /* of those there are */
+    TRY(named(s, engine_return_check(e)));
+    TRY(named(s, engine_frames(e)));
+    if (s->solver != SOLVER_EXPLICIT) {
+        e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
+        loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
+    }
+    TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
+                            e->source.family.cutoff, e->optional)));
+    cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
+    e->source.cells = &e->cells;
+    make_bonds(e);
+    engine_partial_make(e);
+    TRY(named(s, engine_mesh_make(e)));
+    engine_ends_know(e);
+    engine_alarm_make(e);
+    TRY(named(s, engine_time_make(e)));
+    make_rim_share(e);
+    e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false, NULL};
+    e->strain_stress = largest_stress(&e->part);
+    for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
+    tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
+    e->growth = NEW("engine.growth", s->growths, struct growth);
+    for (int k = 0; k < s->growths; k++) growth_make(&e->growth[k], &s->growth[k]);
+    if (s->solver != SOLVER_EXPLICIT) TRY(named(s, solver_make(e)));
+    watch_make(&e->watch);
+    make_pulses(e);
+    struct observed o = engine_observed(e);
+    return named(s, probes_make(&e->probes, s->probe, s->probes, &o));
+}
+
+void engine_free(struct engine *e)
+{
+    memory_reuse(false);
+    if (e->out) (void)output_wait(e->out);   /* a frame on its way still reads the particles */
+    probes_free(&e->probes);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]), memory_free(e->sampling.before[d]);
+    tips_free(&e->tips);
+    for (int k = 0; e->growth && k < e->scene->growths; k++) growth_free(&e->growth[k]);
+    memory_free(e->growth);
+    partial_stress_free(&e->partial);
+    rim_free(&e->rim);
+    memory_free(e->bonded);
+    transfer_order_free(&e->order);
+    rest_points_free(&e->rest_points);
+    carry_free(&e->carried);
+    grid_free(&e->grid);
+    bonds_free(&e->bonds);
+    cells_free(&e->cells);
+    loads_free(&e->loads);
+    particles_free(&e->part);
+    memory_free(e->start_region.solid);
+    solver_free(&e->solver);
+    memory_free(e->boundary);
+    memory_free(e->pair_stretch);
+    memory_free(e->modulus);
+    memory_free(e->mirror_axis);
+    memory_free(e->pair_yield);
+    memory_free(e->pair_hardening);
+    memory_free(e->neighbour_volume);
+    memory_free(e->elastic);
+    memory_free(e->cell_elastic);
+    memory_free(e->frame);
+    mesh_free(&e->mesh);
+    memory_free(e->record);
+    memory_free(e->pulse);
+    warnings_free(&e->warnings);
+    memset(e, 0, sizeof *e);
+}

@@ -1,0 +1,44 @@
+/* floor 5: the csv files of line and exact probes: beside every frame, and what of them a run finds again or removes. */
+#include <stdio.h>
+#include <unistd.h>
+
+#include "engine_report.h"
+#include "output/output_files.h"
+
+static status put(void *folder, const char *name, const char *text, size_t length)
+{
+    return file_put_unsettled(path_join(folder, name).text, text, length);
+}
+
+status engine_profiles_write(struct engine *e)
+{
+    const struct observed o = engine_observed(e);
+    if (probes_profiled(&e->probes) == 0) return OK;
+    TRY(probes_profiles(&e->probes, &o, put, e->out->folder, e->out->frames - 1));
+    return file_settle(path_join(e->out->folder, "history.csv").text);
+}
+
+void engine_profiles_check(struct engine *e)
+{
+    char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
+    int64_t lost = 0;
+    for (int frame = 0; frame < e->out->frames; frame++)
+        for (int k = 0; probes_profile_name(&e->probes, k, frame, name); k++) {
+            if (path_is_file(path_join(e->out->folder, name).text)) continue;
+            if (lost++ == 0) snprintf(first, sizeof first, "%s", name);
+        }
+    if (lost == 0) return;
+    const char *more = "";
+    char others[48];
+    if (lost > 1) snprintf(others, sizeof others, ", and %lld profiles more are", (long long)lost - 1), more = others;
+    snprintf(text, sizeof text, "%s is missing%s: a run of its own would make it again", first, more);
+    engine_say(e, text);
+}
+
+void engine_profiles_remove(struct engine *e)
+{
+    char name[PROFILE_NAME];
+    for (int k = 0; probes_profile_name(&e->probes, k, 0, name); k++)
+        for (int frame = 0; probes_profile_name(&e->probes, k, frame, name); frame++)
+            if (unlink(path_join(e->out->folder, name).text) != 0) break;
+}

@@ -1,0 +1,143 @@
+/* floor 5: the critical time step of a scene, and the step that is taken.
+ *
+ * What `bench stability` observes beside it: growth of the largest mode under the step itself. */
+#include <math.h>
+
+#include "engine/engine.h"
+
+/* ---- material points -------------------------------------------------------------------------------------- */
+
+/* Critical steps in h/(c + |v|) for n points a cell and direction: a little below the least that is observed wherever the
+ * points stand in their cells, since a body that moves brings them everywhere. Strains of re-mapped momentum (FLIP, MUSL)
+ * hardly feel how little mass the nodes beyond an edge have, strains of the updated velocity (APIC) do: its share falls with
+ * the points' size. Linear shapes are worst where points stand on nodes, where round-off decides to which cell they belong: of
+ * 1500 steps; elsewhere they would allow three times as much. */
+static real points_share(const struct scene *s)
+{
+    const real n = s->cell;
+    const bool apic = s->transfer == TRANSFER_APIC;
+    switch (s->shape) {
+    case SHAPE_LINEAR:
+        if (n < 1.5) return s->dim == 1 ? 0.48 : 0.42;
+        return (fabs(n - 2) < 0.3 ? 0.52 : 0.62) * (1 + 0.4 * (s->dim - 1));
+    case SHAPE_QUADRATIC: return apic ? 0.75 : 1.8;
+    case SHAPE_CUBIC: return apic ? 1.15 : 2.1;
+    default: return apic ? (s->dim == 1 ? 0.89 : 0.84) / (1 + 0.16 * n) : 1.52;
+    }
+}
+
+/* Nodes that move against each other in all directions at once feel c11 + (dim - 1) c12 where a wave feels c11: near nu = 1/2
+ * twice as much in the plane, three times in space. The shares above were observed up to 5/3, nu 1/4 in space; beyond, limits
+ * fall with the root: from nu 0.25 to 0.499 in space by 0.80 (FLIP) and 0.76 (APIC) where the root says 0.75. */
+static real volume_share(const struct engine *e)
+{
+    const real observed = 5.0 / 3;
+    real most = observed;
+    for (int m = 0; m < e->scene->materials; m++)
+        most = real_max(most, 1 + (e->part.dim - 1) * e->elastic[m].c12 / e->elastic[m].c11);
+    return sqrt(observed / most);
+}
+
+static real fastest(const struct engine *e)
+{
+    real speed = e->start_speed;
+    for (int b = 0; b < e->scene->boundaries; b++)
+        if (e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
+            speed = real_max(speed, sqrt(dot(e->scene->boundary[b].value, e->scene->boundary[b].value, e->part.dim)));
+    return speed;
+}
+
+static real critical_of_points(const struct engine *e)
+{
+    if (e->part.n_free + e->part.n_carried == 0) return INFINITY;
+    return points_share(e->scene) * volume_share(e) * e->grid.h / (e->wave_speed + fastest(e));
+}
+
+/* ---- bonds -------------------------------------------------------------------------------------------------- */
+
+/* Waves as short as the bonds' stiffest are unknown to a grid that moves all particles (pmg, pgg): shares of the observed
+ * limits of bodies in one, two and three dimensions, with cells of one spacing and of two (`bench stability`). */
+static const real carried_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4, 2.5}};
+/* The same where it moves those near points (pm, pg) and FLIP keeps what it cannot see; worst where few share a node. */
+static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
+
+static real share_of_coupling(const struct engine *e)
+{
+    const bool two = e->scene->cell >= 2;
+    if (coupling_unified(e->coupling)) return carried_by_grid[two][e->scene->dim];
+    return coupling_carries(e->coupling) && e->scene->transfer == TRANSFER_FLIP ? met_by_grid[two][e->scene->dim] : 1;
+}
+
+/* Of elastic bonds: yielding ones are no stiffer. */
+static bond_force_fn *elastic_force(const struct engine *e)
+{
+    return e->scene->model == MODEL_BOND ? bond_force_table[e->part.dim][PD_BOND] : e->kernels.bond_force;
+}
+
+/* The smallest of all materials' lattices, and of the bounds on which they rest. */
+static real critical_of_lattices(struct engine *e, real *bound)
+{
+    const struct scene *s = e->scene;
+    real step = INFINITY, longest[DIM_MAX], low, high;
+    *bound = INFINITY;
+    for (int d = 0; d < s->dim; d++) {
+        particles_extent(&e->part, e->part.n, d, &low, &high);
+        longest[d] = high - low;
+    }
+    for (int m = 0; m < s->materials; m++) {
+        real its_bound;
+        struct bond_source one = e->source;      /* its particles are of material 0 */
+        one.material = &s->material[m], one.materials = 1;
+        if (e->modulus) one.modulus = &e->modulus[m];
+        one.yield = (struct bond_yield){0};
+        step = real_min(step, critical_step_of_lattice(&one, elastic_force(e), s->material[m].density, longest, &its_bound));
+        *bound = real_min(*bound, its_bound);
+    }
+    return step;
+}
+
+enum { ITERATED_MOST = 15000 };          /* particles: an iteration is some steps, and takes some 30 rounds */
+
+/* Iterated on the body itself where all of it is peridynamic. Where particles become so later, or are many on a lattice, on a
+ * block of that, less as the bound over all of them is smaller than the block's: scattered particles, corrected surfaces,
+ * heavy neighbours. */
+static real critical_of_bonds(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real bound;
+    if (s->method == METHOD_MPM) return INFINITY;
+    if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
+        const real step = critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
+        return isfinite(step) ? step : s->spacing / e->wave_speed;   /* no bond: whatever loads want */
+    }
+    const real step = critical_of_lattices(e, &bound);
+    const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
+    return share * step * share_of_coupling(e);
+}
+
+/* ---- the step --------------------------------------------------------------------------------------------------- */
+
+#define STEPS_MOST 1e12                  /* as scene_check.c: more than any machine will ever do */
+
+static status make_steps(struct engine *e, real dt)
+{
+    const struct scene *s = e->scene;
+    if (!(s->duration / dt <= STEPS_MOST))
+        return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
+                          s->duration / dt, dt);
+    e->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a hair less: round-off adds no step */
+    if (e->steps < 1) e->steps = 1;
+    e->dt = s->duration / (real)e->steps;
+    return OK;
+}
+
+/* The smallest of all methods' limits, whichever kinds are present now: particles convert. */
+status engine_time_make(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->dt_critical = real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
+    const real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
+    if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e, dt));
+    else e->steps = s->solver_steps, e->dt = dt;
+    return OK;
+}

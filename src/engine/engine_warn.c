@@ -1,0 +1,205 @@
+/* floor 5: what a person would want to hear before a run, with the numbers it rests on. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "solver_parts.h"
+
+static int64_t bonds_cut(const struct engine *e)
+{
+    const struct bonds *b = &e->bonds;
+    int64_t cut = 0;
+    for (int64_t g = 0; g < b->groups; g++)
+        for (int64_t q = b->slot[g] * LANES; q < (b->slot[g] + b->slot_count[g]) * LANES && !b->pattern[g]; q++)
+            cut += b->inverse_length[q] < 0;
+    return cut;
+}
+
+static const char *const coupling_name[] = {
+    [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
+
+/* Does no support keep it from turning? */
+static bool may_turn(const struct scene *s)
+{
+    bool held = s->dim == 1;
+    for (int b = 0; b < s->boundaries; b++) held |= s->boundary[b].kind == BOUNDARY_MIRROR || s->boundary[b].kind == BOUNDARY_VELOCITY;
+    return !held;
+}
+
+static void warn_of_method(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    if (s->solver == SOLVER_EXPLICIT && e->dt > e->dt_critical)
+        warnings_add(to, "the time step is above the critical one: expect a run that blows up");
+    if (s->method == METHOD_MPM && s->cracks > 0)
+        warnings_add(to, "method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them");
+    if ((e->coupling == COUPLING_PM || e->coupling == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
+        warnings_add(to, "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
+    if (coupling_carries(e->coupling))
+        warnings_add(to, "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
+                         "energy.balance_error, or use partial stress", coupling_name[e->coupling]);
+    if (s->method == METHOD_ADAPTIVE && may_turn(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && e->part.n_of[KIND_PD] > 0)
+        warnings_add(to, "in bodies that turn, FLIP points beside bonds gain energy (2 to 6 %% in four turns) and rim_damping brakes "
+                         "slow turns; mpm.transfer apic and the reference frame do neither");
+    if (s->method != METHOD_PD && s->cell < 1.5)
+        warnings_add(to, "one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual",
+                     s->cell);
+}
+
+static void warn_of_materials(const struct engine *e, struct warnings *to)
+{
+    for (int m = 0; m < e->scene->materials; m++) {
+        const struct material *a = &e->scene->material[m];
+        if (isfinite(e->elastic[m].trigger) && e->elastic[m].trigger > a->young * a->critical_stretch)
+            warnings_add(to, "material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the "
+                         "strain at which bonds break", a->name, e->elastic[m].trigger, a->young * a->critical_stretch);
+    }
+}
+
+static void warn_of_solver(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    if (s->solver == SOLVER_EXPLICIT) return;
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
+            warnings_add(to, "a static equilibrium has no velocities: those of `initial` are left out");
+    if (e->solver.applied == 0 && solver_largest(&e->solver.driven, s->dim, e->part.n) == 0)
+        warnings_add(to, "nothing loads the body at t = %.4g s: forces have their value at the end of the duration "
+                     "there (a step that ends before has none)", s->duration);
+}
+
+static void warn_of_empty(const struct engine *e, struct warnings *to)
+{
+    for (int b = 0; b < e->loads.n; b++)
+        if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
+            warnings_add(to, "boundary %s holds no particle%s", e->scene->boundary[b].name,
+                         e->scene->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
+    if (e->source.cracks > 0 && bonds_cut(e) == 0)
+        warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
+}
+
+/* Measured in inputs/bar_converge.yaml: mirrors 0.15 and 0.25 of a cell from a node give way so much that displacements
+ * are 11 to 24 % off with 50 to 200 points a metre; halving the spacing takes away a third of that at the most. */
+static void warn_of_mirrors(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
+            !mirror_on_nodes(&s->boundary[b], &e->grid, s->spacing))
+            warnings_add(to, "the mirror of boundary %s stands neither on a node of the grid nor half-way between "
+                         "two: errors of 15 to 20 %%, and refinement helps little; mpm.origin or mpm.cell can move the "
+                         "nodes",
+                         s->boundary[b].name);
+}
+
+/* ---- several bodies ------------------------------------------------------------------------------------------- */
+
+/* Adds a name to a list of them in words, `a`, `a and b`, `a, b and c`; all beyond a few are counted. */
+struct name_list { int n, all; char text[320]; };
+
+static void name_add(struct name_list *l, const char *name)
+{
+    enum { NAMED = 4 };
+    const size_t used = strlen(l->text);
+    const bool last = ++l->n == l->all;
+    if (l->n > NAMED && !last) return;
+    if (l->n > NAMED && l->all > NAMED + 1) snprintf(l->text + used, sizeof l->text - used, " and %d more", l->all - NAMED);
+    else snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
+}
+
+static void warn_of_reference(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    struct name_list names = {0};
+    for (int b = 0; b < s->bodies; b++) names.all += e->frame[b].reference;
+    if (names.all == 0) return;
+    for (int b = 0; b < s->bodies; b++)
+        if (e->frame[b].reference) name_add(&names, s->body[b].name);
+    warnings_add(to, "%s %s in the reference frame and meet%s no other body: they pass through each other; in mpm.frame current "
+                     "bodies meet on the grid, and stick", names.text, names.all > 1 ? "are" : "is", names.all > 1 ? "" : "s");
+}
+
+static void warn_of_contact(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    bool current = false;
+    for (int b = 0; b < s->bodies; b++) current |= !e->frame[b].reference;
+    if (s->bodies < 2) return;
+    if (s->method == METHOD_PD)
+        warnings_add(to, "peridynamic bodies do not meet in this version: they pass through each other; with mpm and adaptive "
+                         "material points meet through the grid");
+    else warn_of_reference(e, to);
+    if (s->method == METHOD_ADAPTIVE && current && !coupling_unified(e->coupling))
+        warnings_add(to, "what is or becomes peridynamic meets no other body and passes through it; material points meet on "
+                         "the grid, and stick");
+}
+
+/* Do two particles start as parts of one thing, side by side and with one velocity? Bodies about to hit each other do not. */
+static bool at_rest(const struct particles *p, int64_t i, int64_t j)
+{
+    real apart2 = 0, most2 = 0;
+    for (int d = 0; d < p->dim; d++) {
+        apart2 += square(p->v[d][i] - p->v[d][j]);
+        most2 += square(p->v[d][i]) + square(p->v[d][j]);
+    }
+    return apart2 <= 1e-6 * most2;
+}
+
+/* touch[a bodies + b], a < b: some of their particles are neighbours at the start. Returns how many pairs of bodies do. */
+static int touching(const struct engine *e, bool *touch)
+{
+    const struct particles *p = &e->part;
+    const int bodies = e->scene->bodies;
+    const real reach = real_min(1.5 * e->scene->spacing, e->source.family.cutoff);
+    struct near near = {0};
+    int pairs = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        near_find(&near, &e->cells, p, i, reach, false);
+        for (int k = 0; k < near.n; k++) {
+            const int32_t j = near.at[k];
+            if (j >= p->n || p->body[j] <= p->body[i] || !at_rest(p, i, j)) continue;
+            bool *pair = &touch[p->body[i] * bodies + p->body[j]];
+            pairs += !*pair;
+            *pair = true;
+        }
+    }
+    memory_free(near.at);
+    return pairs;
+}
+
+static void warn_of_touch(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    char name[2 * NAME_MAX_LENGTH + 8];
+    if (s->bodies < 2) return;
+    bool *touch = NEW("warn.touch", s->bodies * s->bodies, bool);
+    struct name_list names = {.all = touching(e, touch)};
+    for (int k = 0; k < s->bodies * s->bodies; k++) {
+        if (!touch[k]) continue;
+        snprintf(name, sizeof name, "%s with %s", s->body[k / s->bodies].name, s->body[k % s->bodies].name);
+        name_add(&names, name);
+    }
+    memory_free(touch);
+    if (names.all > 0)
+        warnings_add(to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s", names.text,
+                     s->method == METHOD_PD ? "" : "; on the grid of mpm.frame current they stick until a gap of two cells "
+                                                   "opens");
+}
+
+void engine_warn(struct engine *e)
+{
+    struct warnings *to = &e->warnings;
+    warn_of_method(e, to);
+    warn_of_materials(e, to);
+    warn_of_solver(e, to);
+    warn_of_empty(e, to);
+    warn_of_mirrors(e, to);
+    warn_of_contact(e, to);
+    warn_of_touch(e, to);
+}
+
+void engine_say(struct engine *e, const char *text)
+{
+    if (warnings_add(&e->warnings, "%s", text)) warnings_print(&e->warnings, e->warnings.n - 1, stderr);
+}

@@ -1,0 +1,97 @@
+/* floor 5: equilibrium of bodies with material points: steps in time as ever, on the same grid, with loads that grow and
+ * then stay, and velocities damped near the critical damping of the body's slowest motion. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "solver_parts.h"
+
+#define LOOK_STEPS 10                    /* between estimates of the damping and looks at the residual */
+#define CALM 1e-6                        /* kinetic over strain energy of a body that does not swing */
+
+void grid_relaxation_make(struct engine *e)
+{
+    e->solver.ramp_time = 1;
+    if (e->scene->method == METHOD_PD) return;
+    e->solver.ramp_time = ceil(2 * (particles_longest(&e->part) + e->scene->spacing) / (e->wave_speed * e->dt)) * e->dt;
+}
+
+/* sum m u^2 and sum m v^2. */
+static void motion_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct particles *p = context;
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = first; i < end; i++) {
+            sum[0] += p->mass[i] * square(p->x[d][i] - p->X[d][i]);
+            sum[1] += p->mass[i] * square(p->v[d][i]);
+        }
+}
+
+/* Forces that still accelerate nodes, and particles that are not on the grid. */
+static void node_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct engine *e = context;
+    const struct grid *g = &e->grid;
+    for (int d = 0; d < g->dim; d++)
+        for (int64_t I = first; I < end; I++) sum[0] += square(g->mass[I] * g->force[d][I] / e->transfer.dt_velocity);
+}
+
+static void particle_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct particles *p = context;
+    for (int64_t i = first; i < end; i++)
+        for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) sum[0] += square(p->f[d][i]);
+}
+
+/* Norm of the reactions as if each were shared evenly by its particles. */
+static real reactions(const struct engine *e)
+{
+    real sum = 0;
+    for (int b = 0; b < e->loads.n; b++) {
+        const struct load *l = &e->loads.load[b];
+        if (l->boundary->kind == BOUNDARY_VELOCITY)
+            sum += dot(l->reaction, l->reaction, e->part.dim) / (l->n > 0 ? (real)l->n : 1);
+    }
+    return sqrt(sum);
+}
+
+/* The slowest motion has nearly the form of the deflection, so its frequency is omega^2 = 2 U/sum m u^2 (Rayleigh), of
+ * the strain energy U; critical damping takes 2 omega. */
+static void look(struct engine *e, bool *done)
+{
+    struct solver *s = &e->solver;
+    real nodes = 0, particles, motion[2];
+    const real strain = e->kernels.bond_energy(&e->bonds, &e->part) +
+                        watch_strain(&e->part, e->scene->material, &e->partial);
+    team_sums(e->part.n, 2, motion_block, &e->part, motion);
+    s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->dt, 1) : 0;
+    if (e->part.n_of[KIND_MPM] + e->part.n_carried > 0) team_sums(e->grid.n, 1, node_block, e, &nodes);
+    team_sums(e->part.n, 1, particle_block, &e->part, &particles);
+    solver_scale(s, reactions(e), sqrt(nodes + particles));
+    *done = e->t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
+            0.5 * motion[1] <= CALM * strain;
+}
+
+static void slow_down(struct engine *e)
+{
+    struct particles *p = &e->part;
+    const real keep = (2 - e->solver.damping) / (2 + e->solver.damping);
+    const int gradients = e->optional & WITH_GRADIENT ? p->dim * p->dim : 0;
+    for (int d = 0; d < p->dim; d++) {
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= keep;
+    }
+    for (int k = 0; k < gradients; k++) {
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) p->gradient[k][i] *= keep;
+    }
+    loads_mirror(&e->loads, p);
+}
+
+status grid_relaxation_step(struct engine *e, bool *done)
+{
+    TRY(engine_step(e));
+    TRY(engine_alarm(e));
+    if (e->step % LOOK_STEPS == 0) look(e, done);
+    slow_down(e);
+    return OK;
+}

@@ -1,0 +1,301 @@
+/* floor 5: summary.json: the figures of a run that scripts rely on. Physical figures come first and are the same
+ * for any number of threads; what depends on the machine stands behind them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/engine.h"
+#include "base/memory.h"
+#include "engine/simd.h"
+
+/* ---- JSON ------------------------------------------------------------------------------------------ */
+
+enum { DIGITS_EXACT = 17, DIGITS_TIMING = 9 };   /* 17 digits give back the same double */
+
+/* A text under construction. `filled`: the innermost object has an entry. */
+struct json { FILE *file; int depth; bool filled; };
+
+static void json_string(struct json *j, const char *text)
+{
+    fputc('"', j->file);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c == '"' || *c == '\\') fprintf(j->file, "\\%c", *c);
+        else if (*c < 0x20) fprintf(j->file, "\\u%04x", *c);
+        else fputc(*c, j->file);
+    }
+    fputc('"', j->file);
+}
+
+/* Starts an entry; key NULL inside a list. */
+static void json_key(struct json *j, const char *key)
+{
+    fprintf(j->file, "%s\n%*s", j->filled ? "," : "", 2 * j->depth, "");
+    j->filled = true;
+    if (!key) return;
+    json_string(j, key);
+    fputs(": ", j->file);
+}
+
+static void json_open(struct json *j, const char *key, char bracket)
+{
+    json_key(j, key);
+    fputc(bracket, j->file);
+    j->depth++;
+    j->filled = false;
+}
+
+static void json_close(struct json *j, char bracket)
+{
+    j->depth--;
+    if (j->filled) fprintf(j->file, "\n%*s", 2 * j->depth, "");
+    fputc(bracket, j->file);
+    j->filled = true;
+}
+
+static void json_text(struct json *j, const char *key, const char *text)
+{
+    json_key(j, key);
+    json_string(j, text);
+}
+
+static void json_count(struct json *j, const char *key, int64_t value)
+{
+    json_key(j, key);
+    fprintf(j->file, "%lld", (long long)value);
+}
+
+/* A figure that a run does not have (NaN, infinite) is left out. */
+static void json_number(struct json *j, const char *key, real value, int digits)
+{
+    if (!isfinite(value)) return;
+    json_key(j, key);
+    fprintf(j->file, "%.*g", digits, value);
+}
+
+static void json_real(struct json *j, const char *key, real value) { json_number(j, key, value, DIGITS_EXACT); }
+
+/* x, y, z of a point, as far as the space has them; `prefix` stands before the letter. */
+static void json_point(struct json *j, const char *prefix, const real *x, int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        char key[NAME_MAX_LENGTH];
+        snprintf(key, sizeof key, "%s%c", prefix, "xyz"[d]);
+        json_real(j, key, x[d]);
+    }
+}
+
+/* ---- physical figures ------------------------------------------------------------------------------ */
+
+static void put_run(struct json *j, const struct engine *e, status s, const char *message)
+{
+    static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
+    json_text(j, "name", e->scene->name);
+    json_text(j, "version", CLEAVE_VERSION);
+    json_text(j, "method", method[e->scene->method]);
+    json_text(j, "status", s == OK ? "done" : s == INTERRUPTED ? "interrupted" : "failed");
+    if (s != OK && message[0]) json_text(j, "message", message);
+    json_count(j, "steps", e->step);
+    json_real(j, "time_step", e->dt);
+    json_real(j, "time_step_critical", e->dt_critical);
+    json_real(j, "time_end", e->t);
+    json_count(j, "particles", e->part.n);
+    json_count(j, "particles_pd_start", e->conversion.start);
+    json_count(j, "particles_pd_end", e->part.n_of[KIND_PD]);
+    json_count(j, "bonds_peak", e->conversion.peak_bonds);
+}
+
+static void put_warnings(struct json *j, const struct warnings *w)
+{
+    json_open(j, "warnings", '[');
+    for (int k = 0; k < w->n; k++) json_text(j, NULL, w->text[k]);
+    json_close(j, ']');
+}
+
+static void put_solver(struct json *j, const struct engine *e)
+{
+    static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
+    if (e->scene->solver == SOLVER_EXPLICIT) return;
+    json_open(j, "solver", '{');
+    json_text(j, "name", name[e->scene->solver]);
+    json_count(j, "steps", e->step);
+    json_real(j, "residual", e->solver.residual);
+    json_count(j, "bonds_past_limit", e->solver.past_limit);
+    json_close(j, '}');
+}
+
+/* What `method: auto` chose, and what it expected. */
+static void put_choice(struct json *j, const struct scene_choice *c)
+{
+    if (!c->made) return;
+    json_open(j, "auto", '{');
+    json_text(j, "like", c->like);
+    json_text(j, "feature", c->feature);
+    json_real(j, "feature_size", c->size);
+    json_real(j, "feature_spacings", c->points);
+    json_real(j, "accuracy", c->accuracy);
+    json_real(j, "expected_error", c->error);
+    json_real(j, "expected_seconds", c->seconds);
+    json_text(j, "picked", c->picked);
+    if (c->second[0]) {
+        json_text(j, "next_best", c->second);
+        json_real(j, "next_best_error", c->second_error);
+        json_real(j, "next_best_time_share", c->second_share);
+    }
+    json_close(j, '}');
+}
+
+static void put_ledger(struct json *j, const struct ledger *l)
+{
+    json_open(j, "energy", '{');
+    json_real(j, "kinetic", l->energy.kinetic);
+    json_real(j, "strain", l->energy.strain);
+    json_real(j, "plastic", l->energy.plastic);
+    json_real(j, "fracture", l->energy.fracture);
+    json_real(j, "damped", l->energy.damped);
+    json_real(j, "external_work", l->external_work);
+    json_real(j, "balance_error", l->balance_error);
+    json_close(j, '}');
+    json_real(j, "momentum_error", l->momentum_error);
+}
+
+static void put_tip(struct json *j, const struct tip *tip, int dim)
+{
+    json_open(j, NULL, '{');
+    json_count(j, "body", tip->body);
+    json_point(j, "origin_", tip->origin, dim);
+    json_point(j, "", tip->place, dim);
+    json_real(j, "growth", tip->growth);
+    json_real(j, "angle_deg", tip_angle(tip, dim));
+    json_real(j, "start_time", tip->start_time);
+    json_real(j, "arrest_time", tip->arrest_time);
+    json_real(j, "speed_max", tip->speed_max);
+    json_real(j, "speed_mean", tip->speed_mean);
+    json_close(j, '}');
+}
+
+static void put_crack(struct json *j, const struct engine *e)
+{
+    const struct tip *longest = tips_longest(&e->tips);
+    int dim = e->part.dim;
+    json_open(j, "crack", '{');
+    json_real(j, "start_time", e->watch.break_time);
+    if (longest) {
+        json_real(j, "tip_start_time", longest->start_time);
+        json_real(j, "arrest_time", longest->arrest_time);
+        json_real(j, "length_end", longest->growth);
+        json_real(j, "angle_deg", tip_angle(longest, dim));
+        json_real(j, "tip_speed_max", longest->speed_max);
+        json_real(j, "tip_speed_mean", longest->speed_mean);
+    }
+    json_open(j, "tips", '[');
+    for (int k = 0; k < e->tips.n; k++) put_tip(j, &e->tips.tip[k], dim);
+    json_close(j, ']');
+    json_close(j, '}');
+}
+
+/* Of one particle. */
+static int returns_most(const struct particles *p)
+{
+    int most = 0;
+    for (int64_t i = 0; i < p->n; i++) most = p->returns[i] > most ? p->returns[i] : most;
+    return most;
+}
+
+static void put_conversion(struct json *j, const struct engine *e)
+{
+    const struct conversion *c = &e->conversion;
+    real n = (real)e->part.n, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
+    json_open(j, "conversion", '{');
+    if (isfinite(c->first_time) && c->events > 0) {
+        json_real(j, "first_time", c->first_time);
+        json_point(j, "", c->first_place, e->part.dim);
+    }
+    json_real(j, "pd_share_start", start);
+    json_real(j, "pd_share_end", end);
+    json_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
+    if (e->part.quiet) {
+        json_count(j, "converted", c->converted);
+        json_count(j, "returned", c->returned);
+        json_count(j, "returns_most", returns_most(&e->part));
+        json_real(j, "return_energy", c->return_energy);
+    }
+    json_close(j, '}');
+}
+
+/* Figures of one probe come one after the other: a new name ends the object of the last. */
+struct probe_sink { struct json *json; char name[NAME_MAX_LENGTH]; bool open; };
+
+static void put_figure(void *context, const char *probe, const char *quantity, real value)
+{
+    struct probe_sink *sink = context;
+    if (!isfinite(value)) return;
+    if (!sink->open || strcmp(sink->name, probe) != 0) {
+        if (sink->open) json_close(sink->json, '}');
+        json_open(sink->json, probe, '{');
+        snprintf(sink->name, sizeof sink->name, "%s", probe);
+        sink->open = true;
+    }
+    json_real(sink->json, quantity, value);
+}
+
+static void put_probes(struct json *j, const struct engine *e)
+{
+    struct observed o = engine_observed(e);
+    struct probe_sink sink = {.json = j};
+    json_open(j, "probes", '{');
+    probes_figures(&e->probes, &o, put_figure, &sink);
+    if (sink.open) json_close(j, '}');
+    json_close(j, '}');
+}
+
+/* ---- figures of the machine ------------------------------------------------------------------------ */
+
+static void put_machine(struct json *j, const struct engine *e, int threads, double wall_seconds)
+{
+    real steps = 0, ns = 1e9 * e->loop_seconds;
+    for (int k = 0; k < KINDS; k++) steps += (real)e->particle_steps[k];
+    json_count(j, "threads", threads);
+    json_text(j, "kernels", simd_in_use()->name);
+    json_number(j, "wall_seconds", wall_seconds, DIGITS_TIMING);
+    json_number(j, "loop_seconds", e->loop_seconds, DIGITS_TIMING);
+    json_count(j, "memory_peak_bytes", memory_peak());
+    json_number(j, "ns_per_particle_step", ns / steps, DIGITS_TIMING);
+    json_number(j, "ns_per_bond_step", ns / (real)e->bond_visits, DIGITS_TIMING);
+    json_number(j, "rest_share", e->rested / (real)(e->step > 0 ? e->step : 1), DIGITS_TIMING);
+}
+
+static void summary_print(FILE *file, const struct engine *e, status s, const char *message, int threads,
+                          double wall_seconds)
+{
+    struct json j = {.file = file, .depth = 1};
+    fputc('{', file);
+    put_run(&j, e, s, message);
+    put_warnings(&j, &e->warnings);
+    put_solver(&j, e);
+    put_choice(&j, &e->scene->choice);
+    put_ledger(&j, &e->watch.now);
+    put_crack(&j, e);
+    put_conversion(&j, e);
+    put_probes(&j, e);
+    put_machine(&j, e, threads, wall_seconds);
+    fputs("\n}\n", file);
+}
+
+status summary_write(const struct engine *e, status s, int threads, double wall_seconds)
+{
+    char message[1024], *text = NULL;
+    size_t length = 0;
+    if (!e->out) return OK;
+    snprintf(message, sizeof message, "%s", status_message());
+    FILE *file = open_memstream(&text, &length);
+    if (!file) return status_set(FAILED, "cannot write summary.json: out of memory");
+    summary_print(file, e, s, message, threads, wall_seconds);
+    bool whole = !ferror(file);
+    if (fclose(file) != 0) whole = false;
+    status written = whole ? output_text(e->out, "summary.json", text, length)
+                           : status_set(FAILED, "cannot write summary.json: out of memory");
+    free(text);
+    /* Why the run failed matters more than that the same full disk refuses its summary. */
+    if (written != OK && s != OK) return status_set(s, "%s", message);
+    return written;
+}

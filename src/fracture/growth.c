@@ -1,0 +1,262 @@
+/* floor 3: prescribed and ruled growth of cracks, and the bonds that fade behind their tips. */
+#include "fracture/growth.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kernels/kernels.h"
+#include "base/memory.h"
+
+#define FASTEST 0.9                      /* of the Rayleigh speed, where the scene gives no bound             */
+#define SLOWEST 0.01                     /* of it: factors at rest and at this speed are the same to 1e-4     */
+#define SMOOTHING 0.3                    /* of the settling time                                              */
+
+void growth_make(struct growth *g, const struct growth_rule *rule)
+{
+    *g = (struct growth){.rule = rule, .start_time = NAN, .intensity = NAN};
+    for (int d = 0; d < 2; d++) g->place[d] = rule->at[d], g->along[d] = g->heading[d] = rule->direction[d];
+}
+
+void growth_free(struct growth *g)
+{
+    memory_free(g->fading);
+    memset(g, 0, sizeof *g);
+}
+
+bool growth_follows(const struct growth_rule *rule) { return isnan(rule->speed); }
+
+/* ---- how fast a crack is that follows its toughness -------------------------------------------------------- */
+
+/* One step of the law in the header: the speed that the last factors ask for, once for each of them. */
+static void pace_find(struct growth *g, const struct ruling *ruling, real settling)
+{
+    const struct crack_medium *m = &ruling->medium;
+    const real bound = FASTEST * m->rayleigh, most = isnan(g->rule->fastest) ? bound : real_min(g->rule->fastest, bound);
+    real wanted = 0;
+    if (g->intensity > 0) {
+        const real felt = crack_speed_factor(m, SPEED_EXACT, g->felt);
+        wanted = crack_speed_of_factor(m, felt * g->rule->toughness / g->intensity, most);
+    }
+    g->pace += (wanted - g->pace) * -expm1(-(ruling->time - g->asked) / (SMOOTHING * settling));
+    if (wanted == 0 && g->pace < SLOWEST * m->rayleigh) g->pace = 0;
+}
+
+/* Before g->speed, the speed of the last step, is forgotten. */
+static void pace_update(struct growth *g, const struct ruling *ruling, real horizon, real t, real dt)
+{
+    if (!growth_follows(g->rule)) return;
+    if (!ruling) {
+        g->pace = 0;
+        return;
+    }
+    const real settling = horizon / ruling->medium.rayleigh;
+    g->felt += (g->speed - g->felt) * -expm1(-dt / settling);
+    if (t >= g->rule->start && ruling->time > g->asked) pace_find(g, ruling, settling);
+    g->asked = ruling->time;
+}
+
+/* ---- does it grow, and where to --------------------------------------------------------------------------- */
+
+static bool grows(const struct growth *g, real t)
+{
+    const struct growth_rule *r = g->rule;
+    if (t < r->start || g->grown >= r->length) return false;
+    if (!r->probe[0]) return true;
+    if (growth_follows(r)) return g->pace > 0;
+    return g->intensity >= r->toughness;
+}
+
+/* To the direction of the largest hoop stress. */
+static void turn(struct growth *g, const struct ruling *ruling)
+{
+    const real angle = crack_direction(ruling->factors.K), c = cos(angle), s = sin(angle);
+    const real x = ruling->along[0], y = ruling->along[1];
+    g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
+}
+
+/* `along` follows the heading over the smoothing length. */
+static void advance(struct growth *g, real way, real horizon)
+{
+    const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
+    const real share = way < smoothing ? way / smoothing : 1;
+    real along[2];
+    for (int d = 0; d < 2; d++) {
+        g->place[d] += way * g->heading[d];
+        along[d] = g->along[d] + share * (g->heading[d] - g->along[d]);
+    }
+    const real length = hypot(along[0], along[1]);
+    for (int d = 0; d < 2 && length > 0; d++) g->along[d] = along[d] / length;
+    g->grown += way;
+}
+
+/* ---- bonds that the tip crosses --------------------------------------------------------------------------- */
+
+static bool fades(const struct growth *g, int32_t i, int32_t j)
+{
+    for (int64_t k = g->n - 1; k >= 0; k--)
+        if (g->fading[k].i == i && g->fading[k].j == j) return true;
+    return false;
+}
+
+static void fading_add(struct growth *g, int32_t i, int32_t j, real w, real length)
+{
+    if (g->n == g->room) {
+        int64_t larger = g->room ? 2 * g->room : 256;
+        g->fading = memory_resize("growth.fading", g->fading, g->room, larger, sizeof *g->fading);
+        g->room = larger;
+    }
+    g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
+}
+
+/* Entries of the row of particle i that the way of the tip crosses. */
+static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way,
+                      int32_t i)
+{
+    const int64_t row = b->row_of[i];
+    real X[DIM_MAX], Y[DIM_MAX];
+    particle_place(p, i, X);
+    for (int64_t k = 0; row >= 0 && k < b->slot_count[row / LANES]; k++) {
+        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        if (b->w[q] == 0) continue;
+        particle_place(p, b->nbr[q], Y);
+        if (crack_cuts(way, X, Y, 2) && !fades(g, i, b->nbr[q])) fading_add(g, i, b->nbr[q], b->w[q], g->grown);
+    }
+}
+
+/* Particles within a family of the way of the tip [found, to be freed]. */
+static int near_way(const struct growth *g, struct particles *p, const struct bond_source *s, const real from[2],
+                    int32_t **found)
+{
+    real X[DIM_MAX] = {from[0], from[1]};
+    const real radius = s->family.cutoff + hypot(g->place[0] - from[0], g->place[1] - from[1]);
+    const int room = cells_near(s->cells, p, X, radius, -1, NULL, 0);
+    *found = NEW("growth.found", room, int32_t);
+    return cells_near(s->cells, p, X, radius, -1, *found, room);
+}
+
+/* Cracks are peridynamic: material points that the tip comes near convert. Returns their number. */
+static int claim(const struct growth *g, struct particles *p, const struct bond_source *s)
+{
+    int32_t *found;
+    const int n = near_way(g, p, s, g->place, &found);
+    int claimed = 0;
+    for (int k = 0; k < n; k++) {
+        if (found[k] >= p->n || p->kind[found[k]] != KIND_MPM) continue;
+        p->flag[found[k]] |= FLAG_CUT;
+        claimed++;
+    }
+    memory_free(found);
+    return claimed;
+}
+
+static void cross(struct growth *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
+                  const real from[2])
+{
+    real corner[2][DIM_MAX] = {{from[0], from[1]}, {g->place[0], g->place[1]}};
+    const struct crack way = {2, corner};
+    int32_t *found;
+    const int n = near_way(g, p, s, from, &found);
+    for (int k = 0; k < n; k++)
+        if (found[k] < p->n) cross_row(g, b, p, &way, found[k]);
+    memory_free(found);
+}
+
+/* ---- fading ----------------------------------------------------------------------------------------------- */
+
+/* Entry of bond i-j; -1: its row does not hold it any more. */
+static int64_t entry_of(const struct bonds *b, int32_t i, int32_t j, int64_t *row)
+{
+    *row = b->row_of[i];
+    for (int64_t k = 0; *row >= 0 && k < b->slot_count[*row / LANES]; k++) {
+        const int64_t q = bond_index(b, *row / LANES, k, (int)(*row % LANES));
+        if (b->nbr[q] == j && b->inverse_length[q] != 0) return q;
+    }
+    return -1;
+}
+
+/* Everything as it was one step ago; what has been broken meanwhile leaves the list. */
+static void step_back(struct growth *g, struct bonds *b)
+{
+    int64_t kept = 0, row;
+    for (int64_t k = 0; k < g->n; k++) {
+        struct fading *bond = &g->fading[k];
+        const int64_t q = entry_of(b, bond->i, bond->j, &row);
+        if (q < 0 || (b->w[q] == 0 && bond->now > 0)) continue;
+        b->w[q] = bond->before;
+        bonds_changed(b, row, q);
+        g->fading[kept++] = *bond;
+    }
+    g->n = kept;
+}
+
+/* Weights lost in the last step and in this one, half of both at the places of now (bond_fade). Rows change one after the
+ * other from what they were to what they will be, so their losses add up to the whole. Returns bonds released. */
+static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, const struct family *f)
+{
+    const struct growth_rule *r = g->rule;
+    const real damping = isnan(r->damping) ? 0.5 * f->horizon : r->damping;
+    int64_t kept = 0, released = 0, row;
+    step_back(g, b);
+    for (int64_t k = 0; k < g->n; k++) {
+        struct fading bond = g->fading[k];
+        const real grown = g->grown - bond.length;
+        const real share = grown < damping ? pow(1 - grown / damping, r->exponent) : 0;
+        const real next = bond.whole * share;
+        const int64_t q = entry_of(b, bond.i, bond.j, &row);
+        if (next != bond.before) bond_fade(b, p, row, q, next);
+        released += bond.now > 0 && next == 0;
+        bond.before = bond.now, bond.now = next;
+        if (bond.before > 0) g->fading[kept++] = bond;
+    }
+    g->n = kept;
+    return released;
+}
+
+/* ---- a step ----------------------------------------------------------------------------------------------- */
+
+int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
+                    const struct ruling *ruling, real t, real dt)
+{
+    const real from[2] = {g->place[0], g->place[1]};
+    g->intensity = ruling ? crack_equivalent(ruling->factors.K) : NAN;
+    pace_update(g, ruling, source->family.horizon, t, dt);
+    g->speed = 0;
+    /* where the crack begins among material points, it waits a step for the bonds that it is to cross */
+    if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
+        if (g->rule->probe[0]) turn(g, ruling);
+        g->speed = growth_follows(g->rule) ? g->pace : g->rule->speed;
+        if (isnan(g->start_time)) g->start_time = t;
+        advance(g, real_min(g->speed * dt, g->rule->length - g->grown), source->family.horizon);
+        cross(g, b, p, source, from);
+        claim(g, p, source);
+    }
+    return fade(g, b, p, &source->family);
+}
+
+real growth_angle(const struct growth *g)
+{
+    const real *e = g->rule->direction, way[2] = {g->place[0] - g->rule->at[0], g->place[1] - g->rule->at[1]};
+    if (!(g->grown > 0)) return NAN;
+    return fabs(atan2(e[0] * way[1] - e[1] * way[0], dot(e, way, 2))) * 180 / 3.14159265358979323846;
+}
+
+status growth_archive(struct growth *g, int which, struct archive *a)
+{
+    char name[64];
+    struct { real place[2], along[2], heading[2], speed, grown, start_time, intensity, pace, felt, asked; int64_t n; } s = {
+        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, {g->heading[0], g->heading[1]},
+        g->speed, g->grown, g->start_time, g->intensity, g->pace, g->felt, g->asked, g->n};
+    snprintf(name, sizeof name, "growth/%d", which);
+    ARCHIVE_VALUE(a, name, s);
+    for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->heading[d] = s.heading[d];
+    g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
+    g->intensity = s.intensity, g->pace = s.pace, g->felt = s.felt, g->asked = s.asked;
+    if (!a->saving) {
+        memory_free(g->fading);
+        g->n = g->room = s.n;
+        g->fading = NEW("growth.fading", g->room, struct fading);
+    }
+    snprintf(name, sizeof name, "growth/fading%d", which);
+    return a->exchange(a, name, g->fading, (size_t)g->n * sizeof *g->fading);
+}

@@ -1,0 +1,224 @@
+/* floor 3: the interaction integral over the particles round a crack tip. */
+#include "fracture/sif.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+
+#define AT_THE_TIP 1e-9                  /* of the contour: particles nearer to the tip or to the crack are on it */
+
+void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope)
+{
+    const real width = c->outer - c->inner, z = real_max(0, real_min(1, (r - c->inner) / width));
+    const bool ramp = r > c->inner && r < c->outer;
+    switch (form) {
+    case SIF_LINEAR: *q = 1 - z, *slope = -1; break;
+    case SIF_CUBIC: *q = 1 - z * z * (3 - 2 * z), *slope = -6 * z * (1 - z); break;
+    default: *q = 1 - z * z * z * (10 - 15 * z + 6 * z * z), *slope = -30 * square(z * (1 - z)); break;
+    }
+    *slope = ramp ? *slope / width : 0;
+}
+
+/* ---- one point -------------------------------------------------------------------------------------------------- */
+
+/* sum_j q_j [sigma_ij w_i,1 + ...]: what crosses the ring, without q_,j's length; n is its direction. */
+static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
+{
+    real flux = 0, energy = 0;
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            flux += n[j] * (a->stress[i][j] * b->gradient[i][0] + b->stress[i][j] * a->gradient[i][0]);
+            energy += a->stress[i][j] * b->gradient[i][j];
+        }
+        energy += density * a->velocity[i] * b->velocity[i];
+    }
+    return flux - n[0] * energy;
+}
+
+static real disc_density(const struct crack_state *a, const struct crack_state *b, real density)
+{
+    real sum = 0;
+    for (int i = 0; i < 2; i++) {
+        sum += a->acceleration[i] * b->gradient[i][0] + b->acceleration[i] * a->gradient[i][0];
+        sum -= a->velocity[i] * b->velocity_along[i] + b->velocity[i] * a->velocity_along[i];
+    }
+    return density * sum;
+}
+
+real sif_density(const struct sif_tip *tip, const struct contour *c, const real x[2], const struct crack_state *actual,
+                 const struct crack_state *auxiliary, real inside)
+{
+    const real r = hypot(x[0], x[1]), n[2] = {x[0] / r, x[1] / r};
+    real q, slope, sum = 0;
+    sif_weight(tip->weight, c, r, &q, &slope);
+    if (slope != 0) sum += slope * ring_density(actual, auxiliary, tip->medium.density, n);
+    if (inside > 0 && q > 0) sum += inside * q * disc_density(actual, auxiliary, tip->medium.density);
+    return sum;
+}
+
+/* ---- particles round the tip ------------------------------------------------------------------------------------- */
+
+/* A particle in the local frame. */
+struct sif_point { real x[2], area; struct crack_state state; };
+
+struct sif_points {
+    const struct sif_tip *tip;
+    const struct contour *contour;       /* of the sum being made                                     */
+    bool inertia;
+    int64_t n;
+    int32_t *particle;
+    struct sif_point *point;
+};
+
+static void local_vector(const struct sif_tip *tip, const real v[2], real local[2])
+{
+    local[0] = v[0] * tip->along[0] + v[1] * tip->along[1];
+    local[1] = v[1] * tip->along[0] - v[0] * tip->along[1];
+}
+
+/* R T R^T. */
+static void local_tensor(const struct sif_tip *tip, real t[2][2], real local[2][2])
+{
+    real half[2][2];
+    for (int i = 0; i < 2; i++) local_vector(tip, t[i], half[i]);
+    for (int j = 0; j < 2; j++) {
+        real turned[2];
+        local_vector(tip, (real[2]){half[0][j], half[1][j]}, turned);
+        local[0][j] = turned[0], local[1][j] = turned[1];
+    }
+}
+
+static void local_place(const struct sif_tip *tip, const struct particles *p, int64_t i, real x[2])
+{
+    local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
+}
+
+/* Particles of the body within the largest contour; in equilibrium those within the smallest inner circle add nothing. */
+static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
+{
+    real least = INFINITY, most = 0, x[2];
+    for (int k = 0; k < n; k++) least = real_min(least, contour[k].inner), most = real_max(most, contour[k].outer);
+    if (s->inertia) least = AT_THE_TIP * most;
+    s->particle = NEW("sif.particle", p->n, int32_t);
+    for (int64_t i = 0; i < p->n; i++) {
+        local_place(s->tip, p, i, x);
+        const real r = hypot(x[0], x[1]);
+        if (r > least && r < most && (s->tip->body < 0 || p->body[i] == s->tip->body)) s->particle[s->n++] = (int32_t)i;
+    }
+    s->point = memory_new("sif.point", s->n, sizeof *s->point);
+}
+
+static void point_stress(const struct sif_tip *tip, const struct sif_motion *m, int64_t i, struct crack_state *state)
+{
+    if (tip->stress == SIF_HOOKE) {
+        crack_hooke(&tip->medium, state->gradient, state->stress);
+        return;
+    }
+    real global[2][2] = {{m->stress[0][i], m->stress[2][i]}, {m->stress[2][i], m->stress[1][i]}};
+    local_tensor(tip, global, state->stress);
+}
+
+static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
+                       const struct gradient_stencil *stencil, const struct particles *p)
+{
+    const int32_t i = s->particle[k];
+    const struct sif_tip *tip = s->tip;
+    struct sif_point *point = &s->point[k];
+    real global[2][2], local[2][2];
+    point->area = p->volume0[i] / tip->thickness;
+    local_place(tip, p, i, point->x);
+    if (fabs(point->x[1]) <= AT_THE_TIP * fabs(point->x[0])) point->x[1] = copysign(0, tip->face);
+    gradient_of(stencil, i, m->displacement, global);
+    local_tensor(tip, global, point->state.gradient);
+    point_stress(tip, m, i, &point->state);
+    if (!s->inertia) return;
+    gradient_of(stencil, i, m->velocity, global);
+    local_tensor(tip, global, local);
+    for (int d = 0; d < 2; d++) point->state.velocity_along[d] = local[d][0];
+    local_vector(tip, (real[2]){m->velocity[0][i], m->velocity[1][i]}, point->state.velocity);
+    local_vector(tip, (real[2]){m->acceleration[0][i], m->acceleration[1][i]}, point->state.acceleration);
+}
+
+static void points_make(struct sif_points *s, const struct sif_motion *m, const struct gradient_rule *rule,
+                        const struct particles *p, const struct cells *c)
+{
+#pragma omp parallel
+    {
+        struct gradient_stencil stencil = {0};
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < s->n; k++) {
+            gradient_stencil_at(&stencil, rule, p, c, s->particle[k]);
+            point_make(s, k, m, &stencil, p);
+        }
+        gradient_stencil_free(&stencil);
+    }
+}
+
+/* How much of the second sum counts at distance r of the tip. It fades over particles: those that a sharp edge let in and
+ * out as the tip passes them would ring with it, once a spacing. */
+static real core_share(const struct sif_tip *tip, real r)
+{
+    const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
+    real q, slope;
+    if (tip->speed == 0 || tip->core == 0) return 1;
+    sif_weight(SIF_QUINTIC, &edge, r, &q, &slope);
+    return 1 - q;
+}
+
+/* Sums of both modes and of the actual motion with itself. */
+static void points_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct sif_points *s = context;
+    const struct sif_tip *tip = s->tip;
+    for (int64_t k = first; k < end; k++) {
+        const struct sif_point *point = &s->point[k];
+        const real r = hypot(point->x[0], point->x[1]);
+        if (r >= s->contour->outer || (!s->inertia && r <= s->contour->inner)) continue;
+        const real inside = s->inertia ? core_share(tip, r) : 0;
+        struct crack_field field;
+        for (int mode = 0; mode < MODES; mode++) {
+            crack_field(&tip->medium, mode, tip->speed, point->x, &field);
+            sum[mode] += point->area * sif_density(tip, s->contour, point->x, &point->state, &field.state, inside);
+        }
+        sum[MODES] += point->area * sif_density(tip, s->contour, point->x, &point->state, &point->state, inside);
+    }
+}
+
+void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int n, const struct sif_motion *motion,
+                   const struct gradient_rule *rule, const struct particles *p, const struct cells *c, struct sif *found)
+{
+    struct sif_points s = {.tip = tip, .inertia = motion->velocity[0] != NULL};
+    points_find(&s, contour, n, p);
+    points_make(&s, motion, rule, p, c);
+    for (int k = 0; k < n; k++) {
+        real sum[MODES + 1];
+        s.contour = &contour[k];
+        team_sums(s.n, MODES + 1, points_block, &s, sum);
+        for (int mode = 0; mode < MODES; mode++)
+            found[k].K[mode] = tip->medium.modulus * sum[mode] / (2 * crack_universal(&tip->medium, mode, tip->speed));
+        found[k].J = 0.5 * sum[MODES];
+    }
+    memory_free(s.particle);
+    memory_free(s.point);
+}
+
+/* ---- path independence --------------------------------------------------------------------------------------------- */
+
+real sif_spread(const struct sif *found, int n)
+{
+    real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];
+    for (int m = 0; m <= MODES; m++) {
+        low[m] = INFINITY, high[m] = -INFINITY;
+        for (int k = 0; k < n; k++) {
+            const real value = m < MODES ? found[k].K[m] : found[k].J;
+            low[m] = real_min(low[m], value), high[m] = real_max(high[m], value);
+            mean[m] += value / n;
+        }
+        range[m] = high[m] - low[m];
+    }
+    const real intensity = hypot(mean[MODE_I], mean[MODE_II]), release = fabs(mean[MODES]);
+    if (!(intensity > 0) || !(release > 0)) return NAN;
+    return real_max(real_max(range[MODE_I], range[MODE_II]) / intensity, range[MODES] / release);
+}

@@ -1,0 +1,189 @@
+/* floor 1: crack-tip fields at rest and in motion, universal functions and speed factors. */
+#include "fracture/sif_fields.h"
+
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+#define HALVINGS 45                      /* of a speed: to round-off of k */
+#define REST 0.01                        /* of c_s: slower cracks have the field of one at rest */
+
+static const real pi = 3.14159265358979323846;
+
+struct crack_medium crack_medium_of(const struct material *m, enum space space)
+{
+    const real nu = m->poisson;
+    const bool thin = space == SPACE_PLANE_STRESS;
+    assert(space_dim(space) == 2);
+    return (struct crack_medium){
+        .shear = m->shear, .lambda = m->c12, .poisson = nu, .density = m->density,
+        .kappa = thin ? (3 - nu) / (1 + nu) : 3 - 4 * nu, .modulus = thin ? m->young : m->young / (1 - nu * nu),
+        .longitudinal = m->wave_speed, .shear_speed = m->shear_speed, .rayleigh = m->rayleigh_speed};
+}
+
+void crack_hooke(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
+{
+    const real dilatation = gradient[0][0] + gradient[1][1];
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            stress[i][j] = m->shear * (gradient[i][j] + gradient[j][i]) + (i == j ? m->lambda * dilatation : 0);
+}
+
+/* ---- a crack at rest ----------------------------------------------------------------------------------- */
+
+/* u = sqrt(r/(2 pi))/(2 G) g(theta): g and its derivative. */
+static void williams_angular(real kappa, enum crack_mode mode, real theta, real g[2], real slope[2])
+{
+    const real c = cos(0.5 * theta), s = sin(0.5 * theta);
+    if (mode == MODE_I) {
+        g[0] = c * (kappa - 1 + 2 * s * s), slope[0] = 0.5 * (-s * (kappa - 1 + 2 * s * s) + 4 * s * c * c);
+        g[1] = s * (kappa + 1 - 2 * c * c), slope[1] = 0.5 * (c * (kappa + 1 - 2 * c * c) + 4 * c * s * s);
+    } else {
+        g[0] = s * (kappa + 1 + 2 * c * c), slope[0] = 0.5 * (c * (kappa + 1 + 2 * c * c) - 4 * c * s * s);
+        g[1] = -c * (kappa - 1 - 2 * s * s), slope[1] = 0.5 * (s * (kappa - 1 - 2 * s * s) + 4 * s * c * c);
+    }
+}
+
+void crack_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2], struct crack_field *f)
+{
+    const real r = hypot(x[0], x[1]), theta = atan2(x[1], x[0]), c = cos(theta), s = sin(theta);
+    const real size = sqrt(r / (2 * pi)) / (2 * m->shear);
+    real g[2], slope[2];
+    williams_angular(m->kappa, mode, theta, g, slope);
+    memset(f, 0, sizeof *f);
+    for (int i = 0; i < 2; i++) {
+        f->displacement[i] = size * g[i];
+        f->state.gradient[i][0] = size / r * (0.5 * g[i] * c - slope[i] * s);
+        f->state.gradient[i][1] = size / r * (0.5 * g[i] * s + slope[i] * c);
+    }
+    crack_hooke(m, f->state.gradient, f->state.stress);
+}
+
+/* ---- a moving crack -------------------------------------------------------------------------------------- */
+
+/* a_d and a_s. */
+static void slownesses(const struct crack_medium *m, real v, real a[2])
+{
+    a[0] = sqrt(1 - square(v / m->longitudinal));
+    a[1] = sqrt(1 - square(v / m->shear_speed));
+}
+
+real crack_rayleigh_function(const struct crack_medium *m, real v)
+{
+    real a[2];
+    slownesses(m, v, a);
+    return 4 * a[0] * a[1] - square(1 + a[1] * a[1]);
+}
+
+/* u_i = Re or Im of the sum over both waves w of weight[i][w] sqrt(z_w), z_w = x1 + i a_w x2. */
+static void wave_weights(const struct crack_medium *m, enum crack_mode mode, real v, const real a[2], real weight[2][2])
+{
+    const real size = sqrt(2 / pi) / (m->shear * crack_rayleigh_function(m, v)), b = 1 + a[1] * a[1];
+    const real one[2][2] = {{b, -2 * a[0] * a[1]}, {-a[0] * b, 2 * a[0]}};
+    const real two[2][2] = {{2 * a[1], -a[1] * b}, {2 * a[0] * a[1], -b}};
+    for (int i = 0; i < 2; i++)
+        for (int w = 0; w < 2; w++) weight[i][w] = size * (mode == MODE_I ? one : two)[i][w];
+}
+
+void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
+                        struct crack_field *f)
+{
+    real a[2], weight[2][2], twice_along[2] = {0};
+    slownesses(m, v, a);
+    wave_weights(m, mode, v, a, weight);
+    memset(f, 0, sizeof *f);
+    for (int w = 0; w < 2; w++) {
+        const double complex z = x[0] + I * (a[w] * x[1]), root = csqrt(z), slope = 0.5 / root, bend = -0.25 / (root * z);
+        for (int i = 0; i < 2; i++) {
+            const bool real_part = (mode == MODE_I) == (i == 0);
+            const double complex unit = weight[i][w] * (real_part ? 1 : -I);     /* Im z = Re(-i z) */
+            f->displacement[i] += creal(unit * root);
+            f->state.gradient[i][0] += creal(unit * slope);
+            f->state.gradient[i][1] += creal(unit * I * a[w] * slope);
+            twice_along[i] += creal(unit * bend);
+        }
+    }
+    crack_hooke(m, f->state.gradient, f->state.stress);
+    for (int i = 0; i < 2; i++) {        /* steady in the moving frame: d/dt = -v d/dx1 */
+        f->state.velocity[i] = -v * f->state.gradient[i][0];
+        f->state.velocity_along[i] = -v * twice_along[i];
+        f->state.acceleration[i] = v * v * twice_along[i];
+    }
+}
+
+void crack_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2], struct crack_field *f)
+{
+    if (v < REST * m->shear_speed) crack_field_at_rest(m, mode, x, f);
+    else crack_field_moving(m, mode, v, x, f);
+}
+
+real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v)
+{
+    real a[2];
+    if (v < REST * m->shear_speed) return 1;
+    slownesses(m, v, a);
+    return 4 * a[mode] * (1 - a[1] * a[1]) / ((m->kappa + 1) * crack_rayleigh_function(m, v));
+}
+
+/* ---- growth at constant speed ---------------------------------------------------------------------------- */
+
+/* Angle of the factor's integrand at slowness z between 1/c_d and 1/c_s. */
+static real factor_angle(const struct crack_medium *m, real z)
+{
+    const real a = 1 / m->longitudinal, b = 1 / m->shear_speed;
+    return atan(4 * z * z * sqrt(real_max(0, (z * z - a * a) * (b * b - z * z))) / square(b * b - 2 * z * z));
+}
+
+/* The integrand has roots at both ends: z = middle - half cos(phi) makes it smooth and periodic in phi, where the
+ * rule of midpoints converges faster than any power. */
+static real factor_exact(const struct crack_medium *m, real v)
+{
+    enum { POINTS = 256 };
+    const real a = 1 / m->longitudinal, b = 1 / m->shear_speed, middle = 0.5 * (a + b), half = 0.5 * (b - a);
+    real sum = 0;
+    for (int k = 0; k < POINTS; k++) {
+        const real phi = (k + 0.5) * pi / POINTS, z = middle - half * cos(phi);
+        sum += factor_angle(m, z) * v / (1 - v * z) * half * sin(phi) * pi / POINTS;
+    }
+    return (1 - v / m->rayleigh) / sqrt(1 - v / m->longitudinal) * exp(sum / pi);
+}
+
+real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real v)
+{
+    const real c_d = m->longitudinal, c_s = m->shear_speed, falling = 1 - v / m->rayleigh;
+    if (form == SPEED_EXACT) return factor_exact(m, v);
+    if (form == SPEED_APPROXIMATE) return falling / sqrt(1 - v / c_d);
+    const real h = 2 / c_d * square(c_s / m->rayleigh) * (1 - square(c_s / c_d));
+    return falling / sqrt(1 - h * v);
+}
+
+real crack_speed_of_factor(const struct crack_medium *m, real factor, real most)
+{
+    real low = 0, high = most;
+    if (factor >= 1) return 0;
+    if (factor_exact(m, most) >= factor) return most;
+    for (int k = 0; k < HALVINGS; k++) {             /* falls from 1 at rest to 0 at c_R */
+        const real v = 0.5 * (low + high);
+        *(factor_exact(m, v) > factor ? &low : &high) = v;
+    }
+    return 0.5 * (low + high);
+}
+
+real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age)
+{
+    const real nu = m->poisson;
+    return age > 0 ? 2 * stress * sqrt(m->longitudinal * age * (1 - 2 * nu) / pi) / (1 - nu) : 0;
+}
+
+/* ---- where it goes ------------------------------------------------------------------------------------------ */
+
+real crack_direction(const real K[MODES])
+{
+    return 2 * atan2(-2 * K[MODE_II], K[MODE_I] + sqrt(square(K[MODE_I]) + 8 * square(K[MODE_II])));
+}
+
+real crack_equivalent(const real K[MODES])
+{
+    const real theta = crack_direction(K), c = cos(0.5 * theta);
+    return c * c * c * K[MODE_I] - 1.5 * c * sin(theta) * K[MODE_II];
+}

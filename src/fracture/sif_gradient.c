@@ -1,0 +1,197 @@
+/* floor 3: gradients at particles by moving least squares and by the first-order peridynamic differential operator. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "fracture/sif.h"
+
+enum { QUADRATIC = 6, LINEAR = 3 };      /* terms of the complete polynomials in the plane */
+
+#define SINGULAR 1e-10                   /* pivot over the diagonal's entry: neighbours on a line, or on a conic */
+
+/* ---- who is seen ------------------------------------------------------------------------------------------- */
+
+/* Has load broken the bond of particles i and j? */
+static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
+{
+    const int64_t row = b && b->rows > 0 ? b->row_of[i] : -1;
+    if (row < 0) return false;
+    const int64_t group = row / LANES, slots = b->slot_count[group];
+    for (int64_t k = 0; k < slots; k++) {
+        const int64_t q = bond_index(b, group, k, (int)(row % LANES));
+        if (b->nbr[q] == j && b->inverse_length[q] != 0) return b->inverse_length[q] < 0;
+    }
+    return false;
+}
+
+static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
+{
+    return cracks_part(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
+}
+
+static real between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
+
+/* Distance by which a neighbour counts, from i: round the tip where a crack hides it; INFINITY: not at all. */
+static real distance_seen(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
+{
+    real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
+    particle_place(p, i, from);
+    particle_place(p, j, to);
+    const real straight = between(from, to);
+    if (j == i || !hidden(&rule->sight, p, i, j)) return straight;
+    if (rule->diffraction == 0) return INFINITY;
+    const real round = between(from, rule->tip) + between(rule->tip, to);
+    return straight * pow(round / straight, rule->diffraction);
+}
+
+/* ---- small symmetric systems -------------------------------------------------------------------------------- */
+
+/* A = L D L^T in place of A's lower triangle; false: singular. */
+static bool factor(real A[QUADRATIC][QUADRATIC], int n)
+{
+    for (int k = 0; k < n; k++) {
+        const real whole = A[k][k];
+        for (int m = 0; m < k; m++) A[k][k] -= square(A[k][m]) * A[m][m];
+        if (!(A[k][k] > SINGULAR * whole)) return false;
+        for (int i = k + 1; i < n; i++) {
+            for (int m = 0; m < k; m++) A[i][k] -= A[i][m] * A[k][m] * A[m][m];
+            A[i][k] /= A[k][k];
+        }
+    }
+    return true;
+}
+
+static void solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADRATIC])
+{
+    for (int k = 0; k < n; k++)
+        for (int m = 0; m < k; m++) y[k] -= A[k][m] * y[m];
+    for (int k = 0; k < n; k++) y[k] /= A[k][k];
+    for (int k = n - 1; k >= 0; k--)
+        for (int m = k + 1; m < n; m++) y[k] -= A[m][k] * y[m];
+}
+
+/* ---- moving least squares ------------------------------------------------------------------------------------ */
+
+/* Cubic spline of s = distance over rho_m, 0 from 2 on. */
+static real spline(real s)
+{
+    if (s <= 1) return 1 - 1.5 * s * s + 0.75 * s * s * s;
+    return s < 2 ? 0.25 * (2 - s) * (2 - s) * (2 - s) : 0;
+}
+
+/* Polynomials in the offset from particle i, over rho_m. */
+static void basis(const struct particles *p, int64_t i, int32_t j, real scale, real b[QUADRATIC])
+{
+    const real x = (p->X[0][j] - p->X[0][i]) / scale, y = (p->X[1][j] - p->X[1][i]) / scale;
+    b[0] = 1, b[1] = x, b[2] = y, b[3] = x * x, b[4] = x * y, b[5] = y * y;
+}
+
+/* A = P^T W P (Belytschko et al. 1994, with the order of the factors that fits), and the linear coefficients of
+ * A^-1 P^T W as weights. `weight[k][0]` holds W on entry. */
+static bool least_squares(struct gradient_stencil *s, const struct particles *p, int64_t i, real scale, int terms)
+{
+    real A[QUADRATIC][QUADRATIC] = {{0}}, b[QUADRATIC], y[2][QUADRATIC] = {{0, 1}, {0, 0, 1}};
+    for (int k = 0; k < s->n; k++) {
+        basis(p, i, s->particle[k], scale, b);
+        for (int m = 0; m < terms; m++)
+            for (int l = 0; l <= m; l++) A[m][l] += s->weight[k][0] * b[m] * b[l];
+    }
+    if (!factor(A, terms)) return false;
+    for (int d = 0; d < 2; d++) solve(A, terms, y[d]);
+    for (int k = 0; k < s->n; k++) {
+        const real w = s->weight[k][0] / scale;
+        basis(p, i, s->particle[k], scale, b);
+        s->weight[k][0] = w * dot(b, y[0], terms);
+        s->weight[k][1] = w * dot(b, y[1], terms);
+    }
+    return true;
+}
+
+static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
+                        int64_t i)
+{
+    const int found = s->n;
+    s->n = 0;
+    for (int k = 0; k < found; k++) {
+        const int32_t j = s->particle[k];
+        const real w = spline(distance_seen(rule, p, i, j) / rule->reach);
+        if (!(w > 0)) continue;
+        s->particle[s->n] = j;
+        s->weight[s->n++][0] = w;
+    }
+    s->order = s->n >= QUADRATIC && least_squares(s, p, i, rule->reach, QUADRATIC) ? 2
+               : s->n >= LINEAR && least_squares(s, p, i, rule->reach, LINEAR)     ? 1
+                                                                                   : 0;
+}
+
+/* ---- peridynamic differential operator ------------------------------------------------------------------------ */
+
+/* g_ij V_j = omega K_i^-1 xi_ij V_j, K_i = sum omega xi xi^T V_j, omega = delta/r (Madenci, Barut & Futch 2016). */
+static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
+                         int64_t i)
+{
+    const int found = s->n;
+    real A[QUADRATIC][QUADRATIC] = {{0}};
+    s->n = 0;
+    for (int k = 0; k < found; k++) {
+        const int32_t j = s->particle[k];
+        const real r = distance_seen(rule, p, i, j), x = p->X[0][j] - p->X[0][i], y = p->X[1][j] - p->X[1][i];
+        if (j == i || !(r <= 2 * rule->reach)) continue;
+        const real w = rule->reach / r * p->volume0[j] / p->volume0[i];
+        A[0][0] += w * x * x, A[1][0] += w * x * y, A[1][1] += w * y * y;
+        s->particle[s->n] = j;
+        s->weight[s->n++][0] = w;
+    }
+    s->order = factor(A, 2) ? 1 : 0;
+    for (int k = 0; k < s->n && s->order > 0; k++) {
+        const int32_t j = s->particle[k];
+        real y[QUADRATIC] = {p->X[0][j] - p->X[0][i], p->X[1][j] - p->X[1][i]};
+        const real w = s->weight[k][0];
+        solve(A, 2, y);
+        s->weight[k][0] = w * y[0], s->weight[k][1] = w * y[1];
+    }
+}
+
+/* ---- what others call -------------------------------------------------------------------------------------------- */
+
+static void stencil_room(struct gradient_stencil *s, int room)
+{
+    if (room <= s->room) return;
+    gradient_stencil_free(s);
+    s->room = 2 * room;
+    s->particle = NEW("sif.particle", s->room, int32_t);
+    s->weight = memory_new("sif.weight", s->room, sizeof *s->weight);
+}
+
+void gradient_stencil_at(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
+                         const struct cells *c, int64_t i)
+{
+    const real support = 2 * rule->reach * (1 + 1e-9);
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    s->n = cells_near(c, p, X, support, -1, s->particle, s->room);
+    if (s->n > s->room) {
+        stencil_room(s, s->n);
+        s->n = cells_near(c, p, X, support, -1, s->particle, s->room);
+    }
+    if (rule->method == GRADIENT_MLS) stencil_mls(s, rule, p, i);
+    else stencil_pddo(s, rule, p, i);
+    if (s->order == 0) s->n = 0;
+}
+
+void gradient_stencil_free(struct gradient_stencil *s)
+{
+    memory_free(s->particle);
+    memory_free(s->weight);
+    *s = (struct gradient_stencil){0};
+}
+
+void gradient_of(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2])
+{
+    for (int a = 0; a < 2; a++) {
+        gradient[a][0] = gradient[a][1] = 0;
+        for (int k = 0; k < s->n; k++) {
+            const real difference = field[a][s->particle[k]] - field[a][i];
+            for (int b = 0; b < 2; b++) gradient[a][b] += s->weight[k][b] * difference;
+        }
+    }
+}

@@ -1,0 +1,415 @@
+/* floor 3: crack tips: which damaged particles belong to which crack, how far it has grown, and how fast. */
+#include "fracture/tips.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "tips_parts.h"
+
+#define TOUCH 1.5                        /* particles of one crack touch within this      [spacings]  */
+#define START_REACH 2.5                  /* first damaged particles from the crack's end  [spacings]  */
+#define JOIN_JUMP 3.0                    /* growth at once that is no motion of the tip   [spacings]  */
+#define EQUAL 1e-6                       /* lengths that differ by less are equal         [spacings]  */
+
+void tips_free(struct tips *t)
+{
+    memory_free(t->label);
+    memory_free(t->time);
+    memory_free(t->growth);
+    memset(t, 0, sizeof *t);
+}
+
+/* ---- who belongs to which crack ---------------------------------------------------------------------- */
+
+/* The work of one sample. */
+struct flood {
+    struct tips *t;
+    struct tip_search search;
+    int32_t *fresh, *queue;              /* newly damaged particles, ascending; labelled, neighbours still to see */
+    int64_t n_fresh, queued;
+    int into[TIPS_MAX];                  /* crack of which this one is a part, itself if none         */
+    bool grown_by[TIPS_MAX];             /* has taken in another crack in this sample                 */
+};
+
+static bool can_belong(const struct tips *t, const struct particles *p, int64_t i)
+{
+    return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
+}
+
+/* Most particles are neither damaged nor of a crack, and are passed by a block at a time: the next block from `first` on that has
+ * one, n if none has. */
+enum { BLOCK = 64 };
+
+static int64_t block_end(const struct particles *p, int64_t first) { return first + BLOCK < p->n ? first + BLOCK : p->n; }
+
+/* Has somebody lost a bond? No comparison of numbers: their bits. */
+static bool any_damage(const struct particles *p, int64_t first, int64_t end)
+{
+    uint64_t any = 0;
+    for (int64_t i = first; i < end; i++) {
+        uint64_t bits;
+        memcpy(&bits, p->damage + i, sizeof bits);
+        any |= bits;
+    }
+    return any != 0;
+}
+
+static int64_t next_damaged(const struct particles *p, int64_t first)
+{
+    for (; first < p->n; first += BLOCK) {
+        const int64_t end = block_end(p, first);
+        real most = 0;
+        if (!any_damage(p, first, end)) continue;
+#pragma omp simd reduction(max : most)
+        for (int64_t i = first; i < end; i++) most = real_max(most, p->damage[i]);
+        if (most > TIP_DAMAGE) return first;
+    }
+    return p->n;
+}
+
+static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
+
+static int64_t next_of_crack(const struct tips *t, const struct particles *p, int64_t first)
+{
+    for (; first < p->n; first += BLOCK) {
+        const int64_t end = block_end(p, first);
+        uint8_t any = 0;
+        for (int64_t i = first; i < end; i++) any |= is_of_crack(t->label[i]);
+        if (any) return first;
+    }
+    return p->n;
+}
+
+static void flood_label(struct flood *f, int32_t i, int tip)
+{
+    f->t->label[i] = (uint8_t)(tip + 1);
+    f->queue[f->queued++] = i;
+}
+
+static int root_of(const struct flood *f, int tip)
+{
+    while (f->into[tip] != tip) tip = f->into[tip];
+    return tip;
+}
+
+/* Two cracks touch. Those from ends of pre-cracks stay apart; others become part of what they touch. */
+static void flood_join(struct flood *f, int a, int b)
+{
+    a = root_of(f, a), b = root_of(f, b);
+    bool a_fixed = f->t->tip[a].from_crack, b_fixed = f->t->tip[b].from_crack;
+    if (a == b || (a_fixed && b_fixed)) return;
+    int keep = a_fixed || (!b_fixed && a < b) ? a : b;
+    f->into[keep == a ? b : a] = keep;
+    f->grown_by[keep] = true;
+}
+
+/* Labels all that is connected with the particles in the queue, in the order in which they came. */
+static void flood_run(struct flood *f)
+{
+    const struct particles *p = f->search.p;
+    real X[DIM_MAX];
+    for (int64_t head = 0; head < f->queued; head++) {
+        int32_t i = f->queue[head];
+        particle_place(p, i, X);
+        int tip = f->t->label[i] - 1, n = tip_search_near(&f->search, X, (TOUCH + EQUAL) * f->t->spacing);
+        for (int k = 0; k < n; k++) {
+            int32_t j = f->search.found[k];
+            if (j >= p->n || p->body[j] != p->body[i]) continue;
+            if (can_belong(f->t, p, j)) flood_label(f, j, tip);
+            else if (f->t->label[j] != 0 && f->t->label[j] != TIP_BEFORE) flood_join(f, tip, f->t->label[j] - 1);
+        }
+    }
+    f->queued = 0;
+}
+
+/* The crack whose start is nearest to particle i and in reach; -1: none. */
+static int start_near(const struct tips *t, const struct particles *p, int64_t i)
+{
+    int nearest = -1;
+    real X[DIM_MAX], offset[DIM_MAX], least = (START_REACH + EQUAL) * t->spacing;
+    particle_place(p, i, X);
+    for (int k = 0; k < t->n; k++) {
+        const struct tip *tip = &t->tip[k];
+        if (!tip->from_crack || tip->body != p->body[i]) continue;
+        real distance = tip_offset(tip->origin, tip->edge, X, t->dim, offset);
+        if (distance > least || (nearest >= 0 && distance == least)) continue;
+        nearest = k, least = distance;
+    }
+    return nearest;
+}
+
+/* The crack with the lowest number that particle i touches; -1: none. */
+static int crack_touched(struct flood *f, int64_t i)
+{
+    const struct particles *p = f->search.p;
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    int lowest = -1, n = tip_search_near(&f->search, X, (TOUCH + EQUAL) * f->t->spacing);
+    for (int k = 0; k < n; k++) {
+        int32_t j = f->search.found[k];
+        if (j >= p->n || p->body[j] != p->body[i]) continue;
+        int label = f->t->label[j];
+        if (label != 0 && label != TIP_BEFORE && (lowest < 0 || label - 1 < lowest)) lowest = label - 1;
+    }
+    return lowest;
+}
+
+/* Where no more tips fit: the nearest one. */
+static int tip_nearest(const struct tips *t, const struct particles *p, int64_t i)
+{
+    int nearest = 0;
+    real least = INFINITY;
+    for (int k = 0; k < t->n; k++) {
+        real distance2 = 0;
+        for (int d = 0; d < t->dim; d++) distance2 += square(p->X[d][i] - t->tip[k].place[d]);
+        if (distance2 < least) nearest = k, least = distance2;
+    }
+    return nearest;
+}
+
+/* The most damaged particle that belongs nowhere yet starts a crack of its own. */
+static bool flood_nucleate(struct flood *f)
+{
+    const struct particles *p = f->search.p;
+    int32_t best = -1;
+    for (int64_t k = 0; k < f->n_fresh; k++) {
+        int32_t i = f->fresh[k];
+        if (f->t->label[i] == 0 && (best < 0 || p->damage[i] > p->damage[best])) best = i;
+    }
+    if (best < 0) return false;
+    int tip = f->t->n;
+    if (tip < TIPS_MAX) {
+        real X[DIM_MAX];
+        particle_place(p, best, X);
+        tip_add(f->t, p->body[best], X, NULL);
+        f->into[tip] = tip, f->grown_by[tip] = false;
+    } else {
+        tip = tip_nearest(f->t, p, best);
+        f->grown_by[root_of(f, tip)] = true;
+    }
+    flood_label(f, best, tip);
+    flood_run(f);
+    return true;
+}
+
+/* Takes the cracks that became part of others out of the list and out of the record. */
+static void flood_close_ranks(struct flood *f)
+{
+    struct tips *t = f->t;
+    int place[TIPS_MAX], kept = 0;
+    uint8_t label[TIP_BEFORE + 1] = {[TIP_BEFORE] = TIP_BEFORE};
+    for (int k = 0; k < t->n; k++)
+        if (f->into[k] == k) place[k] = kept++;
+    if (kept == t->n) return;
+    for (int k = 0; k < t->n; k++) label[k + 1] = (uint8_t)(place[root_of(f, k)] + 1);
+    for (int64_t i = 0; i < t->count; i++) t->label[i] = label[t->label[i]];
+    for (int k = 0; k < t->n; k++) {
+        if (f->into[k] != k) continue;
+        t->tip[place[k]] = t->tip[k];
+        f->grown_by[place[k]] = f->grown_by[k];
+        for (int64_t s = 0; s < t->samples; s++) t->growth[s * TIPS_MAX + place[k]] = t->growth[s * TIPS_MAX + k];
+    }
+    for (int64_t s = 0; s < t->samples; s++)
+        for (int k = kept; k < t->n; k++) t->growth[s * TIPS_MAX + k] = 0;
+    t->n = kept;
+}
+
+static void flood_make(struct flood *f, struct tips *t, const struct particles *p, const struct cells *c)
+{
+    *f = (struct flood){.t = t, .search = {.p = p, .c = c}};
+    for (int64_t b = next_damaged(p, 0); b < p->n; b = next_damaged(p, b + BLOCK))
+        for (int64_t i = b; i < block_end(p, b); i++) f->n_fresh += can_belong(t, p, i);
+    f->fresh = NEW("tips.fresh", f->n_fresh, int32_t);
+    f->queue = NEW("tips.queue", f->n_fresh, int32_t);
+    int64_t k = 0;
+    for (int64_t b = next_damaged(p, 0); b < p->n && k < f->n_fresh; b = next_damaged(p, b + BLOCK))
+        for (int64_t i = b; i < block_end(p, b); i++)
+            if (can_belong(t, p, i)) f->fresh[k++] = (int32_t)i;
+    for (int m = 0; m < t->n; m++) f->into[m] = m;
+}
+
+static void flood_free(struct flood *f)
+{
+    memory_free(f->fresh);
+    memory_free(f->queue);
+    memory_free(f->search.found);
+}
+
+static void flood_all(struct flood *f)
+{
+    const struct particles *p = f->search.p;
+    for (int64_t k = 0; k < f->n_fresh; k++) {
+        int32_t i = f->fresh[k];
+        if (f->t->label[i] != 0) continue;
+        int tip = start_near(f->t, p, i);
+        if (tip < 0) tip = crack_touched(f, i);
+        if (tip >= 0) flood_label(f, i, tip);
+    }
+    flood_run(f);
+    while (flood_nucleate(f)) continue;
+    flood_close_ranks(f);
+}
+
+/* ---- how far and how fast ---------------------------------------------------------------------------- */
+
+/* Distance of particle i from the start of its crack; -1 beside the pre-crack's own end. */
+static real reach_of(const struct tips *t, const struct particles *p, int64_t i)
+{
+    const struct tip *tip = &t->tip[t->label[i] - 1];
+    real X[DIM_MAX], offset[DIM_MAX];
+    particle_place(p, i, X);
+    real distance = tip_offset(tip->origin, tip->edge, X, t->dim, offset);
+    bool behind = tip->from_crack && dot(offset, tip->along, t->dim) < -EQUAL * t->spacing;
+    return behind && distance <= (START_REACH + EQUAL) * t->spacing ? -1 : distance;
+}
+
+struct reach { real farthest, place[DIM_MAX]; int64_t equals, particles; };
+
+static void reach_measure(const struct tips *t, const struct particles *p, struct reach *reach)
+{
+    for (int64_t b = next_of_crack(t, p, 0); b < p->n; b = next_of_crack(t, p, b + BLOCK))
+        for (int64_t i = b; i < block_end(p, b); i++) {
+            if (!is_of_crack(t->label[i])) continue;
+            struct reach *r = &reach[t->label[i] - 1];
+            r->particles++;
+            r->farthest = real_max(r->farthest, reach_of(t, p, i));
+        }
+    for (int64_t b = next_of_crack(t, p, 0); b < p->n; b = next_of_crack(t, p, b + BLOCK))
+        for (int64_t i = b; i < block_end(p, b); i++) {
+            if (!is_of_crack(t->label[i])) continue;
+            struct reach *r = &reach[t->label[i] - 1];
+            if (r->farthest <= 0 || reach_of(t, p, i) < r->farthest - EQUAL * t->spacing) continue;
+            for (int d = 0; d < t->dim; d++) r->place[d] += p->X[d][i];
+            r->equals++;
+        }
+}
+
+static void tip_move(struct tip *tip, const struct reach *r, const struct tips *t, real time, bool took_in)
+{
+    real gain = r->farthest - tip->growth;
+    tip->particles = r->particles;
+    if (r->particles > 0 && isnan(tip->first_time)) tip->first_time = time;
+    if (gain < -EQUAL * t->spacing || r->equals == 0) return;
+    for (int d = 0; d < t->dim; d++) tip->place[d] = r->place[d] / (real)r->equals;
+    if (gain <= EQUAL * t->spacing) return;
+    tip->growth = r->farthest;
+    if (took_in && gain > JOIN_JUMP * t->spacing) tip->joined += gain;
+    if (isnan(tip->start_time) && tip->growth >= (1 - EQUAL) * t->spacing) tip->start_time = time;
+    if (!isnan(tip->start_time)) tip->arrest_time = time;
+}
+
+/* Slope of the straight line through samples first .. last of tip k (least squares) [m/s]. */
+static real regression(const struct tips *t, int k, int64_t first, int64_t last)
+{
+    real n = (real)(last - first + 1), mean_time = 0, mean_growth = 0, both = 0, spread = 0;
+    for (int64_t s = first; s <= last; s++) {
+        mean_time += t->time[s] / n;
+        mean_growth += t->growth[s * TIPS_MAX + k] / n;
+    }
+    for (int64_t s = first; s <= last; s++) {
+        both += (t->time[s] - mean_time) * (t->growth[s * TIPS_MAX + k] - mean_growth);
+        spread += square(t->time[s] - mean_time);
+    }
+    return spread > 0 ? both / spread : NAN;
+}
+
+/* First sample that is not earlier than `time`, by round-off at most. */
+static int64_t sample_at(const struct tips *t, real time)
+{
+    int64_t s = 0;
+    while (s < t->samples - 1 && t->time[s] < time) s++;
+    return s;
+}
+
+real tips_speed(const struct tips *t, int k)
+{
+    const int64_t last = t->samples - 1;
+    if (last < 1) return 0;
+    const int64_t first = sample_at(t, t->time[last] - t->window * (1 + 1e-9));
+    return regression(t, k, first < last ? first : last - 1, last);
+}
+
+/* The newest window is the only one that the earlier samples have not seen. */
+static void tip_speeds(struct tips *t, int k)
+{
+    struct tip *tip = &t->tip[k];
+    int64_t last = t->samples - 1;
+    if (isnan(tip->start_time) || last < 1) return;
+    real now = t->time[last], slack = 1e-9 * t->window;
+    if (now - t->time[0] >= t->window - slack) {
+        real slope = tips_speed(t, k);
+        if (!(slope <= tip->speed_max)) tip->speed_max = slope;
+    }
+    if (tip->arrest_time == now && tip->start_time < now)
+        tip->speed_mean = regression(t, k, sample_at(t, tip->start_time), last);
+}
+
+static void record_room(struct tips *t, int64_t room)
+{
+    t->time = memory_resize("tips.time", t->time, t->samples, room, sizeof *t->time);
+    t->growth = memory_resize("tips.growth", t->growth, t->samples * TIPS_MAX, room * TIPS_MAX, sizeof *t->growth);
+    t->room = room;
+}
+
+void tips_sample(struct tips *t, const struct particles *p, const struct cells *c, real time)
+{
+    assert(t->count == p->n && t->dim == p->dim);
+    assert(t->samples == 0 || time >= t->time[t->samples - 1]);
+    struct flood f;
+    flood_make(&f, t, p, c);
+    if (f.n_fresh > 0) flood_all(&f);
+    flood_free(&f);
+
+    struct reach reach[TIPS_MAX] = {{0}};
+    reach_measure(t, p, reach);
+    if (t->samples == t->room) record_room(t, t->room > 0 ? 2 * t->room : 256);
+    int64_t s = t->samples++;
+    t->time[s] = time;
+    for (int k = 0; k < t->n; k++) {
+        tip_move(&t->tip[k], &reach[k], t, time, f.grown_by[k]);
+        t->growth[s * TIPS_MAX + k] = t->tip[k].growth - t->tip[k].joined;
+        tip_speeds(t, k);
+    }
+}
+
+/* ---- what others ask --------------------------------------------------------------------------------- */
+
+real tip_angle(const struct tip *tip, int dim)
+{
+    if (!(tip->growth > 0)) return NAN;
+    real chord[DIM_MAX], edge2 = dot(tip->edge, tip->edge, dim), share = 0;
+    for (int d = 0; d < dim; d++) chord[d] = tip->place[d] - tip->origin[d];
+    if (edge2 > 0) share = dot(chord, tip->edge, dim) / edge2;   /* a front's chord lies across it */
+    for (int d = 0; d < dim; d++) chord[d] -= share * tip->edge[d];
+    real length = sqrt(dot(chord, chord, dim));
+    if (!(length > 0)) return NAN;
+    return acos(real_max(-1, real_min(1, dot(chord, tip->along, dim) / length))) * (180 / M_PI);
+}
+
+/* The first of equals, so that round-off does not choose between the halves of a symmetric crack. */
+const struct tip *tips_longest(const struct tips *t)
+{
+    const struct tip *longest = NULL;
+    for (int k = 0; k < t->n; k++)
+        if (t->tip[k].growth > (longest ? longest->growth : 0) + EQUAL * t->spacing) longest = &t->tip[k];
+    return longest;
+}
+
+status tips_archive(struct tips *t, struct archive *a)
+{
+    int64_t samples = t->samples;
+    ARCHIVE_VALUE(a, "tips/n", t->n);
+    ARCHIVE_VALUE(a, "tips/tip", t->tip);
+    ARCHIVE_VALUE(a, "tips/samples", samples);
+    if (!a->saving) {
+        t->samples = 0;
+        record_room(t, samples + 256);
+        t->samples = samples;
+    }
+    if (samples > 0) {
+        TRY(a->exchange(a, "tips/time", t->time, (size_t)samples * sizeof *t->time));
+        TRY(a->exchange(a, "tips/growth", t->growth, (size_t)samples * TIPS_MAX * sizeof *t->growth));
+    }
+    return a->exchange(a, "tips/label", t->label, (size_t)t->count);
+}

@@ -1,0 +1,152 @@
+/* floor 3: where crack tips start: the ends of pre-cracks inside the body. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "fracture/tips.h"
+#include "tips_parts.h"
+
+#define AHEAD_REACH 1.2                  /* the body goes on: particles round the place   [spacings]  */
+
+/* ---- search ----------------------------------------------------------------------------------------- */
+
+int tip_search_near(struct tip_search *s, const real *X, real radius)
+{
+    radius = real_min(radius, s->c->edge);
+    int n = cells_near(s->c, s->p, X, radius, -1, s->found, s->room);
+    if (n <= s->room) return n;
+    memory_free(s->found);
+    s->room = 2 * n;
+    s->found = NEW("tips.found", s->room, int32_t);
+    return cells_near(s->c, s->p, X, radius, -1, s->found, s->room);
+}
+
+/* ---- starts: the ends of pre-cracks ------------------------------------------------------------------ */
+
+real tip_offset(const real *centre, const real *half, const real *X, int dim, real *offset)
+{
+    real half2 = dot(half, half, dim), along = 0;
+    for (int d = 0; d < dim; d++) offset[d] = X[d] - centre[d];
+    if (half2 > 0) along = real_max(-1, real_min(1, dot(offset, half, dim) / half2));
+    for (int d = 0; d < dim; d++) offset[d] -= along * half[d];
+    return sqrt(dot(offset, offset, dim));
+}
+
+static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n : dim == 2 ? c->n - 1 : 0; }
+
+/* An end that lies on another pre-crack is a corner or a branch of a longer cut, not a tip. */
+static bool on_another(const struct tips *t, const struct crack *crack, int cracks, int self, const real *X)
+{
+    for (int c = 0; c < cracks; c++) {
+        if (c == self) continue;
+        for (int k = 0; k < crack_edges(&crack[c], t->dim); k++) {
+            const real *a = crack[c].corner[k], *b = crack[c].corner[(k + 1) % crack[c].n];
+            real centre[DIM_MAX], half[DIM_MAX], offset[DIM_MAX];
+            for (int d = 0; d < t->dim; d++) centre[d] = 0.5 * (a[d] + b[d]), half[d] = 0.5 * (b[d] - a[d]);
+            if (tip_offset(centre, half, X, t->dim, offset) < 0.5 * t->spacing) return true;
+        }
+    }
+    return false;
+}
+
+/* Body into which a crack that ends at X could go on in direction `along`; -1: none. */
+static int body_ahead(const struct tips *t, struct tip_search *s, const real *X, const real *along)
+{
+    real ahead[DIM_MAX];
+    for (int d = 0; d < t->dim; d++) ahead[d] = X[d] + t->spacing * along[d];
+    int n = tip_search_near(s, ahead, AHEAD_REACH * t->spacing), free_ones = 0, body = -1;
+    for (int k = 0; k < n; k++) {
+        int32_t i = s->found[k];
+        if (i >= s->p->n || s->p->flag[i] & FLAG_DRIVEN) continue;
+        if (free_ones++ == 0) body = s->p->body[i];
+    }
+    return free_ones >= 2 ? body : -1;
+}
+
+struct tip *tip_add(struct tips *t, int body, const real *origin, const real *along)
+{
+    assert(t->n < TIPS_MAX);
+    struct tip *tip = &t->tip[t->n++];
+    *tip = (struct tip){.body = body, .first_time = NAN, .start_time = NAN, .arrest_time = NAN,
+                        .speed_max = NAN, .speed_mean = NAN};
+    memcpy(tip->origin, origin, (size_t)t->dim * sizeof *origin);
+    memcpy(tip->place, origin, (size_t)t->dim * sizeof *origin);
+    if (along) memcpy(tip->along, along, (size_t)t->dim * sizeof *along);
+    else tip->along[0] = 1;
+    return tip;
+}
+
+/* The end `to` of a segment that comes from `from`. */
+static void start_at_end(struct tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
+                         const real *from, const real *to)
+{
+    real along[DIM_MAX], length = 0;
+    for (int d = 0; d < t->dim; d++) along[d] = to[d] - from[d];
+    length = sqrt(dot(along, along, t->dim));
+    if (!(length > 0) || t->n == TIPS_MAX || on_another(t, crack, cracks, self, to)) return;
+    for (int d = 0; d < t->dim; d++) along[d] /= length;
+    int body = body_ahead(t, s, to, along);
+    if (body >= 0) tip_add(t, body, to, along)->from_crack = true;
+}
+
+/* Unit vector in the polygon's plane, across edge k and away from the polygon's middle. */
+static bool edge_outward(const struct crack *c, int k, real *outward)
+{
+    const real *a = c->corner[k], *b = c->corner[(k + 1) % c->n];
+    real middle[DIM_MAX] = {0}, edge[DIM_MAX], length2 = 0;
+    for (int m = 0; m < c->n; m++)
+        for (int d = 0; d < 3; d++) middle[d] += c->corner[m][d] / c->n;
+    for (int d = 0; d < 3; d++) edge[d] = b[d] - a[d], outward[d] = a[d] - middle[d];
+    length2 = dot(edge, edge, 3);
+    if (!(length2 > 0)) return false;
+    real share = dot(outward, edge, 3) / length2;
+    for (int d = 0; d < 3; d++) outward[d] -= share * edge[d];
+    real size = sqrt(dot(outward, outward, 3));
+    for (int d = 0; d < 3 && size > 0; d++) outward[d] /= size;
+    return size > 0;
+}
+
+/* The part of a polygon's edge inside the body, found in steps of about a spacing, is one front. */
+static void start_at_edge(struct tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self, int k)
+{
+    enum { STEPS_MAX = 100000 };
+    const real *a = crack[self].corner[k], *b = crack[self].corner[(k + 1) % crack[self].n];
+    real edge[DIM_MAX], outward[DIM_MAX], X[DIM_MAX], first = NAN, last = NAN;
+    if (t->n == TIPS_MAX || !edge_outward(&crack[self], k, outward)) return;
+    for (int d = 0; d < 3; d++) edge[d] = b[d] - a[d];
+    int steps = (int)real_min(STEPS_MAX, ceil(sqrt(dot(edge, edge, 3)) / t->spacing)), body = -1;
+    for (int m = 0; m < steps; m++) {
+        for (int d = 0; d < 3; d++) X[d] = a[d] + (m + 0.5) / steps * edge[d];
+        int here = on_another(t, crack, cracks, self, X) ? -1 : body_ahead(t, s, X, outward);
+        if (here < 0 || (body >= 0 && here != body)) continue;
+        if (body < 0) first = (real)m / steps;
+        last = (m + 1.0) / steps;
+        body = here;
+    }
+    if (body < 0) return;
+    for (int d = 0; d < 3; d++) X[d] = a[d] + 0.5 * (first + last) * edge[d];
+    struct tip *tip = tip_add(t, body, X, outward);
+    tip->from_crack = true;
+    for (int d = 0; d < 3; d++) tip->edge[d] = 0.5 * (last - first) * edge[d];
+}
+
+void tips_make(struct tips *t, const struct particles *p, const struct cells *c, const struct crack *crack, int cracks,
+               real spacing, real window)
+{
+    assert(spacing > 0 && window >= 0);
+    *t = (struct tips){.dim = p->dim, .spacing = spacing, .window = window, .count = p->n};
+    t->label = NEW("tips.label", p->n, uint8_t);
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->damage[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;
+    struct tip_search s = {.p = p, .c = c};
+    for (int k = 0; k < cracks; k++)
+        for (int e = 0; e < crack_edges(&crack[k], p->dim); e++) {
+            if (p->dim == 3) {
+                start_at_edge(t, &s, crack, cracks, k, e);
+            } else {
+                start_at_end(t, &s, crack, cracks, k, crack[k].corner[e + 1], crack[k].corner[e]);
+                start_at_end(t, &s, crack, cracks, k, crack[k].corner[e], crack[k].corner[e + 1]);
+            }
+        }
+    memory_free(s.found);
+}

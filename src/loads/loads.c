@@ -1,0 +1,191 @@
+/* floor 3: boundary conditions at work: mirror images, forces, walls, and their impulse and work. */
+#include "loads/loads.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+
+/* ---- set-up ---------------------------------------------------------------------------------------- */
+
+/* Particles that are loaded, and those that wait for what bonds across clamped planes do to others. */
+static void loads_list(struct loads *l, const struct particles *p)
+{
+    int64_t most = 0;
+    for (int b = 0; b < l->n; b++) most += l->load[b].n + (is_clamp(l->load[b].boundary, p->dim) ? p->n : 0);
+    if (most == 0) return;
+    l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
+    for (int b = 0; b < l->n; b++)
+        for (int64_t k = 0; k < l->load[b].n; k++) l->loaded[l->load[b].particle[k]] = LOADED;
+    loads_mirrors_mark(l, p);
+    l->list = NEW("loads.list", most < p->n ? most : p->n, int32_t);
+    for (int64_t i = 0; i < p->n; i++)
+        if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
+}
+
+status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
+                  real reach, int optional)
+{
+    assert(n <= BOUNDARIES_MAX);
+    memset(l, 0, sizeof *l);
+    l->n = n;
+    l->spacing = spacing;
+    l->load = NEW("loads.load", n, struct load);
+    for (int b = 0; b < n; b++) TRY(load_select(&l->load[b], &boundary[b], p, spacing));
+    loads_join(l, p->dim);
+    TRY(loads_mirrors_make(l, p, reach, optional));
+    loads_list(l, p);
+    return OK;
+}
+
+void loads_free(struct loads *l)
+{
+    loads_applied_free(l);
+    for (int b = 0; b < l->n; b++) memory_free(l->load[b].particle);
+    memory_free(l->load);
+    memory_free(l->loaded);
+    memory_free(l->list);
+    memory_free(l->image);
+    memory_free(l->share);
+    memory_free(l->held.held);
+    memory_free(l->held_mesh.held);
+    memset(l, 0, sizeof *l);
+}
+
+/* ---- forces on particles --------------------------------------------------------------------------- */
+
+/* Driven peridynamic particles get the force that gives them their velocity; what it differs from the bonds' is the
+ * reaction of the support. */
+static void drive(struct loads *l, struct load *load, struct particles *p, real factor, real dt_velocity)
+{
+    const struct boundary *b = load->boundary;
+    const uint8_t components = is_clamp(b, p->dim) ? UINT8_MAX : b->components;
+    real given[DIM_MAX] = {0}, work = 0;
+    for (int64_t k = 0; k < load->n; k++) {
+        int32_t i = load->particle[k];
+        if (particle_on_grid(p, i)) continue;
+        for (int d = 0; d < p->dim; d++) {
+            if (!(components >> d & 1)) continue;
+            real target = factor * b->value[d], before = p->v[d][i];
+            real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
+            load->reaction[d] -= p->f[d][i];     /* without the driven particles' own inertia: what a load cell reads */
+            p->f[d][i] = needed;
+            given[d] += reaction * dt_velocity;
+            work += reaction * dt_velocity * 0.5 * (before + target);
+        }
+    }
+    for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d];
+    l->held_work += work;
+}
+
+struct force_sum { const struct particles *p; int component; };
+
+/* In eight sums side by side: one alone would wait for itself. */
+static void force_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct force_sum *s = context;
+    const real *f = s->p->f[s->component];
+    real part[LANES] = {0};
+    int64_t i = first;
+    for (; i + LANES <= end; i += LANES)
+        for (int l = 0; l < LANES; l++) part[l] += f[i + l];
+    for (; i < end; i++) part[0] += f[i];
+    for (int l = 0; l < LANES; l++) *sum += part[l];
+}
+
+/* Bonds between particles add up to no force; what is left across a mirror is what its images gave, the support's
+ * impulse. Along a mirror that leaves tangential motion free the images' forces cancel in pairs, so there the
+ * account of momentum stays a check. */
+static void mirror_impulse(struct loads *l, const struct particles *p, real dt_velocity)
+{
+    bool held[DIM_MAX] = {false};
+    for (int b = 0; b < l->n; b++)
+        for (int d = 0; d < p->dim; d++)
+            if (l->load[b].boundary->kind == BOUNDARY_MIRROR)
+                held[d] = held[d] || d == l->load[b].boundary->axis || l->load[b].boundary->hold_tangential;
+    for (int d = 0; d < p->dim; d++) {
+        real sum;
+        if (!held[d]) continue;
+        team_sums(p->n, 1, force_block, &(struct force_sum){p, d}, &sum);
+        l->impulse[d] += dt_velocity * sum;
+    }
+}
+
+void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
+{
+    if (l->images > 0) mirror_impulse(l, p, dt_velocity);
+    for (int c = 0; c < l->n; c++) {
+        struct load *load = &l->load[c];
+        memset(load->reaction, 0, sizeof load->reaction);
+    }
+    loads_push(l, p, t, dt_velocity);
+    for (int c = 0; c < l->n; c++) {         /* after all forces: what holds a particle sees them */
+        struct load *load = &l->load[c];
+        if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
+        real factor = time_function_at(&load->boundary->time, t);
+        for (int d = 0; d < p->dim; d++)
+            if (load->boundary->components >> d & 1) load->displacement[d] += factor * load->boundary->value[d] * dt;
+        drive(l, load, p, factor, dt_velocity);
+    }
+}
+
+/* ---- after the gather ------------------------------------------------------------------------------- */
+
+static void hold(struct loads *l, const struct load *load, struct particles *p, real factor)
+{
+    const struct boundary *b = load->boundary;
+    for (int64_t k = 0; k < load->n; k++) {
+        int32_t i = load->particle[k];
+        if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED) continue;      /* the mesh holds its nodes */
+        for (int d = 0; d < p->dim; d++) {
+            if (!(b->components >> d & 1)) continue;
+            real target = factor * b->value[d], given = p->mass[i] * (target - p->v[d][i]);
+            l->impulse[d] += given;
+            l->held_work += given * 0.5 * (target + p->v[d][i]);
+            p->v[d][i] = target;
+        }
+    }
+}
+
+void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
+{
+    const real inverse = 1 / dt_velocity;
+    for (int64_t q = 0; q < g->walls;) {         /* walls of one load and component follow each other */
+        const struct wall first = g->wall[q];
+        real sum = 0;
+        for (; q < g->walls && g->wall[q].load == first.load && g->wall[q].component == first.component; q++)
+            sum += g->wall[q].reaction;
+        l->load[first.load].reaction[first.component] += sum * inverse;
+    }
+    for (int64_t q = 0; q < g->folds; q++)
+        for (int d = 0; d < g->dim; d++)
+            l->load[g->fold[q].load].reaction[d] += g->fold[q].reaction[d] / dt_velocity;
+}
+
+void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt, real dt_velocity)
+{
+    loads_react(l, g, dt_velocity);
+    for (int c = 0; c < l->n; c++) {
+        struct load *load = &l->load[c];
+        real factor = time_function_at(&load->boundary->time, t);
+        if (load->boundary->kind == BOUNDARY_VELOCITY) hold(l, load, p, factor);
+    }
+    loads_push_work(l, p, t, dt);
+}
+
+status loads_archive(struct loads *l, struct archive *a)
+{
+    ARCHIVE_VALUE(a, "loads/impulse", l->impulse);
+    ARCHIVE_VALUE(a, "loads/work", l->work);
+    ARCHIVE_VALUE(a, "loads/held_work", l->held_work);
+    for (int b = 0; b < l->n; b++) {
+        char name[48];
+        snprintf(name, sizeof name, "loads/displacement%d", b);
+        ARCHIVE_VALUE(a, name, l->load[b].displacement);
+        snprintf(name, sizeof name, "loads/reaction%d", b);
+        ARCHIVE_VALUE(a, name, l->load[b].reaction);         /* of the last step: a sample before the next one shows it */
+    }
+    return OK;
+}

@@ -1,0 +1,231 @@
+/* floor 3: applied forces: tractions and body forces on their particles, with their impulse and work.
+ *
+ * What a load asks is a function of time times a share for each particle, which never changes. Loads of the same particles go
+ * together: the first of them, the leader, visits its particles once for all; those of the same shares are one term. */
+#include <math.h>
+#include <string.h>
+
+#include "loads/loads.h"
+#include "base/memory.h"
+#include "base/team.h"
+
+/* ---- set-up ---------------------------------------------------------------------------------------- */
+
+static bool is_force(const struct load *load)
+{
+    return load->boundary->kind == BOUNDARY_TRACTION || load->boundary->kind == BOUNDARY_BODY_FORCE;
+}
+
+static bool same_particles(const struct load *a, const struct load *b)
+{
+    return a->n == b->n && memcmp(a->particle, b->particle, (size_t)a->n * sizeof *a->particle) == 0;
+}
+
+/* The share of component d of load b becomes one that the loads before it have, if one is equal. */
+static void share_join(struct loads *l, int b, int d, int dim)
+{
+    struct load *load = &l->load[b];
+    for (int c = load->leader; c < b; c++)
+        for (int a = 0; a < dim && l->load[c].leader == load->leader; a++) {
+            real *other = l->load[c].share[a];
+            if (other == load->share[d] || memcmp(other, load->share[d], (size_t)load->n * sizeof(real)) != 0) continue;
+            memory_free(load->share[d]);
+            load->share[d] = other;
+            return;
+        }
+}
+
+static void load_join(struct loads *l, int b, int dim)
+{
+    struct load *load = &l->load[b];
+    const bool alike = load->share[dim - 1] == load->share[0];
+    load->leader = b;
+    for (int c = 0; c < b && load->leader == b; c++)
+        if (l->load[c].leader == c && same_particles(&l->load[c], load)) load->leader = c;
+    share_join(l, b, 0, dim);
+    for (int d = 1; d < dim; d++)
+        if (alike) load->share[d] = load->share[0];
+        else share_join(l, b, d, dim);
+    for (int d = 0; d < dim; d++)
+        if (load->boundary->value[d] != 0 && !l->load[load->leader].before[d])
+            l->load[load->leader].before[d] = NEW("loads.before", load->n, real);
+}
+
+void loads_join(struct loads *l, int dim)
+{
+    for (int b = 0; b < l->n; b++) {
+        l->load[b].leader = -1;
+        if (is_force(&l->load[b]) && l->load[b].n > 0) load_join(l, b, dim);
+    }
+}
+
+/* Has a share before this one, in the order of loads and components, the same array? */
+static bool is_borrowed(const struct loads *l, int b, int d)
+{
+    for (int c = 0; c <= b; c++)
+        for (int a = 0; a < (c < b ? DIM_MAX : d); a++)
+            if (l->load[c].share[a] == l->load[b].share[d]) return true;
+    return false;
+}
+
+void loads_applied_free(struct loads *l)
+{
+    for (int b = l->n; b-- > 0;)
+        for (int d = DIM_MAX; d-- > 0;) {
+            if (!is_borrowed(l, b, d)) memory_free(l->load[b].share[d]);
+            memory_free(l->load[b].before[d]);
+        }
+}
+
+/* ---- a component of all loads of a leader -------------------------------------------------------------- */
+
+struct push {
+    const int32_t *particle;
+    int terms;
+    const real *share[BOUNDARIES_MAX], *x;
+    real value[BOUNDARIES_MAX], *f, *before;
+};
+
+/* False where none of them has that component. */
+static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
+{
+    const struct load *first = &l->load[leader];
+    a->particle = first->particle, a->before = first->before[d], a->x = p->x[d], a->f = p->f[d];
+    a->terms = 0;
+    for (int b = leader; b < l->n; b++) {
+        const real value = l->load[b].boundary->value[d];
+        int k = 0;
+        if (l->load[b].leader != leader || value == 0) continue;
+        while (k < a->terms && a->share[k] != l->load[b].share[d]) k++;
+        if (k == a->terms) a->share[a->terms] = l->load[b].share[d], a->value[a->terms++] = 0;
+        a->value[k] += factor[b] * value;
+    }
+    return a->terms > 0;
+}
+
+/* Forces of a block of particles. */
+static void forces(const struct push *a, int64_t first, int64_t end, real *restrict force)
+{
+    for (int b = 0; b < a->terms; b++) {
+        const real *restrict share = a->share[b] + first, value = a->value[b];
+        for (int64_t k = 0; k < end - first; k++) force[k] = b > 0 ? force[k] + value * share[k] : value * share[k];
+    }
+}
+
+/* Adds to f, notes where the particle is, and returns the force; or what the force does on the way since then. */
+static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, real force)
+{
+    a->before[k] = a->x[i];
+    a->f[i] += force;
+    return force;
+}
+
+static ALWAYS_INLINE real work_one(const struct push *a, int64_t k, int64_t i, real force)
+{
+    return force * (a->x[i] - a->before[k]);
+}
+
+static bool follow_each_other(const int32_t *particle, int64_t first, int64_t end)
+{
+    return particle[end - 1] - particle[first] == end - 1 - first;
+}
+
+/* Adds `one` of a block in eight sums side by side. Particles that follow each other, as in a body loaded everywhere, are
+ * dense: they need no index. */
+static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64_t, real), const struct push *a, int64_t first,
+                                    int64_t end, const real *force, const bool dense)
+{
+    const int64_t shift = a->particle[first] - first;
+    real part[LANES] = {0}, sum = 0;
+    int64_t k = first;
+    for (; k + LANES <= end; k += LANES)
+#pragma omp simd
+        for (int l = 0; l < LANES; l++)
+            part[l] += one(a, k + l, dense ? k + l + shift : a->particle[k + l], force[k + l - first]);
+    for (; k < end; k++) part[0] += one(a, k, a->particle[k], force[k - first]);
+    for (int l = 0; l < LANES; l++) sum += part[l];
+    return sum;
+}
+
+static void push_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct push *a = context;
+    real force[SUM_BLOCK];
+    forces(a, first, end, force);
+    *sum += follow_each_other(a->particle, first, end) ? block_sum(push_one, a, first, end, force, true)
+                                                       : block_sum(push_one, a, first, end, force, false);
+}
+
+static void work_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct push *a = context;
+    real force[SUM_BLOCK];
+    forces(a, first, end, force);
+    *sum += follow_each_other(a->particle, first, end) ? block_sum(work_one, a, first, end, force, true)
+                                                       : block_sum(work_one, a, first, end, force, false);
+}
+
+/* ---- in a step --------------------------------------------------------------------------------------- */
+
+/* Mean over the kick that ends at t, by the trapezoidal rule: the kick lies round the instant of the forces, and the
+ * value at its end alone would be half a step late, an error of first order. What switches at a whole step then gives
+ * its full impulse, too: half of it in the kick that the switch divides. */
+static real kick_factor(const struct time_function *f, real t, real dt_velocity)
+{
+    return 0.5 * (time_function_at(f, t - dt_velocity) + time_function_at(f, t));
+}
+
+/* What a step gives is summed before it joins what all steps gave: round-off then grows with the number of steps, not of
+ * steps times particles. */
+void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
+{
+    real factor[BOUNDARIES_MAX], given;
+    struct push a;
+    for (int b = 0; b < l->n; b++) factor[b] = kick_factor(&l->load[b].boundary->time, t, dt_velocity);
+    for (int b = 0; b < l->n; b++)
+        for (int d = 0; d < p->dim && l->load[b].leader == b; d++) {
+            if (!push_make(&a, l, b, p, d, factor)) continue;
+            team_sums(l->load[b].n, 1, push_block, &a, &given);
+            l->impulse[d] += given * dt_velocity;
+        }
+}
+
+/* Mean of the kicks before and after the way of a step, t in its middle: kicks F at places x_n and ways v dt between them give
+ * 1/2 m v- . v+ what sum 1/2 (F_n + F_n+1) . v dt books, to the last digit, however short a load is. */
+static real way_factor(const struct time_function *f, real t, real dt)
+{
+    return 0.5 * time_function_at(f, t) + 0.25 * (time_function_at(f, real_max(0, t - dt)) + time_function_at(f, t + dt));
+}
+
+void loads_push_work(struct loads *l, struct particles *p, real t, real dt)
+{
+    real factor[BOUNDARIES_MAX], done;
+    struct push a;
+    for (int b = 0; b < l->n; b++) factor[b] = way_factor(&l->load[b].boundary->time, t, dt);
+    for (int b = 0; b < l->n; b++)
+        for (int d = 0; d < p->dim && l->load[b].leader == b; d++) {
+            if (!push_make(&a, l, b, p, d, factor)) continue;
+            team_sums(l->load[b].n, 1, work_block, &a, &done);
+            l->work += done;
+        }
+}
+
+static void clear_run(const struct load *load, struct particles *p, int64_t first, int64_t end)
+{
+    const bool dense = follow_each_other(load->particle, first, end);
+    for (int d = 0; d < p->dim; d++)
+        if (dense) memset(p->f[d] + load->particle[first], 0, (size_t)(end - first) * sizeof(real));
+        else
+            for (int64_t k = first; k < end; k++) p->f[d][load->particle[k]] = 0;
+}
+
+void loads_clear(struct loads *l, struct particles *p)
+{
+    for (int b = 0; b < l->n; b++) {
+        const struct load *load = &l->load[b];
+        const int64_t n = load->n;
+        if (is_force(load) && load->leader != b) continue;
+        TEAM_LOOP(n > SUM_BLOCK, for (int64_t first = 0; first < n; first += SUM_BLOCK)
+            clear_run(load, p, first, first + SUM_BLOCK < n ? first + SUM_BLOCK : n););
+    }
+}

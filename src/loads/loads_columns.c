@@ -1,0 +1,289 @@
+/* floor 3: the face that bodies show along an axis, column by column.
+ *
+ * Columns stand along the face's normal. A particle is a cube, or a square, of its volume, and in every column whose middle
+ * goes through it. A column shows the first particle of the region that has none within GAP widths before it; particles of
+ * all bodies that the boundary acts on hide what is behind them. So steps and curved faces are seen; what an overhang hides
+ * and walls of holes are not, unless the region leaves out what stands before them.
+ *
+ * A lattice, shaken or not, tells where its columns are: its sites are where particles are on average, and each column is
+ * one of it. Particles in no order are looked at through FINE columns across the mean particle. */
+#include <math.h>
+
+#include "loads/loads.h"
+#include "base/memory.h"
+
+#define GAP 1.75                         /* a particle farther before is beyond a hole: those of a lattice are at 1 or 2 [widths] */
+#define BENEATH 0.25                     /* so far behind the first at least is the next               [widths] */
+#define EVEN 1e-4                        /* volumes this close are one, of lattices written out in decimals */
+#define TO_ONE_SIDE 1e-6                 /* cubes that end at the middles of columns take those of one end [widths] */
+#define ORDER_LEAST 0.05                 /* share of particles that agree on where sites are: 0 without order, 1 on a lattice, */
+#define ORDER_CHANCE 3.0                 /* sin(2 pi s)/(2 pi s) if shaken by s spacings; over sqrt(n): what n disordered reach */
+enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
+
+struct columns {
+    int body, axes, axis[DIM_MAX - 1];   /* made for that body, across these axes                      */
+    real middle[DIM_MAX - 1];            /* of column 0                            [m]                 */
+    real spacing;                        /* of the scene                           [m]                 */
+    real width, step;                    /* of the body's mean particle; from column to column [m]     */
+    bool even;                           /* its particles have one volume                              */
+    int64_t n, room;                     /* columns; places in the table, a power of two               */
+    int64_t *key;                        /* [room] -1: free                                            */
+    int32_t *number;                     /* [room] 0 .. n-1                                            */
+    int64_t *count;                      /* [room/2] particles in column c                             */
+    int64_t *start;                      /* particles of column c, ascending along the normal:         */
+    int32_t *order;                      /*    order[start[c] .. start[c+1]-1]                         */
+};
+
+/* ---- where columns are -------------------------------------------------------------------------------- */
+
+/* Edge of a particle's cube [m]. */
+static real width_of(const struct columns *c, const struct boundary *b, const struct particles *p, int64_t i)
+{
+    if (p->body[i] == c->body && c->even) return c->width;
+    return b->section > 0 ? pow(p->volume0[i] / b->section, 1.0 / p->dim) : c->spacing;
+}
+
+static void find_width(struct columns *c, const struct boundary *b, const struct particles *p)
+{
+    real mean = 0, least = INFINITY, most = 0;
+    int64_t n = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->body[i] != c->body) continue;
+        mean += p->volume0[i], n++;
+        least = real_min(least, p->volume0[i]), most = real_max(most, p->volume0[i]);
+    }
+    mean /= (real)n;
+    c->even = most - least <= EVEN * mean || !(b->section > 0);
+    c->width = b->section > 0 ? pow(mean / b->section, 1.0 / p->dim) : c->spacing;
+    if (fabs(c->width - c->spacing) <= EVEN * c->spacing) c->width = c->spacing;
+}
+
+/* A site of the lattice from `low` on, by the mean direction of particles on a circle of one width; false: they agree on
+ * none. */
+static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
+{
+    const int64_t stride = p->n / SITES_SAMPLED + 1;
+    real along = 0, across = 0;
+    int64_t n = 0;
+    for (int64_t i = 0; i < p->n; i += stride) {
+        if (p->body[i] != c->body) continue;
+        const real angle = 2 * M_PI * (p->X[d][i] - low) / c->width;
+        along += cos(angle), across += sin(angle), n++;
+    }
+    *site = low + atan2(across, along) / (2 * M_PI) * c->width;
+    return hypot(along, across) > real_max(ORDER_LEAST * (real)n, ORDER_CHANCE * sqrt((real)n)) || along > (1 - EVEN) * (real)n;
+}
+
+static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
+{
+    real low[DIM_MAX - 1];
+    bool ordered = c->even;
+    for (int d = 0; d < p->dim; d++)
+        if (d != b->face) c->axis[c->axes++] = d;
+    for (int k = 0; k < c->axes; k++) {
+        const real *X = p->X[c->axis[k]];
+        low[k] = INFINITY;
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->body[i] == c->body) low[k] = real_min(low[k], X[i]);
+        ordered = find_site(c, p, c->axis[k], low[k], &c->middle[k]) && ordered;
+    }
+    c->step = ordered ? c->width : c->width / FINE;
+    for (int k = 0; k < c->axes && !ordered; k++) c->middle[k] = low[k] - 0.5 * c->width + 0.5 * c->step;
+}
+
+/* ---- particles in columns ----------------------------------------------------------------------------------- */
+
+/* Place of a key in the table, or where it is to go; the multiplier is that of Fibonacci hashing (Knuth, vol. 3). */
+static int64_t table_place(const struct columns *c, int64_t key)
+{
+    const int64_t last = c->room - 1;
+    int64_t place = (int64_t)((uint64_t)key * 0x9E3779B97F4A7C15u >> 32) & last;
+    while (c->key[place] >= 0 && c->key[place] != key) place = (place + 1) & last;
+    return place;
+}
+
+static void table_grow(struct columns *c)
+{
+    const struct columns old = *c;
+    c->room = old.room > 0 ? 2 * old.room : TABLE_FIRST;
+    c->key = NEW("loads.key", c->room, int64_t);
+    c->number = NEW("loads.number", c->room, int32_t);
+    c->count = memory_resize("loads.count", old.count, old.room / 2, c->room / 2, sizeof *c->count);
+    for (int64_t k = 0; k < c->room; k++) c->key[k] = -1;
+    for (int64_t k = 0; k < old.room; k++) {
+        if (old.key[k] < 0) continue;
+        const int64_t place = table_place(c, old.key[k]);
+        c->key[place] = old.key[k], c->number[place] = old.number[k];
+    }
+    memory_free(old.key);
+    memory_free(old.number);
+}
+
+/* Number of a column; -1: there is none, which is made where asked. */
+static int32_t column_number(struct columns *c, int64_t key, bool make)
+{
+    if (make && 2 * c->n >= c->room) table_grow(c);
+    const int64_t place = table_place(c, key);
+    if (c->key[place] < 0 && !make) return -1;
+    if (c->key[place] < 0) c->key[place] = key, c->number[place] = (int32_t)c->n++;
+    return c->number[place];
+}
+
+/* The rows of columns whose middles go through a particle's cube: from .. to - 1 across each axis. */
+struct span { int64_t from[DIM_MAX - 1], to[DIM_MAX - 1]; };
+
+static struct span span_of(const struct columns *c, const struct particles *p, int64_t i, real width)
+{
+    struct span s = {{0, 0}, {1, 1}};
+    for (int k = 0; k < c->axes; k++) {
+        const real low = p->X[c->axis[k]][i] - c->middle[k] - (0.5 + TO_ONE_SIDE) * width;
+        s.from[k] = (int64_t)ceil(low / c->step), s.to[k] = (int64_t)ceil((low + width) / c->step);
+    }
+    return s;
+}
+
+/* Counts a particle in its columns, or puts it there. The body's own make columns, others only stand in them. */
+static void particle_enter(struct columns *c, const struct boundary *b, const struct particles *p, int64_t i, bool put)
+{
+    const bool make = p->body[i] == c->body && !put;
+    const struct span s = span_of(c, p, i, width_of(c, b, p, i));
+    for (int64_t u = s.from[0]; u < s.to[0]; u++)
+        for (int64_t w = s.from[1]; w < s.to[1]; w++) {
+            const uint64_t key = ((uint64_t)u << 32 ^ ((uint64_t)w & UINT32_MAX)) & INT64_MAX;
+            const int32_t column = column_number(c, (int64_t)key, make);
+            if (column < 0) continue;
+            if (put) c->order[c->start[column + 1]++] = (int32_t)i;
+            else c->count[column]++;
+        }
+}
+
+static real height(const struct boundary *b, const struct particles *p, int32_t i) { return b->side * p->X[b->face][i]; }
+
+/* Of equal ones the first is lower. */
+static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
+{
+    return height(b, p, i) < height(b, p, j) || (height(b, p, i) == height(b, p, j) && i < j);
+}
+
+/* Shell's sort with Knuth's gaps: of a lattice's columns, which are in order, little is asked. */
+static void sort_column(const struct boundary *b, const struct particles *p, int32_t *order, int64_t n)
+{
+    int64_t gap = 1;
+    while (gap < n / 3) gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3)
+        for (int64_t k = gap; k < n; k++) {
+            const int32_t i = order[k];
+            int64_t at = k;
+            for (; at >= gap && is_lower(b, p, i, order[at - gap]); at -= gap) order[at] = order[at - gap];
+            order[at] = i;
+        }
+}
+
+static void columns_fill(struct columns *c, const struct boundary *b, const struct particles *p)
+{
+    for (int others = 0; others < (b->body < 0 ? 2 : 1); others++)
+        for (int64_t i = 0; i < p->n; i++)
+            if ((p->body[i] != c->body) == others) particle_enter(c, b, p, i, false);
+    c->start = NEW("loads.start", c->n + 2, int64_t);
+    for (int64_t k = 0; k < c->n; k++) c->start[k + 2] = c->start[k + 1] + c->count[k];
+    c->order = NEW("loads.order", c->start[c->n + 1], int32_t);
+    for (int64_t k = 0; k < p->n; k++) {
+        const int64_t i = b->side > 0 ? k : p->n - 1 - k;        /* upwards */
+        if (p->body[i] == c->body || b->body < 0) particle_enter(c, b, p, i, true);
+    }
+    for (int64_t k = 0; k < c->n; k++) sort_column(b, p, c->order + c->start[k], c->start[k + 1] - c->start[k]);
+}
+
+static void columns_make(struct columns *c, const struct boundary *b, const struct particles *p, int body, real spacing)
+{
+    *c = (struct columns){.body = body, .spacing = spacing};
+    find_width(c, b, p);
+    find_middles(c, b, p);
+    columns_fill(c, b, p);
+}
+
+static void columns_free(struct columns *c)
+{
+    memory_free(c->key);
+    memory_free(c->number);
+    memory_free(c->count);
+    memory_free(c->start);
+    memory_free(c->order);
+}
+
+/* ---- what they show ----------------------------------------------------------------------------------- */
+
+/* How far j is behind i [mean of their widths]. */
+static real behind(const struct columns *c, const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
+{
+    return (height(b, p, i) - height(b, p, j)) / (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
+}
+
+/* Place in a column of what it shows, -1: nothing of this body; another body's belongs to that body's columns. */
+static int64_t shown(const struct columns *c, int64_t column, const struct boundary *b, const struct particles *p,
+                     const uint8_t *selected)
+{
+    const int32_t *order = c->order;
+    const int64_t end = c->start[column + 1];
+    for (int64_t k = end; k-- > c->start[column];) {
+        const bool free = k + 1 == end || behind(c, b, p, order[k + 1], order[k]) > GAP;
+        if (selected[order[k]] && free) return p->body[order[k]] == c->body ? k : -1;
+    }
+    return -1;
+}
+
+/* The next of the same body behind place k, -1: none. */
+static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b, const struct particles *p)
+{
+    for (int64_t m = k; m-- > c->start[column];) {
+        const real depth = behind(c, b, p, c->order[k], c->order[m]);
+        if (depth > GAP) return -1;
+        if (depth >= BENEATH && p->body[c->order[m]] == c->body) return m;
+    }
+    return -1;
+}
+
+/* A traction acts on the face, half a spacing outside a column's first particle. For its normal part that makes no
+ * difference; what it has along the face would make a moment: a plate of n particles a side in shear would bear
+ * 1 + 1.3/n of the stress. So 3/2 of it act on the first particle and -1/2 on the next: linearly extrapolated, force
+ * and first moment are those of the face. One particle bears all where the column has no other. */
+static void show(struct face *f, const struct columns *c, int64_t column, const struct boundary *b, const struct particles *p,
+                 const uint8_t *selected, real area, bool two)
+{
+    const int64_t k = shown(c, column, b, p, selected), m = k >= 0 && two ? beneath(c, column, k, b, p) : -1;
+    if (k < 0) return;
+    const int32_t first = c->order[k];
+    if (!(area > 0)) area = p->volume0[first] / c->width;
+    f->normal[first] += area;
+    f->along[first] += area * (m < 0 ? 1 : 1.5);
+    if (m >= 0) f->along[c->order[m]] += area * -0.5;
+}
+
+/* A column's area is the volume of a particle as high as wide over that height, as that of a lattice has it. */
+static real column_area(const struct columns *c, const struct boundary *b, int dim)
+{
+    if (!(b->section > 0)) return 0;
+    const real area = lattice_volume(b->section, c->width, dim) / c->width;
+    return c->step == c->width ? area : area * pow(c->step / c->width, dim - 1);
+}
+
+void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+               bool two)
+{
+    bool has[UINT8_MAX + 1] = {false};
+    *f = (struct face){NEW("loads.normal", p->n, real), NEW("loads.along", p->n, real)};
+    for (int64_t i = 0; i < p->n; i++) has[p->body[i]] |= selected[i];
+    for (int body = 0; body <= UINT8_MAX; body++) {
+        struct columns c;
+        if (!has[body]) continue;
+        columns_make(&c, b, p, body, spacing);
+        for (int64_t k = 0; k < c.n; k++) show(f, &c, k, b, p, selected, column_area(&c, b, p->dim), two);
+        columns_free(&c);
+    }
+}
+
+void face_free(struct face *f)
+{
+    memory_free(f->normal);
+    memory_free(f->along);
+}

@@ -1,0 +1,146 @@
+/* floor 3: mirror images of particles: who has them, and where they are. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "loads/loads.h"
+#include "base/memory.h"
+
+/* Along a mirror the forces of i on the image of j and of j on the image of i cancel if both bonds are the same to the
+ * last bit, so if reflecting rounds nothing; else the round-off of their lengths moves slow bodies. Places across mirrors
+ * of what has images are therefore multiples of one step: the last bit of twice the farthest place there is. Mirrors at 0 only
+ * change a sign and need none. */
+static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
+{
+    real farthest = 0;
+    for (int b = 0; b < n; b++)
+        if (boundary[b].kind == BOUNDARY_MIRROR && boundary[b].axis == axis)
+            farthest = real_max(farthest, 2 * fabs(boundary[b].at));
+    if (farthest == 0) return 0;
+    for (int64_t i = 0; i < p->n; i++) farthest = real_max(farthest, fabs(p->X[axis][i]));
+    return scalbn(1, ilogb(farthest + reach) + 2 - DBL_MANT_DIG);
+}
+
+static real stepped(const struct loads *l, int axis, real place)
+{
+    const real step = l->place_step[axis];
+    return step > 0 ? step * nearbyint(place / step) : place;
+}
+
+/* Adds the images of one mirror: of everything near its plane, images of earlier mirrors included, so that corners get
+ * theirs. Nothing on the plane itself: such a particle is its own image. */
+static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
+{
+    const struct boundary *b = l->load[which].boundary;
+    int64_t before = p->n_all, images = 0, have = l->images;
+    for (int pass = 0; pass < 2; pass++) {
+        images = 0;
+        for (int64_t i = 0; i < before; i++) {
+            real distance = fabs(p->X[b->axis][i] - b->at);
+            if (distance > reach || distance <= LOADS_TOLERANCE * l->spacing) continue;
+            if (b->body >= 0 && p->body[i] != b->body) continue;
+            if (pass == 1) {
+                l->image[have + images] = (struct image){(int32_t)i, (uint8_t)which};
+                p->X[b->axis][i] = stepped(l, b->axis, p->X[b->axis][i]);
+            }
+            images++;
+        }
+        if (pass == 0) l->image = memory_resize("loads.image", l->image, have, have + images, sizeof *l->image);
+    }
+    particles_add_images(p, images, optional);
+    l->images += images;
+    for (int64_t k = have; k < l->images; k++) {
+        int64_t g = p->n + k, i = l->image[k].source;
+        for (int d = 0; d < p->dim; d++) p->X[d][g] = d == b->axis ? stepped(l, d, 2 * b->at) - p->X[d][i] : p->X[d][i];
+        p->volume0[g] = p->volume0[i], p->volume[g] = p->volume[i], p->mass[g] = p->mass[i];
+        p->material[g] = p->material[i], p->body[g] = p->body[i], p->id[g] = p->id[i];
+    }
+}
+
+void loads_mirror(const struct loads *l, struct particles *p)
+{
+    for (int64_t k = 0; k < l->images; k++) {                /* all first: corners have images of images */
+        const int axis = l->load[l->image[k].load].boundary->axis;
+        const int64_t i = l->image[k].source;
+        if (i < p->n) p->x[axis][i] = stepped(l, axis, p->x[axis][i]);
+    }
+    for (int64_t k = 0; k < l->images; k++) {
+        int64_t g = p->n + k, i = l->image[k].source;
+        const struct boundary *b = l->load[l->image[k].load].boundary;
+        for (int d = 0; d < p->dim; d++) {
+            const bool odd = d == b->axis || b->hold_tangential;
+            p->x[d][g] = odd ? p->X[d][g] - (p->x[d][i] - p->X[d][i]) : p->x[d][i];
+            p->v[d][g] = odd ? -p->v[d][i] : p->v[d][i];
+        }
+        p->kind[g] = p->kind[i];
+        p->flag[g] = p->flag[i] & FLAG_DRIVEN;
+    }
+}
+
+/* A mirror with body on both sides would lay images upon particles. */
+static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
+{
+    bool below = false, above = false;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (b->body >= 0 && p->body[i] != b->body) continue;
+        below = below || p->X[b->axis][i] < b->at - LOADS_TOLERANCE * spacing;
+        above = above || p->X[b->axis][i] > b->at + LOADS_TOLERANCE * spacing;
+    }
+    if (!(below && above)) return OK;
+    return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border",
+                      b->name, "xyz"[b->axis], b->at);
+}
+
+/* The side of a mirror that holds no body: -1 below, +1 above. */
+static int mirror_outside(const struct boundary *b, const struct particles *p)
+{
+    real sum = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (b->body < 0 || p->body[i] == b->body) sum += p->X[b->axis][i] - b->at;
+    return sum > 0 ? -1 : 1;
+}
+
+/* Between parallel mirrors a particle would see images of images on both sides, of which there is but one: forces without a
+ * potential, and no time step that is small enough. */
+static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
+{
+    for (int k = 0; k < n; k++)
+        for (int m = 0; m < k; m++) {
+            if (b[k].kind != BOUNDARY_MIRROR || b[m].kind != BOUNDARY_MIRROR || b[k].axis != b[m].axis) continue;
+            if (b[k].body >= 0 && b[m].body >= 0 && b[k].body != b[m].body) continue;
+            const real apart = fabs(b[k].at - b[m].at);
+            if (apart <= 1e-6 * spacing)
+                return status_set(REFUSED, "boundary %s: its mirror stands where that of %s does; one of them is enough", b[k].name,
+                                  b[m].name);
+            if (apart + spacing <= reach)
+                return status_set(REFUSED, "boundary %s: the mirror is %.6g m from that of %s; bonds that reach %.6g m want them "
+                                           "farther apart than %.6g m", b[k].name, apart, b[m].name, reach, reach - spacing);
+        }
+    return OK;
+}
+
+status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional)
+{
+    const struct boundary *boundary = l->n ? l->load[0].boundary : NULL;
+    TRY(mirrors_apart(boundary, l->n, reach, l->spacing));
+    for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, reach, d);
+    for (int b = 0; b < l->n; b++) {
+        if (boundary[b].kind != BOUNDARY_MIRROR) continue;
+        TRY(mirror_checked(&boundary[b], p, l->spacing));
+        l->load[b].outside = mirror_outside(&boundary[b], p);
+        mirror_make(l, b, p, reach, optional);
+    }
+    l->reach = reach;
+    loads_mirror(l, p);
+    return OK;
+}
+
+void loads_mirrors_mark(struct loads *l, const struct particles *p)
+{
+    for (int b = 0; b < l->n; b++) {
+        const struct boundary *clamp = l->load[b].boundary;
+        for (int64_t i = 0; i < p->n && is_clamp(clamp, p->dim); i++)
+            if ((clamp->body < 0 || p->body[i] == clamp->body) && fabs(p->X[clamp->axis][i] - clamp->at) <= l->reach)
+                l->loaded[i] |= WAITS;
+    }
+}

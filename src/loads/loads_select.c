@@ -1,0 +1,101 @@
+/* floor 3: whom a boundary condition acts on, and with which share of its value. */
+#include <math.h>
+
+#include "loads/loads.h"
+#include "base/memory.h"
+
+static bool selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
+{
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    if (b->body >= 0 && p->body[i] != b->body) return false;
+    return region_contains(&b->region, X, p->dim, LOADS_TOLERANCE * spacing);
+}
+
+static bool has_tangential(const struct boundary *b, int dim)
+{
+    bool found = false;
+    for (int d = 0; d < dim; d++) found = found || (d != b->face && b->value[d] != 0);
+    return found;
+}
+
+/* ---- shares ------------------------------------------------------------------------------------------- */
+
+static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
+{
+    real X[DIM_MAX], along = 0;
+    if (f->kind == PROFILE_UNIFORM) return 1;
+    particle_place(p, i, X);
+    for (int d = 0; d < p->dim; d++) along += (X[d] - f->origin[d]) * f->direction[d];
+    return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
+}
+
+static void body_shares(struct load *l, const struct particles *p)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < l->n; k++)
+        l->share[0][k] = p->volume0[l->particle[k]] * profile_at(&l->boundary->profile, p, l->particle[k]);
+}
+
+static void shares_allocate(struct load *l, int dim)
+{
+    const bool alike = l->boundary->kind == BOUNDARY_BODY_FORCE;
+    for (int d = 0; d < dim; d++) l->share[d] = d > 0 && alike ? l->share[0] : NEW("loads.share", l->n, real);
+}
+
+static bool bears_force(const struct boundary *b) { return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE; }
+
+static void take_particles(struct load *l, const uint8_t *taken, struct particles *p)
+{
+    for (int64_t i = 0; i < p->n; i++) l->n += taken[i] > 0;
+    l->particle = NEW("loads.particle", l->n, int32_t);
+    for (int64_t i = 0, k = 0; i < p->n; i++) {
+        if (!taken[i]) continue;
+        l->particle[k++] = (int32_t)i;
+        if (l->boundary->kind == BOUNDARY_VELOCITY) p->flag[i] |= FLAG_DRIVEN;
+    }
+    if (bears_force(l->boundary)) shares_allocate(l, p->dim);
+}
+
+static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
+{
+    struct face face;
+    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    face_make(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
+    for (int64_t i = 0; i < p->n; i++) bears[i] = face.normal[i] != 0 || face.along[i] != 0;
+    take_particles(l, bears, p);
+    for (int64_t k = 0; k < l->n; k++)
+        for (int d = 0; d < p->dim; d++)
+            l->share[d][k] = (d == l->boundary->face ? face.normal : face.along)[l->particle[k]];
+    memory_free(bears);
+    face_free(&face);
+}
+
+/* A particle in a clamped plane is its own image: it stays. */
+static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
+{
+    return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;
+}
+
+status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing)
+{
+    const bool clamp = is_clamp(b, p->dim);
+    bool any = false;
+    l->boundary = b;
+    if (b->kind == BOUNDARY_MIRROR && !clamp) return OK;
+    uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
+    for (int64_t i = 0; i < p->n; i++) {
+        selected[i] = clamp ? is_in_plane(b, p, i, spacing) : selects(b, p, i, spacing);
+        any = any || selected[i];
+    }
+    if (b->kind == BOUNDARY_TRACTION) select_face(l, selected, p, spacing);
+    else take_particles(l, selected, p);
+    if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
+    memory_free(selected);
+    if (!any && bears_force(b))
+        return status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
+    if (l->n > 0 || b->kind != BOUNDARY_TRACTION) return OK;
+    return status_set(REFUSED, "boundary %s: every particle in its region has one of its body before it towards %c%c; let the "
+                               "region hold the body's outside there, or the wall of a hole", b->name, 'x' + b->face,
+                      b->side > 0 ? '+' : '-');
+}

@@ -1,0 +1,125 @@
+/* floor 3: boundary conditions of a static problem: what time makes of them is only where they end. */
+#include "loads/loads.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ROUND_OFF 1e-12                  /* of the moment that forces could make: less is none */
+
+static bool is_force(const struct boundary *b)
+{
+    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE;
+}
+
+void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp)
+{
+    for (int b = 0; b < n; b++) {
+        real factor = 1;
+        to[b] = from[b];
+        if (is_force(&from[b])) {
+            factor = time_function_at(&from[b].time, duration);
+            to[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp};
+        } else if (from[b].kind == BOUNDARY_VELOCITY) {
+            factor = time_function_integral(&from[b].time, duration) / ramp;
+            to[b].time = (struct time_function){.kind = TIME_STEP, .until = ramp};
+        }
+        for (int d = 0; d < DIM_MAX; d++) to[b].value[d] = factor * from[b].value[d];
+    }
+}
+
+void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement, uint8_t *held)
+{
+    for (int c = 0; c < l->n; c++) {
+        struct load *load = &l->load[c];
+        const struct boundary *b = load->boundary;
+        if (b->kind != BOUNDARY_VELOCITY) continue;
+        for (int d = 0; d < p->dim; d++) {
+            if (!(b->components >> d & 1)) continue;
+            load->displacement[d] = ramp * b->value[d];
+            for (int64_t k = 0; k < load->n; k++) {
+                displacement[d][load->particle[k]] = load->displacement[d];
+                held[load->particle[k]] |= (uint8_t)(1 << d);
+            }
+        }
+    }
+}
+
+/* Moment of the applied forces about the centre of mass in the plane, and the largest that they could make. */
+static void moment(const struct loads *l, const struct particles *p, real *turning, real *most)
+{
+    *turning = *most = 0;
+    for (int c = 0; c < l->n; c++) {
+        const struct load *load = &l->load[c];
+        if (!is_force(load->boundary)) continue;
+        for (int64_t k = 0; k < load->n; k++) {
+            const real *value = load->boundary->value;
+            const real x = p->X[0][load->particle[k]] - l->centre[0], y = p->X[1][load->particle[k]] - l->centre[1];
+            const real fx = value[0] * load->share[0][k], fy = value[1] * load->share[1][k];
+            *turning += x * fy - y * fx;
+            *most += hypot(x, y) * hypot(fx, fy);
+        }
+    }
+}
+
+real loads_static_balance(struct loads *l, const struct particles *p)
+{
+    real mass = 0, inertia = 0, turning, most;
+    memset(l->centre, 0, sizeof l->centre);
+    for (int64_t i = 0; i < p->n; i++) {
+        mass += p->mass[i];
+        for (int d = 0; d < 2; d++) l->centre[d] += p->mass[i] * p->X[d][i];
+    }
+    for (int d = 0; d < 2; d++) l->centre[d] /= mass;
+    for (int64_t i = 0; i < p->n; i++)
+        inertia += p->mass[i] * (square(p->X[0][i] - l->centre[0]) + square(p->X[1][i] - l->centre[1]));
+    moment(l, p, &turning, &most);
+    l->turn = fabs(turning) > ROUND_OFF * most ? turning / inertia : 0;
+    return most > 0 ? fabs(turning) / most : 0;
+}
+
+void loads_static_force(const struct loads *l, struct particles *p)
+{
+    for (int64_t i = 0; i < p->n && l->turn != 0; i++) {
+        p->f[0][i] += l->turn * p->mass[i] * (p->X[1][i] - l->centre[1]);
+        p->f[1][i] -= l->turn * p->mass[i] * (p->X[0][i] - l->centre[0]);
+    }
+    for (int c = 0; c < l->n; c++) {
+        const struct load *load = &l->load[c];
+        if (!is_force(load->boundary)) continue;
+        for (int64_t k = 0; k < load->n; k++)
+            for (int d = 0; d < p->dim; d++)
+                p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[d][k];
+    }
+}
+
+void loads_static_hold(struct loads *l, struct particles *p)
+{
+    for (int c = 0; c < l->n; c++) {
+        struct load *load = &l->load[c];
+        memset(load->reaction, 0, sizeof load->reaction);
+        if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
+        for (int64_t k = 0; k < load->n; k++)
+            for (int d = 0; d < p->dim; d++) {
+                if (!(load->boundary->components >> d & 1)) continue;
+                load->reaction[d] -= p->f[d][load->particle[k]];
+                p->f[d][load->particle[k]] = 0;
+            }
+    }
+}
+
+void loads_static_work(struct loads *l, const struct particles *p)
+{
+    l->work = l->held_work = 0;
+    for (int c = 0; c < l->n; c++) {
+        const struct load *load = &l->load[c];
+        const struct boundary *b = load->boundary;
+        for (int d = 0; d < p->dim; d++)
+            if (b->kind == BOUNDARY_VELOCITY) l->held_work += 0.5 * load->reaction[d] * load->displacement[d];
+        if (!is_force(b)) continue;
+        for (int64_t k = 0; k < load->n; k++)
+            for (int d = 0; d < p->dim; d++) {
+                const int32_t i = load->particle[k];
+                l->work += 0.5 * b->value[d] * load->share[d][k] * (p->x[d][i] - p->X[d][i]);
+            }
+    }
+}

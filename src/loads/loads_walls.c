@@ -1,0 +1,216 @@
+/* floor 3: nodes that boundary conditions hold: of the grid, found anew in every step, and of the mesh, which never moves. */
+#include <math.h>
+#include <string.h>
+
+#include "loads/loads.h"
+#include "base/memory.h"
+
+/* ---- walls of the grid ----------------------------------------------------------------------------- */
+
+static void held_add(struct held_set *s, int64_t node, int component, int load)
+{
+    if (s->n == s->room) {
+        int64_t room = s->room ? 2 * s->room : 256;
+        s->held = memory_resize("loads.held", s->held, s->room, room, sizeof *s->held);
+        s->room = room;
+    }
+    s->held[s->n++] = (struct held){(int32_t)node, (uint8_t)component, (uint8_t)load};
+}
+
+static bool node_held(const struct load *load, const real *x, int dim, real tolerance, int component)
+{
+    const struct boundary *b = load->boundary;
+    if (b->kind == BOUNDARY_VELOCITY)
+        return b->body < 0 && (b->components >> component & 1) && region_contains(&b->region, x, dim, tolerance);
+    return b->kind == BOUNDARY_MIRROR && (component == b->axis || b->hold_tangential) &&
+           load->outside * (x[b->axis] - b->at) >= -tolerance;
+}
+
+bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing)
+{
+    const real steps = 2 * (b->at - g->anchor[b->axis]) / g->h;
+    return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
+}
+
+/* Node k of the box reflected in a mirror that it lies beyond, within reach of the widest shape: places and components
+ * turn round. False if it lies beyond but has no image. */
+static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct fold *f)
+{
+    const struct boundary *b = load->boundary;
+    if (b->kind != BOUNDARY_MIRROR) return true;
+    const real away = b->at - grid_position(g, b->axis, k[b->axis]);
+    if (-load->outside * away <= LOADS_TOLERANCE * spacing) return true;
+    const int64_t whole = llround(2 * away / g->h);
+    if (!mirror_on_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
+    k[b->axis] += whole;
+    for (int d = 0; d < DIM_MAX; d++)
+        if (d == b->axis || b->hold_tangential) f->sign[d] = (int8_t)-f->sign[d];
+    return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
+}
+
+/* Does a node beyond mirrors move as the image of another? */
+static bool node_folded(const struct loads *l, const struct grid *g, int64_t I, struct fold *f)
+{
+    int64_t k[DIM_MAX] = {0}, image = 0;
+    *f = (struct fold){.node = (int32_t)I, .sign = {1, 1, 1}};
+    for (int d = 0; d < g->dim; d++) k[d] = I / g->stride[d] % g->count[d];
+    for (int b = 0; b < l->n; b++) {
+        const int64_t before = k[l->load[b].boundary->axis];
+        if (!node_reflect(&l->load[b], g, l->spacing, k, f)) return false;
+        if (k[l->load[b].boundary->axis] != before) f->load = (uint8_t)b;
+    }
+    for (int b = 0; b < l->n; b++) {             /* between two mirrors an image may lie beyond the other one */
+        struct fold none = *f;
+        int64_t again[DIM_MAX];
+        memcpy(again, k, sizeof k);
+        if (!node_reflect(&l->load[b], g, l->spacing, again, &none) || memcmp(again, k, sizeof k) != 0) return false;
+    }
+    for (int d = 0; d < g->dim; d++) image += k[d] * g->stride[d];
+    f->image = (int32_t)image;
+    return image != I;
+}
+
+/* Nodes held wherever the body is, and nodes that follow their images: found once for each box of the grid. */
+static void held_find(const struct loads *l, struct held_set *s, struct grid *g)
+{
+    struct fold fold;
+    s->n = 0;
+    g->folds = 0;
+    for (int d = 0; d < g->dim; d++) s->first[d] = g->first[d], s->count[d] = g->count[d];
+    for (int64_t I = 0; I < g->n; I++) {
+        real x[DIM_MAX];
+        if (node_folded(l, g, I, &fold)) {
+            grid_add_fold(g, &fold);
+            continue;
+        }
+        for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+        for (int b = 0; b < l->n; b++)
+            for (int d = 0; d < g->dim; d++)
+                if (node_held(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d)) held_add(s, I, d, b);
+    }
+}
+
+/* Is it among those of held_find already? */
+static bool held_by_region(const struct loads *l, const struct load *load, const struct grid *g, int64_t I, int component)
+{
+    real x[DIM_MAX];
+    for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+    return node_held(load, x, g->dim, LOADS_TOLERANCE * l->spacing, component);
+}
+
+static bool held_is_current(const struct held_set *s, const struct grid *g)
+{
+    for (int d = 0; d < g->dim; d++)
+        if (s->first[d] != g->first[d] || s->count[d] != g->count[d]) return false;
+    return true;
+}
+
+/* Mass that a load's driven material points give to the nodes; returns their number. */
+static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
+                            const struct kernels *k, real half_width)
+{
+    int32_t *list = NEW("loads.driven", load->n, int32_t);
+    real *mass = NEW("loads.driven_mass", load->n, real);
+    int64_t n = 0;
+    for (int64_t q = 0; q < load->n; q++)
+        if (particle_on_grid(p, load->particle[q]) && !(p->flag[load->particle[q]] & FLAG_MESHED)) {
+            list[n] = load->particle[q];
+            mass[n++] = p->mass[load->particle[q]];
+        }
+    if (n > 0) {
+        if (l->share_room < g->n) {
+            l->share = memory_resize("loads.share", l->share, l->share_room, g->n, sizeof *l->share);
+            l->share_room = g->n;
+        }
+        memset(l->share, 0, (size_t)g->n * sizeof *l->share);
+        k->spread(g, p, half_width, list, n, mass, l->share);
+    }
+    memory_free(list);
+    memory_free(mass);
+    return n;
+}
+
+static void driven_walls(struct loads *l, int which, struct grid *g, real velocity_factor, real change_factor)
+{
+    const struct boundary *b = l->load[which].boundary;
+    for (int64_t I = 0; I < g->n; I++) {
+        if (l->share[I] <= 0 || l->share[I] < 0.5 * (1 - 1e-9) * g->mass[I]) continue;
+        for (int d = 0; d < g->dim; d++)
+            if (b->components >> d & 1)
+                grid_add_wall(g, I, d, velocity_factor * b->value[d], change_factor * b->value[d], which);
+    }
+}
+
+/* Factors of all loads at time t, and what they have changed by since a step before. */
+static void factors_at(const struct loads *l, real t, real dt, real *velocity, real *change)
+{
+    for (int b = 0; b < l->n; b++) {
+        velocity[b] = time_function_at(&l->load[b].boundary->time, t);
+        change[b] = t > dt ? velocity[b] - time_function_at(&l->load[b].boundary->time, t - dt) : 0;
+    }
+}
+
+static void held_walls(const struct loads *l, const struct held_set *s, struct grid *g, const real *velocity, const real *change)
+{
+    for (int64_t q = 0; q < s->n; q++) {
+        const struct held *h = &s->held[q];
+        if (g->mass[h->node] <= 0) continue;
+        const struct boundary *b = l->load[h->load].boundary;
+        real value = b->kind == BOUNDARY_VELOCITY ? b->value[h->component] : 0;
+        grid_add_wall(g, h->node, h->component, velocity[h->load] * value, change[h->load] * value, h->load);
+    }
+}
+
+void loads_walls(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k, real half_width,
+                 real t, real dt)
+{
+    real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
+    g->walls = 0;
+    if (l->n == 0) return;
+    if (!held_is_current(&l->held, g)) held_find(l, &l->held, g);
+    factors_at(l, t, dt, velocity, change);
+    held_walls(l, &l->held, g, velocity, change);
+    for (int b = 0; b < l->n; b++)
+        if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
+            driven_walls(l, b, g, velocity[b], change[b]);
+}
+
+/* ---- walls of the mesh ------------------------------------------------------------------------------- */
+
+/* Nodes that have at least half of their mass from points that a load drives. */
+static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
+{
+    const struct load *load = &l->load[which];
+    real *share = NEW("loads.mesh_share", mesh->grid.n, real);
+    for (int64_t k = 0; k < load->n; k++) {
+        const int32_t i = load->particle[k];
+        for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++)
+            share[(mesh->place[i] >> p->dim) + mesh->corner[c]] +=
+                p->mass[i] * mesh_weight(p->dim, c, mesh->place[i] & ((1 << p->dim) - 1));
+    }
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        for (int d = 0; d < p->dim; d++)
+            if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] && load->boundary->components >> d & 1 &&
+                !held_by_region(l, load, &mesh->grid, I, d)) held_add(&l->held_mesh, I, d, which);
+    memory_free(share);
+}
+
+void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p)
+{
+    if (mesh->points == 0) return;
+    if (!held_is_current(&l->held_mesh, &mesh->grid)) {      /* regions and mirrors stay; what is driven hangs on mass */
+        held_find(l, &l->held_mesh, &mesh->grid);
+        l->held_mesh.lasting = l->held_mesh.n;
+    }
+    l->held_mesh.n = l->held_mesh.lasting;
+    for (int b = 0; b < l->n; b++)
+        if (l->load[b].boundary->kind == BOUNDARY_VELOCITY) mesh_driven(l, b, mesh, p);
+}
+
+void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
+{
+    real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
+    mesh->grid.walls = 0;
+    factors_at(l, t, dt, velocity, change);
+    held_walls(l, &l->held_mesh, &mesh->grid, velocity, change);
+}

@@ -1,0 +1,395 @@
+/* floor 3: the mesh of the reference frame: who lies where, masses, runs of whole cells, cut cells, and conversion. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mesh_parts.h"
+#include "base/team.h"
+
+#define PLACE_TOLERANCE 1e-6             /* of a cell */
+#define VOLUME_TOLERANCE 1e-9
+#define DISPLACEMENT_BITS 60             /* displacements are multiples of 2^-60 cells: far below the last bit of a place, and what
+                                          * runs ahead of a wave ends somewhere */
+
+/* ---- who lies where ---------------------------------------------------------------------------------------- */
+
+static status meshed_body(const struct particles *p, int64_t i, const char *what)
+{
+    return status_set(REFUSED, "mpm.frame reference: the particle at (%.6g, %.6g, %.6g) m %s; frame current is expected",
+                      p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
+}
+
+int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_t i)
+{
+    const struct grid *g = &mesh->grid;
+    int64_t cell = 0;
+    int q = 0;
+    for (int d = 0; d < p->dim; d++) {
+        const real at = (p->X[d][i] - g->anchor[d]) / g->h - (real)g->first[d];
+        const int64_t k = (int64_t)floor(at);
+        const bool upper = at - (real)k > 0.5;
+        if (fabs(at - (real)k - (upper ? 0.75 : 0.25)) > PLACE_TOLERANCE) return -1;
+        cell += k * g->stride[d];
+        q |= upper << d;
+    }
+    return (cell << p->dim) + q;
+}
+
+static status points_place(struct mesh *mesh, const struct particles *p)
+{
+    for (int64_t i = 0; i < p->n; i++) {
+        mesh->place[i] = -1;
+        if (!(p->flag[i] & FLAG_MESHED)) continue;
+        const int64_t place = mesh_place_of(mesh, p, i);
+        if (place < 0) return meshed_body(p, i, "is not one of two a cell and direction (a lattice, mpm.cell 2, "
+                                                "mpm.origin between particles)");
+        if (mesh->point[place] >= 0) return meshed_body(p, i, "shares its place with another");
+        if (mesh->points == 0) mesh->volume = p->volume0[i];
+        if (fabs(p->volume0[i] - mesh->volume) > VOLUME_TOLERANCE * mesh->volume)
+            return meshed_body(p, i, "has another volume than the others");
+        mesh->place[i] = (int32_t)place;
+        mesh->point[place] = (int32_t)i;
+        mesh->points++;
+    }
+    return OK;
+}
+
+/* Cells round a node hold its points: visits them in a fixed order. */
+static real node_mass(const struct mesh *mesh, const struct particles *p, int64_t I)
+{
+    const int dim = p->dim;
+    real mass = 0;
+    for (int c = (1 << dim) - 1; c >= 0; c--) {
+        const int64_t cell = I - mesh->corner[c];
+        for (int q = 0; q < 1 << dim && cell >= 0; q++) {
+            const int32_t i = mesh->point[(cell << dim) + q];
+            if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
+        }
+    }
+    return mass;
+}
+
+void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I)
+{
+    mesh->grid.mass[I] = node_mass(mesh, p, I);
+    mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
+}
+
+/* Two bodies on one node would be glued together. */
+static status bodies_apart(const struct mesh *mesh, const struct particles *p)
+{
+    uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t);      /* 1 + body of the node's points */
+    status s = OK;
+    for (int64_t i = 0; i < p->n && s == OK; i++)
+        for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
+            uint8_t *owner = &body[(mesh->place[i] >> p->dim) + mesh->corner[c]];
+            if (*owner != 0 && *owner != p->body[i] + 1)
+                s = meshed_body(p, i, "shares a node with another body, which would move with it");
+            *owner = (uint8_t)(p->body[i] + 1);
+        }
+    memory_free(body);
+    return s;
+}
+
+/* ---- cells -------------------------------------------------------------------------------------------------- */
+
+static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I)
+{
+    const int dim = p->dim;
+    int there = 0;
+    bool alike = true;
+    const int32_t *point = &mesh->point[I << dim];
+    for (int q = 0; q < 1 << dim; q++) {
+        if (point[q] < 0) continue;
+        there++;
+        alike = alike && (point[0] >= 0 && p->material[point[q]] == p->material[point[0]]) &&
+                !(s->partial && s->partial->index && s->partial->index[point[q]] >= 0);
+    }
+    return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_CUT;
+}
+
+static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
+{
+    struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
+    if (last && last->cell + last->cells == I && last->material == material) {
+        last->cells++;
+        return;
+    }
+    if (mesh->runs == mesh->runs_room) {
+        const int64_t room = mesh->runs_room ? 2 * mesh->runs_room : 256;
+        mesh->run = memory_resize("mesh.run", mesh->run, mesh->runs_room, room, sizeof *mesh->run);
+        mesh->runs_room = room;
+    }
+    mesh->run[mesh->runs++] = (struct mesh_run){(int32_t)I, 1, material, false};
+}
+
+/* Layers of cells (last direction) in a band: two bands apart share no node. */
+static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
+
+/* Where each row of nodes has mass. */
+static void rows_span(struct mesh *mesh)
+{
+    const struct grid *g = &mesh->grid;
+#pragma omp parallel for schedule(static)
+    for (int64_t r = 0; r < mesh->rows; r++) {
+        int64_t first = r * g->count[0], end = first + g->count[0];
+        while (first < end && g->mass[first] == 0) first++;
+        while (end > first && g->mass[end - 1] == 0) end--;
+        mesh->span[2 * r] = (int32_t)first, mesh->span[2 * r + 1] = (int32_t)end;
+    }
+}
+
+/* Runs of whole cells band by band, and the list of cut cells. */
+static void cells_list(struct mesh *mesh, const struct particles *p)
+{
+    const struct grid *g = &mesh->grid;
+    const int last = g->dim - 1;
+    const int64_t layers = g->dim == 1 ? 1 : g->count[last], each = band_layers(g->dim);
+    mesh->runs = mesh->bands = mesh->cuts = 0;
+    for (int64_t layer = 0; layer < layers; layer += each < layers ? each : layers) {
+        const int64_t end = layer + each < layers && each < layers ? layer + each : layers;
+        const int64_t from = g->dim == 1 ? 0 : layer * g->stride[last], to = g->dim == 1 ? g->n : end * g->stride[last];
+        mesh->band[mesh->bands] = mesh->runs;
+        for (int64_t I = from; I < to; I++) {
+            if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, p->material[mesh->point[I << g->dim]]);
+            if (mesh->kind[I] == CELL_CUT) mesh_cuts_add(mesh, I);
+        }
+        mesh->bands++;
+    }
+    mesh->band[mesh->bands] = mesh->runs;
+}
+
+static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+{
+    struct mesh_cuts old = mesh_cuts_keep(mesh);
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        if (!dirty || dirty[I]) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
+    rows_span(mesh);
+    cells_list(mesh, p);
+    mesh_cuts_make(mesh, p, s, dirty, &old);
+}
+
+/* ---- set-up ------------------------------------------------------------------------------------------------- */
+
+static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like)
+{
+    struct grid *g = &mesh->grid;
+    real from[DIM_MAX], to[DIM_MAX];
+    bool changed;
+    g->dim = p->dim, g->h = like->h;
+    for (int d = 0; d < p->dim; d++) {
+        g->anchor[d] = like->anchor[d];
+        particles_extent(p, p->n, d, &from[d], &to[d]);
+    }
+    to[0] += LANES * g->h;                       /* whole vectors may be read and added to behind the last cell of a row */
+    TRY(grid_cover(g, from, to, INT32_MAX >> p->dim, &changed));
+    for (int d = 0; d < p->dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
+    mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
+    for (int c = 0; c < 1 << p->dim; c++)
+        for (int d = 0; d < p->dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
+    mesh->point = NEW("mesh.point", g->n << p->dim, int32_t);
+    for (int64_t k = 0; k < g->n << p->dim; k++) mesh->point[k] = -1;
+    mesh->kind = NEW("mesh.kind", g->n, uint8_t);
+    mesh->place = NEW("mesh.place", p->n, int32_t);
+    mesh->rows = g->n / g->count[0];
+    mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
+    mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
+    rest_make(&mesh->rest, mesh->rows * mesh->segments);
+    mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
+    mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
+    return OK;
+}
+
+static void nodes_start(struct mesh *mesh, const struct particles *p)
+{
+    real *u[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) {
+        u[d] = NEW("mesh.u", p->n, real);
+        for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
+    }
+    mesh_project(mesh, p, u, mesh->displacement);
+    mesh_project(mesh, p, p->v, mesh->grid.velocity);
+    for (int d = 0; d < p->dim; d++) memory_free(u[d]);
+}
+
+status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source)
+{
+    memset(mesh, 0, sizeof *mesh);
+    int64_t meshed = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->flag[i] & FLAG_MESHED && p->kind[i] != KIND_MPM) p->flag[i] &= (uint8_t)~FLAG_MESHED;
+        meshed += (p->flag[i] & FLAG_MESHED) != 0;
+    }
+    particles_list(p);
+    if (meshed == 0) return OK;
+    TRY(nodes_make(mesh, p, like));
+    TRY(points_place(mesh, p));
+    TRY(bodies_apart(mesh, p));
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_weigh(mesh, p, I);
+    cells_sort_out(mesh, p, source, NULL);
+    nodes_start(mesh, p);
+    return OK;
+}
+
+void mesh_free(struct mesh *mesh)
+{
+    grid_free(&mesh->grid);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(mesh->displacement[d]);
+    memory_free(mesh->inverse_mass);
+    memory_free(mesh->point);
+    memory_free(mesh->kind);
+    memory_free(mesh->place);
+    memory_free(mesh->band);
+    memory_free(mesh->run);
+    mesh_cuts_free(mesh);
+    memory_free(mesh->see);
+    memory_free(mesh->span);
+    rest_free(&mesh->rest);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+/* ---- conversion ------------------------------------------------------------------------------------------------ */
+
+/* Returns the energy that its motion at the nodes had over its own. */
+static real release(struct mesh *mesh, struct particles *p, int64_t i)
+{
+    const int64_t place = mesh->place[i];
+    real energy = 0;
+    for (int d = 0; d < p->dim; d++) {
+        for (int c = 0; c < 1 << p->dim; c++)
+            energy += 0.5 * p->mass[i] * mesh_weight(p->dim, c, place & ((1 << p->dim) - 1)) *
+                      square(mesh->grid.velocity[d][(place >> p->dim) + mesh->corner[c]]);
+        energy -= 0.5 * p->mass[i] * square(p->v[d][i]);
+    }
+    mesh->place[i] = -1;
+    mesh->point[place] = -1;
+    mesh->points--;
+    p->flag[i] &= (uint8_t)~FLAG_MESHED;
+    return energy;
+}
+
+/* Nodes of the marked cells lose what left them. */
+static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
+{
+    uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);
+    for (int64_t cell = 0; cell < mesh->grid.n; cell++)
+        for (int c = 0; c < 1 << p->dim && left[cell]; c++) {
+            const int64_t I = cell + mesh->corner[c];
+            if (done[I]) continue;
+            done[I] = 1;
+            mesh_node_weigh(mesh, p, I);
+            for (int d = 0; d < p->dim && mesh->grid.mass[I] == 0; d++)
+                mesh->grid.velocity[d][I] = mesh->displacement[d][I] = 0;
+        }
+    memory_free(done);
+}
+
+real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n)
+{
+    real energy = 0;
+    if (!mesh->place) return 0;
+    uint8_t *left = NEW("mesh.left", mesh->grid.n, uint8_t), *dirty = changed ? NEW("mesh.dirty", mesh->grid.n, uint8_t) : NULL;
+    for (int64_t k = 0; k < n && changed; k++)
+        if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
+    for (int64_t i = 0; i < p->n; i++)
+        if (mesh->place[i] >= 0 && p->kind[i] != KIND_MPM) {
+            left[mesh->place[i] >> p->dim] = 1;
+            if (dirty) dirty[mesh->place[i] >> p->dim] = 1;
+            energy += release(mesh, p, i);
+        }
+    nodes_lighten(mesh, p, left);
+    particles_list(p);
+    cells_sort_out(mesh, p, source, dirty);
+    memory_free(left);
+    memory_free(dirty);
+    return energy;
+}
+
+bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n)
+{
+    uint8_t *dirty = NEW("mesh.dirty", mesh->grid.n, uint8_t);
+    bool same = true;
+    for (int64_t k = 0; k < n && same; k++) {
+        const int64_t cell = mesh->place[changed[k]] >> p->dim;
+        if (mesh->place[changed[k]] < 0 || dirty[cell]) continue;
+        dirty[cell] = 1;
+        same = mesh->kind[cell] == CELL_CUT && cell_kind(mesh, p, source, cell) == CELL_CUT;
+    }
+    if (same) mesh_cuts_again(mesh, p, source, dirty);
+    memory_free(dirty);
+    return same;
+}
+
+/* Images that bonds look at move as their sources; of the bonds of a slot most have none. */
+static void images_see(uint8_t *seen, const struct particles *p, const struct image *image, const int32_t *nbr)
+{
+    int32_t most = nbr[0];
+    for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
+    for (int l = 0; l < LANES && most >= p->n; l++)
+        if (nbr[l] >= p->n) seen[image_root(p, image, nbr[l])] = 1;
+}
+
+/* May a bond of slot k of a group have an image at its end? */
+static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
+{
+    const struct pattern *pattern = b->pattern[g];
+    const int64_t first = pattern ? b->particle[g * LANES] + pattern->slot[k].offset : b->first[b->slot[g] + k];
+    return first < 0 || first + LANES > p->n;
+}
+
+static void cell_see(struct mesh *mesh, const uint8_t *seen, int64_t I)
+{
+    const int corners = 1 << mesh->grid.dim;
+    unsigned places = 0;
+    for (int q = 0; q < corners; q++) {
+        const int32_t i = mesh->point[I * corners + q];
+        if (i >= 0 && seen[i]) places |= 1u << q;
+    }
+    if (places == 0) return;
+    if (mesh->seen == mesh->seen_room) {
+        const int64_t room = mesh->seen_room ? 2 * mesh->seen_room : 256;
+        mesh->see = memory_resize("mesh.see", mesh->see, mesh->seen_room, room, sizeof *mesh->see);
+        mesh->seen_room = room;
+    }
+    mesh->see[mesh->seen++] = (struct mesh_seen){(int32_t)I, (uint8_t)places};
+}
+
+void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
+{
+    if (!mesh->place) return;
+    uint8_t *seen = NEW("mesh.seen", p->n, uint8_t);
+    for (int64_t g = 0; g < b->groups; g++) {
+        const unsigned intact = bonds_intact(b, g);
+        struct slot_copy slot;
+        for (int lane = 0; lane < LANES; lane++) seen[b->particle[g * LANES + lane]] |= intact >> lane & 1;
+        for (int64_t k = 0; k < b->slot_count[g] && p->n_all > p->n; k++) {
+            if (!meets_images(b, p, g, k)) continue;
+            slot_read(&slot, b, g, k);
+            images_see(seen, p, l->image, slot.nbr);
+        }
+    }
+    for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
+        for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
+    mesh->seen = 0;
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, seen, I);
+    memory_free(seen);
+    rest_mesh_see(mesh);
+}
+
+status mesh_archive(struct mesh *mesh, struct archive *a)
+{
+    if (mesh->grid.n == 0) return OK;
+    for (int d = 0; d < mesh->grid.dim; d++) {
+        char name[48];
+        snprintf(name, sizeof name, "mesh/displacement%d", d);
+        TRY(a->exchange(a, name, mesh->displacement[d], (size_t)mesh->grid.n * sizeof(real)));
+        snprintf(name, sizeof name, "mesh/velocity%d", d);
+        TRY(a->exchange(a, name, mesh->grid.velocity[d], (size_t)mesh->grid.n * sizeof(real)));
+    }
+    return OK;
+}

@@ -1,0 +1,371 @@
+/* floor 3: cut cells of the mesh and their stiffness by modes (kernels/mesh/mesh_cut.h), from the points they have left.
+ *
+ * The strain at a point x is that of the mean and each bending mode times a product of coordinates +-1/4. So the stiffness
+ * is made of sums over the points of their D, stress by strain, times products of signs: one for each set of axes, as the
+ * square of a sign is 1. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mesh_parts.h"
+#include "kernels/mesh/mesh_point.h"
+
+enum { TERMS_MAX = 3 };
+
+/* One way in which a mode shows in a component of strain: times the coordinates of the axes in `set`. Rows are symmetric
+ * components. */
+struct mode_term { uint8_t row, set; real factor; };
+struct mode_terms { int n; struct mode_term at[TERMS_MAX]; };
+
+/* ---- modes -------------------------------------------------------------------------------------------------- */
+
+static int component(int dim, int i, int j)
+{
+    for (int k = 0; k < symmetric_count(dim); k++) {
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
+        if ((a == i && b == j) || (a == j && b == i)) return k;
+    }
+    return -1;
+}
+
+/* A mode M of component i is, in the slope of u_i along each axis of M, the product of the other coordinates of M. */
+static void bends_terms(struct mode_terms *t, int dim)
+{
+    for (int M = 3; M < 1 << dim; M++)
+        for (int i = 0; i < dim && M & (M - 1); i++, t++)
+            for (int j = 0; j < dim; j++) {
+                const int set = M & ~(1 << j);
+                if (!(M >> j & 1)) continue;
+                t->at[t->n++] = (struct mode_term){(uint8_t)component(dim, i, j), (uint8_t)set,
+                                                   pow(0.25, __builtin_popcount((unsigned)set))};
+            }
+}
+
+/* In the order of kernels/mesh/mesh_cut.h. */
+static void modes_terms(struct mode_terms *t, int dim)
+{
+    const int symmetric = symmetric_count(dim);
+    memset(t, 0, sizeof *t * MODES_MAX);
+    for (int k = 0; k < symmetric; k++) t[k] = (struct mode_terms){1, {{(uint8_t)k, 0, 1}}};
+    bends_terms(t + symmetric, dim);
+}
+
+/* ---- one cell --------------------------------------------------------------------------------------------------- */
+
+/* What cells are made of. */
+struct cell_maker {
+    const struct mesh *mesh;
+    const struct particles *p;
+    const struct mesh_source *source;
+    int dim, modes, columns;             /* columns of D: symmetric components                        */
+    real (*whole)[SYM_MAX * SYM_MAX], (*isotropic)[SYM_MAX * SYM_MAX];   /* [materials] stress by strain     */
+    struct mode_terms in[MODES_MAX];
+};
+
+/* Stress by strain, shears by their angle. */
+static void constants(const struct elastic *m, real *C, int dim)
+{
+    const int n = symmetric_count(dim);
+    for (int t = 0; t < n; t++) {
+        real g[DIM_MAX * DIM_MAX] = {0}, s[SYM_MAX];
+        int a, b;
+        symmetric_axes(dim, t, &a, &b);
+        g[a * dim + b] = 1;
+        mesh_point_stress(m, g, s, dim);
+        for (int k = 0; k < n; k++) C[k * n + t] = s[k];
+    }
+}
+
+/* D of a point: the whole stress less what bonds carry. */
+static void point_constants(const struct cell_maker *c, int32_t i, real *D)
+{
+    const int n = c->columns;
+    const struct partial_stress *partial = c->source->partial;
+    const int64_t entry = partial && partial->index ? partial->index[i] : -1;
+    const real *isotropic = c->isotropic[c->p->material[i]];
+    memcpy(D, c->whole[c->p->material[i]], sizeof *D * (size_t)(n * n));
+    if (entry < 0) return;
+    for (int row = 0; row < n; row++) {
+        const real *M = partial->matrix + (entry * n + row) * n;
+        for (int k = 0; k < n; k++)
+            for (int t = 0; t < n; t++) D[row * n + t] -= M[k] * isotropic[k * n + t];
+    }
+}
+
+/* sum D/corners times the signs of the axes of each set: butterflies along one axis after the other. */
+static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
+{
+    const int corners = 1 << c->dim, size = c->columns * c->columns;
+    for (int q = 0; q < corners; q++) {
+        const int32_t i = c->mesh->point[(I << c->dim) + q];
+        if (i >= 0) point_constants(c, i, sum[q]);
+        else memset(sum[q], 0, sizeof(real) * (size_t)size);
+    }
+    for (int d = 0; d < c->dim; d++)
+        for (int q = 0; q < corners; q++)
+            for (int k = 0; k < size && !(q >> d & 1); k++) {
+                const real low = sum[q][k], high = sum[q | 1 << d][k];
+                sum[q][k] = 0.5 * (low + high), sum[q | 1 << d][k] = 0.5 * (high - low);
+            }
+}
+
+/* Force on one mode by another. */
+static real entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX], const struct mode_terms *to,
+                     const struct mode_terms *by)
+{
+    real value = 0;
+    for (int s = 0; s < to->n; s++)
+        for (int t = 0; t < by->n; t++)
+            value += to->at[s].factor * by->at[t].factor *
+                     sum[to->at[s].set ^ by->at[t].set][to->at[s].row * c->columns + by->at[t].row];
+    return value;
+}
+
+/* One lane of a group. D is symmetric but for round-off; K is to the last bit. */
+static void cell_make(const struct cell_maker *c, int64_t I, real *K)
+{
+    const int n = c->modes;
+    real sum[CORNERS_MAX][SYM_MAX * SYM_MAX];
+    cell_sums(c, I, sum);
+    for (int a = 0; a < n; a++)
+        for (int b = a; b < n; b++, K += LANES) *K = entry_of(c, sum, &c->in[a], &c->in[b]);
+}
+
+/* ---- ends of bonds ----------------------------------------------------------------------------------------------- */
+
+static void ends_free(struct mesh *mesh)
+{
+    memory_free(mesh->ends);
+    memory_free(mesh->end);
+    memory_free(mesh->end_share);
+    mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
+}
+
+/* What each mode adds to the mean strain of a point at a place of its cell: of what its own bonds do not see. */
+static void end_share(const struct cell_maker *c, const real *local, int place, real *share)
+{
+    for (int k = 0; k < c->modes; k++) {
+        share[k] = 0;
+        for (int t = 0; t < c->in[k].n; t++) {
+            const struct mode_term *term = &c->in[k].at[t];
+            const int below = __builtin_popcount((unsigned)(term->set & ~place));        /* coordinates -1/4 */
+            share[k] += (below % 2 ? -1 : 1) * term->factor * local[term->row];
+        }
+    }
+}
+
+/* Entry of a point that is an end of state-based bonds, -1: it is none. */
+static int64_t end_entry(const struct cell_maker *c, int32_t i)
+{
+    return i >= 0 && partial_end(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
+}
+
+static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
+{
+    const struct partial_stress *partial = c->source->partial;
+    for (int q = 0; q < 1 << c->dim; q++) {
+        const int32_t i = mesh->point[((int64_t)mesh->cut[k] << c->dim) + q];
+        const int64_t entry = end_entry(c, i);
+        if (entry < 0) continue;
+        mesh->end[*n] = (struct mesh_end){i, (int32_t)(k % LANES)};
+        end_share(c, partial->local + entry * c->columns, q, mesh->end_share + (int64_t)(*n)++ * c->modes);
+    }
+}
+
+static void ends_make(struct mesh *mesh, const struct cell_maker *c)
+{
+    const struct partial_stress *partial = c->source->partial;
+    int32_t n = 0;
+    if (!partial || !partial->index || !partial->local) return;
+    mesh->ends = NEW("mesh.ends", mesh_groups(mesh) + 1, int32_t);
+    for (int64_t k = 0; k < mesh->cuts; k++)
+        for (int q = 0; q < 1 << c->dim; q++) n += end_entry(c, mesh->point[((int64_t)mesh->cut[k] << c->dim) + q]) >= 0;
+    mesh->end = NEW("mesh.end", n, struct mesh_end);
+    mesh->end_share = NEW("mesh.end_share", (int64_t)n * c->modes, real);
+    n = 0;
+    for (int64_t k = 0; k < mesh->cuts; k++) {
+        ends_of_cell(mesh, c, k, &n);
+        mesh->ends[k / LANES + 1] = n;
+    }
+}
+
+/* ---- all cut cells -------------------------------------------------------------------------------------------- */
+
+void mesh_cuts_add(struct mesh *mesh, int64_t I)
+{
+    if (mesh->cuts == mesh->cuts_room) {
+        const int64_t room = mesh->cuts_room ? 2 * mesh->cuts_room : 256;
+        mesh->cut = memory_resize("mesh.cut", mesh->cut, mesh->cuts_room, room, sizeof *mesh->cut);
+        mesh->cuts_room = room;
+    }
+    mesh->cut[mesh->cuts++] = (int32_t)I;
+}
+
+struct mesh_cuts mesh_cuts_keep(struct mesh *mesh)
+{
+    const struct mesh_cuts old = {mesh->cuts, mesh->cut, mesh->stiffness};
+    mesh->cut = NULL, mesh->stiffness = NULL;
+    mesh->cuts = mesh->cuts_room = 0;
+    mesh_cuts_free(mesh);
+    return old;
+}
+
+void mesh_cuts_free(struct mesh *mesh)
+{
+    memory_free(mesh->cut);
+    memory_free(mesh->stiffness);
+    ends_free(mesh);
+    memory_free(mesh->alike);
+    memory_free(mesh->cut_force);
+    memory_free(mesh->cut_stressed);
+    memory_free(mesh->cut_material);
+    mesh->cut = NULL, mesh->cut_force = NULL, mesh->cut_stressed = NULL, mesh->cut_material = NULL, mesh->alike = NULL;
+    mesh->stiffness = NULL;
+}
+
+/* Of the points of a cell, that with the lowest trigger. */
+static uint8_t cut_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I)
+{
+    int least = -1;
+    for (int q = 0; q < 1 << p->dim; q++) {
+        const int32_t i = mesh->point[(I << p->dim) + q];
+        if (i < 0) continue;
+        if (least < 0 || s->elastic[p->material[i]].trigger < s->elastic[least].trigger) least = p->material[i];
+    }
+    return (uint8_t)least;
+}
+
+static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    struct cell_maker c = {.mesh = mesh, .p = p, .source = s, .dim = dim, .modes = mesh_modes(dim), .columns = n};
+    c.whole = memory_new("mesh.constants", 2 * s->materials, sizeof *c.whole);
+    c.isotropic = c.whole + s->materials;
+    for (int m = 0; m < s->materials; m++) {
+        constants(&s->elastic[m], c.whole[m], dim);
+        constants(&s->isotropic[m], c.isotropic[m], dim);
+    }
+    modes_terms(c.in, dim);
+    return c;
+}
+
+static real *lane_of(real *from, int64_t cell, int each)
+{
+    return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
+}
+
+static void lane_copy(real *to, real *from, int each)
+{
+    for (int k = 0; k < each && to; k++) to[k * LANES] = from ? from[k * LANES] : 0;
+}
+
+/* The rest of the last group is its first cell again, without stiffness. */
+static void groups_fill(struct mesh *mesh)
+{
+    const int64_t whole = mesh_groups(mesh) * LANES, cuts = mesh->cuts;
+    while (mesh->cuts < whole) mesh_cuts_add(mesh, mesh->cut[whole - LANES]);
+    mesh->cuts = cuts;
+}
+
+/* Which old cell each is, -1: to be made. */
+static int64_t *origins(const struct mesh *mesh, const struct mesh_cuts *old, const uint8_t *dirty)
+{
+    int64_t *from = NEW("mesh.from", mesh->cuts, int64_t);
+    for (int64_t k = 0, q = 0; k < mesh->cuts; k++) {
+        while (q < old->cuts && old->cut[q] < mesh->cut[k]) q++;
+        from[k] = dirty && q < old->cuts && old->cut[q] == mesh->cut[k] && !dirty[mesh->cut[k]] ? q : -1;
+    }
+    return from;
+}
+
+/* `each` numbers of every cut cell; only the rest of the last group is 0 already. */
+static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
+{
+    const int64_t groups = mesh_groups(mesh), size = each * LANES;
+    real *numbers = memory_bare(label, groups * size, sizeof *numbers);
+    if (groups > 0) memset(numbers + (groups - 1) * size, 0, (size_t)size * sizeof *numbers);
+    return numbers;
+}
+
+static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
+{
+    const size_t size = (size_t)each * LANES;
+    return memcmp(of + g * (int64_t)size, of + h * (int64_t)size, size * sizeof *of) == 0;
+}
+
+/* Cells that an edge of the body cuts the same way follow each other. */
+static void alike_find(struct mesh *mesh, int modes)
+{
+    const int64_t groups = mesh_groups(mesh);
+    const int half = modes * (modes + 1) / 2;
+    mesh->alike = NEW("mesh.alike", groups, int32_t);
+    for (int64_t g = 0; g < groups; g++) {
+        const int32_t before = g > 0 ? mesh->alike[g - 1] : 0;
+        mesh->alike[g] = numbers_alike(mesh->stiffness, before, g, half) ? before : (int32_t)g;
+    }
+}
+
+void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
+                    struct mesh_cuts *old)
+{
+    struct cell_maker c = maker_of(mesh, p, s);
+    const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
+    const int64_t groups = mesh_groups(mesh);
+    groups_fill(mesh);
+    mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
+    mesh->cut_force = NEW("mesh.cut_force", groups * unknowns * LANES, real);
+    mesh->cut_stressed = NEW("mesh.cut_stressed", groups * LANES, bool);
+    mesh->cut_material = NEW("mesh.cut_material", groups * LANES, uint8_t);
+    for (int64_t k = 0; k < groups * LANES; k++) mesh->cut_material[k] = cut_material(mesh, p, s, mesh->cut[k]);
+    int64_t *from = origins(mesh, old, dirty);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t k = 0; k < mesh->cuts; k++) {
+        real *K = lane_of(mesh->stiffness, k, half);
+        if (from[k] < 0) cell_make(&c, mesh->cut[k], K);
+        else lane_copy(K, lane_of(old->stiffness, from[k], half), half);
+    }
+    alike_find(mesh, c.modes);
+    ends_make(mesh, &c);
+    memory_free(from);
+    memory_free(c.whole);
+    memory_free(old->cut);
+    memory_free(old->stiffness);
+}
+
+/* Place of a cell among the cut ones, -1: it is none. */
+static int64_t cut_find(const struct mesh *mesh, int64_t I)
+{
+    int64_t low = 0, high = mesh->cuts;
+    while (low < high) {
+        const int64_t middle = (low + high) / 2;
+        if (mesh->cut[middle] < I) low = middle + 1;
+        else high = middle;
+    }
+    return low < mesh->cuts && mesh->cut[low] == I ? low : -1;
+}
+
+/* What the numbers of a marked group were is no longer known. */
+static void alike_part(struct mesh *mesh, const uint8_t *changed)
+{
+    for (int64_t g = mesh_groups(mesh) - 1; g >= 0; g--)
+        if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
+}
+
+void mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+{
+    struct cell_maker c = maker_of(mesh, p, s);
+    const int half = c.modes * (c.modes + 1) / 2;
+    uint8_t *changed = NEW("mesh.changed", mesh_groups(mesh), uint8_t);
+    for (int64_t k = 0; k < mesh->cuts; k++) changed[k / LANES] |= dirty[mesh->cut[k]];
+    alike_part(mesh, changed);
+    memory_free(changed);
+#pragma omp parallel for schedule(dynamic, 16)
+    for (int64_t I = 0; I < mesh->grid.n; I++) {
+        const int64_t k = dirty[I] ? cut_find(mesh, I) : -1;
+        if (k >= 0) cell_make(&c, I, lane_of(mesh->stiffness, k, half));
+    }
+    ends_free(mesh);
+    ends_make(mesh, &c);
+    memory_free(c.whole);
+}

@@ -1,0 +1,65 @@
+/* floor 3: into how many pieces particles fall that a mesh of the reference frame would hold: sets that share no node, which would pass
+ * through each other. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mesh_parts.h"
+
+/* Nodes round the particles, where those of `like` lie; nothing is stored at them. False: more than can be numbered. */
+static bool box_make(struct mesh *box, const struct particles *p, const struct grid *like)
+{
+    struct grid *g = &box->grid;
+    real from, to, n = 1;
+    memset(box, 0, sizeof *box);
+    g->dim = p->dim, g->h = like->h, g->n = 1;
+    for (int d = 0; d < p->dim; d++) {
+        particles_extent(p, p->n, d, &from, &to);
+        g->anchor[d] = like->anchor[d];
+        g->first[d] = (int64_t)floor((from - g->anchor[d]) / g->h);
+        g->count[d] = (int64_t)floor((to - g->anchor[d]) / g->h) - g->first[d] + 2;
+        n *= (real)g->count[d];
+        if (n > INT32_MAX >> p->dim) return false;
+        g->stride[d] = g->n;
+        g->n *= g->count[d];
+    }
+    for (int c = 0; c < 1 << p->dim; c++)
+        for (int d = 0; d < p->dim; d++) box->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
+    return true;
+}
+
+/* `above` holds 1 + the node above a node, of a root the node itself, 0 where no particle is. */
+static int32_t root_of(int32_t *above, int32_t I)
+{
+    while (above[I] != I + 1) {
+        above[I] = above[above[I] - 1];
+        I = above[I] - 1;
+    }
+    return I;
+}
+
+static void join(int32_t *above, int32_t I, int32_t J)
+{
+    if (above[I] == 0) above[I] = I + 1;
+    if (above[J] == 0) above[J] = J + 1;
+    const int32_t a = root_of(above, I), b = root_of(above, J);
+    above[a > b ? a : b] = (a > b ? b : a) + 1;
+}
+
+int64_t mesh_pieces(const struct particles *p, const struct grid *like)
+{
+    struct mesh box;
+    int64_t pieces = 0, last = -1;
+    bool fits = box_make(&box, p, like);
+    if (!fits) return 0;
+    int32_t *above = NEW("mesh.above", box.grid.n, int32_t);
+    for (int64_t i = 0; i < p->n && fits; i++) {
+        const int64_t place = mesh_place_of(&box, p, i), cell = place >> p->dim;
+        fits = place >= 0;
+        for (int c = 0; c < 1 << p->dim && fits && cell != last; c++) join(above, (int32_t)cell, (int32_t)cell + box.corner[c]);
+        last = cell;
+    }
+    for (int64_t I = 0; I < box.grid.n && fits; I++) pieces += above[I] == I + 1;
+    memory_free(above);
+    return pieces;
+}

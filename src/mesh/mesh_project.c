@@ -1,0 +1,218 @@
+/* floor 3: from points to nodes of a mesh, once: the nodal field that fits what the points have. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "mesh_parts.h"
+#include "base/team.h"
+#include "kernels/simd/variants.h"
+
+enum { ITERATIONS_MOST = 500 };
+#define TOLERANCE 1e-15                  /* of the largest nodal momentum */
+
+/* What projects. `node`: those that are unknown, the others stay; NULL: all are. */
+struct projection {
+    const struct mesh *mesh;
+    const struct particles *p;
+    const uint8_t *node;
+    real *mass;                          /* [nodes] of each point round a node that has them all, and of one mass; else 0 [kg] */
+    int32_t *row_of;                     /* [nodes] of other unknown nodes, -1: none                                   */
+    real *row;                           /* [rows][3^dim] of the mass matrix, by the nodes around                       [kg] */
+};
+
+/* sum m_p N_I value_p over the points of a cell of which I is corner c. */
+static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int c, const real *value, const int dim)
+{
+    const int32_t *point = m->mesh->point + (cell << dim);
+    real sum = 0;
+    for (int q = 0; q < 1 << dim; q++)
+        if (point[q] >= 0) sum += m->p->mass[point[q]] * mesh_weight(dim, c, q) * value[point[q]];
+    return sum;
+}
+
+static int nodes_around(int dim) { return dim == 1 ? 3 : dim == 2 ? 9 : 27; }
+
+/* Corner k of a cell of which a node is corner c, among the nodes around it. */
+static int node_around(int dim, int c, int k)
+{
+    int at = 0;
+    for (int d = dim - 1; d >= 0; d--) at = 3 * at + 1 + (k >> d & 1) - (c >> d & 1);
+    return at;
+}
+
+/* sum m_p N_I N_J over the points round node I, for the nodes J around it. */
+static void row_make(const struct projection *m, int64_t I, real *row)
+{
+    const int dim = m->p->dim;
+    for (int c = 0; c < 1 << dim; c++) {
+        const int32_t *point = m->mesh->point + ((I - m->mesh->corner[c]) << dim);
+        for (int q = 0; q < 1 << dim; q++)
+            for (int k = 0; k < 1 << dim && point[q] >= 0; k++)
+                row[node_around(dim, c, k)] += m->p->mass[point[q]] * mesh_weight(dim, c, q) * mesh_weight(dim, k, q);
+    }
+}
+
+static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t across, int64_t layer, const int dim)
+{
+    real sum = 0;
+    for (int c = dim > 2 ? -1 : 0; c <= (dim > 2); c++)
+        for (int b = dim > 1 ? -1 : 0; b <= (dim > 1); b++)
+            for (int a = -1; a <= 1; a++) sum += *row++ * from[c * layer + b * across + a];
+    return sum;
+}
+
+/* What a row gives with all points of mass 1 round a node, direction by direction: with two points in a cell sum_q N_I N_J is 5/8 in
+ * each of two cells, and 3/8 to either side. */
+static ALWAYS_INLINE real line_product(const real *from) { return 0.375 * (from[-1] + from[1]) + 1.25 * from[0]; }
+
+static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
+{
+    return 0.375 * (line_product(from - row) + line_product(from + row)) + 1.25 * line_product(from);
+}
+
+static ALWAYS_INLINE real inner_product(const real *from, int64_t row, int64_t layer, const int dim)
+{
+    if (dim == 1) return line_product(from);
+    if (dim == 2) return plane_product(from, row);
+    return 0.375 * (plane_product(from - layer, row) + plane_product(from + layer, row)) + 1.25 * plane_product(from, row);
+}
+
+static bool is_unknown(const struct projection *m, int64_t I) { return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]); }
+
+/* Of points, cell by cell. */
+static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
+{
+    real sum = 0;
+    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++) sum += cell_sum(m, I - m->mesh->corner[c], c, value, dim);
+    return sum;
+}
+
+/* Both sums, of points (`value`) or nodes, at all unknown nodes, and 0 at others: every node is written by one thread. */
+static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to, const int dim)
+{
+    const int64_t across = dim > 1 ? m->mesh->corner[2] : 0, layer = dim > 2 ? m->mesh->corner[4] : 0, n = m->mesh->grid.n;
+    const real *mass = m->mass;
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < n; I++) {
+        if (value) to[I] = outer_sum(m, I, value, dim);
+        else if (mass[I] > 0) to[I] = mass[I] * inner_product(from + I, across, layer, dim);
+        else to[I] = m->row_of[I] < 0 ? 0 : row_product(m->row + (int64_t)m->row_of[I] * nodes_around(dim), from + I, across, layer, dim);
+    }
+}
+
+static void gather(const struct projection *m, const real *value, const real *from, real *to)
+{
+#define CASE(D) case D: nodes_gather(m, value, from, to, D); break;
+    switch (m->p->dim) { DIM_VARIANTS(CASE) }
+}
+
+/* Mass of the points round node I if they are all there and alike, else 0. */
+static real mass_around(const struct projection *m, int64_t I)
+{
+    const int dim = m->p->dim;
+    real mass = 0;
+    if (!is_unknown(m, I)) return 0;
+    for (int c = 0; c < 1 << dim; c++)
+        for (int q = 0; q < 1 << dim; q++) {
+            const int32_t i = m->mesh->point[((I - m->mesh->corner[c]) << dim) + q];
+            if (i < 0 || (c + q > 0 && m->p->mass[i] != mass)) return 0;
+            mass = m->p->mass[i];
+        }
+    return mass;
+}
+
+static void masses_find(struct projection *m)
+{
+    m->mass = NEW("mesh.point_mass", m->mesh->grid.n, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < m->mesh->grid.n; I++) m->mass[I] = mass_around(m, I);
+}
+
+static void rows_make(struct projection *m)
+{
+    const int64_t n = m->mesh->grid.n, far = m->mesh->corner[(1 << m->p->dim) - 1];
+    const int each = nodes_around(m->p->dim);
+    int32_t rows = 0;
+    m->row_of = BARE("mesh.row_of", n, int32_t);
+    for (int64_t I = 0; I < n; I++) m->row_of[I] = is_unknown(m, I) && m->mass[I] == 0 ? rows++ : -1;
+    m->row = NEW("mesh.row", (int64_t)rows * each, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < n; I++)
+        if (m->row_of[I] >= 0) {
+            assert(I >= far && I + far < n);               /* a grid has a margin (grid.h) */
+            row_make(m, I, m->row + (int64_t)m->row_of[I] * each);
+        }
+}
+
+struct pair { const real *a, *b, *weight; };      /* weight NULL: 1 */
+
+static void product_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct pair *q = context;
+    for (int64_t I = first; I < end && q->weight; I++) sum[0] += q->a[I] * q->b[I] * q->weight[I];
+    for (int64_t I = first; I < end && !q->weight; I++) sum[0] += q->a[I] * q->b[I];
+}
+
+static real product(const real *a, const real *b, const real *weight, int64_t n)
+{
+    real sum;
+    team_sums(n, 1, product_block, &(struct pair){a, b, weight}, &sum);
+    return sum;
+}
+
+static real largest_of(const real *a, int64_t n)
+{
+    real most = 0;
+    for (int64_t I = 0; I < n; I++) most = real_max(most, fabs(a[I]));
+    return most;
+}
+
+/* Conjugate gradients on the consistent mass matrix, with the lumped one as preconditioner, from the start x. */
+static void project(const struct projection *m, const real *value, real *x)
+{
+    const int64_t n = m->mesh->grid.n;
+    const real *inverse = m->mesh->inverse_mass;
+    real *r = NEW("mesh.r", n, real), *d = NEW("mesh.d", n, real), *q = NEW("mesh.q", n, real);
+    gather(m, value, NULL, r);
+    const real scale = largest_of(r, n);
+    for (int64_t I = 0; I < n && !m->node; I++) x[I] = r[I] * inverse[I];
+    gather(m, NULL, x, q);
+    for (int64_t I = 0; I < n; I++) r[I] -= q[I], d[I] = r[I] * inverse[I];
+    real rho = product(r, r, inverse, n);
+    for (int k = 0; k < ITERATIONS_MOST && largest_of(r, n) > TOLERANCE * scale; k++) {
+        gather(m, NULL, d, q);
+        const real one = product(d, q, NULL, n);
+        if (!(one > 0)) break;
+        const real step = rho / one;
+        for (int64_t I = 0; I < n; I++) x[I] += step * d[I], r[I] -= step * q[I];
+        const real next = product(r, r, inverse, n);
+        for (int64_t I = 0; I < n; I++) d[I] = r[I] * inverse[I] + next / rho * d[I];
+        rho = next;
+    }
+    memory_free(r);
+    memory_free(d);
+    memory_free(q);
+}
+
+static void project_all(struct projection m, real *const *value, real *const *node)
+{
+    masses_find(&m);
+    rows_make(&m);
+    for (int a = 0; a < m.p->dim; a++) project(&m, value[a], node[a]);
+    memory_free(m.mass);
+    memory_free(m.row_of);
+    memory_free(m.row);
+}
+
+void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node)
+{
+    project_all((struct projection){.mesh = mesh, .p = p}, value, node);
+}
+
+void mesh_project_near(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
+                       const int32_t *list, int64_t n)
+{
+    uint8_t *mark = NEW("mesh.unknown", mesh->grid.n, uint8_t);
+    for (int64_t k = 0; k < n; k++) mark[list[k]] = 1;
+    project_all((struct projection){.mesh = mesh, .p = p, .node = mark}, value, node);
+    memory_free(mark);
+}

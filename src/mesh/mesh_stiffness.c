@@ -1,0 +1,91 @@
+/* floor 3: the time step that single cells of the mesh allow. */
+#include <math.h>
+#include <string.h>
+
+#include "base/eigenvalue.h"
+#include "base/memory.h"
+#include "mesh_parts.h"
+#include "kernels/mesh/mesh_point.h"
+
+/* Adds to the stiffness K of displacements, column by column, the part of a point at place q. */
+static void point_stiffness(real *K, const struct elastic *m, int dim, real h, real V, int q)
+{
+    const int corners = 1 << dim, n = corners * dim;
+    for (int column = 0; column < n; column++) {
+        real g[DIM_MAX * DIM_MAX] = {0}, s[SYM_MAX], P[DIM_MAX * DIM_MAX];
+        for (int d = 0; d < dim; d++) g[column % dim * dim + d] = mesh_slope(dim, column / dim, q, d) / h;
+        mesh_point_stress(m, g, s, dim);
+        for (int k = 0; k < symmetric_count(dim); k++) {
+            int a, b;
+            symmetric_axes(dim, k, &a, &b);
+            P[a * dim + b] = P[b * dim + a] = s[k];
+        }
+        for (int c = 0; c < corners; c++)
+            for (int a = 0; a < dim; a++)
+                for (int b = 0; b < dim; b++) K[column * n + c * dim + a] += V * mesh_slope(dim, c, q, b) / h * P[a * dim + b];
+    }
+}
+
+/* ---- time step -------------------------------------------------------------------------------------------- */
+
+struct scaled_cell { const real *K; int n; };
+
+/* y = m^-1/2 K m^-1/2 x, column by column: whole vectors. */
+static void scaled_stiffness(void *context, const real *x, real *y)
+{
+    const struct scaled_cell *c = context;
+    for (int a = 0; a < c->n; a++) y[a] = 0;
+    for (int b = 0; b < c->n; b++)
+        for (int a = 0; a < c->n; a++) y[a] += c->K[b * c->n + a] * x[b];
+}
+
+/* A mesh moves no faster than its stiffest cell would alone, with the masses of its own points: of m^-1/2 K m^-1/2 [1/s^2]. */
+static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
+{
+    const int corners = 1 << dim, n = corners * dim;
+    real K[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX] = {0}, mass[CORNERS_MAX] = {0};
+    for (int q = 0; q < corners; q++) {
+        if (!(places >> q & 1)) continue;
+        for (int c = 0; c < corners; c++) mass[c] += density * V * mesh_weight(dim, c, q);
+        point_stiffness(K, m, dim, h, V, q);
+    }
+    for (int b = 0; b < n; b++)
+        for (int a = 0; a < n; a++) K[b * n + a] /= sqrt(mass[a / dim] * mass[b / dim]);
+    return largest_eigenvalue(n, scaled_stiffness, &(struct scaled_cell){K, n});
+}
+
+static unsigned places_of(const struct mesh *mesh, int64_t I)
+{
+    const int dim = mesh->grid.dim;
+    unsigned places = 0;
+    for (int q = 0; q < 1 << dim; q++) places |= (unsigned)(mesh->point[(I << dim) + q] >= 0) << q;
+    return places;
+}
+
+/* Do points of a cell leave part of their stress to bonds? Then it is softer than the same cell by itself. */
+static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
+{
+    if (!partial || !partial->index) return false;
+    for (int q = 0; q < 1 << mesh->grid.dim; q++) {
+        const int32_t i = mesh->point[(I << mesh->grid.dim) + q];
+        if (i >= 0 && partial->index[i] >= 0) return true;
+    }
+    return false;
+}
+
+real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any)
+{
+    const int dim = mesh->grid.dim, sets = 1 << (1 << dim);
+    bool *there = NEW("mesh.there", sets, bool);
+    for (int64_t k = 0; k < mesh->cuts; k++)
+        if (!leaves_stress(mesh, source->partial, mesh->cut[k])) there[places_of(mesh, mesh->cut[k])] = true;
+    real most = 0;
+    for (int set = 1; set < sets; set++) {
+        if (!any && !there[set] && set != sets - 1) continue;
+        for (int m = 0; m < source->materials; m++)
+            most = real_max(most, cell_eigenvalue(&source->elastic[m], dim, mesh->grid.h, mesh->volume, density[m],
+                                                  (unsigned)set));
+    }
+    memory_free(there);
+    return 2 / sqrt(most);
+}

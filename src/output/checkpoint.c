@@ -1,0 +1,173 @@
+/* floor 4: checkpoints: two whole files that guard the run against kills, full disks and damaged bytes.
+ *
+ * File: an HDF5 file with /Cleave (attribute `version`, dataset `scene`) and /state (one list of bytes per archive
+ * entry), then a footer (checksum.h). HDF5 never sees a file whose hash is wrong. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/last_words.h"
+#include "base/memory.h"
+#include "output/output.h"
+#include "output/output_files.h"
+#include "output/checksum.h"
+#include "output/output_hdf5.h"
+
+enum { SCENE_LONGEST = 256 << 20 };      /* byte: far more than the echo of any scene */
+enum { CHECKPOINT_VERSION = 10 };
+static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint.previous.h5",
+                  damaged_name[] = "checkpoint.damaged.h5";
+
+/* ---- archive entries ------------------------------------------------------------------------------- */
+
+/* Entries are flat: '/' becomes '.', so that one entry's name may begin with another's. */
+static void entry_path(char *path, size_t room, const char *name)
+{
+    int length = snprintf(path, room, "/state/%s", name);
+    assert(length > 0 && (size_t)length < room);
+    (void)length;
+    for (char *c = path + strlen("/state/"); *c; c++) *c = *c == '/' ? '.' : *c;
+}
+
+/* A fault of the file itself is kept in struct hdf, and told by whoever opened it. */
+static status entry_save(struct archive *a, const char *name, void *data, size_t size)
+{
+    struct hdf *f = a->file;
+    char path[PATH_NAME_ROOM];
+    entry_path(path, sizeof path, name);
+    hdf_rows(f, path, HDF_U8, (int64_t)size, 1, data);
+    return f->failed ? FAILED : OK;
+}
+
+static status entry_restore(struct archive *a, const char *name, void *data, size_t size)
+{
+    struct hdf *f = a->file;
+    char path[PATH_NAME_ROOM];
+    entry_path(path, sizeof path, name);
+    int64_t stored = hdf_count(f, path);
+    if (stored != (int64_t)size)
+        return status_set(FAILED, "the checkpoint's entry %s has %lld bytes where this program needs %zu", name,
+                          (long long)stored, size);
+    hdf_read_rows(f, path, HDF_U8, stored, data);
+    return f->failed ? status_set(FAILED, "the checkpoint's entry %s cannot be read", name) : OK;
+}
+
+static int64_t entry_size(struct archive *a, const char *name)
+{
+    char path[PATH_NAME_ROOM];
+    entry_path(path, sizeof path, name);
+    return hdf_count(a->file, path);
+}
+
+static struct archive archive_of(struct hdf *f, bool saving)
+{
+    return (struct archive){
+        .saving = saving, .exchange = saving ? entry_save : entry_restore, .stored_size = entry_size, .file = f};
+}
+
+/* ---- writing --------------------------------------------------------------------------------------- */
+
+/* Writes PATH.tmp but for its footer. */
+static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
+                          void *context)
+{
+    static const int32_t version = CHECKPOINT_VERSION;
+    struct hdf f;
+    hdf_create(&f, path_aside(path).text, false);
+    hdf_group(&f, "/Cleave");
+    hdf_mark_one(&f, "/Cleave", "version", HDF_I32, &version);
+    hdf_rows(&f, "/Cleave/scene", HDF_U8, (int64_t)strlen(scene_text), 1, scene_text);
+    hdf_group(&f, "/state");
+    struct archive a = archive_of(&f, true);
+    status s = f.failed ? FAILED : archive_all(context, &a);
+    if (!f.failed) hdf_close(&f);
+    if (!f.failed && s == OK) return OK;
+    o->broken = f.failed;
+    file_discard(path);
+    return f.failed ? file_fault(path, f.cause) : s;
+}
+
+/* A checkpoint counts on the samples before it: they must be on the disk first. */
+static status history_sync(const struct output *o)
+{
+    if (!o->history || (fflush(o->history) == 0 && fsync(fileno(o->history)) == 0)) return OK;
+    return file_fault(path_join(o->folder, "history.csv").text, errno);
+}
+
+status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
+{
+    struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
+    TRY(output_wait(o));                 /* it counts on the frames before it, and HDF5 serves one thread at a time */
+    if (o->broken) return FAILED;
+    TRY(folder_held(&o->lock, o->folder));
+    TRY(history_sync(o));
+    TRY(state_write(o, newest.text, scene_text, archive_all, context));
+    /* Whole and on the disk before the older one gives up its name; a kill between the two renames leaves that
+     * one as checkpoint.previous.h5. */
+    TRY(file_seal_whole(newest.text));
+    if (path_exists(newest.text) && rename(newest.text, previous.text) != 0) {
+        int cause = errno;
+        file_discard(newest.text);
+        return file_fault(previous.text, cause);
+    }
+    return file_publish(newest.text);
+}
+
+/* ---- reading --------------------------------------------------------------------------------------- */
+
+/* Does the open checkpoint hold this scene? */
+static bool same_scene(struct hdf *f, const char *scene_text)
+{
+    int64_t length = hdf_count(f, "/Cleave/scene");
+    if (length < 0 || length > SCENE_LONGEST) return false;
+    char *stored = NEW("checkpoint.scene", length + 1, char);
+    hdf_read_rows(f, "/Cleave/scene", HDF_U8, length, stored);
+    const bool same = !f->failed && strlen(stored) == (size_t)length && scene_text_same(stored, scene_text);
+    memory_free(stored);
+    return same;
+}
+
+static status state_read(const char *path, const char *scene_text, archive_all_fn *archive_all, void *context)
+{
+    struct hdf f;
+    int32_t version = 0;
+    last_words_reading(path);
+    hdf_open(&f, path);
+    if (!f.failed) hdf_read_mark(&f, "/Cleave", "version", HDF_I32, &version);
+    struct archive a = archive_of(&f, false);
+    status s;
+    if (f.failed) s = status_set(FAILED, "cannot resume: %s is no checkpoint of this program", path);
+    else if (version != CHECKPOINT_VERSION)
+        s = status_set(FAILED, "cannot resume: %s has format %d, this program reads format %d", path, (int)version,
+                       CHECKPOINT_VERSION);
+    else if (!same_scene(&f, scene_text))
+        s = status_set(FAILED, "cannot resume: %s belongs to another scene; choose another -o", path);
+    else s = archive_all(context, &a);
+    hdf_close(&f);
+    last_words_reading(NULL);
+    if (f.failed && f.cause) return status_set(FAILED, "cannot resume: cannot read %s: %s", path, strerror(f.cause));
+    return s;
+}
+
+status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
+{
+    struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
+    const char *fault = whole_fault(newest.text);
+    if (!fault) return state_read(newest.text, scene_text, archive_all, context);
+    const char *older_fault = whole_fault(previous.text);
+    if (older_fault)
+        return status_set(FAILED, "cannot resume: in %s %s %s and %s %s", o->folder, newest_name, fault, previous_name,
+                          older_fault);
+    fprintf(stderr, "%s %s: resuming from %s\n", shown_name(newest.text).text, fault, previous_name);
+    TRY(state_read(previous.text, scene_text, archive_all, context));
+    /* Out of the way, or the next checkpoint would rename it over the whole one. */
+    if (path_exists(newest.text) && rename(newest.text, path_join(o->folder, damaged_name).text) != 0)
+        return file_fault(newest.text, errno);
+    return OK;
+}
+
+bool checkpoint_exists(const char *folder)
+{
+    return path_exists(path_join(folder, newest_name).text) || path_exists(path_join(folder, previous_name).text);
+}

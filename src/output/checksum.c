@@ -1,0 +1,154 @@
+/* floor 4: hashes of files, and the footer that tells whole files from damaged ones. */
+#include "output/checksum.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "output/output_files.h"
+
+enum { BLOCK = 1 << 14 };               /* on the stack of any thread, and a multiple of STRIDE */
+
+/* ---- the hash --------------------------------------------------------------------------------------- */
+
+/* Four lanes, because each step of one waits for its multiplication. */
+enum { LANES_OF_HASH = 4, STRIDE = LANES_OF_HASH * 8 };
+struct hash { uint64_t lane[LANES_OF_HASH], length; };
+
+/* One step: after Fowler, Noll and Vo, on words instead of bytes, with a shift because a product carries only
+ * upwards. Invertible in `lane` and in `word`: any change of one word changes the lane for good. */
+static inline uint64_t hash_step(uint64_t lane, uint64_t word)
+{
+    lane = (lane ^ word) * UINT64_C(0x9E3779B97F4A7C15);
+    return lane ^ lane >> 32;
+}
+
+static void hash_start(struct hash *h)
+{
+    for (int k = 0; k < LANES_OF_HASH; k++) h->lane[k] = UINT64_C(0xCBF29CE484222325) + (uint64_t)k;
+    h->length = 0;
+}
+
+static void hash_strides(struct hash *h, const unsigned char *bytes, size_t strides)
+{
+    uint64_t a = h->lane[0], b = h->lane[1], c = h->lane[2], d = h->lane[3], word[LANES_OF_HASH];
+    for (size_t k = 0; k < strides; k++) {
+        memcpy(word, bytes + k * STRIDE, sizeof word);
+        a = hash_step(a, word[0]);
+        b = hash_step(b, word[1]);
+        c = hash_step(c, word[2]);
+        d = hash_step(d, word[3]);
+    }
+    h->lane[0] = a, h->lane[1] = b, h->lane[2] = c, h->lane[3] = d;
+}
+
+/* Adds bytes; only the last call may be with other than a multiple of STRIDE. */
+static void hash_add(struct hash *h, const unsigned char *bytes, size_t length)
+{
+    unsigned char rest[STRIDE] = {0};
+    size_t whole = length / STRIDE;
+    hash_strides(h, bytes, whole);
+    h->length += length;
+    if (length == whole * STRIDE) return;
+    memcpy(rest, bytes + whole * STRIDE, length - whole * STRIDE);
+    hash_strides(h, rest, 1);
+}
+
+static uint64_t hash_value(const struct hash *h)
+{
+    uint64_t value = h->length;
+    for (int k = 0; k < LANES_OF_HASH; k++) value = hash_step(value, h->lane[k]);
+    return value;
+}
+
+/* Hash of the first `length` bytes of an open file; returns 0 or an errno. */
+static int hash_file(int fd, uint64_t length, uint64_t *value)
+{
+    struct hash h;
+    int fault = 0;
+    unsigned char block[BLOCK];
+    hash_start(&h);
+    for (uint64_t at = 0; at < length && !fault;) {
+        size_t want = length - at < BLOCK ? (size_t)(length - at) : BLOCK, have = 0;
+        while (have < want && !fault) {
+            ssize_t done = pread(fd, block + have, want - have, (off_t)(at + have));
+            if (done > 0) have += (size_t)done;
+            else if (done == 0) fault = EIO;
+            else if (errno != EINTR) fault = errno;
+        }
+        hash_add(&h, block, have);
+        at += have;
+    }
+    *value = hash_value(&h);
+    return fault;
+}
+
+/* ---- the footer ------------------------------------------------------------------------------------ */
+
+struct footer { char magic[8]; uint64_t length, hash; };
+_Static_assert(sizeof(struct footer) == FOOTER_BYTES, "the footer has no gaps");
+static const char footer_magic[8] = {'C', 'L', 'E', 'A', 'V', 'E', 'O', 'K'};
+
+static const char unread[] = "cannot be read";
+
+/* What is wrong with an open file, NULL if it is whole. */
+static const char *open_fault(int fd)
+{
+    struct stat s;
+    struct footer end;
+    uint64_t hash;
+    if (fstat(fd, &s) != 0 || !S_ISREG(s.st_mode)) return "is no regular file";
+    if (s.st_size == 0) return "is empty";
+    if (s.st_size <= (off_t)sizeof end) return "is cut short";
+    uint64_t length = (uint64_t)s.st_size - sizeof end;
+    if (pread(fd, &end, sizeof end, (off_t)length) != (ssize_t)sizeof end) return unread;
+    if (memcmp(end.magic, footer_magic, sizeof end.magic) != 0) return "is cut short or damaged (no end mark)";
+    if (end.length != length) return "is damaged (its length is not the one it was written with)";
+    if (hash_file(fd, length, &hash) != 0) return unread;
+    return hash == end.hash ? NULL : "is damaged (its bytes are not those that were written)";
+}
+
+const char *whole_fault(const char *path)
+{
+    if (!path_exists(path)) return "is missing";
+    /* Non-blocking, or a FIFO of this name would hang the program. */
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) return errno == ENOENT ? "is a link to nothing" : unread;
+    const char *fault = open_fault(fd);
+    close(fd);
+    return fault;
+}
+
+const char *whole_fault_certain(const char *path)
+{
+    const char *fault = whole_fault(path);
+    return fault == unread ? NULL : fault;
+}
+
+status file_seal_whole(const char *path)
+{
+    struct stat s;
+    struct footer end = {{0}, 0, 0};
+    const int fd = open(path_aside(path).text, O_RDONLY | O_CLOEXEC);
+    int fault = fd < 0 || fstat(fd, &s) != 0 ? errno : 0;
+    memcpy(end.magic, footer_magic, sizeof end.magic);
+    if (!fault) fault = hash_file(fd, end.length = (uint64_t)s.st_size, &end.hash);
+    if (fd >= 0) close(fd);
+    if (!fault) return file_seal(path, &end, sizeof end);
+    file_discard(path);
+    return file_fault(path, fault);
+}
+
+status file_contents(const char *path, uint64_t *hash)
+{
+    struct stat s;
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    int fault = fd < 0 || fstat(fd, &s) != 0 ? errno : 0;
+    if (!fault && !S_ISREG(s.st_mode)) fault = EINVAL;
+    if (!fault) fault = hash_file(fd, (uint64_t)s.st_size, hash);
+    if (fd >= 0) close(fd);
+    if (!fault) return OK;
+    return status_set(REFUSED, "%s: %s", path, fault == EINVAL ? "is no regular file" : strerror(fault));
+}

@@ -1,0 +1,112 @@
+/* floor 4: history.csv by columns. */
+#include "output/history.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/output_files.h"
+
+/* The entry's length up to a comma or the end of the line. */
+static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
+
+/* `name [unit]` without its unit. */
+static char *column_name(const char *from, size_t length)
+{
+    char *name = NEW("history.name", (int64_t)length + 1, char);
+    memcpy(name, from, length);
+    char *unit = strstr(name, " [");
+    if (unit != NULL) *unit = '\0';
+    name[strcspn(name, "\r")] = '\0';
+    text_harmless(name);
+    return name;
+}
+
+static void read_header(struct history *h, const char *line)
+{
+    for (const char *at = line;; at++) {
+        size_t length = entry_length(at);
+        h->name = memory_resize("history.names", h->name, h->columns, h->columns + 1, sizeof *h->name);
+        h->name[h->columns++] = column_name(at, length);
+        at += length;
+        if (*at != ',') return;
+    }
+}
+
+/* One line into a row; false where the number of entries is another. */
+static bool read_row(const struct history *h, const char *line, double *row)
+{
+    const char *at = line;
+    for (int k = 0; k < h->columns; k++) {
+        char *end;
+        row[k] = strtod(at, &end);
+        if (end == at) row[k] = NAN;
+        at += entry_length(at);
+        if (*at != (k + 1 < h->columns ? ',' : '\n')) return false;
+        at++;
+    }
+    return true;
+}
+
+static status read_rows(struct history *h, FILE *from, const char *path, char **line, size_t *room)
+{
+    int64_t rows_room = 0;
+    ssize_t length;
+    while ((length = getline(line, room, from)) > 0 && (*line)[length - 1] == '\n') {
+        if (h->rows == rows_room) {
+            int64_t grown = rows_room > 0 ? 2 * rows_room : 256;
+            h->value = memory_resize("history.value", h->value, rows_room * h->columns, grown * h->columns,
+                                     sizeof *h->value);
+            rows_room = grown;
+        }
+        if (!read_row(h, *line, h->value + h->rows * h->columns))
+            return status_set(FAILED, "%s:%lld: not %d entries", path, (long long)h->rows + 2, h->columns);
+        h->rows++;
+    }
+    return OK;
+}
+
+status history_read(struct history *h, const char *folder)
+{
+    char path[4096];
+    *h = (struct history){0};
+    if (snprintf(path, sizeof path, "%s/history.csv", folder) >= (int)sizeof path)
+        return status_set(FAILED, "%s: the name is too long", folder);
+    return history_read_file(h, path);
+}
+
+status history_read_file(struct history *h, const char *path)
+{
+    char *line = NULL;
+    size_t room = 0;
+    *h = (struct history){0};
+    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is no regular file", path);
+    FILE *from = fopen(path, "r");
+    if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
+    ssize_t length = getline(&line, &room, from);
+    status s = length > 0 && line[length - 1] == '\n' ? OK : status_set(FAILED, "%s:1: no header", path);
+    if (s == OK) read_header(h, line);
+    if (s == OK) s = read_rows(h, from, path, &line, &room);
+    free(line);
+    fclose(from);
+    if (s != OK) history_free(h);
+    return s;
+}
+
+void history_free(struct history *h)
+{
+    for (int k = 0; k < h->columns; k++) memory_free(h->name[k]);
+    memory_free(h->name);
+    memory_free(h->value);
+    *h = (struct history){0};
+}
+
+int history_column(const struct history *h, const char *name)
+{
+    for (int k = 0; k < h->columns; k++)
+        if (strcmp(h->name[k], name) == 0) return k;
+    return -1;
+}

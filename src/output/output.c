@@ -1,0 +1,281 @@
+/* floor 4: the folder of a run: what may be put where, and what is removed before. */
+#include "output/output.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <hdf5.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+
+void output_start(void)
+{
+    /* HDF5 1.10 flushes its open files again at exit, and crashes on those that could not be written. */
+    H5dont_atexit();
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    signal(SIGXFSZ, SIG_IGN);
+    signal(SIGPIPE, SIG_IGN);
+}
+
+/* ---- folders --------------------------------------------------------------------------------------- */
+
+/* Files of a run, in the order in which they go: checkpoints first, for none may outlive the frames it counts on. */
+static const char *const made[] = {"checkpoint.h5", "checkpoint.previous.h5", "checkpoint.damaged.h5", "summary.json", "history.csv",
+                                   "frames.hdf.series", "frames.xdmf"};
+
+/* 123456.hdf: a name that a run gives to a frame, with `end` behind it. */
+static bool is_frame(const char *name, const char *end)
+{
+    const size_t digits = strspn(name, "0123456789");
+    return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
+}
+
+/* Makes one folder unless it is there. */
+static status folder_make_one(const char *path)
+{
+    if (mkdir(path, 0777) == 0) return file_settle(path);
+    if (errno == EEXIST && path_is_folder(path)) return OK;
+    if (errno == EEXIST || errno == ENOTDIR)
+        return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path);
+    return status_set(FAILED, "cannot make the folder %s: %s; choose another -o", path, strerror(errno));
+}
+
+/* Makes a folder and those above it. */
+static status folder_make(const char *path)
+{
+    struct path part = {{0}};
+    for (size_t k = 0; path[k]; k++) {
+        if (path[k] == '/' && k > 0 && !path_is_folder(part.text)) TRY(folder_make_one(part.text));
+        part.text[k] = path[k];
+    }
+    return folder_make_one(part.text);
+}
+
+/* Removes frames with `end` behind their names. */
+static void frames_remove(const char *folder, const char *end)
+{
+    DIR *d = opendir(folder);
+    if (!d) return;
+    for (struct dirent *e; (e = readdir(d));)
+        if (is_frame(e->d_name, end)) unlink(path_join(folder, e->d_name).text);
+    closedir(d);
+}
+
+static bool has_frames(const char *folder)
+{
+    bool any = false;
+    DIR *d = opendir(folder);
+    if (!d) return false;
+    for (struct dirent *e; !any && (e = readdir(d));) any = is_frame(e->d_name, "");
+    closedir(d);
+    return any;
+}
+
+/* Does the folder hold nothing but hidden files, temporary files and a folder named `allowed`? Puts the name of
+ * the first other thing into `found`. */
+static bool folder_is_bare(const char *folder, const char *allowed, char *found, size_t room)
+{
+    bool bare = true;
+    DIR *d = opendir(folder);
+    if (!d) return true;
+    for (struct dirent *e; bare && (e = readdir(d));) {
+        const size_t length = strlen(e->d_name);
+        const bool temporary = length > 4 && strcmp(e->d_name + length - 4, ".tmp") == 0;
+        const bool is_allowed = allowed && strcmp(e->d_name, allowed) == 0 && path_is_folder(path_join(folder, allowed).text);
+        if (e->d_name[0] == '.' || temporary || is_allowed) continue;
+        snprintf(found, room, "%s", e->d_name);
+        bare = false;
+    }
+    closedir(d);
+    return bare;
+}
+
+/* ---- whose folder is it ---------------------------------------------------------------------------- */
+
+/* What counts of a line of a scene: of a particle list what is in it, not where it lies. */
+static const char *line_meaning(const char *line, size_t *length)
+{
+    static const char mark[] = "  # contents ";
+    *length = strcspn(line, "\n");
+    const char *contents = memmem(line, *length, mark, sizeof mark - 1);
+    if (contents) *length -= (size_t)(contents - line);
+    return contents ? contents : line;
+}
+
+/* Number of the first line in which two scenes differ, where it begins in both; 0: they are the same. */
+static int scene_difference(const char **a, const char **b)
+{
+    for (int line = 1; **a || **b; line++) {
+        size_t la, lb;
+        const char *x = line_meaning(*a, &la), *y = line_meaning(*b, &lb);
+        if (la != lb || memcmp(x, y, la) != 0) return line;
+        *a += strcspn(*a, "\n"), *b += strcspn(*b, "\n");
+        if (**a != **b) return line;
+        if (**a) ++*a, ++*b;
+    }
+    return 0;
+}
+
+bool scene_text_same(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
+
+/* The first line in which two scenes differ, for a message. */
+static void difference_text(const char *a, const char *b, char *text, size_t room)
+{
+    const int line = scene_difference(&a, &b);
+    a += strspn(a, " "), b += strspn(b, " ");
+    enum { SHOWN = 200 };
+    const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n");
+    snprintf(text, room, "line %d was `%.*s` and is `%.*s`", line, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b);
+}
+
+/* Refuses a folder that belongs to something else than a run of this scene. */
+static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
+{
+    struct path scene = path_join(folder, "scene.yaml"), frames = path_join(folder, "frames");
+    char found[PATH_NAME_ROOM], difference[500], *text = NULL;
+    size_t length = 0;
+    if (path_is_link(frames.text))
+        return status_set(REFUSED, "%s is a link: what a run removes and makes there would be somewhere else; choose another -o",
+                          frames.text);
+    if (path_exists(scene.text)) {
+        TRY(file_get(scene.text, &text, &length));
+        const bool same = length == strlen(text) && scene_text_same(text, scene_text);
+        difference_text(text, scene_text, difference, sizeof difference);
+        memory_free(text);
+        if (same || mode == OUTPUT_OVERWRITE) return OK;
+        return status_set(REFUSED, "%s holds the run of another scene (scene.yaml: %s); choose another -o or replace it with "
+                                   "--overwrite", folder, difference);
+    }
+    if (folder_is_bare(folder, "frames", found, sizeof found) &&
+        folder_is_bare(frames.text, NULL, found, sizeof found)) return OK;
+    return status_set(REFUSED, "%s holds files, for instance %s, but no run; choose another -o", folder, found);
+}
+
+/* Is there more of a run than its scene? */
+static bool has_run(const char *folder)
+{
+    bool any = has_frames(path_join(folder, "frames").text);
+    for (size_t k = 0; k < COUNT_OF(made); k++) any |= path_exists(path_join(folder, made[k]).text);
+    return any;
+}
+
+/* Has it gone on beyond its first checkpoint, which is written before its first step? */
+static bool has_advanced(const char *folder)
+{
+    char *text = NULL;
+    size_t length = 0, lines = 0;
+    const struct path history = path_join(folder, "history.csv"), frames = path_join(folder, "frames");
+    if (path_exists(path_join(frames.text, "000001.hdf").text)) return true;
+    if (!path_is_file(history.text) || file_get(history.text, &text, &length) != OK) return false;
+    for (size_t k = 0; k < length; k++) lines += text[k] == '\n';
+    memory_free(text);
+    return lines > 1;
+}
+
+/* An older run of the same scene is left alone without an option that says what to do with it. */
+static status mode_check(const char *folder, enum output_mode mode)
+{
+    char ended[NAME_MAX_LENGTH] = "interrupted";
+    const bool there = has_run(folder);
+    if (path_is_file(path_join(folder, "summary.json").text)) (void)summary_string(folder, "status", ended, sizeof ended);
+    if (mode == OUTPUT_FIRST && there)
+        return status_set(REFUSED, "%s holds %s run of this scene; go on with --resume, replace it with --overwrite, or choose "
+                                   "another -o", folder, !strcmp(ended, "done") ? "a finished" : !strcmp(ended, "failed") ? "a failed" : "an interrupted");
+    if (mode != OUTPUT_RESUME || checkpoint_exists(folder)) return OK;
+    if (has_advanced(folder))
+        return status_set(REFUSED, "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or choose "
+                                   "another -o", folder);
+    fprintf(stderr, "warning: nothing to resume in %s: starts at t = 0\n", shown_name(folder).text);
+    return OK;
+}
+
+static void run_remove(const char *folder)
+{
+    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_join(folder, made[k]).text);
+    frames_remove(path_join(folder, "frames").text, "");
+}
+
+static void temporary_remove(const char *folder)
+{
+    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k]).text).text);
+    unlink(path_aside(path_join(folder, "scene.yaml").text).text);
+    frames_remove(path_join(folder, "frames").text, ".tmp");
+}
+
+static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)
+{
+    struct path frames = path_join(folder, "frames");
+    TRY(folder_check(folder, scene_text, mode));
+    TRY(mode_check(folder, mode));
+    TRY(folder_make_one(frames.text));
+    temporary_remove(folder);
+    if (mode != OUTPUT_RESUME) run_remove(folder);
+    return file_put(path_join(folder, "scene.yaml").text, scene_text, strlen(scene_text));
+}
+
+status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress)
+{
+    assert(folder && scene_text);
+    struct path clean = {{0}};
+    size_t length = strlen(folder);
+    *o = (struct output){.compress = compress, .lock.fd = -1};
+    if (length == 0) return status_set(REFUSED, "-o: needs the name of a folder");
+    if (length + PATH_NAME_ROOM >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
+    while (length > 1 && folder[length - 1] == '/') length--;
+    memcpy(clean.text, folder, length);
+    TRY(folder_make(clean.text));
+    TRY(folder_lock(&o->lock, clean.text));
+    const status s = folder_prepare(clean.text, scene_text, mode);
+    if (s != OK) {
+        folder_unlock(&o->lock, clean.text);
+        return s;
+    }
+    o->folder = NEW("output.folder", (int64_t)length + 1, char);
+    memcpy(o->folder, clean.text, length);
+    return OK;
+}
+
+void output_close(struct output *o)
+{
+    (void)output_wait(o);                /* who wants to know how it ended has asked before */
+    if (o->history) fclose(o->history);
+    if (o->folder) folder_unlock(&o->lock, o->folder);
+    memory_free(o->folder);
+    memory_free(o->frame_time);
+    memory_free(o->frame_copy);
+    free(o->frame_kept.order);
+    free(o->frame_kept.room);
+    *o = (struct output){0};
+}
+
+status output_text(const struct output *o, const char *name, const char *text, size_t length)
+{
+    TRY(folder_held(&o->lock, o->folder));
+    return file_put(path_join(o->folder, name).text, text, length);
+}
+
+/* ---- restart --------------------------------------------------------------------------------------- */
+
+status output_archive(struct output *o, struct archive *a)
+{
+    int32_t frames = o->frames;
+    ARCHIVE_VALUE(a, "output/frames", frames);
+    if (!a->saving) {
+        if (frames < 0 || a->stored_size(a, "output/frame_time") != (int64_t)frames * (int64_t)sizeof(real))
+            return status_set(FAILED, "the checkpoint's list of frames does not fit their number");
+        memory_free(o->frame_time);
+        o->frame_time = NEW("output.frame_time", frames, real);
+        o->frames = o->frames_room = frames;
+    }
+    TRY(a->exchange(a, "output/frame_time", o->frame_time, (size_t)frames * sizeof(real)));
+    ARCHIVE_VALUE(a, "output/frame_particles", o->frame_particles);
+    ARCHIVE_VALUE(a, "output/history_bytes", o->history_bytes);
+    ARCHIVE_VALUE(a, "output/history_hash", o->history_hash);
+    return OK;
+}

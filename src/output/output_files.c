@@ -1,0 +1,198 @@
+/* floor 4: paths, and whole files: written aside, synced, renamed. */
+#include "output/output_files.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+
+/* ---- paths ----------------------------------------------------------------------------------------- */
+
+static struct path path_compose(const char *first, const char *between, const char *last)
+{
+    struct path p;
+    int length = snprintf(p.text, sizeof p.text, "%s%s%s", first, between, last);
+    /* An empty path is refused by every system call: better than the wrong file. */
+    if (length < 0 || (size_t)length >= sizeof p.text) p.text[0] = '\0';
+    return p;
+}
+
+struct path path_join(const char *folder, const char *name) { return path_compose(folder, "/", name); }
+
+struct path path_aside(const char *path) { return path_compose(path, "", ".tmp"); }
+
+bool path_exists(const char *path)
+{
+    struct stat s;
+    return lstat(path, &s) == 0;
+}
+
+bool path_is_link(const char *path)
+{
+    struct stat s;
+    return lstat(path, &s) == 0 && S_ISLNK(s.st_mode);
+}
+
+bool path_is_file(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0 && S_ISREG(s.st_mode);
+}
+
+bool path_is_folder(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
+}
+
+/* ---- faults ---------------------------------------------------------------------------------------- */
+
+static const char *file_cure(int cause)
+{
+    switch (cause) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG: return "; free space or choose another -o";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+    case ENAMETOOLONG:
+    case ENOENT:
+    case ENOTDIR: return "; choose another -o";
+    default: return "";
+    }
+}
+
+status file_fault(const char *path, int cause)
+{
+    return status_set(FAILED, "cannot write %s: %s%s", path, cause ? strerror(cause) : "write error", file_cure(cause));
+}
+
+void file_discard(const char *path)
+{
+    struct path aside = path_aside(path);
+    /* After a failed write the HDF5 library still holds the file: only cutting it frees the disk. */
+    if (path_is_file(aside.text) && truncate(aside.text, 0) != 0) errno = 0;
+    unlink(aside.text);
+}
+
+/* ---- whole files ----------------------------------------------------------------------------------- */
+
+/* Writes all bytes; returns 0 or an errno. */
+static int write_all(int fd, const char *bytes, size_t length)
+{
+    while (length > 0) {
+        ssize_t done = write(fd, bytes, length);
+        if (done < 0 && errno != EINTR) return errno;
+        if (done == 0) return ENOSPC;
+        if (done > 0) {
+            bytes += done;
+            length -= (size_t)done;
+        }
+    }
+    return 0;
+}
+
+/* Opens, writes at the end, syncs and closes; returns 0 or an errno. */
+static int write_synced(const char *path, int flags, const void *bytes, size_t length)
+{
+    if (flags & O_EXCL) unlink(path);            /* what a kill left; whatever else has this name is not written through */
+    int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
+    if (fd < 0) return errno;
+    int fault = write_all(fd, bytes, length);
+    if (!fault && fsync(fd) != 0) fault = errno;
+    if (close(fd) != 0 && !fault) fault = errno;
+    return fault;
+}
+
+/* Makes a rename last; returns 0 or an errno. File systems that cannot sync a folder say EINVAL: no fault. */
+static int sync_folder_of(const char *path)
+{
+    struct path folder = path_compose(path, "", "");
+    char *slash = strrchr(folder.text, '/');
+    if (slash == folder.text) slash++;
+    if (slash) *slash = '\0';
+    int fd = open(slash ? folder.text : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0) return errno;
+    int fault = fsync(fd) != 0 && errno != EINVAL ? errno : 0;
+    if (close(fd) != 0 && !fault) fault = errno;
+    return fault;
+}
+
+/* The end of each of the steps below: a fault (an errno) removes what is not whole. */
+static status outcome(const char *path, int fault)
+{
+    if (!fault) return OK;
+    file_discard(path);
+    return file_fault(path, fault);
+}
+
+status file_seal(const char *path, const void *tail, size_t length)
+{
+    return outcome(path, write_synced(path_aside(path).text, O_APPEND, tail, length));
+}
+
+static status file_rename(const char *path) { return outcome(path, rename(path_aside(path).text, path) != 0 ? errno : 0); }
+
+status file_settle(const char *path)
+{
+    const int fault = sync_folder_of(path);
+    return fault && fault != EACCES ? file_fault(path, fault) : OK;      /* a folder that may be written but not read */
+}
+
+status file_publish(const char *path)
+{
+    TRY(file_rename(path));
+    return file_settle(path);
+}
+
+status file_put_unsettled(const char *path, const void *bytes, size_t length)
+{
+    TRY(outcome(path, write_synced(path_aside(path).text, O_CREAT | O_EXCL, bytes, length)));
+    return file_rename(path);
+}
+
+status file_put(const char *path, const void *bytes, size_t length)
+{
+    TRY(file_put_unsettled(path, bytes, length));
+    return file_settle(path);
+}
+
+/* Reads up to `room` bytes; returns their number, -1 on a fault. */
+static int64_t read_all(int fd, char *bytes, size_t room)
+{
+    size_t have = 0;
+    while (have < room) {
+        ssize_t done = read(fd, bytes + have, room - have);
+        if (done < 0 && errno != EINTR) return -1;
+        if (done == 0) break;
+        if (done > 0) have += (size_t)done;
+    }
+    return (int64_t)have;
+}
+
+status file_get(const char *path, char **text, size_t *length)
+{
+    struct stat s;
+    /* Non-blocking, or a FIFO of this name would hang the program. */
+    int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) return status_set(FAILED, "cannot read %s: %s", path, strerror(errno));
+    if (fstat(fd, &s) != 0 || !S_ISREG(s.st_mode)) {
+        close(fd);
+        return status_set(FAILED, "cannot read %s: it is no regular file", path);
+    }
+    *text = NEW("output.text", s.st_size + 1, char);
+    int64_t have = read_all(fd, *text, (size_t)s.st_size);
+    close(fd);
+    if (have < 0) {
+        memory_free(*text);
+        *text = NULL;
+        return status_set(FAILED, "cannot read %s: %s", path, strerror(errno));
+    }
+    *length = (size_t)have;
+    return OK;
+}

@@ -1,0 +1,481 @@
+/* floor 4: frames in VTKHDF, each a whole file, and their two indices: frames.hdf.series and frames.xdmf.
+ *
+ * Written for the reader of VTK 9.1 (ParaView 5.11): a static UnstructuredGrid with one vertex cell per particle.
+ * Our own data live in /Cleave. A symmetric tensor has VTK's order xx yy zz xy yz xz; components that the
+ * space does not have are 0, plane strain has zz. */
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "output/checksum.h"
+#include "base/memory.h"
+#include "output/output.h"
+#include "output/output_files.h"
+#include "output/output_hdf5.h"
+
+enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
+enum { COPIED = 4096 };                  /* particles whose rows a thread copies at once */
+
+/* ---- the table of fields --------------------------------------------------------------------------- */
+
+/* One dataset with a row per particle. `columns` 0 stands for dim; `fill` writes the row of particle i of what never changes in a
+ * run, `copy` those of particles first .. end - 1 of the rest, into `rows` of all: the loop waits for it. */
+struct frame_field {
+    const char *path;
+    enum hdf_type type;
+    int columns;
+    void (*fill)(const struct particles *p, int64_t i, void *row);
+    void (*copy)(const struct particles *p, int64_t first, int64_t end, void *rows);
+};
+
+/* Vectors, or by what they differ from others, in places of three. */
+static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less, int dim)
+{
+    for (int64_t i = first; i < end; i++)
+        for (int d = 0; d < DIM_MAX; d++) rows[DIM_MAX * i + d] = d < dim ? (float)(less ? of[d][i] - less[d][i] : of[d][i]) : 0;
+}
+
+static void copy_point(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    copy_vectors(rows, first, end, p->x, NULL, p->dim);
+}
+
+static void copy_displacement(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    copy_vectors(rows, first, end, p->x, p->X, p->dim);
+}
+
+static void copy_velocity(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    copy_vectors(rows, first, end, p->v, NULL, p->dim);
+}
+
+/* One number of each in every `columns`-th place. */
+static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of, int columns)
+{
+    for (int64_t i = first; i < end; i++) rows[columns * i] = (float)of[i];
+}
+
+static void copy_stress(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    /* Place of our k-th component in VTK's order; differs only in 2D: xx yy xy. */
+    static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
+    float *out = rows;
+    memset(out + SYM_MAX * first, 0, (size_t)(SYM_MAX * (end - first)) * sizeof *out);
+    for (int k = 0; k < symmetric_count(p->dim); k++)
+        copy_scalars(out + place[p->dim][k], first, end, p->stress[k], SYM_MAX);
+    for (int64_t i = first; i < end && p->plane_strain; i++) out[SYM_MAX * i + 2] = (float)particle_stress_across(p, i);
+}
+
+static void copy_damage(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    copy_scalars(rows, first, end, p->damage, 1);
+}
+
+static void copy_plastic_strain(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    copy_scalars(rows, first, end, p->plastic_strain, 1);
+}
+
+static void copy_kind(const struct particles *p, int64_t first, int64_t end, void *rows)
+{
+    memcpy((uint8_t *)rows + first, p->kind + first, (size_t)(end - first));
+}
+
+static void fill_reference(const struct particles *p, int64_t i, void *row)
+{
+    for (int d = 0; d < p->dim; d++) ((double *)row)[d] = p->X[d][i];
+}
+
+static void fill_material(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->material[i]; }
+static void fill_body(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->body[i]; }
+static void fill_id(const struct particles *p, int64_t i, void *row) { *(int32_t *)row = p->id[i]; }
+
+#define POINT_DATA "/VTKHDF/PointData/"
+enum { FIELD_POINTS };                   /* where in the table the positions stand */
+static const struct frame_field frame_fields[] = {
+    {"/VTKHDF/Points", HDF_F32, 3, NULL, copy_point},
+    {POINT_DATA "displacement", HDF_F32, 3, NULL, copy_displacement},
+    {POINT_DATA "velocity", HDF_F32, 3, NULL, copy_velocity},
+    {POINT_DATA "stress", HDF_F32, 6, NULL, copy_stress},
+    {POINT_DATA "damage", HDF_F32, 1, NULL, copy_damage},
+    {POINT_DATA "plastic_strain", HDF_F32, 1, NULL, copy_plastic_strain},
+    {POINT_DATA "kind", HDF_U8, 1, NULL, copy_kind},
+    {POINT_DATA "material", HDF_U8, 1, fill_material, NULL},
+    {POINT_DATA "body", HDF_U8, 1, fill_body, NULL},
+    {POINT_DATA "id", HDF_I32, 1, fill_id, NULL},
+    {"/Cleave/reference", HDF_F64, 0, fill_reference, NULL},
+};
+
+/* Plastic strain is there only if a material yields. */
+static bool field_exists(const struct frame_field *field, bool yielding)
+{
+    return yielding || field->copy != copy_plastic_strain;
+}
+
+/* ---- one frame ------------------------------------------------------------------------------------- */
+
+/* What a frame says and particles will not say much longer, copied; the rest is read while they go on. */
+struct frame_job {
+    struct path path;
+    const struct particles *p;           /* borrowed: what never changes of them */
+    struct output *o;                    /* borrowed: what it keeps for the writer */
+    int64_t n, step;
+    int dim;
+    real t;
+    bool compress, yielding, broken;
+    const char *scene_text;              /* borrowed */
+    char *field[COUNT_OF(frame_fields)]; /* in frame_copy, in the particles' own order; NULL: fixed, or not in this frame */
+    char *index[2];                      /* texts of the two indices that count this frame too */
+    size_t index_length[2];
+    pthread_t thread;
+    bool apart;                          /* the thread runs      */
+    status ended;
+    char message[512];
+};
+
+static size_t field_row(const struct frame_field *field, int dim)
+{
+    return hdf_size(field->type) * (size_t)(field->columns ? field->columns : dim);
+}
+
+static struct frame_job *job_make(struct output *o, const struct particles *p, real t, int64_t step,
+                                  const char *scene_text)
+{
+    struct frame_job *job = NEW("output.job", 1, struct frame_job);
+    size_t offset[COUNT_OF(frame_fields)], length = 0;
+    job->p = p, job->o = o, job->n = p->n, job->step = step, job->dim = p->dim, job->t = t;
+    job->compress = o->compress, job->yielding = p->plastic_strain != NULL, job->scene_text = scene_text;
+    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
+        offset[k] = length;
+        if (field_exists(&frame_fields[k], job->yielding) && frame_fields[k].copy)
+            length += (size_t)p->n * field_row(&frame_fields[k], p->dim);
+    }
+    if (o->frame_copy_bytes < (int64_t)length) {
+        memory_free(o->frame_copy);
+        o->frame_copy = NEW("output.frame", (int64_t)length, char);
+        o->frame_copy_bytes = (int64_t)length;
+    }
+    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
+        const struct frame_field *field = &frame_fields[k];
+        if (!field->copy || !field_exists(field, job->yielding)) continue;
+        job->field[k] = o->frame_copy + offset[k];
+#pragma omp parallel for schedule(static)
+        for (int64_t first = 0; first < p->n; first += COPIED)
+            field->copy(p, first, first + COPIED < p->n ? first + COPIED : p->n, job->field[k]);
+    }
+    return job;
+}
+
+static void job_free(struct frame_job *job)
+{
+    for (int k = 0; k < 2; k++) free(job->index[k]);
+    memory_free(job);
+}
+
+/* ---- written by a thread of its own: no teams, so no arrays of memory_new --------------------------- */
+
+/* Indices of the body in the order of their ids, which are unique but may have gaps. NULL: no memory. Free with free. */
+static int32_t *order_by_id(const struct particles *p)
+{
+    int64_t room = 0, k = 0;
+    for (int64_t i = 0; i < p->n; i++) room = p->id[i] >= room ? (int64_t)p->id[i] + 1 : room;
+    int32_t *order = calloc((size_t)room + 1, sizeof *order);
+    if (!order) return NULL;
+    for (int64_t i = 0; i < p->n; i++) order[p->id[i]] = (int32_t)i + 1;
+    for (int64_t id = 0; id < room; id++)
+        if (order[id]) order[k++] = order[id] - 1;
+    assert(k == p->n);
+    return order;
+}
+
+enum { ROW_MOST = 24 };                  /* bytes of a field's row: six singles or three doubles */
+
+static void write_field(struct hdf *f, const struct frame_job *job, size_t k, const int32_t *order, char *room)
+{
+    const struct frame_field *field = &frame_fields[k];
+    const size_t row = field_row(field, job->dim);
+    assert(row <= ROW_MOST);
+    for (int64_t i = 0; i < job->n; i++)
+        if (field->fill) field->fill(job->p, order[i], room + (size_t)i * row);
+        else memcpy(room + (size_t)i * row, job->field[k] + (size_t)order[i] * row, row);
+    hdf_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
+}
+
+/* One vertex cell per particle: the k-th cell is point k and starts at k. */
+static void write_cells(struct hdf *f, int64_t n, char *room)
+{
+    int64_t *number = (int64_t *)room;
+    for (int64_t k = 0; k <= n; k++) number[k] = k;
+    hdf_rows(f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, 1, &n);
+    hdf_rows(f, "/VTKHDF/NumberOfCells", HDF_I64, 1, 1, &n);
+    hdf_rows(f, "/VTKHDF/NumberOfConnectivityIds", HDF_I64, 1, 1, &n);
+    hdf_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, number);
+    hdf_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, number);
+    memset(room, VTK_VERTEX, (size_t)n);
+    hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
+}
+
+static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char *scene_text)
+{
+    static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
+    int32_t dimension = dim;
+    hdf_group(f, "/VTKHDF");
+    hdf_mark(f, "/VTKHDF", "Version", HDF_I32, 2, vtk_version);
+    hdf_mark_text(f, "/VTKHDF", "Type", "UnstructuredGrid");
+    hdf_group(f, "/VTKHDF/PointData");
+    hdf_group(f, "/Cleave");
+    hdf_mark_one(f, "/Cleave", "version", HDF_I32, &version);
+    hdf_mark_one(f, "/Cleave", "dim", HDF_I32, &dimension);
+    hdf_mark_one(f, "/Cleave", "time", HDF_F64, &t);
+    hdf_mark_one(f, "/Cleave", "step", HDF_I64, &step);
+    hdf_text(f, "/Cleave/scene", scene_text);
+}
+
+/* Order and room of all frames of a run, made by its first: neither who there is nor their ids change. */
+static bool kept_make(struct output *o, const struct particles *p)
+{
+    if (o->frame_kept.n == p->n) return true;
+    free(o->frame_kept.order), free(o->frame_kept.room);
+    o->frame_kept.order = order_by_id(p);
+    o->frame_kept.room = malloc((size_t)(p->n + 1) * ROW_MOST);
+    const bool made = o->frame_kept.order && o->frame_kept.room;
+    o->frame_kept.n = made ? p->n : 0;
+    return made;
+}
+
+/* Writes PATH.tmp and publishes it. */
+static status frame_write(struct frame_job *job)
+{
+    struct hdf f;
+    if (!kept_make(job->o, job->p)) return file_fault(job->path.text, ENOMEM);
+    const int32_t *order = job->o->frame_kept.order;
+    char *room = job->o->frame_kept.room;
+    hdf_create(&f, path_aside(job->path.text).text, job->compress);
+    write_marks(&f, job->dim, job->t, job->step, job->scene_text);
+    write_cells(&f, job->n, room);
+    for (size_t k = 0; k < COUNT_OF(frame_fields); k++)
+        if (field_exists(&frame_fields[k], job->yielding)) write_field(&f, job, k, order, room);
+    if (!f.failed) hdf_close(&f);
+    if (f.failed) {
+        job->broken = true;
+        file_discard(job->path.text);
+        return file_fault(job->path.text, f.cause);
+    }
+    TRY(file_seal_whole(job->path.text));
+    return file_publish(job->path.text);
+}
+
+/* ---- indices --------------------------------------------------------------------------------------- */
+
+/* Name of frame `number` relative to the run's folder. */
+static void frame_name(char *name, size_t room, int number) { snprintf(name, room, "frames/%06d.hdf", number); }
+
+static void series_print(FILE *out, const struct output *o)
+{
+    const char *between = "";
+    fprintf(out, "{\"file-series-version\":\"1.0\",\"files\":[");
+    for (int k = 0; k < o->frames; k++) {
+        char name[PATH_NAME_ROOM];
+        if (isnan(o->frame_time[k])) continue;       /* lost (output_frames_check) */
+        frame_name(name, sizeof name, k);
+        fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, o->frame_time[k]);
+        between = ",";
+    }
+    fprintf(out, "\n]}\n");
+}
+
+/* A whole dataset of a frame. */
+static void xdmf_item(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
+{
+    static const char *const number[] = {[HDF_F32] = "Float", [HDF_F64] = "Float", [HDF_U8] = "UChar",
+                                         [HDF_I32] = "Int", [HDF_I64] = "Int"};
+    fprintf(out, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%zu\" Dimensions=\"%lld", number[field->type],
+            hdf_size(field->type), (long long)n);
+    if (field->columns > 1) fprintf(out, " %d", field->columns);
+    fprintf(out, "\">%s:%s</DataItem>", frame, field->path);
+}
+
+static void xdmf_attribute(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
+{
+    /* The six components are no XDMF tensor: that one has another order, and readers would permute them. */
+    const char *shape = field->columns == 1 ? "Scalar" : field->columns == 3 ? "Vector" : "Matrix";
+    const char *name = strrchr(field->path, '/') + 1;
+    fprintf(out, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Node\">", name, shape);
+    xdmf_item(out, frame, field, n);
+    fprintf(out, "</Attribute>\n");
+}
+
+static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, bool yielding)
+{
+    /* Named, because the XDMF3 reader makes no cells from a count alone. */
+    static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL, false};
+    fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
+    fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
+            (long long)n);
+    xdmf_item(out, frame, &vertices, n);
+    fprintf(out, "</Topology>\n<Geometry GeometryType=\"XYZ\">");
+    xdmf_item(out, frame, &frame_fields[FIELD_POINTS], n);
+    fprintf(out, "</Geometry>\n");
+    for (size_t k = FIELD_POINTS + 1; k < COUNT_OF(frame_fields); k++)
+        if (frame_fields[k].columns > 0 && field_exists(&frame_fields[k], yielding))
+            xdmf_attribute(out, frame, &frame_fields[k], n);
+    fprintf(out, "</Grid>\n");
+}
+
+static void xdmf_print(FILE *out, const struct output *o)
+{
+    fprintf(out, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n");
+    fprintf(out, "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
+    for (int k = 0; k < o->frames; k++) {
+        char name[PATH_NAME_ROOM];
+        if (isnan(o->frame_time[k])) continue;
+        frame_name(name, sizeof name, k);
+        xdmf_grid(out, name, o->frame_time[k], o->frame_particles, o->frame_yielding);
+    }
+    fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
+}
+
+/* ---- on their way ------------------------------------------------------------------------------------ */
+
+static const char *const index_name[2] = {"frames.hdf.series", "frames.xdmf"};
+
+/* Composes the text of an index in memory. */
+static status index_make(const struct output *o, struct frame_job *job, int which)
+{
+    static void (*const print[2])(FILE *, const struct output *) = {series_print, xdmf_print};
+    FILE *out = open_memstream(&job->index[which], &job->index_length[which]);
+    if (out) print[which](out, o);
+    bool whole = out && !ferror(out);
+    if (out && fclose(out) != 0) whole = false;
+    return whole ? OK : file_fault(path_join(o->folder, index_name[which]).text, ENOMEM);
+}
+
+/* Both indices of a run. */
+static status indices_put(const char *folder, const struct frame_job *job)
+{
+    for (int k = 0; k < 2; k++)
+        TRY(file_put(path_join(folder, index_name[k]).text, job->index[k], job->index_length[k]));
+    return OK;
+}
+
+/* The frame first: an index never names one that is not there. DIR is two folders above it. */
+static status job_write(struct frame_job *job)
+{
+    TRY(frame_write(job));
+    struct path folder = job->path;
+    for (int k = 0; k < 2; k++) *strrchr(folder.text, '/') = '\0';
+    return indices_put(folder.text, job);
+}
+
+static void *job_run(void *context)
+{
+    struct frame_job *job = context;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   /* a library made for threads keeps this for each of them */
+    job->ended = job_write(job);
+    if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
+    return NULL;
+}
+
+status output_wait(struct output *o)
+{
+    struct frame_job *job = o->writing;
+    if (!job) return OK;
+    if (job->apart) pthread_join(job->thread, NULL);
+    o->writing = NULL;
+    o->broken = o->broken || job->broken;
+    status s = job->ended == OK ? OK : status_set(job->ended, "%s", job->message);
+    if (s != OK) o->frames--;
+    job_free(job);
+    return s;
+}
+
+/* Counts a frame that is on its way: output_wait takes it back. */
+static void frame_count(struct output *o, const struct particles *p, real t)
+{
+    if (o->frames == o->frames_room) {
+        int room = 2 * o->frames_room + 16;
+        o->frame_time = memory_resize("output.frame_time", o->frame_time, o->frames_room, room, sizeof(real));
+        o->frames_room = room;
+    }
+    o->frame_time[o->frames++] = t;
+    o->frame_particles = p->n;
+    o->frame_yielding = p->plastic_strain != NULL;
+}
+
+/* Signals are for the thread that steps, but for those of a fault of this one. */
+static void job_start(struct frame_job *job)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    sigdelset(&all, SIGSEGV), sigdelset(&all, SIGBUS);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    job->apart = pthread_create(&job->thread, NULL, job_run, job) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    if (!job->apart) job_run(job);           /* no thread to be had: then now */
+}
+
+status output_frame_begin(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
+{
+    char name[PATH_NAME_ROOM];
+    TRY(output_wait(o));
+    if (o->broken) return FAILED;
+    TRY(folder_held(&o->lock, o->folder));
+    struct frame_job *job = o->writing = job_make(o, p, t, step, scene_text);
+    frame_name(name, sizeof name, o->frames);
+    job->path = path_join(o->folder, name);
+    frame_count(o, p, t);
+    for (int k = 0; k < 2 && job->ended == OK; k++) job->ended = index_make(o, job, k);
+    if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
+    else job_start(job);
+    return OK;
+}
+
+status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
+{
+    TRY(output_frame_begin(o, p, t, step, scene_text));
+    return output_wait(o);
+}
+
+/* ---- after a restart ---------------------------------------------------------------------------------- */
+
+/* What is wrong for certain with the frame of this time; NULL: nothing, or it cannot be looked at. NAN: it was lost before. */
+static const char *frame_fault(const char *path, real time)
+{
+    struct hdf f;
+    real found = NAN;
+    if (isnan(time)) return "is missing";
+    const char *fault = whole_fault_certain(path);
+    if (fault || !path_is_file(path)) return fault;
+    hdf_open(&f, path);
+    hdf_read_mark(&f, "/Cleave", "time", HDF_F64, &found);
+    const bool read = !f.failed;
+    hdf_close(&f);
+    return read && !bits_equal(found, time) ? "is another one" : NULL;
+}
+
+status output_frames_check(struct output *o, int *lost, char *text, size_t room)
+{
+    struct frame_job job = {0};
+    status s = OK;
+    *lost = 0;
+    for (int k = 0; k < o->frames; k++) {
+        char name[PATH_NAME_ROOM];
+        frame_name(name, sizeof name, k);
+        const char *fault = frame_fault(path_join(o->folder, name).text, o->frame_time[k]);
+        if (!fault) continue;
+        if ((*lost)++ == 0) snprintf(text, room, "%s %s", name, fault);
+        o->frame_time[k] = NAN;
+    }
+    if (*lost == 0) return OK;
+    const size_t used = strlen(text);
+    if (*lost > 1) snprintf(text + used, room - used, ", and %d frames more are lost", *lost - 1);
+    strncat(text, ": the indices leave out what is lost; a run of its own would make it again", room - strlen(text) - 1);
+    for (int k = 0; k < 2 && s == OK; k++) s = index_make(o, &job, k);
+    if (s == OK) s = indices_put(o->folder, &job);
+    for (int k = 0; k < 2; k++) free(job.index[k]);
+    return s;
+}

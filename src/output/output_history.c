@@ -1,0 +1,101 @@
+/* floor 4: history.csv: one line per sample, cut back to the checkpoint when a run is resumed. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "output/output.h"
+#include "output/output_files.h"
+
+static struct path history_path(const struct output *o) { return path_join(o->folder, "history.csv"); }
+
+/* After Fowler, Noll and Vo (FNV-1a): as each byte comes, so that checkpoints need not read the file. */
+#define HASH_START UINT64_C(0xCBF29CE484222325)
+static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
+{
+    for (size_t k = 0; k < n; k++) hash = (hash ^ (unsigned char)bytes[k]) * UINT64_C(0x100000001B3);
+    return hash;
+}
+
+/* A line on its way. */
+struct line { char *text; size_t length; FILE *to; };
+
+static bool line_begin(struct line *l)
+{
+    *l = (struct line){0};
+    l->to = open_memstream(&l->text, &l->length);
+    return l->to != NULL;
+}
+
+/* Ends a line: books it if all of it reached the file. */
+static status line_end(struct output *o, struct line *l)
+{
+    bool whole = !ferror(l->to);
+    errno = 0;
+    if (fclose(l->to) != 0) whole = false;
+    whole = whole && fwrite(l->text, 1, l->length, o->history) == l->length && fflush(o->history) == 0 && !ferror(o->history);
+    const status s = whole ? OK : file_fault(history_path(o).text, errno);
+    if (whole) o->history_bytes += (int64_t)l->length, o->history_hash = hash_bytes(o->history_hash, l->text, l->length);
+    free(l->text);
+    return s;
+}
+
+static status history_header(struct output *o, const struct column *column)
+{
+    struct line l;
+    if (!line_begin(&l)) return file_fault(history_path(o).text, ENOMEM);
+    for (int k = 0; k < o->columns; k++) {
+        const char *end = k + 1 < o->columns ? "," : "\n";
+        char name[sizeof column->name];
+        snprintf(name, sizeof name, "%s", column[k].name);
+        /* What would end a field early cannot be part of its name. */
+        for (char *c = name; *c; c++) *c = *c == ',' || *c == '"' || *c == '\n' || *c == '\r' ? '_' : *c;
+        if (column[k].unit[0]) fprintf(l.to, "%s [%s]%s", name, column[k].unit, end);
+        else fprintf(l.to, "%s%s", name, end);
+    }
+    return line_end(o, &l);
+}
+
+/* Cuts the file to what belongs to the restored state, which it must still hold. */
+static status history_cut(const struct output *o)
+{
+    struct path path = history_path(o);
+    char *text = NULL;
+    size_t length = 0;
+    if (!path_is_file(path.text)) return status_set(FAILED, "cannot resume: %s is missing; begin anew with --overwrite", path.text);
+    TRY(file_get(path.text, &text, &length));
+    const bool shorter = (int64_t)length < o->history_bytes;
+    const bool same = !shorter && hash_bytes(HASH_START, text, (size_t)o->history_bytes) == o->history_hash;
+    memory_free(text);
+    if (!same)
+        return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); begin anew with --overwrite", path.text,
+                          shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
+    if (truncate(path.text, o->history_bytes) != 0) return file_fault(path.text, errno);
+    return OK;
+}
+
+status output_history_open(struct output *o, const struct column *column, int columns, bool resume)
+{
+    assert(columns > 0 && !o->history);
+    struct path path = history_path(o);
+    o->columns = columns;
+    if (resume) TRY(history_cut(o));
+    o->history = fopen(path.text, resume ? "a" : "w");
+    if (!o->history) return file_fault(path.text, errno);
+    if (resume) return OK;
+    o->history_bytes = 0, o->history_hash = HASH_START;
+    return history_header(o, column);
+}
+
+status output_history(struct output *o, const real *value)
+{
+    struct line l;
+    if (!line_begin(&l)) return file_fault(history_path(o).text, ENOMEM);
+    for (int k = 0; k < o->columns; k++) {
+        /* The sign of a NaN means nothing and must not make two runs differ. */
+        const real a = isnan(value[k]) ? fabs(NAN) : value[k];
+        fprintf(l.to, "%.9g%s", a, k + 1 < o->columns ? "," : "\n");
+    }
+    return line_end(o, &l);
+}

@@ -1,0 +1,139 @@
+/* floor 4: frames and their times read back, for plot and compare. */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/last_words.h"
+#include "base/memory.h"
+#include "output/output.h"
+#include "output/output_files.h"
+#include "output/checksum.h"
+#include "output/output_hdf5.h"
+
+/* ---- frames ---------------------------------------------------------------------------------------- */
+
+/* gzip cannot shrink 8-byte references of one particle further than this: a bound on what a damaged file claims. */
+enum { PARTICLES_PER_BYTE_MOST = 1024 };
+
+/* Reads `columns` numbers per particle and hands column from[k] to out[k]. */
+static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from,
+                         float **out)
+{
+    float *data = NEW("frame.columns", n * columns, float);
+    hdf_read_rows(h, name, HDF_F32, n * columns, data);
+    for (int k = 0; k < wanted; k++) {
+        out[k] = NEW("frame.field", n, float);
+        for (int64_t i = 0; i < n; i++) out[k][i] = data[i * columns + from[k]];
+    }
+    memory_free(data);
+}
+
+static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int64_t n)
+{
+    void *data = memory_new("frame.list", n, hdf_size(type));
+    hdf_read_rows(h, name, type, n, data);
+    return data;
+}
+
+static void read_fields(struct frame *f, struct hdf *h)
+{
+    static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
+    int dim = f->dim;
+    read_columns(h, "/Cleave/reference", f->n, dim, dim, plain, f->X);
+    read_columns(h, "/VTKHDF/PointData/displacement", f->n, 3, dim, plain, f->u);
+    read_columns(h, "/VTKHDF/PointData/velocity", f->n, 3, dim, plain, f->v);
+    read_columns(h, "/VTKHDF/PointData/stress", f->n, 6, frame_stresses(dim), dim == 2 ? plane : plain, f->stress);
+    f->damage = read_list(h, "/VTKHDF/PointData/damage", HDF_F32, f->n);
+    f->kind = read_list(h, "/VTKHDF/PointData/kind", HDF_U8, f->n);
+    f->material = read_list(h, "/VTKHDF/PointData/material", HDF_U8, f->n);
+    f->body = read_list(h, "/VTKHDF/PointData/body", HDF_U8, f->n);
+    f->id = read_list(h, "/VTKHDF/PointData/id", HDF_I32, f->n);
+}
+
+/* Reads what says how large the frame is; anything out of range is a fault of the file. */
+static void read_size(struct frame *f, struct hdf *h, int64_t bytes)
+{
+    int32_t dim = 0;
+    hdf_read_mark(h, "/Cleave", "dim", HDF_I32, &dim);
+    hdf_read_mark(h, "/Cleave", "time", HDF_F64, &f->t);
+    hdf_read_mark(h, "/Cleave", "step", HDF_I64, &f->step);
+    if (h->failed) return;
+    int64_t n = hdf_count(h, "/VTKHDF/Types");
+    if (dim < 1 || dim > DIM_MAX || n < 0 || n > INT32_MAX || n / PARTICLES_PER_BYTE_MOST > bytes) h->failed = true;
+    f->dim = dim;
+    f->n = n;
+}
+
+status frame_read(struct frame *f, const char *path)
+{
+    struct hdf h;
+    struct stat s;
+    *f = (struct frame){0};
+    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode))
+        return status_set(FAILED, "cannot read %s: there is no such file", path);
+    const char *fault = whole_fault(path);
+    if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
+    last_words_reading(path);
+    hdf_open(&h, path);
+    if (!h.failed) read_size(f, &h, s.st_size);
+    if (!h.failed) read_fields(f, &h);
+    bool whole = !h.failed;
+    hdf_close(&h);
+    last_words_reading(NULL);
+    if (whole) return OK;
+    frame_free(f);
+    return status_set(FAILED, "cannot read %s: it is no whole frame of this program", path);
+}
+
+void frame_free(struct frame *f)
+{
+    for (int d = 0; d < DIM_MAX; d++) {
+        memory_free(f->X[d]);
+        memory_free(f->u[d]);
+        memory_free(f->v[d]);
+    }
+    for (int k = 0; k < SYM_MAX; k++) memory_free(f->stress[k]);
+    memory_free(f->damage);
+    memory_free(f->kind);
+    memory_free(f->material);
+    memory_free(f->body);
+    memory_free(f->id);
+    *f = (struct frame){0};
+}
+
+/* ---- their times ----------------------------------------------------------------------------------- */
+
+/* Goes to the next entry of the index; returns false at the end. */
+static bool next_frame(const char **at, struct listed_frame *f)
+{
+    static const char name[] = "frames/", key[] = "\"time\":";
+    const char *number = strstr(*at, name), *time = number ? strstr(number, key) : NULL;
+    char *end = NULL;
+    if (!time) return false;
+    const long read = strtol(number + sizeof name - 1, NULL, 10);
+    f->number = read >= 0 && read < INT32_MAX ? (int)read : INT32_MAX;
+    f->time = strtod(time + sizeof key - 1, &end);
+    *at = end;
+    return end > time + sizeof key - 1;
+}
+
+status frames_list(const char *folder, int *n, struct listed_frame **list)
+{
+    struct path path = path_join(folder, "frames.hdf.series");
+    char *text = NULL;
+    size_t length = 0;
+    struct listed_frame f;
+    *n = 0;
+    *list = NULL;
+    if (!path_exists(path.text)) return status_set(FAILED, "%s holds no frames (no frames.hdf.series)", folder);
+    TRY(file_get(path.text, &text, &length));
+    int count = 0;
+    for (const char *at = text; next_frame(&at, &f);) count++;
+    *list = NEW("frames.list", count, struct listed_frame);
+    for (const char *at = text; *n < count && next_frame(&at, &(*list)[*n]);) ++*n;
+    memory_free(text);
+    if (count > 0) return OK;
+    memory_free(*list);
+    *list = NULL;
+    return status_set(FAILED, "%s lists no frames", path.text);
+}

@@ -1,0 +1,223 @@
+/* floor 4: a strict reader of JSON that walks to one value.
+ *
+ * The document is checked from its first to its last byte; on the way the reader carries what is left of the dotted
+ * key. `rest` is NULL off the path, "" at the value that is wanted. */
+#include "output/summary_read.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "output/output_files.h"
+
+enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20 };
+
+struct reader {
+    const char *at;                      /* next byte; the text ends with a 0 byte   */
+    const char *found;                   /* first byte of the wanted value, or NULL  */
+};
+
+static bool value(struct reader *r, const char *rest, int depth);
+
+static void skip_space(struct reader *r)
+{
+    while (*r->at == ' ' || *r->at == '\t' || *r->at == '\n' || *r->at == '\r') r->at++;
+}
+
+static bool take(struct reader *r, char c)
+{
+    skip_space(r);
+    if (*r->at != c) return false;
+    r->at++;
+    return true;
+}
+
+static bool escape(struct reader *r)
+{
+    if (*r->at != 'u') return *r->at != '\0' && strchr("\"\\/bfnrt", *r->at++) != NULL;
+    r->at++;
+    for (int k = 0; k < 4; k++)
+        if (!isxdigit((unsigned char)*r->at++)) return false;
+    return true;
+}
+
+/* A string; its bytes between the quotes are [*from, *to). */
+static bool string(struct reader *r, const char **from, const char **to)
+{
+    if (!take(r, '"')) return false;
+    *from = r->at;
+    while (*r->at != '"') {
+        if ((unsigned char)*r->at < 0x20) return false;          /* also the end of the text */
+        if (*r->at++ == '\\' && !escape(r)) return false;
+    }
+    *to = r->at++;
+    return true;
+}
+
+static bool digits(struct reader *r)
+{
+    const char *from = r->at;
+    while (isdigit((unsigned char)*r->at)) r->at++;
+    return r->at > from;
+}
+
+static bool number(struct reader *r)
+{
+    if (*r->at == '-') r->at++;
+    bool zero = *r->at == '0';
+    const char *from = r->at;
+    if (!digits(r) || (zero && r->at - from > 1)) return false;
+    if (*r->at == '.') {
+        r->at++;
+        if (!digits(r)) return false;
+    }
+    if (*r->at == 'e' || *r->at == 'E') {
+        r->at++;
+        if (*r->at == '+' || *r->at == '-') r->at++;
+        if (!digits(r)) return false;
+    }
+    return true;
+}
+
+static bool word(struct reader *r, const char *text)
+{
+    size_t length = strlen(text);
+    if (strncmp(r->at, text, length) != 0) return false;
+    r->at += length;
+    return true;
+}
+
+/* What is left of the key inside a member of this name; NULL if the member is off the path. */
+static const char *below(const char *rest, const char *name, size_t length)
+{
+    if (rest == NULL || strncmp(rest, name, length) != 0) return NULL;
+    if (rest[length] == '\0') return rest + length;
+    return rest[length] == '.' ? rest + length + 1 : NULL;
+}
+
+static bool object(struct reader *r, const char *rest, int depth)
+{
+    if (take(r, '}')) return true;
+    do {
+        const char *from, *to;
+        if (!string(r, &from, &to) || !take(r, ':')) return false;
+        if (!value(r, below(rest, from, (size_t)(to - from)), depth)) return false;
+    } while (take(r, ','));
+    return take(r, '}');
+}
+
+static bool list(struct reader *r, const char *rest, int depth)
+{
+    char name[24];
+    if (take(r, ']')) return true;
+    int k = 0;
+    do {
+        int length = snprintf(name, sizeof name, "%d", k++);
+        if (!value(r, below(rest, name, (size_t)length), depth)) return false;
+    } while (take(r, ','));
+    return take(r, ']');
+}
+
+static bool value(struct reader *r, const char *rest, int depth)
+{
+    const char *from, *to;
+    if (depth == DEPTH_MAX) return false;
+    skip_space(r);
+    if (rest != NULL && *rest == '\0') {
+        if (r->found == NULL) r->found = r->at;
+        rest = NULL;
+    }
+    switch (*r->at) {
+    case '{': r->at++; return object(r, rest, depth + 1);
+    case '[': r->at++; return list(r, rest, depth + 1);
+    case '"': return string(r, &from, &to);
+    case 't': return word(r, "true");
+    case 'f': return word(r, "false");
+    case 'n': return word(r, "null");
+    default: return number(r);
+    }
+}
+
+static status read_text(const char *path, char **text)
+{
+    if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is no regular file", path);
+    FILE *from = fopen(path, "rb");
+    if (from == NULL) return status_set(FAILED, "%s: %s", path, strerror(errno));
+    size_t length = 0, room = 1 << 16, got;
+    char *bytes = malloc(room);
+    while (bytes != NULL && (got = fread(bytes + length, 1, room - 1 - length, from)) > 0) {
+        length += got;
+        if (length < room - 1) continue;
+        char *grown = room < SIZE_MAX_BYTES ? realloc(bytes, room *= 2) : NULL;
+        if (grown == NULL) free(bytes);
+        bytes = grown;
+    }
+    bool bad = ferror(from) != 0;
+    fclose(from);
+    if (bytes == NULL || bad) {
+        free(bytes);
+        return status_set(FAILED, "%s: %s", path, bad ? "cannot be read" : "too long for a summary");
+    }
+    bytes[length] = '\0';
+    *text = bytes;
+    return OK;
+}
+
+/* Leaves the text, to be freed, and where the value begins in it. */
+static status find(const char *folder, const char *key, char **text, const char **found)
+{
+    char path[4096];
+    if (snprintf(path, sizeof path, "%s/summary.json", folder) >= (int)sizeof path)
+        return status_set(FAILED, "%s: the name is too long", folder);
+    TRY(read_text(path, text));
+    struct reader r = {.at = *text};
+    bool sound = value(&r, key, 0);
+    skip_space(&r);
+    if (!sound || *r.at != '\0') {
+        int line = 1;
+        for (const char *c = *text; c < r.at; c++) line += *c == '\n';
+        free(*text);
+        return status_set(FAILED, "%s:%d: not JSON", path, line);
+    }
+    if (r.found == NULL) {
+        free(*text);
+        return status_set(FAILED, "%s: no %s", path, key);
+    }
+    *found = r.found;
+    return OK;
+}
+
+status summary_number(const char *folder, const char *dotted_key, double *value_out)
+{
+    char *text;
+    const char *found;
+    *value_out = NAN;
+    TRY(find(folder, dotted_key, &text, &found));
+    bool is_number = *found == '-' || isdigit((unsigned char)*found);
+    if (is_number) *value_out = strtod(found, NULL);
+    free(text);
+    return is_number ? OK : status_set(FAILED, "%s/summary.json: %s is not a number", folder, dotted_key);
+}
+
+status summary_string(const char *folder, const char *dotted_key, char *out, size_t size)
+{
+    char *text;
+    const char *found, *from, *to;
+    assert(size > 0);
+    out[0] = '\0';
+    TRY(find(folder, dotted_key, &text, &found));
+    struct reader r = {.at = found};
+    bool is_string = string(&r, &from, &to);
+    size_t length = 0;
+    for (const char *c = from; is_string && c < to && length + 1 < size; c++) {
+        if (*c == '\\' && (c[1] == '"' || c[1] == '\\')) c++;
+        out[length++] = *c;
+    }
+    out[length] = '\0';
+    text_harmless(out);
+    free(text);
+    return is_string ? OK : status_set(FAILED, "%s/summary.json: %s is not a text", folder, dotted_key);
+}

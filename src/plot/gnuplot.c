@@ -1,0 +1,167 @@
+/* floor 4: starts gnuplot without a shell, sets the style of all pictures, waits for the picture. */
+#include "plot/gnuplot.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* What a child exits with when there is no such program, as shells do. */
+enum { NOT_FOUND = 127 };
+
+const char *const curve_colour[CURVE_COLOURS] = {
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#3d3d3d",
+};
+
+void gnuplot_quote(FILE *to, const char *text)
+{
+    putc('\'', to);
+    for (; *text != '\0'; text++) {
+        if (*text == '\'') putc('\'', to);           /* doubled: a quote itself */
+        putc(iscntrl((unsigned char)*text) ? ' ' : *text, to);
+    }
+    putc('\'', to);
+}
+
+/* The child: reads the pipe, complains into a file, and becomes gnuplot. */
+static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
+{
+    signal(SIGPIPE, SIG_DFL);
+    dup2(pipe_ends[0], STDIN_FILENO);
+    dup2(complaints, STDOUT_FILENO);
+    dup2(complaints, STDERR_FILENO);
+    close(pipe_ends[0]);
+    close(pipe_ends[1]);
+    setenv("GNUTERM", "unknown", 1);                 /* never a window */
+    execlp("gnuplot", "gnuplot", "-d", (char *)NULL); /* -d: not the user's own settings */
+    _exit(NOT_FOUND);
+}
+
+static status start(struct gnuplot *g)
+{
+    int ends[2];
+    remove(g->aside);                                /* whatever has this name is not written through */
+    const int own = open(g->aside, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    g->complaints = own < 0 ? NULL : fdopen(own, "w+");          /* a file without a name, beside the picture */
+    if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->aside, strerror(errno));
+    remove(g->aside);
+    if (pipe(ends) != 0)
+        return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
+    signal(SIGPIPE, SIG_IGN);                        /* a gnuplot that dies is an error, not our death */
+    g->process = (int)fork();
+    if (g->process == 0) become_gnuplot(ends, fileno(g->complaints));
+    close(ends[0]);
+    if (g->process < 0) {
+        close(ends[1]);
+        return status_set(FAILED, "%s: gnuplot cannot be started: %s", g->path, strerror(errno));
+    }
+    g->to = fdopen(ends[1], "w");
+    if (g->to != NULL) return OK;
+    int cause = errno;
+    close(ends[1]);                                  /* or the child would wait for ever, and we for it */
+    return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(cause));
+}
+
+static void set_style(FILE *to)
+{
+    fputs("set encoding utf8\n"
+          "set border 3 lw 0.8 lc rgb '#555555'\n"
+          "set tics nomirror out scale 0.5 textcolor rgb '#333333'\n"
+          "set xlabel textcolor rgb '#333333'\nset ylabel textcolor rgb '#333333'\n"
+          "set y2label textcolor rgb '#333333'\n"
+          "set title textcolor rgb '#222222'\n"
+          "set key noautotitle outside right top Left reverse samplen 2 spacing 1.25 textcolor rgb '#222222'\n"
+          "set style line 99 lc rgb '#e4e4e4' lw 0.6\n"
+          "set grid back ls 99\n",
+          to);
+    for (int k = 0; k < CURVE_COLOURS; k++)
+        fprintf(to, "set linetype %d lc rgb '%s' lw 2.2 pt 7 ps 0.6\n", k + 1, curve_colour[k]);
+}
+
+/* The drawing library with smooth edges where gnuplot has it, the plain one elsewhere. */
+static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height)
+{
+    if (format == PICTURE_SVG)
+        fprintf(g->to, "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' "
+                       "background rgb 'white' noenhanced\n", width, height);
+    else
+        fprintf(g->to, "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) { set terminal pngcairo size %d,%d "
+                       "font 'Liberation Sans,13' background rgb 'white' noenhanced } else { set terminal png "
+                       "size %d,%d noenhanced truecolor }\n", width, height, width, height);
+    fputs("set output ", g->to);
+    gnuplot_quote(g->to, g->aside);
+    putc('\n', g->to);
+}
+
+static void release(struct gnuplot *g)
+{
+    if (g->to != NULL) fclose(g->to);
+    if (g->complaints != NULL) fclose(g->complaints);
+    if (g->process > 0) waitpid((pid_t)g->process, NULL, 0);
+    free(g->aside);
+    free(g->path);
+    *g = (struct gnuplot){0};
+}
+
+status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height)
+{
+    *g = (struct gnuplot){0};
+    for (const char *c = path; *c; c++)
+        if (iscntrl((unsigned char)*c))
+            return status_set(REFUSED, "%s: gnuplot draws into no folder whose name holds a line break or other control character", path);
+    g->path = strdup(path);
+    /* gnuplot takes a name that begins with a bar for a command */
+    if (g->path == NULL || asprintf(&g->aside, "%s%s.tmp", path[0] == '/' ? "" : "./", path) < 0) {
+        g->aside = NULL;
+        release(g);
+        return status_set(FAILED, "%s: out of memory", path);
+    }
+    status s = start(g);
+    if (s != OK) {
+        release(g);
+        return s;
+    }
+    set_terminal(g, format, width, height);
+    set_style(g->to);
+    return OK;
+}
+
+/* gnuplot's complaint: the last line that says something. */
+static void complaint(FILE *from, char *text, size_t size)
+{
+    char line[256];
+    snprintf(text, size, "it gave no reason");
+    rewind(from);
+    while (fgets(line, sizeof line, from) != NULL) {
+        line[strcspn(line, "\n")] = '\0';
+        const char *word = line + strspn(line, " \t^");
+        if (*word != '\0') snprintf(text, size, "%s", word);
+    }
+}
+
+status gnuplot_close(struct gnuplot *g)
+{
+    int ended = 0;
+    bool sent = fclose(g->to) == 0;
+    g->to = NULL;
+    waitpid((pid_t)g->process, &ended, 0);
+    g->process = 0;
+    status s = OK;
+    if (WIFEXITED(ended) && WEXITSTATUS(ended) == NOT_FOUND) {
+        s = status_set(FAILED, "gnuplot is missing: install the package gnuplot-nox (Debian, Ubuntu) or gnuplot "
+                               "(Fedora, macOS)");
+    } else if (!sent || !WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
+        char reason[256];
+        complaint(g->complaints, reason, sizeof reason);
+        s = status_set(FAILED, "%s: gnuplot drew nothing: %s", g->path, reason);
+    } else if (rename(g->aside, g->path) != 0) {
+        s = status_set(FAILED, "%s: %s", g->path, strerror(errno));
+    }
+    if (s != OK) remove(g->aside);
+    release(g);
+    return s;
+}

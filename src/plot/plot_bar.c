@@ -1,0 +1,214 @@
+/* floor 5: profiles of a bar beside its closed form. */
+#include <dirent.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "output/history.h"
+#include "base/memory.h"
+#include "plot.h"
+
+enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
+
+#define TINT "#e8f1f9"                   /* behind what is peridynamic where the bar is both */
+
+/* What the panels show, from above; columns of the probe's files. */
+static const struct { const char *computed, *exact, *label, *unit; } quantity[QUANTITIES] = {
+    {"stress", "exact_stress", "stress", "Pa"},
+    {"strain", "exact_strain", "strain", ""},
+    {"velocity", "exact_velocity", "velocity", "m/s"},
+    {"damage", NULL, "damage", ""},
+};
+
+/* ---- files ----------------------------------------------------------------------------------------------- */
+
+static status profile_read(struct history *h, const char *folder, const char *probe, int number)
+{
+    char path[PATH_LENGTH];
+    if (snprintf(path, sizeof path, "%s/%s_%06d.csv", folder, probe, number) >= (int)sizeof path)
+        return status_set(FAILED, "%s: the name is too long", folder);
+    return history_read_file(h, path);
+}
+
+/* Is it the file of a first frame, and has it the columns of a closed form? */
+static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_LENGTH])
+{
+    const char ending[] = "_000000.csv";
+    size_t length = strlen(file), end = sizeof ending - 1;
+    struct history h;
+    if (length <= end || length - end >= NAME_MAX_LENGTH || strcmp(file + length - end, ending) != 0) return false;
+    memcpy(name, file, length - end);
+    name[length - end] = '\0';
+    if (profile_read(&h, folder, name, 0) != OK) return false;
+    bool has = history_column(&h, "x") >= 0 && history_column(&h, "exact_stress") >= 0;
+    history_free(&h);
+    return has;
+}
+
+/* The first by name, whatever the order of the folder. */
+bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH])
+{
+    char here[NAME_MAX_LENGTH];
+    bool found = false;
+    DIR *d = opendir(folder);
+    if (!d) return false;
+    for (struct dirent *e; (e = readdir(d));) {
+        if (!is_profile(folder, e->d_name, here)) continue;
+        if (!found || strcmp(here, name) < 0) strcpy(name, here);
+        found = true;
+    }
+    closedir(d);
+    return found;
+}
+
+/* ---- scales ------------------------------------------------------------------------------------------------ */
+
+struct scale { double factor, low, high; bool zero; char label[64]; };
+
+static void extend(struct scale *s, const struct history *h, const char *column)
+{
+    int at = column ? history_column(h, column) : -1;
+    for (int64_t i = 0; i < h->rows; i++) {
+        double a = history_at(h, i, at);
+        if (isfinite(a)) s->low = fmin(s->low, a), s->high = fmax(s->high, a);
+    }
+}
+
+/* 10 to a power, as a person writes it. */
+static void power_text(char *text, size_t room, int power)
+{
+    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    int size = power < 0 ? -power : power;
+    snprintf(text, room, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? raised[size / 10 % 10] : "", raised[size % 10]);
+}
+
+/* Strains in powers of ten, the rest in SI prefixes; a margin above and below. */
+static struct scale scale_of(const struct history *h, int frames, int q)
+{
+    struct scale s = {.factor = 1};
+    for (int k = 0; k < frames; k++) {
+        extend(&s, &h[k], quantity[q].computed);
+        extend(&s, &h[k], quantity[q].exact);
+    }
+    double largest = fmax(-s.low, s.high);
+    snprintf(s.label, sizeof s.label, "%s", quantity[q].label);
+    if (*quantity[q].unit) {
+        struct unit u = unit_for(largest, quantity[q].unit);
+        s.factor = u.factor;
+        snprintf(s.label, sizeof s.label, "%s [%s]", quantity[q].label, u.name);
+    } else if (largest > 0 && strcmp(quantity[q].label, "strain") == 0) {
+        char text[24];
+        int power = (int)floor(log10(largest) + 1e-9);
+        s.factor = pow(10, power);
+        power_text(text, sizeof text, power);
+        snprintf(s.label, sizeof s.label, "strain [%s]", text);
+    }
+    double margin = largest > 0 ? 0.07 * (s.high - s.low) : s.factor;
+    s.zero = !(largest > 0);
+    s.low = (s.low - margin) / s.factor, s.high = (s.high + margin) / s.factor;
+    return s;
+}
+
+/* ---- the picture ------------------------------------------------------------------------------------------- */
+
+static void send_number(FILE *to, double a)
+{
+    if (isfinite(a)) fprintf(to, " %.7g", a);
+    else fputs(" NaN", to);
+}
+
+/* The data block $fK: x, then computed and exact of every panel. */
+static void send_frame(FILE *to, const struct history *h, int k, double metre, const struct scale *scale)
+{
+    fprintf(to, "$f%d << EOD\n", k);
+    for (int64_t i = 0; i < h->rows; i++) {
+        fprintf(to, "%.9g", history_at(h, i, history_column(h, "x")) / metre);
+        for (int q = 0; q < QUANTITIES; q++) {
+            send_number(to, history_at(h, i, history_column(h, quantity[q].computed)) / scale[q].factor);
+            int exact = quantity[q].exact ? history_column(h, quantity[q].exact) : -1;
+            send_number(to, history_at(h, i, exact) / scale[q].factor);
+        }
+        putc('\n', to);
+    }
+    fputs("EOD\n", to);
+}
+
+/* Tints what is peridynamic in a frame of two kinds, behind the curves; true if it is one. */
+static bool tint_kinds(FILE *to, const struct history *h, double metre, double half)
+{
+    int x = history_column(h, "x"), kind = history_column(h, "kind"), parts = 0;
+    int64_t from = 0, n = 0;
+    for (int64_t i = 0; i < h->rows; i++) n += history_at(h, i, kind) == KIND_PD;
+    if (n == 0 || n == h->rows) return false;
+    for (int64_t i = 0; i < h->rows; i++) {
+        bool here = history_at(h, i, kind) == KIND_PD;
+        if (!here || i == 0 || history_at(h, i - 1, kind) != KIND_PD) from = i;
+        if (here && (i + 1 == h->rows || history_at(h, i + 1, kind) != KIND_PD))
+            fprintf(to, "set object %d rectangle from %.9g,graph 0 to %.9g,graph 1 behind fs solid noborder "
+                        "fc rgb '" TINT "'\n", ++parts, (history_at(h, from, x) - half) / metre,
+                    (history_at(h, i, x) + half) / metre);
+    }
+    return true;
+}
+
+static void plot_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
+{
+    struct unit second = unit_for(show[frames - 1].time, "s");
+    for (int k = 0; k < frames; k++)
+        fprintf(to, "%s$f%d using 1:%d with lines lw 2.2 lc rgb '%s' title '%.4g %s'", k ? ", " : "plot ", k, 2 * q + 2,
+                curve_colour[k % CURVE_COLOURS], show[k].time / second.factor, second.name);
+    for (int k = 0; k < frames && quantity[q].exact; k++)
+        fprintf(to, ", $f%d using 1:%d with lines lw 1.1 dt (9,5) lc rgb '#222222' %s", k, 2 * q + 3,
+                k ? "notitle" : "title 'exact'");
+    if (tinted) fputs(", NaN with boxes fs solid noborder fc rgb '" TINT "' title 'peridynamic'", to);
+    putc('\n', to);
+}
+
+static status draw(const char *path, const char *title, const struct history *h, const struct listed_frame *show, int frames)
+{
+    struct gnuplot g;
+    struct scale scale[QUANTITIES], x = {.low = INFINITY, .high = -INFINITY};
+    for (int q = 0; q < QUANTITIES; q++) scale[q] = scale_of(h, frames, q);
+    int panels = QUANTITIES - scale[QUANTITIES - 1].zero;        /* damage, the last, where there is any */
+    for (int k = 0; k < frames; k++) extend(&x, &h[k], "x");
+    int at = history_column(&h[0], "x");
+    double half = h[0].rows > 1 ? 0.5 * fabs(history_at(&h[0], 1, at) - history_at(&h[0], 0, at)) : 0;
+    struct unit metre = unit_for_length(fmax(-x.low, x.high));
+    int height = 110 + 250 * panels;
+    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1080, height));
+    for (int k = 0; k < frames; k++) send_frame(g.to, &h[k], k, metre.factor, scale);
+    fputs("set label 1 ", g.to);
+    gnuplot_quote(g.to, title);
+    fprintf(g.to, " at screen 0.1,%.4f left font ',16' textcolor rgb '#111111'\n"
+                  "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.845\nset format x ''\n"
+                  "set key at screen 0.855,%.4f left top\nset xrange [%.9g:%.9g]\n",
+            1 - 30.0 / height, 1 - 60.0 / height, (x.low - half) / metre.factor, (x.high + half) / metre.factor);
+    bool tinted = tint_kinds(g.to, &h[frames - 1], metre.factor, half);
+    for (int q = 0; q < panels; q++) {
+        double above = 1 - (60.0 + 250 * q) / height;
+        fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n"
+                      "set yrange [%.9g:%.9g]\n", above, above - 225.0 / height, scale[q].label, scale[q].low,
+                scale[q].high);
+        if (q == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
+        plot_panel(g.to, q, show, frames, tinted);
+        fputs("unset label\nunset key\n", g.to);
+    }
+    fputs("unset multiplot\n", g.to);
+    return gnuplot_close(&g);
+}
+
+status bar_draw(const char *path, const char *title, const char *folder, const char *probe,
+                const struct listed_frame *show, int frames)
+{
+    struct history *h = NEW("plot.profiles", frames, struct history);
+    status s = OK;
+    int read = 0;
+    while (s == OK && read < frames) {
+        s = profile_read(&h[read], folder, probe, show[read].number);
+        if (s == OK) read++;
+    }
+    if (s == OK) s = draw(path, title, h, show, frames);
+    for (int k = 0; k < read; k++) history_free(&h[k]);
+    memory_free(h);
+    return s;
+}

@@ -1,0 +1,296 @@
+/* floor 5: curves: crack and share of peridynamics, energies, profiles along a bar. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "output/history.h"
+#include "base/memory.h"
+#include "plot.h"
+
+enum { POINTS_MAX = 4000, PATH_LENGTH = 4096, CURVES_MAX = 8 };
+
+double curves_largest(const struct history *h, int column)
+{
+    double largest = 0;
+    for (int64_t i = 0; i < h->rows; i++) {
+        double a = fabs(history_at(h, i, column));
+        if (a > largest && isfinite(a)) largest = a;
+    }
+    return largest;
+}
+
+void curves_send(FILE *to, const struct series *s, const int *column, const double *factor, int columns)
+{
+    int64_t stride = s->h->rows / POINTS_MAX + 1;
+    fputs("$data << EOD\n", to);
+    for (int64_t i = 0; i < s->h->rows; i++) {
+        if (i % stride != 0 && i != s->h->rows - 1) continue;
+        fprintf(to, "%.9g", history_at(s->h, i, s->time) / s->second.factor);
+        for (int k = 0; k < columns; k++) {
+            double a = history_at(s->h, i, column[k]) / factor[k];
+            if (isfinite(a)) fprintf(to, " %.9g", a);
+            else fputs(" NaN", to);
+        }
+        putc('\n', to);
+    }
+    fputs("EOD\n", to);
+}
+
+void curves_title(FILE *to, const char *title, const char *what)
+{
+    char text[512];
+    snprintf(text, sizeof text, "%s%s", title, what);
+    fputs("set label 1 ", to);
+    gnuplot_quote(to, text);
+    fputs(" at screen 0.1,0.955 left font ',16' textcolor rgb '#111111'\n", to);
+}
+
+void curves_time_axis(FILE *to, const struct series *s)
+{
+    double end = history_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
+    fprintf(to, "set xrange [0:%.9g]\nset xlabel 'time [%s]' textcolor rgb '#333333'\n", end > 0 ? end : 1,
+            s->second.name);
+}
+
+/* ---- crack ----------------------------------------------------------------------------------------- */
+
+/* An axis from zero to `top` that takes the colour of its curve. */
+static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top)
+{
+    fprintf(to, "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\n"
+                "set %srange [0:%.9g]\n",
+            axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
+}
+
+static status draw_crack(const char *path, const char *title, const struct series *s)
+{
+    int column[2] = {history_column(s->h, "crack_length"), history_column(s->h, "pd_share")};
+    double largest[2] = {curves_largest(s->h, column[0]), curves_largest(s->h, column[1])};
+    struct unit metre = unit_for_length(largest[0]);
+    double factor[2] = {metre.factor, 0.01};         /* the share in percent */
+    char label[64];
+    struct gnuplot g;
+    if (column[0] < 0 && column[1] < 0) return OK;
+    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1000, 600));
+    curves_send(g.to, s, column, factor, 2);
+    curves_title(g.to, title, "crack");
+    curves_time_axis(g.to, s);
+    snprintf(label, sizeof label, "crack length [%s]", metre.name);
+    set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0]);
+    set_axis(g.to, "y2", "share of peridynamic particles [%]", 1, 1.25 * largest[1] / factor[1]);
+    fprintf(g.to,
+            "set border 11\nset lmargin at screen 0.1\nset rmargin at screen 0.9\nset tmargin at screen 0.84\n"
+            "set key at screen 0.1,0.875 left bottom horizontal width 2\n"
+            "plot $data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length (left)', "
+            "$data using 1:3 axes x1y2 with lines lw 2.4 dt (12,5) lc rgb '%s' title 'peridynamic share (right)'\n",
+            curve_colour[0], curve_colour[1]);
+    return gnuplot_close(&g);
+}
+
+/* ---- energies -------------------------------------------------------------------------------------- */
+
+struct energies {
+    int column[CURVES_MAX];
+    const char *label[CURVES_MAX];
+    double factor[CURVES_MAX];
+    int n;
+    struct unit joule;
+};
+
+/* The columns that are there and not always zero. */
+static void choose_energies(struct energies *e, const struct history *h)
+{
+    static const struct { const char *name, *label; } known[] = {
+        {"kinetic", "kinetic"}, {"strain", "strain"},   {"plastic", "plastic"},
+        {"fracture", "fracture"}, {"damped", "damped"}, {"external_work", "external work"}};
+    double largest = 0;
+    *e = (struct energies){0};
+    for (int k = 0; k < (int)COUNT_OF(known); k++) {
+        int column = history_column(h, known[k].name);
+        double top = curves_largest(h, column);
+        if (column < 0 || top == 0) continue;
+        e->column[e->n] = column;
+        e->label[e->n++] = known[k].label;
+        largest = fmax(largest, top);
+    }
+    e->joule = unit_for(largest, "J");
+    for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
+}
+
+/* Every energy, and their sum (external work left out) dashed. */
+static void plot_energies(FILE *to, const struct energies *e)
+{
+    fputs("plot ", to);
+    for (int k = 0; k < e->n; k++)
+        fprintf(to, "$data using 1:%d with lines lw 2.2 lc rgb '%s' title '%s', ", k + 2, curve_colour[k], e->label[k]);
+    fputs("$data using 1:(0", to);
+    for (int k = 0; k < e->n; k++)
+        if (strcmp(e->label[k], "external work") != 0) fprintf(to, "+$%d", k + 2);
+    fprintf(to, ") with lines lw 1.6 dt (6,4) lc rgb '%s' title 'sum of energies'\n", curve_colour[6]);
+}
+
+/* A round distance of tics that leaves one or two of them between 0 and `top`. */
+static double tic_distance(double top)
+{
+    double decade = pow(10, floor(log10(top))), lead = top / decade;
+    return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+}
+
+static void plot_balance(FILE *to, const struct series *s, double largest)
+{
+    double top = largest > 0 ? 120 * largest : 1;    /* percent, a fifth above the largest */
+    curves_time_axis(to, s);
+    fprintf(to, "unset label\nunset key\nset format x '%%g'\nset tmargin at screen 0.255\nset bmargin at screen 0.105\n"
+                "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel 'balance error [%%]'\n"
+                "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
+            -top, top, tic_distance(top), curve_colour[6]);
+}
+
+static status draw_energy(const char *path, const char *title, const struct series *s)
+{
+    struct energies e;
+    struct gnuplot g;
+    int balance = history_column(s->h, "balance_error");
+    const double percent = 0.01;
+    choose_energies(&e, s->h);
+    if (e.n == 0) return OK;
+    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1000, balance >= 0 ? 760 : 600));
+    curves_send(g.to, s, e.column, e.factor, e.n);
+    curves_title(g.to, title, "energy");
+    curves_time_axis(g.to, s);
+    fprintf(g.to,
+            "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset key at screen 0.81,0.9 left top\n"
+            "set ylabel 'energy [%s]'\n",
+            e.joule.name);
+    if (balance >= 0)
+        fputs("set multiplot\nset tmargin at screen 0.905\nset bmargin at screen 0.32\nset format x ''\nunset xlabel\n",
+              g.to);
+    plot_energies(g.to, &e);
+    if (balance >= 0) {
+        fputs("undefine $data\n", g.to);
+        curves_send(g.to, s, &balance, &percent, 1);
+        plot_balance(g.to, s, curves_largest(s->h, balance));
+        fputs("unset multiplot\n", g.to);
+    }
+    return gnuplot_close(&g);
+}
+
+status curves_draw(const char *folder, const char *pictures, const char *title)
+{
+    struct history h;
+    char path[PATH_LENGTH];
+    TRY(history_read(&h, folder));
+    struct series s = {.h = &h, .time = history_column(&h, "time")};
+    status result = OK;
+    if (s.time >= 0 && h.rows > 1) {
+        s.second = unit_for(history_at(&h, h.rows - 1, s.time), "s");
+        snprintf(path, sizeof path, "%s/crack.png", pictures);
+        result = draw_crack(path, title, &s);
+        snprintf(path, sizeof path, "%s/energy.png", pictures);
+        if (result == OK) result = draw_energy(path, title, &s);
+        if (result == OK) result = factors_draw(pictures, title, &s);
+        if (result == OK) result = paths_draw(folder, pictures, title, &h);
+    }
+    history_free(&h);
+    return result;
+}
+
+/* ---- profiles -------------------------------------------------------------------------------------- */
+
+/* Early frames light, late ones dark. */
+static struct colour frame_colour(int k, int frames)
+{
+    double late = frames > 1 ? (double)k / (frames - 1) : 1;
+    const double early[3] = {158, 202, 225}, dark[3] = {8, 48, 107};
+    return (struct colour){(uint8_t)(early[0] + late * (dark[0] - early[0])),
+                           (uint8_t)(early[1] + late * (dark[1] - early[1])),
+                           (uint8_t)(early[2] + late * (dark[2] - early[2])), 255};
+}
+
+struct station { float x, velocity, stress, damage; };
+
+static int by_place(const void *a, const void *b)
+{
+    float x = ((const struct station *)a)->x, y = ((const struct station *)b)->x;
+    return (x > y) - (x < y);
+}
+
+/* The data block $fK: the bar from left to right, an empty line where it has come apart. */
+static void send_profile(FILE *to, const struct frame *f, int k, double spacing, const struct unit *unit)
+{
+    struct station *s = NEW("plot.profile", f->n, struct station);
+    for (int64_t i = 0; i < f->n; i++)
+        s[i] = (struct station){f->X[0][i] + f->u[0][i], f->v[0][i], f->stress[0][i], f->damage[i]};
+    qsort(s, (size_t)f->n, sizeof *s, by_place);
+    fprintf(to, "$f%d << EOD\n", k);
+    for (int64_t i = 0; i < f->n; i++) {
+        if (i > 0 && s[i].x - s[i - 1].x > 1.5 * spacing) putc('\n', to);
+        fprintf(to, "%.7g %.7g %.7g %.7g\n", s[i].x / unit[0].factor, s[i].velocity / unit[1].factor,
+                s[i].stress / unit[2].factor, s[i].damage);
+    }
+    fputs("EOD\n", to);
+    memory_free(s);
+}
+
+static double largest_in(const float *a, int64_t n)
+{
+    double largest = 0;
+    for (int64_t i = 0; i < n; i++) largest = fmax(largest, fabs(a[i]));
+    return largest;
+}
+
+/* Units of place, velocity and stress that suit all frames. */
+static void choose_units(struct unit *unit, const struct frame *frame, int frames)
+{
+    double largest[3] = {0};
+    for (int k = 0; k < frames; k++) {
+        largest[0] = fmax(largest[0], largest_in(frame[k].X[0], frame[k].n));
+        largest[1] = fmax(largest[1], largest_in(frame[k].v[0], frame[k].n));
+        largest[2] = fmax(largest[2], largest_in(frame[k].stress[0], frame[k].n));
+    }
+    unit[0] = unit_for_length(largest[0]);
+    unit[1] = unit_for(largest[1], "m/s");
+    unit[2] = unit_for(largest[2], "Pa");
+}
+
+static void plot_profile(FILE *to, const struct frame *frame, int frames, int column)
+{
+    struct unit second = unit_for(frame[frames - 1].t, "s");
+    fputs("plot ", to);
+    for (int k = 0; k < frames; k++) {
+        struct colour c = frame_colour(k, frames);
+        fprintf(to, "%s$f%d using 1:%d with lines lw 1.8 lc rgb '#%02x%02x%02x' title '%.3g %s'", k > 0 ? ", " : "", k,
+                column, c.red, c.green, c.blue, frame[k].t / second.factor, second.name);
+    }
+    putc('\n', to);
+}
+
+status profiles_draw(const char *path, const char *title, const struct frame *frame, int frames)
+{
+    struct gnuplot g;
+    struct unit unit[3];
+    char label[3][32];
+    double spacing = frame_spacing(&frame[0]);
+    choose_units(unit, frame, frames);
+    snprintf(label[0], sizeof label[0], "velocity [%s]", unit[1].name);
+    snprintf(label[1], sizeof label[1], "stress [%s]", unit[2].name);
+    snprintf(label[2], sizeof label[2], "damage");
+    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1080, 920));
+    for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, spacing, unit);
+    curves_title(g.to, title, "");
+    fputs("set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
+          "set autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
+          "set key at screen 0.875,0.92 left top\n",
+          g.to);
+    for (int k = 0; k < 3; k++) {
+        double above = 0.915 - 0.285 * k;
+        fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n", above, above - 0.255,
+                label[k]);
+        if (k == 2)
+            fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\nset offsets\nset yrange [0:1.04]\n", unit[0].name);
+        plot_profile(g.to, frame, frames, k + 2);
+        fputs("unset label\nunset key\n", g.to);
+    }
+    fputs("unset multiplot\n", g.to);
+    return gnuplot_close(&g);
+}

@@ -1,0 +1,234 @@
+/* floor 5: pictures of stress-intensity factors over time, and of the ways that tips have gone. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "plot.h"
+#include "output/summary_read.h"
+
+enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6, PATH_LENGTH = 4096 };
+
+/* Probes whose columns end in `quantity`: their names. */
+static int probes_with(const struct history *h, const char *quantity, char name[][NAME_MAX_LENGTH], int most)
+{
+    const size_t tail = strlen(quantity);
+    int n = 0;
+    for (int k = 0; k < h->columns && n < most; k++) {
+        const size_t length = strlen(h->name[k]);
+        if (length <= tail || length - tail >= NAME_MAX_LENGTH) continue;
+        if (strcmp(h->name[k] + length - tail, quantity) != 0) continue;
+        snprintf(name[n++], NAME_MAX_LENGTH, "%.*s", (int)(length - tail), h->name[k]);
+    }
+    return n;
+}
+
+static int column_of(const struct history *h, const char *probe, const char *quantity)
+{
+    char name[2 * NAME_MAX_LENGTH];
+    snprintf(name, sizeof name, "%.63s.%.63s", probe, quantity);
+    return history_column(h, name);
+}
+
+/* ---- factors over time --------------------------------------------------------------------------------- */
+
+struct factors {
+    int n;
+    char name[PROBES_SHOWN][NAME_MAX_LENGTH];
+    int column[2 * PROBES_SHOWN], spread[PROBES_SHOWN];          /* K_I and K_II of each */
+    double factor[2 * PROBES_SHOWN], percent[PROBES_SHOWN];
+    struct unit unit;
+};
+
+static void find_factors(struct factors *f, const struct history *h)
+{
+    double largest = 0;
+    *f = (struct factors){0};
+    f->n = probes_with(h, ".K_I", f->name, PROBES_SHOWN);
+    for (int k = 0; k < f->n; k++) {
+        f->column[2 * k] = column_of(h, f->name[k], "K_I");
+        f->column[2 * k + 1] = column_of(h, f->name[k], "K_II");
+        f->spread[k] = column_of(h, f->name[k], "contour_spread");
+        f->percent[k] = 0.01;
+        for (int m = 0; m < 2; m++) largest = fmax(largest, curves_largest(h, f->column[2 * k + m]));
+    }
+    f->unit = unit_for(largest, "Pa√m");
+    for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
+}
+
+/* One probe: a colour for each mode; several: a colour for each probe, K_II dashed. */
+static void plot_factors(FILE *to, const struct factors *f)
+{
+    fputs("plot 0 with lines lw 0.8 lc rgb '#888888'", to);
+    for (int k = 0; k < f->n; k++)
+        for (int m = 0; m < 2; m++)
+            fprintf(to, ", $data using 1:%d with lines lw %s%s lc rgb '%s' title '%s%sK_%s'", 2 + 2 * k + m,
+                    m == 0 ? "2.4" : "2", m == 1 && f->n > 1 ? " dt (9,4)" : "", curve_colour[f->n > 1 ? k : m],
+                    f->n > 1 ? f->name[k] : "", f->n > 1 ? ": " : "", m == 0 ? "I" : "II");
+    putc('\n', to);
+}
+
+/* Contours that differ by more than a half tell of waves in the ring, or of a kink in it. */
+static void plot_spread(FILE *to, const struct series *s, const struct factors *f)
+{
+    curves_time_axis(to, s);
+    fputs("unset label\nunset key\nset format x '%g'\nset tmargin at screen 0.29\nset bmargin at screen 0.105\n"
+          "set logscale y\nset yrange [0.1:100]\nset ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)\nset format y '%g'\n"
+          "set ylabel 'contours differ by [%]'\nplot ", to);
+    for (int k = 0; k < f->n; k++)
+        fprintf(to, "%s$data using 1:%d with lines lw 1.6 lc rgb '%s'", k > 0 ? ", " : "", k + 2,
+                curve_colour[f->n > 1 ? k : CURVE_COLOURS - 1]);
+    putc('\n', to);
+}
+
+status factors_draw(const char *pictures, const char *title, const struct series *s)
+{
+    struct factors f;
+    struct gnuplot g;
+    char path[PATH_LENGTH];
+    find_factors(&f, s->h);
+    if (f.n == 0) return OK;
+    if (snprintf(path, sizeof path, "%s/sif.png", pictures) >= (int)sizeof path)
+        return status_set(FAILED, "%s: the name is too long", pictures);
+    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1000, 760));
+    curves_send(g.to, s, f.column, f.factor, 2 * f.n);
+    curves_title(g.to, title, "stress-intensity factors");
+    curves_time_axis(g.to, s);
+    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.86\nset key at screen 0.875,0.9 left top\n"
+                  "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n"
+                  "set multiplot\nset tmargin at screen 0.905\nset bmargin at screen 0.35\nset format x ''\n"
+                  "unset xlabel\n", f.unit.name);
+    plot_factors(g.to, &f);
+    fputs("set offsets\nundefine $data\n", g.to);
+    curves_send(g.to, s, f.spread, f.percent, f.n);
+    plot_spread(g.to, s, &f);
+    fputs("unset multiplot\n", g.to);
+    return gnuplot_close(&g);
+}
+
+/* ---- the ways of tips -------------------------------------------------------------------------------------- */
+
+struct way {
+    char name[NAME_MAX_LENGTH];
+    int x, y, length;                    /* columns                                                         */
+    double from[2], to[2], grown;        /* ends [m]; length [m]                                            */
+    double angle, experiment, direction; /* of the chord, of an experiment, of the start; NAN: unknown [degree] */
+};
+
+static double figure_of(const char *folder, const char *probe, const char *quantity)
+{
+    char key[3 * NAME_MAX_LENGTH];
+    double value = NAN;
+    snprintf(key, sizeof key, "probes.%.63s.%.63s", probe, quantity);
+    return summary_number(folder, key, &value) == OK ? value : NAN;
+}
+
+static int find_ways(struct way *w, const char *folder, const struct history *h)
+{
+    char name[PATHS_SHOWN][NAME_MAX_LENGTH];
+    const int found = probes_with(h, ".K_eq", name, PATHS_SHOWN);
+    int n = 0;
+    for (int k = 0; k < found; k++) {
+        struct way *a = &w[n];
+        *a = (struct way){.x = column_of(h, name[k], "x"), .y = column_of(h, name[k], "y"),
+                          .length = column_of(h, name[k], "length")};
+        strcpy(a->name, name[k]);
+        a->grown = history_at(h, h->rows - 1, a->length);
+        if (!(a->grown > 0)) continue;
+        for (int e = 0; e < 2; e++) {
+            double *at = e == 0 ? a->from : a->to;
+            at[0] = history_at(h, e * (h->rows - 1), a->x), at[1] = history_at(h, e * (h->rows - 1), a->y);
+        }
+        a->angle = figure_of(folder, name[k], "angle_deg");
+        a->experiment = figure_of(folder, name[k], "experiment_deg");
+        a->direction = figure_of(folder, name[k], "direction_deg");
+        n++;
+    }
+    return n;
+}
+
+/* The data block $wK: the tip from sample to sample, each place once. */
+static void send_way(FILE *to, const struct history *h, const struct way *w, int k, double factor)
+{
+    double last = -1;
+    fprintf(to, "$w%d << EOD\n", k);
+    for (int64_t i = 0; i < h->rows; i++) {
+        const double length = history_at(h, i, w->length);
+        if (length > last) fprintf(to, "%.7g %.7g\n", history_at(h, i, w->x) / factor, history_at(h, i, w->y) / factor);
+        last = fmax(last, length);
+    }
+    fputs("EOD\n", to);
+}
+
+/* The end of the ray of an experiment's angle, on the side to which the tip has gone; false: none. */
+static bool ray_of(const struct way *w, double end[2])
+{
+    const double pi = 3.14159265358979323846, along = w->direction * pi / 180;
+    const double across = cos(along) * (w->to[1] - w->from[1]) - sin(along) * (w->to[0] - w->from[0]);
+    const double angle = along + (across < 0 ? -1 : 1) * w->experiment * pi / 180;
+    end[0] = w->from[0] + w->grown * cos(angle), end[1] = w->from[1] + w->grown * sin(angle);
+    return isfinite(angle);
+}
+
+/* A square that holds all, with room for a stretch of the crack that was there. */
+static void set_square(FILE *to, const struct way *w, int n, const struct unit *metre)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, end[2], side = 0;
+    for (int k = 0; k < n; k++)
+        for (int d = 0; d < 2; d++) {
+            low[d] = fmin(low[d], fmin(w[k].from[d], w[k].to[d]));
+            high[d] = fmax(high[d], fmax(w[k].from[d], w[k].to[d]));
+            if (ray_of(&w[k], end)) low[d] = fmin(low[d], end[d]), high[d] = fmax(high[d], end[d]);
+        }
+    for (int d = 0; d < 2; d++) side = fmax(side, 1.16 * (high[d] - low[d]) / metre->factor);
+    for (int d = 0; d < 2; d++) {
+        const double middle = 0.5 * (low[d] + high[d]) / metre->factor;
+        fprintf(to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\n", "xy"[d], middle - 0.5 * side, middle + 0.5 * side,
+                "xy"[d], "xy"[d], metre->name);
+    }
+    fputs("set size ratio -1\n", to);
+}
+
+static void plot_ways(FILE *to, const struct way *w, int n, const struct unit *metre)
+{
+    double end[2];
+    fputs("plot ", to);
+    for (int k = 0; k < n; k++) {
+        const double m = metre->factor, direction = w[k].direction * 3.14159265358979323846 / 180;
+        if (isfinite(direction))         /* the crack that was there, as far as the picture goes */
+            fprintf(to, "'+' using (%.9g-%.9g*$0):(%.9g-%.9g*$0) every 1 with lines lw 5 lc rgb '#bbbbbb' title '%s', ",
+                    w[k].from[0] / m, w[k].grown / m * cos(direction), w[k].from[1] / m, w[k].grown / m * sin(direction),
+                    k == 0 ? "crack at the start" : "");
+        if (ray_of(&w[k], end))
+            fprintf(to, "'-' with lines lw 2 dt (10,6) lc rgb '%s' title 'experiment, %.3g°', ",
+                    curve_colour[CURVE_COLOURS - 1], w[k].experiment);
+        fprintf(to, "$w%d with lines lw 3 lc rgb '%s' title ", k, curve_colour[k]);
+        char text[NAME_MAX_LENGTH + 32];
+        snprintf(text, sizeof text, isfinite(w[k].angle) ? "%s, %.1f°" : "%s", w[k].name, w[k].angle);
+        gnuplot_quote(to, text);
+        fputs(k + 1 < n ? ", " : "\n", to);
+    }
+    for (int k = 0; k < n; k++)
+        if (ray_of(&w[k], end))
+            fprintf(to, "%.9g %.9g\n%.9g %.9g\ne\n", w[k].from[0] / metre->factor, w[k].from[1] / metre->factor,
+                    end[0] / metre->factor, end[1] / metre->factor);
+}
+
+status paths_draw(const char *folder, const char *pictures, const char *title, const struct history *h)
+{
+    struct way way[PATHS_SHOWN];
+    struct gnuplot g;
+    char path[PATH_LENGTH];
+    const int n = find_ways(way, folder, h);
+    if (n == 0) return OK;
+    if (snprintf(path, sizeof path, "%s/path.png", pictures) >= (int)sizeof path)
+        return status_set(FAILED, "%s: the name is too long", pictures);
+    const struct unit metre = unit_for_length(fmax(fabs(way[0].to[0]), fabs(way[0].to[1])));
+    TRY(gnuplot_open(&g, path, PICTURE_PNG, 940, 760));
+    curves_title(g.to, title, "path of the crack");
+    for (int k = 0; k < n; k++) send_way(g.to, h, &way[k], k, metre.factor);
+    set_square(g.to, way, n, &metre);
+    fputs("set lmargin at screen 0.1\nset rmargin at screen 0.74\nset tmargin at screen 0.9\n"
+          "set bmargin at screen 0.105\nset key at screen 0.755,0.89 left top\nset samples 2\n", g.to);
+    plot_ways(g.to, way, n, &metre);
+    return gnuplot_close(&g);
+}

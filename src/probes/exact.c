@@ -1,0 +1,158 @@
+/* floor 1: waves in a uniform bar, written down. */
+#include "probes/exact.h"
+
+#include <math.h>
+
+static const struct exact_values nothing = {NAN, NAN, NAN, NAN};
+static const real pi = 3.14159265358979323846;
+
+static real wave_speed(const struct exact *e) { return sqrt(e->young / e->density); }
+static real plastic_speed(const struct exact *e) { return sqrt(e->tangent / e->density); }
+static real length(const struct exact *e) { return e->right - e->left; }
+
+/* Distance from the loaded end, and back. */
+static real depth(const struct exact *e, real X) { return e->loaded > 0 ? e->right - X : X - e->left; }
+static real place(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
+static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
+
+/* Adds a stress jump that travels in direction `way` of x with `speed` and has passed `age` ago: momentum through it,
+ * rho speed v = -way sigma. */
+static void add_front(struct exact_values *v, const struct exact *e, real jump, real modulus, real speed, int way,
+                      real age)
+{
+    if (age < 0) return;
+    real velocity = -way * jump / (e->density * speed);
+    v->stress += jump;
+    v->strain += jump / modulus;
+    v->velocity += velocity;
+    v->displacement += velocity * age;
+}
+
+/* ---- loaded bars ----------------------------------------------------------------------------------------- */
+
+static struct exact_values step_bar(const struct exact *e, real s, real t)
+{
+    struct exact_values v = {0};
+    real c = wave_speed(e), L = length(e), r = far_reflection(e), jump = e->load;
+    for (int n = 0; 2 * n * L <= c * t; n++, jump *= -r) {
+        add_front(&v, e, jump, e->young, c, -e->loaded, t - (2 * n * L + s) / c);
+        add_front(&v, e, r * jump, e->young, c, e->loaded, t - (2 * (n + 1) * L - s) / c);
+    }
+    return v;
+}
+
+static real precursor(const struct exact *e) { return copysign(real_min(fabs(e->load), e->yield), e->load); }
+
+static struct exact_values plastic_bar(const struct exact *e, real s, real t)
+{
+    struct exact_values v = {0};
+    real first = precursor(e);
+    if (wave_speed(e) * t > length(e) * (1 + 1e-9)) return nothing;
+    add_front(&v, e, first, e->young, wave_speed(e), -e->loaded, t - s / wave_speed(e));
+    if (e->load != first)
+        add_front(&v, e, e->load - first, e->tangent, plastic_speed(e), -e->loaded, t - s / plastic_speed(e));
+    return v;
+}
+
+/* ---- pulses ---------------------------------------------------------------------------------------------- */
+
+/* A pulse on its way in an endless bar, `eta` ahead of its centre; `factor` is the direction of its displacement and the
+ * sign that it has got from the ends. */
+static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int way,
+                      real factor)
+{
+    struct wave_pulse centred = *p;
+    centred.at[0] = 0, centred.direction[0] = 1;
+    struct wave_state wave = wave_pulse_at(&centred, &eta, wave_speed(e), 1);
+    v->displacement += factor * wave.displacement;
+    v->velocity += factor * wave.velocity;
+    v->strain += factor * way * wave.strain;
+}
+
+/* The pulse and its images in the ends, one behind the other along the way it would go: between two images lies the bar's
+ * length folded once more, and the displacement turns its sign at a fixed end. */
+static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
+{
+    real L = length(e), gone = wave_speed(e) * t;
+    int way = p->direction[0] < 0 ? -1 : 1;
+    real factor = way, start = way > 0 ? p->at[0] - e->left : e->right - p->at[0];       /* from the end behind it */
+    for (int n = 0; n * L <= start + gone + 2 * p->width; n++) {
+        real here = way > 0 ? X - e->left : e->right - X;                        /* from the end behind this image */
+        add_pulse(v, e, p, here + n * L - start - gone, way, factor);
+        factor *= -e->reflection[way > 0 ? 1 : 0];
+        way = -way;
+    }
+}
+
+static struct exact_values pulses(const struct exact *e, real X, real t)
+{
+    struct exact_values v = {0};
+    for (int k = 0; k < e->pulses; k++) one_pulse(&v, e, &e->pulse[k], X, t);
+    v.stress = e->young * v.strain;
+    return v;
+}
+
+static struct exact_values manufactured(const struct exact *e, real X, real t)
+{
+    real k = 2 * pi / e->wavelength, phase = k * (X - e->origin), grown = square(sin(pi * t / e->period));
+    real strain = e->amplitude * grown * k * cos(phase);
+    return (struct exact_values){
+        .displacement = e->amplitude * grown * sin(phase),
+        .velocity = e->amplitude * pi / e->period * sin(2 * pi * t / e->period) * sin(phase),
+        .stress = e->young * strain, .strain = strain};
+}
+
+struct exact_values exact_at(const struct exact *e, real X, real t)
+{
+    switch (e->form) {
+    case EXACT_STEP_BAR: return step_bar(e, depth(e, X), t);
+    case EXACT_PLASTIC_BAR: return plastic_bar(e, depth(e, X), t);
+    case EXACT_PULSE: return pulses(e, X, t);
+    case EXACT_MANUFACTURED: return manufactured(e, X, t);
+    default: return nothing;
+    }
+}
+
+/* ---- fronts and plateaus ----------------------------------------------------------------------------------- */
+
+/* Front m has crossed the bar m times; the stress behind it is the sum of all jumps up to its own. */
+static struct exact_front step_front(const struct exact *e, real t)
+{
+    real L = length(e), gone = wave_speed(e) * t, m = floor(gone / L);
+    bool outward = fmod(m, 2) == 0;
+    real r = far_reflection(e), before = 0, jump = e->load;
+    for (int k = 0; k < (int)m; k++) before += jump, jump *= k % 2 == 0 ? r : -1;
+    return (struct exact_front){.place = place(e, outward ? gone - m * L : (m + 1) * L - gone),
+                                .ahead = outward ? -e->loaded : e->loaded, .before = before, .behind = before + jump};
+}
+
+int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS])
+{
+    if (e->form == EXACT_STEP_BAR) {
+        front[0] = step_front(e, t);
+        return 1;
+    }
+    if (e->form != EXACT_PLASTIC_BAR || wave_speed(e) * t > length(e) * (1 + 1e-9)) return 0;
+    real first = precursor(e);
+    front[0] = (struct exact_front){place(e, wave_speed(e) * t), -e->loaded, 0, first};
+    if (e->load == first) return 1;
+    front[1] = (struct exact_front){place(e, plastic_speed(e) * t), -e->loaded, first, e->load};
+    return 2;
+}
+
+bool exact_plateau(const struct exact *e, real t, enum exact_window which, real *from, real *to)
+{
+    struct exact_front front[EXACT_FRONTS];
+    int fronts = exact_fronts(e, t, front);
+    real L = length(e), near, far;               /* distances from the loaded end */
+    if (fronts == 0 || (which == EXACT_PRECURSOR && fronts < 2)) return false;
+    bool outward = front[0].ahead == -e->loaded;
+    if (which == EXACT_PRECURSOR)
+        near = depth(e, front[1].place) + 0.05 * L, far = depth(e, front[0].place) - 0.07 * L;
+    else if (fronts == 2) near = 0.1 * L, far = depth(e, front[1].place) - 0.08 * L;
+    else if (outward) near = 0.1 * L, far = depth(e, front[0].place) - 0.1 * L;
+    else near = depth(e, front[0].place) + 0.1 * L, far = 0.9 * L;
+    *from = real_min(place(e, near), place(e, far));
+    *to = real_max(place(e, near), place(e, far));
+    return near < far;
+}

@@ -1,0 +1,344 @@
+/* floor 3: probes bound to particles, followed step by step, and their columns of the history. */
+#include "probes/probes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "probes_parts.h"
+
+const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
+
+/* ---- columns ----------------------------------------------------------------------------------------- */
+
+static void column_add(struct probes *s, struct probe *q, const char *quantity, const char *unit)
+{
+    s->column = memory_resize("probes.column", s->column, s->columns, s->columns + 1, sizeof *s->column);
+    struct column *c = &s->column[s->columns++];
+    snprintf(c->name, sizeof c->name, "%.63s.%.63s", q->request.name, quantity);
+    snprintf(c->unit, sizeof c->unit, "%s", unit);
+    q->columns++;
+}
+
+static void columns_by_axis(struct probes *s, struct probe *q, const char *prefix, int dim, const char *unit)
+{
+    for (int d = 0; d < dim; d++) {
+        char name[NAME_MAX_LENGTH];
+        snprintf(name, sizeof name, "%s%s", prefix, axis_name[d]);
+        column_add(s, q, name, unit);
+    }
+}
+
+static void columns_add(struct probes *s, struct probe *q, const struct particles *p)
+{
+    const int dim = p->dim;
+    q->first = s->columns;
+    switch (q->request.kind) {
+    case PROBE_TIP:
+        columns_by_axis(s, q, "", dim, "m");
+        column_add(s, q, "growth", "m");
+        break;
+    case PROBE_REACTION: columns_by_axis(s, q, "force_", dim, "N"); break;
+    case PROBE_POINT:
+        for (int k = 0; k < readings_count(p); k++) {
+            struct column c = reading_column(p, k);
+            column_add(s, q, c.name, c.unit);
+        }
+        break;
+    case PROBE_ENERGY:
+        column_add(s, q, "kinetic", "J");
+        column_add(s, q, "strain", "J");
+        column_add(s, q, "fracture", "J");
+        break;
+    case PROBE_MOMENTUM: columns_by_axis(s, q, "", dim, "kg m/s"); break;
+    case PROBE_EXACT:
+        for (int k = 0; k < bar_figures_count(q->request.form); k++) {
+            struct column c = bar_figure(q->request.form, k);
+            column_add(s, q, c.name, c.unit);
+        }
+        break;
+    case PROBE_SIF:
+        for (int k = 0; k < SIF_FIGURES; k++) column_add(s, q, sif_figure[k].name, sif_figure[k].unit);
+        break;
+    case PROBE_GROWTH:
+        for (int k = 0; k < GROWTH_FIGURES; k++) column_add(s, q, growth_figure[k].name, growth_figure[k].unit);
+        break;
+    case PROBE_RIGID:
+        for (int k = 0; k < RIGID_FIGURES; k++) column_add(s, q, rigid_figure[k].name, rigid_figure[k].unit);
+        break;
+    default: break;                      /* the others have figures only */
+    }
+}
+
+/* ---- binding to particles ---------------------------------------------------------------------------- */
+
+/* A place in the body is nowhere farther than this from a particle: half the diagonal of a lattice cell, and half as
+ * much again for irregular ones. */
+static real nearest_reach(const struct observed *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
+
+int32_t particle_nearest(const struct observed *o, const real *X)
+{
+    const struct particles *p = o->part;
+    real reach = real_min(nearest_reach(o), o->cells->edge), least = INFINITY;
+    int room = cells_near(o->cells, p, X, reach, -1, NULL, 0);
+    int32_t *found = NEW("probes.found", room, int32_t), nearest = -1;
+    int n = cells_near(o->cells, p, X, reach, -1, found, room);
+    for (int k = 0; k < n; k++) {
+        if (found[k] >= p->n) continue;
+        real distance2 = 0;
+        for (int d = 0; d < p->dim; d++) distance2 += square(p->X[d][found[k]] - X[d]);
+        if (distance2 < least) nearest = found[k], least = distance2;
+    }
+    memory_free(found);
+    return nearest;
+}
+
+void station_position(const struct probe *q, int dim, int k, real *X)
+{
+    const struct probe_request *r = &q->request;
+    real s = r->points > 1 ? (real)k / (r->points - 1) : 0;
+    for (int d = 0; d < dim; d++) X[d] = r->from[d] + s * (r->to[d] - r->from[d]);
+}
+
+static void position_text(const real *X, int dim, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int d = 0; d < dim && used < size; d++)
+        used += (size_t)snprintf(text + used, size - used, "%s%.6g", d > 0 ? ", " : "", X[d]);
+}
+
+static status bind_point(struct probe *q, const struct observed *o)
+{
+    q->list = NEW("probes.list", 1, int32_t);
+    q->list[q->n++] = particle_nearest(o, q->request.at);
+    if (q->list[0] >= 0) return OK;
+    char text[96];
+    position_text(q->request.at, o->part->dim, text, sizeof text);
+    return status_set(REFUSED, "probe \"%s\": the point (%s) m lies outside the bodies", q->request.name, text);
+}
+
+static status bind_line(struct probe *q, const struct observed *o)
+{
+    int dim = o->part->dim, inside = 0;
+    real X[DIM_MAX];
+    if (q->request.points < 1)
+        return status_set(REFUSED, "probe \"%s\": a line needs at least one station", q->request.name);
+    q->list = NEW("probes.list", q->request.points, int32_t);
+    for (; q->n < q->request.points; q->n++) {
+        station_position(q, dim, (int)q->n, X);
+        q->list[q->n] = particle_nearest(o, X);
+        inside += q->list[q->n] >= 0;
+    }
+    if (inside > 0) return OK;
+    return status_set(REFUSED, "probe \"%s\": the whole line lies outside the bodies", q->request.name);
+}
+
+/* Particles on the region's boundary belong to it, by round-off at most. */
+static status bind_region(struct probe *q, const struct observed *o)
+{
+    const struct particles *p = o->part;
+    real X[DIM_MAX];
+    q->list = NEW("probes.list", p->n, int32_t);
+    for (int64_t i = 0; i < p->n; i++) {
+        particle_place(p, i, X);
+        if (region_contains(&q->request.region, X, p->dim, ON_SURFACE * o->spacing)) q->list[q->n++] = (int32_t)i;
+    }
+    if (q->n > 0) return OK;
+    return status_set(REFUSED, "probe \"%s\": its region holds no particle", q->request.name);
+}
+
+static status bind_support(const struct probe *q, const struct observed *o)
+{
+    char known[512] = "";
+    size_t used = 0;
+    for (int k = 0; k < o->loads->n; k++) {
+        const struct boundary *b = o->loads->load[k].boundary;
+        bool has_reaction = b->kind == BOUNDARY_VELOCITY;
+        if (strcmp(b->name, q->request.boundary) == 0 && has_reaction) return OK;
+        if (strcmp(b->name, q->request.boundary) == 0)
+            return status_set(REFUSED, "probe \"%s\": boundary \"%s\" holds no velocity and has no reaction",
+                              q->request.name, b->name);
+        if (has_reaction && used < sizeof known)
+            used += (size_t)snprintf(known + used, sizeof known - used, "%s\"%s\"", used > 0 ? ", " : "", b->name);
+    }
+    return status_set(REFUSED, "probe \"%s\": no boundary is named \"%s\"; fixed or driven are: %s", q->request.name,
+                      q->request.boundary, used > 0 ? known : "none");
+}
+
+static status bind_growth(struct probe *q, const struct observed *o)
+{
+    for (int k = o->growths - 1; k >= 0; k--)
+        if (!q->request.of[0] || strcmp(o->growth[k].rule->name, q->request.of) == 0) q->growth = k;
+    return OK;                           /* the reader knows that it is there */
+}
+
+static status probe_bind(struct probe *q, const struct observed *o)
+{
+    switch (q->request.kind) {
+    case PROBE_POINT: return bind_point(q, o);
+    case PROBE_LINE: return bind_line(q, o);
+    case PROBE_REACTION: return bind_support(q, o);
+    case PROBE_PULSE: return pulse_bind(q, o);
+    case PROBE_BREAK:
+    case PROBE_ENERGY:
+    case PROBE_MOMENTUM: return bind_region(q, o);
+    case PROBE_EXACT: return bar_make(q, o);
+    case PROBE_SIF: return sif_bind(q, o);
+    case PROBE_GROWTH: return bind_growth(q, o);
+    case PROBE_RIGID: TRY(bind_region(q, o)); return rigid_bind(q, o);
+    default: return OK;
+    }
+}
+
+status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o)
+{
+    *s = (struct probes){.n = n};
+    s->probe = NEW("probes.probe", n, struct probe);
+    for (int k = 0; k < n; k++) {
+        struct probe *q = &s->probe[k];
+        q->request = request[k];
+        q->memory = (struct probe_memory){.first_time = NAN, .place = {NAN, NAN, NAN}, .body = -1,
+                                          .factors = {NAN, NAN, NAN, NAN}};
+        status fault = probe_bind(q, o);
+        if (fault != OK) {
+            probes_free(s);
+            return fault;
+        }
+        columns_add(s, q, o->part);
+    }
+    s->value = NEW("probes.value", s->columns, real);
+    return OK;
+}
+
+void probes_free(struct probes *s)
+{
+    for (int k = 0; s->probe && k < s->n; k++) {
+        memory_free(s->probe[k].list);
+        bar_free(s->probe[k].bar);
+        sif_free(s->probe[k].sif);
+    }
+    memory_free(s->probe);
+    memory_free(s->column);
+    memory_free(s->value);
+    *s = (struct probes){0};
+}
+
+/* ---- every step -------------------------------------------------------------------------------------- */
+
+static void step_break(struct probe *q, const struct observed *o)
+{
+    const struct particles *p = o->part;
+    real place[DIM_MAX] = {0};
+    int64_t cut = 0;
+    for (int64_t k = 0; k < q->n; k++) {
+        int32_t i = q->list[k];
+        if (!(p->flag[i] & FLAG_CRACKED)) continue;      /* bonds of driven particles do not count */
+        for (int d = 0; d < p->dim; d++) place[d] += p->X[d][i];
+        cut++;
+    }
+    if (cut == 0) return;
+    q->memory.first_time = o->t;
+    for (int d = 0; d < p->dim; d++) q->memory.place[d] = place[d] / (real)cut;
+}
+
+static void step_reaction(struct probe *q, const struct observed *o)
+{
+    real force[DIM_MAX], displacement[DIM_MAX], square_sum;
+    probe_reaction(q, o->loads, o->part->dim, force, displacement);
+    square_sum = dot(force, force, o->part->dim);
+    q->memory.force_max = real_max(q->memory.force_max, sqrt(square_sum));
+    q->memory.force_square += square_sum;
+    q->memory.steps++;
+}
+
+static bool any_cut(const struct particles *p)
+{
+    uint8_t any = 0;
+    for (int64_t i = 0; i < p->n; i++) any |= p->flag[i];
+    return any & FLAG_CUT;
+}
+
+void probes_step(struct probes *s, const struct observed *o)
+{
+    bool waits_for_break = false;
+    for (int k = 0; k < s->n; k++) {
+        struct probe *q = &s->probe[k];
+        if (q->request.kind == PROBE_REACTION) step_reaction(q, o);
+        if (q->request.kind == PROBE_BREAK || q->request.kind == PROBE_SPALL)
+            waits_for_break = waits_for_break || isnan(q->memory.first_time);
+    }
+    if (!waits_for_break || !any_cut(o->part)) return;
+    for (int k = 0; k < s->n; k++) {
+        struct probe *q = &s->probe[k];
+        if (!isnan(q->memory.first_time)) continue;
+        if (q->request.kind == PROBE_BREAK) step_break(q, o);
+        if (q->request.kind == PROBE_SPALL) spall_look(q, o);
+    }
+}
+
+/* ---- every sample ------------------------------------------------------------------------------------ */
+
+static void sample_tip(const struct probe *q, const struct observed *o, real *value)
+{
+    const struct tip *tip = probe_tip(q, o->tips);
+    int dim = o->part->dim;
+    for (int d = 0; d < dim; d++) value[d] = tip ? tip->place[d] : NAN;
+    value[dim] = tip ? tip->growth : 0;
+}
+
+static void sample_energy(const struct probe *q, const struct observed *o, real *value)
+{
+    struct energies e = probe_energies(q, o);
+    value[0] = e.kinetic, value[1] = e.strain, value[2] = e.fracture;
+}
+
+void probes_sample(struct probes *s, const struct observed *o)
+{
+    real displacement[DIM_MAX];
+    for (int k = 0; k < s->n; k++) {
+        struct probe *q = &s->probe[k];
+        real *value = s->value + q->first;
+        switch (q->request.kind) {
+        case PROBE_TIP: sample_tip(q, o, value); break;
+        case PROBE_REACTION: probe_reaction(q, o->loads, o->part->dim, value, displacement); break;
+        case PROBE_POINT: readings_of(o->part, q->list[0], value); break;
+        case PROBE_ENERGY: sample_energy(q, o, value); break;
+        case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
+        case PROBE_EXACT: bar_figures(q->bar, o, value); break;
+        case PROBE_GROWTH: growth_readings(&o->growth[q->growth], value); break;
+        case PROBE_RIGID: rigid_sample(q, o, value); break;
+        default: break;
+        }
+    }
+}
+
+void probes_keep(struct probes *s, const struct observed *o)
+{
+    for (int k = 0; k < s->n; k++)
+        if (s->probe[k].request.kind == PROBE_SIF) sif_keep(&s->probe[k], o);
+}
+
+void probes_sample_end(struct probes *s, const struct observed *o, real t_velocity)
+{
+    for (int k = 0; k < s->n; k++) {
+        struct probe *q = &s->probe[k];
+        if (q->request.kind != PROBE_SIF) continue;
+        sif_sample(q, o, t_velocity);
+        for (int f = 0; f < SIF_FIGURES; f++) s->value[q->first + f] = q->memory.factors[f];
+    }
+}
+
+/* ---- restart ----------------------------------------------------------------------------------------- */
+
+status probes_archive(struct probes *s, struct archive *a)
+{
+    if (s->n == 0) return OK;
+    struct probe_memory *memory = NEW("probes.memory", s->n, struct probe_memory);
+    for (int k = 0; k < s->n; k++) memory[k] = s->probe[k].memory;
+    status fault = a->exchange(a, "probes/memory", memory, (size_t)s->n * sizeof *memory);
+    for (int k = 0; fault == OK && k < s->n; k++) s->probe[k].memory = memory[k];
+    memory_free(memory);
+    return fault;
+}

@@ -1,0 +1,224 @@
+/* floor 3: a computed bar set against a closed form (exact.h).
+ *
+ * Two stresses are in use, and differ where a peridynamic bar is not calibrated: the bond flux, which balances momentum,
+ * and E x strain. Figures without a suffix are by flux; those with `_strain` compare E x strain with E x the exact
+ * strain. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kernels/pd/bond_laws.h"
+#include "base/memory.h"
+#include "probes/probes.h"
+#include "probes_parts.h"
+
+/* ---- stress and strain ------------------------------------------------------------------------------------- */
+
+/* Places along the bar: images lie beyond its ends. */
+static int64_t place_of(const struct bar *b, const struct particles *p, int32_t i)
+{
+    if (i < p->n) return b->rank[i];
+    return p->X[0][i] < b->exact.left ? -1 : b->n;
+}
+
+/* Prefix sums of what begins and ends between particles: one pass over the bonds, each of them once, from the end with
+ * the smaller index; images have no rows and the greatest indices. */
+static void add_bonds(const struct bar *b, const struct observed *o, real *between, real *end)
+{
+    const struct bonds *bonds = o->bonds;
+    for (int64_t row = 0; row < bonds->rows; row++) {
+        int32_t i = bonds->particle[row];
+        int64_t group = row / LANES;
+        for (int64_t k = 0; k < bonds->slot_count[group]; k++) {
+            int64_t q = bond_index(bonds, group, k, (int)(row % LANES));
+            if (bonds->w[q] == 0 || bonds->nbr[q] < i) continue;
+            real force = bond_force_stored(bonds, o->part, q, i);
+            int64_t from = b->rank[i], to = place_of(b, o->part, bonds->nbr[q]);
+            if (to < from) to = b->rank[i], from = place_of(b, o->part, bonds->nbr[q]);
+            between[from + 1] += force;
+            if (to <= b->n) between[to] -= force;
+            if (from >= 0) end[from] += 0.5 * force;
+            if (to < b->n) end[to] += 0.5 * force;
+        }
+    }
+}
+
+void bar_flux(const struct bar *b, const struct observed *o, real *flux)
+{
+    real *between = NEW("probes.between", b->n + 1, real), *end = NEW("probes.end", b->n + 1, real), crossing = 0;
+    if (o->bonds && o->bonds->rows > 0) add_bonds(b, o, between, end);
+    for (int64_t k = 0; k < b->n; k++) {
+        crossing += between[k];
+        flux[k] = o->part->kind[b->order[k]] == KIND_PD ? (crossing + end[k]) / o->thickness
+                                                        : o->part->stress[0][b->order[k]];
+    }
+    memory_free(between);
+    memory_free(end);
+}
+
+/* Central difference over the neighbours, one-sided at the ends. */
+static void measure_strain(struct bar *b, const struct particles *p)
+{
+    for (int64_t k = 0; k < b->n; k++) {
+        int64_t left = k > 0 ? k - 1 : 0, right = k + 1 < b->n ? k + 1 : k;
+        b->strain[k] = (b->displacement[right] - b->displacement[left]) /
+                       (p->X[0][b->order[right]] - p->X[0][b->order[left]]);
+    }
+}
+
+void bar_measure(struct bar *b, const struct observed *o)
+{
+    for (int64_t k = 0; k < b->n; k++) {
+        int32_t i = b->order[k];
+        b->displacement[k] = o->part->x[0][i] - o->part->X[0][i];
+        b->velocity[k] = o->part->v[0][i];
+    }
+    measure_strain(b, o->part);
+    bar_flux(b, o, b->flux);
+}
+
+/* ---- profile ----------------------------------------------------------------------------------------------- */
+
+const struct column bar_reading[BAR_READINGS] = {
+    {"x", "m"}, {"displacement", "m"}, {"velocity", "m/s"}, {"stress", "Pa"}, {"stress_strain", "Pa"}, {"strain", "1"},
+    {"damage", "1"}, {"kind", "1"}, {"exact_displacement", "m"}, {"exact_velocity", "m/s"}, {"exact_stress", "Pa"},
+    {"exact_strain", "1"}};
+
+void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, real *value)
+{
+    int32_t i = b->order[rank];
+    struct exact_values e = exact_at(&b->exact, o->part->X[0][i], o->t);
+    real velocity = exact_at(&b->exact, o->part->X[0][i], o->t_velocity).velocity;
+    const real all[BAR_READINGS] = {
+        o->part->X[0][i], b->displacement[rank], b->velocity[rank], b->flux[rank], b->exact.young * b->strain[rank],
+        b->strain[rank], o->part->damage[i], o->part->kind[i], e.displacement, velocity, e.stress, e.strain};
+    memcpy(value, all, sizeof all);
+}
+
+/* ---- figures ----------------------------------------------------------------------------------------------- */
+
+enum figure {
+    L1, L2, FRONT, PLATEAU, END_DISPLACEMENT, FRONT_PLASTIC, STRAIN_ELASTIC, STRAIN_PLASTIC, L1_STRAIN, L2_STRAIN,
+    FRONT_STRAIN, PLATEAU_STRAIN, L1_VELOCITY, L2_VELOCITY, L2_DISPLACEMENT, FIGURES
+};
+
+#define STEP (1 << EXACT_STEP_BAR)
+#define PLASTIC (1 << EXACT_PLASTIC_BAR)
+#define EVERY ((1 << EXACT_FORMS) - 1)
+
+/* Name, unit, and the forms that have it. */
+static const struct { const char *name, *unit; int forms; } figures[FIGURES] = {
+    [L1] = {"L1", "Pa", EVERY},                  /* mean |sigma - exact| over the particles                        */
+    [L2] = {"L2", "Pa", EVERY},                  /* root of the mean square                                        */
+    [FRONT] = {"front", "m", STEP | PLASTIC},    /* where sigma passes the middle of the (first) front's jump */
+    [PLATEAU] = {"plateau", "Pa", STEP | PLASTIC},               /* mean sigma behind the (last) front             */
+    [END_DISPLACEMENT] = {"end_displacement", "m", STEP | PLASTIC},      /* of the outermost particle at the loaded end */
+    [FRONT_PLASTIC] = {"front_plastic", "m", PLASTIC},
+    [STRAIN_ELASTIC] = {"strain_elastic", "1", PLASTIC},         /* mean strain between precursor and plastic front */
+    [STRAIN_PLASTIC] = {"strain_plastic", "1", PLASTIC},         /* mean strain behind the plastic front           */
+    [L1_STRAIN] = {"L1_strain", "Pa", EVERY},
+    [L2_STRAIN] = {"L2_strain", "Pa", EVERY},
+    [FRONT_STRAIN] = {"front_strain", "m", STEP | PLASTIC},
+    [PLATEAU_STRAIN] = {"plateau_strain", "Pa", STEP},
+    [L1_VELOCITY] = {"L1_velocity", "m/s", EVERY},
+    [L2_VELOCITY] = {"L2_velocity", "m/s", EVERY},
+    [L2_DISPLACEMENT] = {"L2_displacement", "m", EVERY},
+};
+_Static_assert((int)FIGURES <= (int)BAR_FIGURES_MAX, "room for the figures of a bar");
+
+int bar_figures_count(enum exact_form form)
+{
+    int n = 0;
+    for (int k = 0; k < FIGURES; k++) n += figures[k].forms >> form & 1;
+    return n;
+}
+
+struct column bar_figure(enum exact_form form, int k)
+{
+    struct column c = {0};
+    int f = -1;
+    do f++, k -= figures[f].forms >> form & 1;
+    while (k >= 0);
+    snprintf(c.name, sizeof c.name, "%s", figures[f].name);
+    snprintf(c.unit, sizeof c.unit, "%s", figures[f].unit);
+    return c;
+}
+
+static void errors(const struct bar *b, const struct observed *o, real *value)
+{
+    real sum[7] = {0};
+    for (int64_t k = 0; k < b->n; k++) {
+        real X = o->part->X[0][b->order[k]];
+        struct exact_values e = exact_at(&b->exact, X, o->t);
+        real stress = b->flux[k] - e.stress, strain = b->exact.young * (b->strain[k] - e.strain);
+        real velocity = b->velocity[k] - exact_at(&b->exact, X, o->t_velocity).velocity;
+        sum[0] += fabs(stress), sum[1] += square(stress);
+        sum[2] += fabs(strain), sum[3] += square(strain);
+        sum[4] += fabs(velocity), sum[5] += square(velocity);
+        sum[6] += square(b->displacement[k] - e.displacement);
+    }
+    const real n = (real)b->n;
+    value[L1] = sum[0] / n, value[L2] = sqrt(sum[1] / n);
+    value[L1_STRAIN] = sum[2] / n, value[L2_STRAIN] = sqrt(sum[3] / n);
+    value[L1_VELOCITY] = sum[4] / n, value[L2_VELOCITY] = sqrt(sum[5] / n);
+    value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
+}
+
+/* Where a field passes the middle of a front's jump, in the sense of the jump, linear between particles. Ringing and the
+ * soft skins of loaded ends may pass it elsewhere: the passage nearest to the exact front counts. The outermost particles
+ * are left out: the load acts on them, and their own bonds carry half of it. */
+static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
+                     real factor)
+{
+    real half = 0.5 * (f->before + f->behind), sign = f->ahead * (f->behind > f->before ? -1 : 1), found = NAN;
+    for (int64_t k = 2; k + 1 < b->n; k++) {
+        real low = sign * (factor * field[k - 1] - half), high = sign * (factor * field[k] - half);
+        if (!(low < 0 && high >= 0)) continue;
+        real X = p->X[0][b->order[k - 1]], step = p->X[0][b->order[k]] - X, passage = X + step * low / (low - high);
+        if (!(fabs(found - f->place) <= fabs(passage - f->place))) found = passage;
+    }
+    return found;
+}
+
+/* Mean over the particles between two places; NAN without. */
+static real mean_between(const struct bar *b, const struct particles *p, const real *field, real from, real to)
+{
+    real sum = 0, tolerance = 1e-9 * (b->exact.right - b->exact.left);
+    int64_t n = 0;
+    for (int64_t k = 0; k < b->n; k++) {
+        real X = p->X[0][b->order[k]];
+        if (X >= from - tolerance && X <= to + tolerance) sum += field[k], n++;
+    }
+    return n > 0 ? sum / (real)n : NAN;
+}
+
+static void fronts(const struct bar *b, const struct observed *o, real *value)
+{
+    struct exact_front front[EXACT_FRONTS];
+    const struct exact *e = &b->exact;
+    int n = exact_fronts(e, o->t, front);
+    real from, to;
+    if (n > 0) value[FRONT] = front_of(b, o->part, &front[0], b->flux, 1);
+    if (n > 0) value[FRONT_STRAIN] = front_of(b, o->part, &front[0], b->strain, e->young);
+    if (n > 1) value[FRONT_PLASTIC] = front_of(b, o->part, &front[1], b->flux, 1);
+    if (exact_plateau(e, o->t, EXACT_PLATEAU, &from, &to)) {
+        value[PLATEAU] = mean_between(b, o->part, b->flux, from, to);
+        value[STRAIN_PLASTIC] = mean_between(b, o->part, b->strain, from, to);
+        value[PLATEAU_STRAIN] = e->young * value[STRAIN_PLASTIC];
+    }
+    if (exact_plateau(e, o->t, EXACT_PRECURSOR, &from, &to))
+        value[STRAIN_ELASTIC] = mean_between(b, o->part, b->strain, from, to);
+}
+
+void bar_figures(struct bar *b, const struct observed *o, real *value)
+{
+    real all[FIGURES];
+    int n = 0;
+    for (int k = 0; k < FIGURES; k++) all[k] = NAN;
+    bar_measure(b, o);
+    errors(b, o, all);
+    fronts(b, o, all);
+    if (b->exact.loaded) all[END_DISPLACEMENT] = b->displacement[b->exact.loaded > 0 ? b->n - 1 : 0];
+    for (int k = 0; k < FIGURES; k++)
+        if (figures[k].forms >> b->exact.form & 1) value[n++] = all[k];
+}

@@ -1,0 +1,186 @@
+/* floor 3: the bar of an EXACT probe: its particles in their order, its ends, and what the scene does to it. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "probes/probes.h"
+#include "probes_parts.h"
+
+static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};
+
+static status refuse(const struct probe *q, const char *what)
+{
+    return status_set(REFUSED, "probe \"%s\": %s: %s", q->request.name, form_names[q->request.form], what);
+}
+
+/* ---- particles ----------------------------------------------------------------------------------------------- */
+
+struct place { real X; int32_t i; };
+
+static int by_place(const void *a, const void *b)
+{
+    const struct place *p = a, *q = b;
+    if (p->X != q->X) return p->X < q->X ? -1 : 1;
+    return p->i < q->i ? -1 : 1;
+}
+
+static void find_order(struct bar *b, const struct particles *p)
+{
+    struct place *place = NEW("probes.place", p->n, struct place);
+    for (int64_t i = 0; i < p->n; i++) place[i] = (struct place){p->X[0][i], (int32_t)i};
+    qsort(place, (size_t)p->n, sizeof *place, by_place);
+    for (int64_t k = 0; k < p->n; k++) b->order[k] = place[k].i, b->rank[place[k].i] = (int32_t)k;
+    memory_free(place);
+}
+
+/* One material, one row of particles without a gap. */
+static status find_bar(struct probe *q, const struct observed *o)
+{
+    const struct particles *p = o->part;
+    struct bar *b = q->bar;
+    if (p->dim != 1) return refuse(q, "a closed form of a bar; space line is expected");
+    if (p->n < 3) return refuse(q, "the bar has fewer than three particles; a smaller particles.spacing is expected");
+    for (int64_t i = 1; i < p->n; i++)
+        if (p->material[i] != p->material[0])
+            return refuse(q, "the bar is made of several materials; it is solved for one");
+    b->n = p->n;
+    b->order = NEW("probes.order", b->n, int32_t), b->rank = NEW("probes.rank", b->n, int32_t);
+    b->displacement = NEW("probes.displacement", b->n, real), b->velocity = NEW("probes.velocity", b->n, real);
+    b->flux = NEW("probes.flux", b->n, real), b->strain = NEW("probes.strain", b->n, real);
+    find_order(b, p);
+    for (int64_t k = 1; k < b->n; k++) {
+        real step = p->X[0][b->order[k]] - p->X[0][b->order[k - 1]];
+        if (step <= 0 || step > 2.5 * o->spacing)
+            return refuse(q, step <= 0 ? "two particles share a place; one bar is expected"
+                                       : "the bodies do not touch; one bar is expected");
+    }
+    const struct material *m = &o->material[p->material[0]];
+    b->exact.left = p->X[0][b->order[0]] - 0.5 * o->spacing;
+    b->exact.right = p->X[0][b->order[b->n - 1]] + 0.5 * o->spacing;
+    b->exact.young = m->young, b->exact.density = m->density;
+    b->exact.yield = m->yield_stress, b->exact.tangent = m->yield_tangent;
+    return OK;
+}
+
+/* ---- ends and loads -------------------------------------------------------------------------------------------- */
+
+static bool acts_on(const struct load *l, int32_t particle)
+{
+    for (int64_t k = 0; k < l->n; k++)
+        if (l->particle[k] == particle) return true;
+    return false;
+}
+
+/* Fixed where a mirror stands or the outermost particle is held; free else. */
+static status find_ends(struct probe *q, const struct observed *o)
+{
+    struct bar *b = q->bar;
+    const real place[2] = {b->exact.left, b->exact.right};
+    for (int end = 0; end < 2; end++) {
+        int32_t outermost = b->order[end == 0 ? 0 : b->n - 1];
+        b->exact.reflection[end] = -1;
+        for (int k = 0; o->loads && k < o->loads->n; k++) {
+            const struct load *l = &o->loads->load[k];
+            const struct boundary *c = l->boundary;
+            bool mirror = c->kind == BOUNDARY_MIRROR && fabs(c->at - place[end]) < o->spacing;
+            bool held = c->kind == BOUNDARY_VELOCITY && acts_on(l, outermost);
+            if (c->kind == BOUNDARY_VELOCITY && c->value[0] != 0)
+                return refuse(q, "a boundary drives the bar with a velocity; fixed, mirror or nothing is expected");
+            if (mirror || held) b->exact.reflection[end] = 1;
+        }
+    }
+    return OK;
+}
+
+static bool at_rest(const struct particles *p)
+{
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->v[0][i] != 0 || p->x[0][i] != p->X[0][i]) return false;
+    return true;
+}
+
+/* Velocities to a millionth: what a pulse cut by its region, by an end, or laid over other motion has not. */
+static bool starts_with_pulses(const struct exact *e, const struct particles *p)
+{
+    real scale = 0;
+    for (int k = 0; k < e->pulses; k++) scale += fabs(e->pulse[k].velocity);
+    for (int64_t i = 0; i < p->n; i++)
+        if (!(fabs(p->v[0][i] - exact_at(e, p->X[0][i], 0).velocity) <= 1e-6 * scale)) return false;
+    return true;
+}
+
+static int count_of(const struct observed *o, enum boundary_kind kind, const struct load **found)
+{
+    int n = 0;
+    for (int k = 0; o->loads && k < o->loads->n; k++)
+        if (o->loads->load[k].boundary->kind == kind) n++, *found = &o->loads->load[k];
+    return n;
+}
+
+/* The one traction, which is a stress at an end: its value along x times the side of the face's normal. */
+static status find_traction(struct probe *q, const struct observed *o)
+{
+    struct bar *b = q->bar;
+    const struct load *l = NULL;
+    int n = count_of(o, BOUNDARY_TRACTION, &l);
+    if (n == 0) return refuse(q, "no boundary is a traction; one on an end of the bar is expected");
+    if (n > 1) return refuse(q, "more than one boundary is a traction; one on an end of the bar is expected");
+    const struct boundary *c = l->boundary;
+    int end = c->side > 0 ? 1 : 0;
+    if (!acts_on(l, b->order[end == 1 ? b->n - 1 : 0]))
+        return refuse(q, "the traction is not on the bar's end; leave out its region or let it reach there");
+    if (c->time.kind != TIME_CONSTANT) return refuse(q, "the traction changes with time; time: constant is expected");
+    if (b->exact.reflection[end] > 0) return refuse(q, "the loaded end is held; hold the other one");
+    b->exact.loaded = c->side, b->exact.load = c->side * c->value[0];
+    if (b->exact.load == 0) return refuse(q, "the traction is 0; a stress is expected");
+    return OK;
+}
+
+static status find_load(struct probe *q, const struct observed *o)
+{
+    const struct load *other = NULL;
+    const struct material *m = &o->material[o->part->material[0]];
+    if (count_of(o, BOUNDARY_BODY_FORCE, &other) > 0)
+        return refuse(q, "a body_force acts on the bar; leave it out");
+    TRY(find_ends(q, o));
+    if (q->request.form == EXACT_PULSE) {
+        if (o->pulses == 0) return refuse(q, "the scene starts no pulse; initial with a pulse is expected");
+        if (count_of(o, BOUNDARY_TRACTION, &other) > 0) return refuse(q, "a traction acts on the bar; leave it out");
+        q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;
+        return starts_with_pulses(&q->bar->exact, o->part)
+                   ? OK : refuse(q, "the start is not that of its pulses alone, clear of the ends");
+    }
+    if (!at_rest(o->part)) return refuse(q, "the bar moves or is strained at the start; it begins at rest");
+    TRY(find_traction(q, o));
+    if (q->request.form == EXACT_STEP_BAR) return OK;
+    if (!material_yields(m)) return refuse(q, "the material does not yield; material.yield_stress is expected");
+    if (fabs(q->bar->exact.load) > m->yield_stress && !(m->yield_tangent > 0))
+        return refuse(q, "no plastic front without hardening; material.yield_tangent is expected");
+    return OK;
+}
+
+status bar_make(struct probe *q, const struct observed *o)
+{
+    const struct probe_request *r = &q->request;
+    q->bar = NEW("probes.bar", 1, struct bar);
+    q->bar->exact.form = r->form;
+    TRY(find_bar(q, o));
+    if (r->form != EXACT_MANUFACTURED) return find_load(q, o);
+    q->bar->exact.amplitude = r->amplitude, q->bar->exact.period = r->period;
+    q->bar->exact.wavelength = r->wavelength, q->bar->exact.origin = r->origin;
+    return OK;
+}
+
+void bar_free(struct bar *b)
+{
+    if (!b) return;
+    memory_free(b->order);
+    memory_free(b->rank);
+    memory_free(b->displacement);
+    memory_free(b->velocity);
+    memory_free(b->flux);
+    memory_free(b->strain);
+    memory_free(b);
+}

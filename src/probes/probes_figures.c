@@ -1,0 +1,335 @@
+/* floor 3: what probes measure, and the figures of summary.json that follow from it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kernels/pd/bond_laws.h"
+#include "probes/probes.h"
+#include "probes_parts.h"
+#include "base/team.h"
+#include "probes/watch.h"
+
+/* ---- single particles -------------------------------------------------------------------------------- */
+
+static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
+    [1] = {"xx"},
+    [2] = {"xx", "yy", "xy", "zz"},
+    [3] = {"xx", "yy", "zz", "xy", "yz", "zx"},
+};
+
+/* In plane strain zz follows the others. */
+static int stresses_count(const struct particles *p) { return symmetric_count(p->dim) + (p->plane_strain != NULL); }
+
+int readings_count(const struct particles *p) { return 2 * p->dim + stresses_count(p) + 1; }
+
+struct column reading_column(const struct particles *p, int k)
+{
+    const int dim = p->dim;
+    struct column c = {.name = "damage", .unit = "1"};
+    int stress = k - 2 * dim;
+    if (k < dim) {
+        snprintf(c.name, sizeof c.name, "displacement_%s", axis_name[k]);
+        snprintf(c.unit, sizeof c.unit, "m");
+    } else if (stress < 0) {
+        snprintf(c.name, sizeof c.name, "velocity_%s", axis_name[k - dim]);
+        snprintf(c.unit, sizeof c.unit, "m/s");
+    } else if (stress < stresses_count(p)) {
+        snprintf(c.name, sizeof c.name, "stress_%s", symmetric_name[dim][stress]);
+        snprintf(c.unit, sizeof c.unit, "Pa");
+    }
+    return c;
+}
+
+void readings_of(const struct particles *p, int64_t i, real *value)
+{
+    for (int d = 0; d < p->dim; d++) *value++ = p->x[d][i] - p->X[d][i];
+    for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
+    for (int a = 0; a < symmetric_count(p->dim); a++) *value++ = p->stress[a][i];
+    if (p->plane_strain) *value++ = particle_stress_across(p, i);
+    *value = p->damage[i];
+}
+
+const struct column growth_figure[GROWTH_FIGURES] = {
+    {"x", "m"}, {"y", "m"}, {"length", "m"}, {"speed", "m/s"}, {"K_eq", "Pa m^(1/2)"}};
+
+void growth_readings(const struct growth *g, real *value)
+{
+    const real reading[GROWTH_FIGURES] = {g->place[0], g->place[1], g->grown, g->speed, g->intensity};
+    memcpy(value, reading, sizeof reading);
+}
+
+/* ---- tips and supports ------------------------------------------------------------------------------- */
+
+const struct tip *probe_tip(const struct probe *q, const struct tips *t)
+{
+    if (t->n == 0) return NULL;
+    const struct tip *chosen = q->request.has_at ? NULL : tips_longest(t);
+    if (chosen || !q->request.has_at) return chosen ? chosen : &t->tip[0];
+    real least = INFINITY;
+    for (int k = 0; k < t->n; k++) {
+        real distance2 = 0;
+        for (int d = 0; d < t->dim; d++) distance2 += square(t->tip[k].origin[d] - q->request.at[d]);
+        if (distance2 < least) chosen = &t->tip[k], least = distance2;
+    }
+    return chosen;
+}
+
+void probe_reaction(const struct probe *q, const struct loads *l, int dim, real *force, real *displacement)
+{
+    real held = 0;
+    for (int d = 0; d < dim; d++) force[d] = displacement[d] = 0;
+    for (int k = 0; k < l->n; k++) {
+        const struct load *load = &l->load[k];
+        if (strcmp(load->boundary->name, q->request.boundary) != 0) continue;
+        real before = held, weight = load->n > 0 ? (real)load->n : 1;
+        held += weight;
+        for (int d = 0; d < dim; d++) {
+            force[d] += load->reaction[d];
+            displacement[d] = (displacement[d] * before + load->displacement[d] * weight) / held;
+        }
+    }
+}
+
+/* ---- sums over a region ------------------------------------------------------------------------------ */
+
+struct region_sum { const struct probe *q; const struct observed *o; int component; };
+
+static real momentum_term(const void *context, int64_t k)
+{
+    const struct region_sum *s = context;
+    int32_t i = s->q->list[k];
+    return s->o->part->mass[i] * s->o->part->v[s->component][i];
+}
+
+static real kinetic_term(const void *context, int64_t k)
+{
+    const struct region_sum *s = context;
+    const struct particles *p = s->o->part;
+    int32_t i = s->q->list[k];
+    real speed2 = 0;
+    for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
+    return 0.5 * p->mass[i] * speed2;
+}
+
+/* Row of the k-th particle of the region, -1 without. */
+static int64_t row_at(const struct region_sum *s, int64_t k)
+{
+    const struct bonds *b = s->o->bonds;
+    return b && b->rows > 0 ? b->row_of[s->q->list[k]] : -1;
+}
+
+/* Half the energy of every intact bond of a particle. */
+static real bond_term(const void *context, int64_t k)
+{
+    const struct region_sum *s = context;
+    const struct bonds *b = s->o->bonds;
+    const struct particles *p = s->o->part;
+    int64_t row = row_at(s, k);
+    if (row < 0) return 0;
+    real sum = 0;
+    for (int64_t slot = 0; slot < b->slot_count[row / LANES]; slot++) {
+        int64_t q = bond_index(b, row / LANES, slot, (int)(row % LANES));
+        sum += bond_energy_stored(b, p, q, s->q->list[k]);
+    }
+    return 0.5 * sum;
+}
+
+static real fracture_term(const void *context, int64_t k)
+{
+    const struct region_sum *s = context;
+    int64_t row = row_at(s, k);
+    return row >= 0 ? s->o->bonds->fracture_energy[row] : 0;
+}
+
+/* Bonds broken by load; entries in rows of driven particles do not count. */
+static real broken_term(const void *context, int64_t k)
+{
+    const struct region_sum *s = context;
+    int64_t row = row_at(s, k);
+    bool driven = s->o->part->flag[s->q->list[k]] & FLAG_DRIVEN;
+    return row >= 0 && !driven ? s->o->bonds->broken[row] : 0;
+}
+
+struct energies probe_energies(const struct probe *q, const struct observed *o)
+{
+    struct region_sum s = {.q = q, .o = o};
+    return (struct energies){
+        .kinetic = team_sum(q->n, kinetic_term, &s),
+        .strain = team_sum(q->n, bond_term, &s) + watch_strain_of(o->part, o->material, o->partial, q->list, q->n),
+        .fracture = team_sum(q->n, fracture_term, &s),
+    };
+}
+
+void probe_momentum(const struct probe *q, const struct particles *p, real *momentum)
+{
+    const struct observed o = {.part = p};
+    for (int d = 0; d < p->dim; d++)
+        momentum[d] = team_sum(q->n, momentum_term, &(struct region_sum){.q = q, .o = &o, .component = d});
+}
+
+/* ---- figures ----------------------------------------------------------------------------------------- */
+
+struct emitter {
+    void (*emit)(void *context, const char *probe, const char *quantity, real value);
+    void *context;
+    const struct probe *q;
+    const struct observed *o;
+};
+
+static void put(const struct emitter *e, const char *quantity, real value)
+{
+    if (isfinite(value)) e->emit(e->context, e->q->request.name, quantity, value);
+}
+
+static void put_place(const struct emitter *e, const real *X)
+{
+    for (int d = 0; d < e->o->part->dim; d++) put(e, axis_name[d], X[d]);
+}
+
+static void figures_tip(const struct emitter *e)
+{
+    const struct tip *tip = probe_tip(e->q, e->o->tips);
+    if (!tip) return;
+    put(e, "start_time", tip->start_time);
+    put(e, "arrest_time", tip->arrest_time);
+    put(e, "length_end", tip->growth);
+    put(e, "angle_deg", tip_angle(tip, e->o->part->dim));
+    put(e, "speed_max", tip->speed_max);
+    put(e, "speed_mean", tip->speed_mean);
+    put_place(e, tip->place);
+}
+
+/* A directed bond is one of the two entries of a bond. */
+static void figures_break(const struct emitter *e)
+{
+    if (isnan(e->q->memory.first_time)) return;
+    put(e, "first_time", e->q->memory.first_time);
+    put_place(e, e->q->memory.place);
+    put(e, "bonds", 0.5 * team_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
+}
+
+static void figures_reaction(const struct emitter *e)
+{
+    const struct probe_memory *m = &e->q->memory;
+    real force[DIM_MAX], displacement[DIM_MAX];
+    int dim = e->o->part->dim;
+    probe_reaction(e->q, e->o->loads, dim, force, displacement);
+    put(e, "force_max", m->steps > 0 ? m->force_max : NAN);
+    put(e, "force_rms", m->steps > 0 ? sqrt(m->force_square / (real)m->steps) : NAN);
+    put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
+}
+
+/* Nodal force over what the stress carries through the face of one grid cell. */
+static void figures_patch(const struct emitter *e)
+{
+    const struct observed *o = e->o;
+    real h = o->grid && o->grid->h > 0 ? o->grid->h : o->spacing;
+    real carried = o->strain_stress * pow(h, o->part->dim - 1) * o->thickness;
+    put(e, "residual_max", carried > 0 ? o->residual_step0 / carried : NAN);
+}
+
+static void figures_spall(const struct emitter *e)
+{
+    real speed, rest;
+    if (isnan(e->q->memory.first_time)) return;
+    spall_speeds(e->q, e->o->part, &speed, &rest);
+    put(e, "position", e->q->memory.place[0]);
+    put(e, "time", e->q->memory.first_time);
+    put(e, "speed", speed);
+    put(e, "speed_rest", rest);
+}
+
+static void figures_point(const struct emitter *e)
+{
+    const struct particles *p = e->o->part;
+    real value[READINGS_MAX];
+    readings_of(p, e->q->list[0], value);
+    for (int k = 0; k < readings_count(p); k++) put(e, reading_column(p, k).name, value[k]);
+}
+
+static void figures_line(const struct emitter *e)
+{
+    const struct particles *p = e->o->part;
+    real value[READINGS_MAX], low[READINGS_MAX], high[READINGS_MAX];
+    for (int k = 0; k < READINGS_MAX; k++) low[k] = INFINITY, high[k] = -INFINITY;
+    for (int64_t m = 0; m < e->q->n; m++) {
+        if (e->q->list[m] < 0) continue;
+        readings_of(p, e->q->list[m], value);
+        for (int k = 0; k < readings_count(p); k++)
+            low[k] = real_min(low[k], value[k]), high[k] = real_max(high[k], value[k]);
+    }
+    for (int k = 0; k < readings_count(p); k++) {
+        char name[NAME_MAX_LENGTH];
+        struct column c = reading_column(p, k);
+        snprintf(name, sizeof name, "%.32s_min", c.name);
+        put(e, name, low[k]);
+        snprintf(name, sizeof name, "%.32s_max", c.name);
+        put(e, name, high[k]);
+    }
+}
+
+static void figures_energy(const struct emitter *e)
+{
+    struct energies sum = probe_energies(e->q, e->o);
+    put(e, "kinetic", sum.kinetic);
+    put(e, "strain", sum.strain);
+    put(e, "fracture", sum.fracture);
+}
+
+static void figures_momentum(const struct emitter *e)
+{
+    real momentum[DIM_MAX];
+    probe_momentum(e->q, e->o->part, momentum);
+    put_place(e, momentum);
+}
+
+static void figures_pulse(const struct emitter *e)
+{
+    struct pulse_shares s = pulse_shares(e->q, e->o);
+    put(e, "reflected", s.reflected);
+    put(e, "transmitted", s.transmitted);
+    put(e, "energy_change", s.energy_change);
+}
+
+static void figures_exact(const struct emitter *e)
+{
+    real value[BAR_FIGURES_MAX];
+    enum exact_form form = e->q->request.form;
+    bar_figures(e->q->bar, e->o, value);
+    for (int k = 0; k < bar_figures_count(form); k++) put(e, bar_figure(form, k).name, value[k]);
+}
+
+static void figures_sif(const struct emitter *e)
+{
+    for (int k = 0; k < SIF_FIGURES; k++) put(e, sif_figure[k].name, e->q->memory.factors[k]);
+}
+
+static void figures_growth(const struct emitter *e)
+{
+    const struct growth *g = &e->o->growth[e->q->growth];
+    put(e, "start_time", g->start_time);
+    put(e, "length_end", g->grown);
+    put(e, "angle_deg", growth_angle(g));
+    put(e, "direction_deg", atan2(g->rule->direction[1], g->rule->direction[0]) * 180 / 3.14159265358979323846);
+    put(e, "experiment_deg", e->q->request.experiment);
+    put_place(e, g->place);
+}
+
+static void figures_rigid(const struct emitter *e)
+{
+    for (int k = 0; k < RIGID_FIGURES; k++) put(e, rigid_figure[k].name, e->q->memory.rigid.most[k]);
+}
+
+void probes_figures(const struct probes *s, const struct observed *o,
+                    void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context)
+{
+    static void (*const figures[PROBES])(const struct emitter *) = {
+        [PROBE_TIP] = figures_tip,       [PROBE_BREAK] = figures_break,       [PROBE_REACTION] = figures_reaction,
+        [PROBE_PATCH] = figures_patch,   [PROBE_SPALL] = figures_spall,       [PROBE_POINT] = figures_point,
+        [PROBE_LINE] = figures_line,     [PROBE_ENERGY] = figures_energy,     [PROBE_MOMENTUM] = figures_momentum,
+        [PROBE_PULSE] = figures_pulse,   [PROBE_EXACT] = figures_exact,       [PROBE_SIF] = figures_sif,
+        [PROBE_GROWTH] = figures_growth, [PROBE_RIGID] = figures_rigid,
+    };
+    for (int k = 0; k < s->n; k++)
+        figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o});
+}

@@ -1,0 +1,131 @@
+/* floor 3: what the files of the probes share: a probe bound to its particles, and what it remembers. */
+#ifndef CLEAVE_PROBES_PARTS_H
+#define CLEAVE_PROBES_PARTS_H
+
+#include "probes/probes.h"
+
+enum { RIGID_FIGURES = 5 };
+/* RIGID: what was there at the start, and the figures: the angle followed so far, the largest |.| of the others. */
+struct rigid_memory {
+    real spin, spin_scale, kinetic;      /* angular momentum, sum of |m r x v| [kg m^2/s]; [J]        */
+    real angle;                          /* [rad]                                                     */
+    real most[RIGID_FIGURES];
+};
+
+/* All that a probe cannot find again in the state of the run. No padding: it goes to checkpoints as it is. */
+struct probe_memory {
+    real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before  [s]      */
+    real place[DIM_MAX];                 /* BREAK: mean place of the cut; SPALL: [0] the plane [m]    */
+    real incident;                       /* PULSE: largest speed at the start                [m/s]    */
+    real force_max, force_square;        /* REACTION: largest |F|; sum of F^2                [N], [N^2] */
+    int64_t steps;                       /* REACTION: in that sum                                     */
+    int64_t body;                        /* SPALL: the bar that broke                                 */
+    real trail[2][2];                    /* SIF: where the tip came along, for its direction     [m]  */
+    real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample      */
+    real along[2];                       /* SIF: direction of the tip at the last sample              */
+    real time;                           /* SIF: of the factors                                [s]    */
+    struct rigid_memory rigid;           /* RIGID                                                     */
+};
+
+struct probe {
+    struct probe_request request;        /* its region is borrowed from the scene                     */
+    int first, columns;                  /* its columns in the history                                */
+    int64_t n;
+    int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
+    struct probe_memory memory;
+    struct bar *bar;                     /* EXACT: probes_bar.c                                       */
+    struct sif_watch *sif;               /* SIF: probes_sif.c                                         */
+    int growth;                          /* GROWTH: which of the run                                  */
+};
+
+/* ---- what a single particle tells: POINT and LINE ------------------------------------------------ */
+
+/* displacement, velocity, stress (in plane strain also zz), damage */
+enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 1 };
+int readings_count(const struct particles *p);
+struct column reading_column(const struct particles *p, int k);
+void readings_of(const struct particles *p, int64_t i, real *value);
+
+/* ---- the rest by kind ------------------------------------------------------------------------------ */
+
+extern const char *const axis_name[DIM_MAX];
+
+/* Nearest particle of the body to the reference position X, -1 where X lies outside the body. */
+int32_t particle_nearest(const struct observed *o, const real *X);
+void station_position(const struct probe *q, int dim, int k, real *X);
+
+/* The tip that a TIP probe follows now; NULL if there is none. */
+const struct tip *probe_tip(const struct probe *q, const struct tips *t);
+
+/* Sum of the reactions of all supports of the probe's boundary, and mean displacement of their particles. */
+void probe_reaction(const struct probe *q, const struct loads *l, int dim, real *force, real *displacement);
+
+struct energies { real kinetic, strain, fracture; };       /* [J] */
+struct energies probe_energies(const struct probe *q, const struct observed *o);
+void probe_momentum(const struct probe *q, const struct particles *p, real *momentum);
+
+/* PULSE: shares of the incident amplitude, reflected as the difference from the run without interface. */
+struct pulse_shares { real reflected, transmitted, energy_change; };
+status pulse_bind(struct probe *q, const struct observed *o);
+struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o);
+
+/* Looks whether a bar has come apart; remembers where and when. Where it has: mean velocity along x of the lighter
+ * part and of the rest [m/s]. */
+void spall_look(struct probe *q, const struct observed *o);
+void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
+
+/* GROWTH: place and length of the tip, its speed, K_eq of the factors that rule it. */
+enum { GROWTH_FIGURES = 5 };
+extern const struct column growth_figure[GROWTH_FIGURES];
+void growth_readings(const struct growth *g, real *value);
+
+/* ---- stress-intensity factors: SIF ------------------------------------------------------------------ */
+
+enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
+extern const struct column sif_figure[SIF_FIGURES];
+/* Finds the tip; refuses bodies without one, and contours that leave the body or reach another tip or material. */
+status sif_bind(struct probe *q, const struct observed *o);
+void sif_free(struct sif_watch *w);
+void sif_keep(struct probe *q, const struct observed *o);
+/* Fills q->memory.factors. */
+void sif_sample(struct probe *q, const struct observed *o, real t_velocity);
+
+/* ---- a body that turns: RIGID ------------------------------------------------------------------------ */
+
+extern const struct column rigid_figure[RIGID_FIGURES];
+status rigid_bind(struct probe *q, const struct observed *o);
+/* Fills value[] and q->memory.rigid. */
+void rigid_sample(struct probe *q, const struct observed *o, real *value);
+
+/* ---- a bar against a closed form: EXACT ------------------------------------------------------------- */
+
+struct bar {
+    struct exact exact;
+    int64_t n;
+    int32_t *order, *rank;               /* particles from left to right; place of a particle among them */
+    real *displacement, *velocity;       /* [n] by rank, as bar_measure found them         [m], [m/s] */
+    real *flux, *strain;                 /* [n] the stress by bond flux [Pa]; du/dx [1]               */
+};
+
+/* Finds the bar, its ends and its load; refuses what the closed form does not describe. */
+status bar_make(struct probe *q, const struct observed *o);
+void bar_free(struct bar *b);
+void bar_measure(struct bar *b, const struct observed *o);
+
+/* The force of all bonds that cross a particle's centre over the section, for peridynamic particles: a bond gives its
+ * force to all particles strictly between its ends and half of it to the ends, bonds to mirror images included. Material
+ * points have their Cauchy stress [Pa]. */
+void bar_flux(const struct bar *b, const struct observed *o, real *flux);
+
+/* The figures of a bar's form, in a fixed order; they are columns of the history, too. */
+enum { BAR_FIGURES_MAX = 16 };
+int bar_figures_count(enum exact_form form);
+struct column bar_figure(enum exact_form form, int k);
+void bar_figures(struct bar *b, const struct observed *o, real *value);
+
+/* Columns and rows of the bar's profile. */
+enum { BAR_READINGS = 12 };
+extern const struct column bar_reading[BAR_READINGS];
+void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, real *value);
+
+#endif

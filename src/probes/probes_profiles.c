@@ -1,0 +1,109 @@
+/* floor 3: profiles of LINE and EXACT probes as csv files. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "probes/probes.h"
+#include "probes_parts.h"
+
+static void profile_header(FILE *file, const struct particles *p)
+{
+    fprintf(file, "s [m]");
+    for (int d = 0; d < p->dim; d++) fprintf(file, ",%s [m]", axis_name[d]);
+    for (int k = 0; k < readings_count(p); k++) {
+        struct column c = reading_column(p, k);
+        fprintf(file, ",%s [%s]", c.name, c.unit);
+    }
+    fputc('\n', file);
+}
+
+/* Stations outside the bodies are left out: there is nothing to read. */
+static void profile_rows(FILE *file, const struct probe *q, const struct particles *p)
+{
+    real X[DIM_MAX], start[DIM_MAX], value[READINGS_MAX];
+    station_position(q, p->dim, 0, start);
+    for (int64_t k = 0; k < q->n; k++) {
+        if (q->list[k] < 0) continue;
+        real s2 = 0;
+        station_position(q, p->dim, (int)k, X);
+        for (int d = 0; d < p->dim; d++) s2 += square(X[d] - start[d]);
+        fprintf(file, "%.9g", sqrt(s2));
+        for (int d = 0; d < p->dim; d++) fprintf(file, ",%.9g", X[d]);
+        readings_of(p, q->list[k], value);
+        for (int m = 0; m < readings_count(p); m++) fprintf(file, ",%.9g", value[m]);
+        fputc('\n', file);
+    }
+}
+
+static void bar_rows(FILE *file, const struct probe *q, const struct observed *o)
+{
+    real value[BAR_READINGS];
+    for (int m = 0; m < BAR_READINGS; m++)
+        fprintf(file, "%s%s [%s]%s", m > 0 ? "," : "", bar_reading[m].name, bar_reading[m].unit,
+                m + 1 < BAR_READINGS ? "" : "\n");
+    bar_measure(q->bar, o);
+    for (int64_t k = 0; k < q->bar->n; k++) {
+        bar_readings(q->bar, o, k, value);
+        for (int m = 0; m < BAR_READINGS; m++)
+            fprintf(file, "%s%.9g%s", m > 0 ? "," : "", value[m], m + 1 < BAR_READINGS ? "" : "\n");
+    }
+}
+
+static void profile_text(FILE *file, const struct probe *q, const struct observed *o)
+{
+    if (q->request.kind == PROBE_EXACT) {
+        bar_rows(file, q, o);
+        return;
+    }
+    profile_header(file, o->part);
+    profile_rows(file, q, o->part);
+}
+
+/* `<probe>_NNNNNN.csv`; a name may hold a place in a list, as of a growth. */
+static void profile_name(char *name, const struct probe *q, int frame)
+{
+    snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
+    for (char *c = name; *c; c++)
+        if (*c == '/') *c = '_';
+}
+
+static bool has_profile(const struct probe *q) { return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT; }
+
+bool probes_profile_name(const struct probes *s, int which, int frame, char *name)
+{
+    for (int k = 0; k < s->n; k++) {
+        if (!has_profile(&s->probe[k]) || which-- > 0) continue;
+        profile_name(name, &s->probe[k], frame);
+        return true;
+    }
+    return false;
+}
+
+static status profile_put(const struct probe *q, const struct observed *o, probe_file_fn *put, void *context, int frame)
+{
+    char name[PROFILE_NAME], *text = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&text, &length);
+    if (file) profile_text(file, q, o);
+    bool whole = file && !ferror(file);
+    if (file && fclose(file) != 0) whole = false;
+    profile_name(name, q, frame);
+    const status s = whole ? put(context, name, text, length) : status_set(FAILED, "cannot write %s: out of memory", name);
+    free(text);
+    return s;
+}
+
+int64_t probes_profiled(const struct probes *s)
+{
+    int64_t n = 0;
+    for (int k = 0; k < s->n; k++) n += has_profile(&s->probe[k]);
+    return n;
+}
+
+status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame)
+{
+    for (int k = 0; k < s->n; k++)
+        if (has_profile(&s->probe[k]))
+            TRY(profile_put(&s->probe[k], o, put, context, frame));
+    return OK;
+}

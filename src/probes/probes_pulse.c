@@ -1,0 +1,47 @@
+/* floor 3: a wave packet that has met an interface: what came back, what went on. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "probes_parts.h"
+
+static real ahead(const struct probe *q, const struct particles *p, int64_t i)
+{
+    real distance = 0;
+    for (int d = 0; d < p->dim; d++) distance += (p->X[d][i] - q->request.at[d]) * q->request.direction[d];
+    return distance;
+}
+
+/* Speed of particle i, or of its difference from the run without interface. */
+static real speed(const struct particles *p, const struct baseline *baseline, int64_t i)
+{
+    real speed2 = 0;
+    for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i] - (baseline ? baseline->v[d][i] : 0));
+    return sqrt(speed2);
+}
+
+/* Largest speed on one side of the interface: behind it (-1), beyond it (+1), both (0). */
+static real fastest(const struct probe *q, const struct particles *p, const struct baseline *baseline, int side)
+{
+    real most = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (side * ahead(q, p, i) >= 0) most = real_max(most, speed(p, baseline, i));
+    return most;
+}
+
+status pulse_bind(struct probe *q, const struct observed *o)
+{
+    real *direction = q->request.direction, length = sqrt(dot(direction, direction, o->part->dim));
+    for (int d = 0; d < DIM_MAX; d++) direction[d] = length > 0 ? direction[d] / length : d == 0;
+    q->memory.incident = fastest(q, o->part, NULL, 0);
+    if (q->memory.incident > 0) return OK;
+    return status_set(REFUSED, "probe \"%s\": nothing moves at the start; an initial pulse is expected", q->request.name);
+}
+
+struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o)
+{
+    return (struct pulse_shares){
+        .reflected = fastest(q, o->part, o->baseline, -1) / q->memory.incident,
+        .transmitted = fastest(q, o->part, NULL, 1) / q->memory.incident,
+        .energy_change = o->energy_change - (o->baseline ? o->baseline->energy_change : 0),
+    };
+}

@@ -1,0 +1,91 @@
+/* floor 3: a body that turns as a whole: how far it has, and what should have stayed 0. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "probes_parts.h"
+#include "base/team.h"
+
+static const real pi = 3.14159265358979323846;
+
+const struct column rigid_figure[RIGID_FIGURES] = {{"angle", "rad"}, {"stress_max", "Pa"}, {"shear_max", "Pa"},
+                                                   {"angular_momentum_error", ""}, {"kinetic_energy_error", ""}};
+
+struct rigid_sum { const struct probe *q; const struct particles *p; real centre[2], centre_reference[2]; };
+
+/* Mass; mass times place, now and in the reference. */
+static void centre_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct rigid_sum *s = context;
+    const struct particles *p = s->p;
+    for (int64_t k = first; k < end; k++) {
+        const int32_t i = s->q->list[k];
+        sum[0] += p->mass[i];
+        for (int d = 0; d < 2; d++) sum[1 + d] += p->mass[i] * p->x[d][i], sum[3 + d] += p->mass[i] * p->X[d][i];
+    }
+}
+
+/* About the centre: m X . x and m X x x (of best fit), angular momentum, sum |m r x v|, kinetic energy. */
+static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct rigid_sum *s = context;
+    const struct particles *p = s->p;
+    for (int64_t k = first; k < end; k++) {
+        const int32_t i = s->q->list[k];
+        const real m = p->mass[i], v[2] = {p->v[0][i], p->v[1][i]};
+        const real X[2] = {p->X[0][i] - s->centre_reference[0], p->X[1][i] - s->centre_reference[1]};
+        const real x[2] = {p->x[0][i] - s->centre[0], p->x[1][i] - s->centre[1]};
+        sum[0] += m * (X[0] * x[0] + X[1] * x[1]);
+        sum[1] += m * (X[0] * x[1] - X[1] * x[0]);
+        sum[2] += m * (x[0] * v[1] - x[1] * v[0]);
+        sum[3] += m * fabs(x[0] * v[1] - x[1] * v[0]);
+        sum[4] += 0.5 * m * (v[0] * v[0] + v[1] * v[1]);
+    }
+}
+
+/* Rotation of best fit: it makes sum m |x - R X|^2 least (Kabsch 1976, in the plane) [rad]. */
+static real turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale, real *kinetic)
+{
+    struct rigid_sum s = {.q = q, .p = p};
+    real sum[5];
+    team_sums(q->n, 5, centre_block, &s, sum);
+    for (int d = 0; d < 2; d++) s.centre[d] = sum[1 + d] / sum[0], s.centre_reference[d] = sum[3 + d] / sum[0];
+    team_sums(q->n, 5, turn_block, &s, sum);
+    *spin = sum[2], *spin_scale = sum[3], *kinetic = sum[4];
+    return atan2(sum[1], sum[0]);
+}
+
+status rigid_bind(struct probe *q, const struct observed *o)
+{
+    struct rigid_memory *m = &q->memory.rigid;
+    if (o->part->dim != 2) return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", q->request.name);
+    turn(q, o->part, &m->spin, &m->spin_scale, &m->kinetic);
+    return OK;
+}
+
+/* Largest |principal stress| and largest shear stress in the plane of any particle. */
+static void stresses(const struct probe *q, const struct particles *p, real *stress, real *shear)
+{
+    *stress = *shear = 0;
+    for (int64_t k = 0; k < q->n; k++) {
+        const int32_t i = q->list[k];
+        const real mean = 0.5 * (p->stress[0][i] + p->stress[1][i]);
+        const real radius = hypot(0.5 * (p->stress[0][i] - p->stress[1][i]), p->stress[2][i]);
+        *stress = real_max(*stress, real_max(fabs(mean) + radius, fabs(particle_stress_across(p, i))));
+        *shear = real_max(*shear, radius);
+    }
+}
+
+/* Angles are followed beyond half a turn, samples being less than that apart. */
+void rigid_sample(struct probe *q, const struct observed *o, real *value)
+{
+    struct rigid_memory *m = &q->memory.rigid;
+    real spin, scale, kinetic;
+    const real angle = turn(q, o->part, &spin, &scale, &kinetic);
+    m->angle += remainder(angle - m->angle, 2 * pi);
+    value[0] = m->angle;
+    stresses(q, o->part, &value[1], &value[2]);
+    value[3] = m->spin_scale > 0 ? (spin - m->spin) / m->spin_scale : NAN;
+    value[4] = m->kinetic > 0 ? (kinetic - m->kinetic) / m->kinetic : NAN;
+    for (int k = 1; k < RIGID_FIGURES; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
+    m->most[0] = m->angle;
+}

@@ -1,0 +1,324 @@
+/* floor 3: the probe of stress-intensity factors: a tip, fixed or followed, and the contours round it. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "probes_parts.h"
+
+#define OUTER 20.0                       /* default radius                                         [spacings] */
+#define CORE 1.5                         /* default, left out of the inertial sum (sif.h)         [horizons] */
+#define NARROWEST 3.0                    /* ring                                                   [spacings] */
+#define STEP_BACK 8.0                    /* the direction of a moving tip is that of its last 8 to 16 [spacings] */
+#define SAME_PLACE 1.0                   /* a tip this near is the one that is meant               [spacings] */
+#define FASTEST 0.95                     /* of the Rayleigh speed                                             */
+#define OPEN_ANGLE (170.0 / 180)         /* of the ring is looked at: the faces of a crack may have come apart */
+
+static const real pi = 3.14159265358979323846;
+
+const struct column sif_figure[SIF_FIGURES] = {
+    {"K_I", "Pa m^(1/2)"}, {"K_II", "Pa m^(1/2)"}, {"J", "J/m^2"}, {"contour_spread", ""}};
+
+struct sif_watch {
+    struct sif_tip tip;
+    struct gradient_rule rule;
+    int follows;                         /* tip of the run, -1: none                                  */
+    int growth;                          /* crack that grows as it is told, -1: none                  */
+    real reach;                          /* of the largest contour                              [m]   */
+    int contours;
+    struct contour contour[SIF_CONTOURS_MAX + 1];    /* [0]: that of the figures                      */
+    struct crack *crack;                 /* those of the scene, and one behind a tip without crack    */
+    real behind[2][DIM_MAX];
+    bool kept;                           /* displacement and velocity are those of t and t_velocity   */
+    real t, t_velocity;                  /* [s]                                                       */
+    real *u[2], *v[2], *stress[3];       /* [n_all]                                                   */
+    real *mean[2], *acceleration[2];     /* [n_all] velocity at a sample's time [m/s], [m/s^2]        */
+};
+
+static bool given(real value) { return value > 0; }      /* neither NAN nor 0 */
+
+/* ---- binding --------------------------------------------------------------------------------------------- */
+
+static void make_contours(struct sif_watch *w, const struct probe_request *r, real spacing)
+{
+    const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
+    const struct number_list *list = &r->contours;
+    w->contour[w->contours++] = (struct contour){inner, outer};
+    for (int k = 0; k < (list->n > 0 ? list->n : 3); k++) {
+        const real radius = list->n > 0 ? list->value[k] : (0.6 + 0.2 * k) * outer;
+        w->contour[w->contours++] = (struct contour){radius * inner / outer, radius};
+    }
+    for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
+}
+
+/* The tip of the run that is meant; -1: none. */
+static int tip_meant(const struct probe_request *r, const struct observed *o)
+{
+    int nearest = -1;
+    real least = SAME_PLACE * o->spacing;
+    const int tips = o->tips ? o->tips->n : 0;
+    if (!r->has_at) return tips > 0 ? 0 : -1;
+    for (int k = 0; k < tips; k++) {
+        const real distance = hypot(o->tips->tip[k].origin[0] - r->at[0], o->tips->tip[k].origin[1] - r->at[1]);
+        if (distance <= least) nearest = k, least = distance;
+    }
+    return nearest;
+}
+
+/* The crack that is told how to grow, and from here; -1: none. */
+static int growth_meant(const struct sif_watch *w, const struct observed *o)
+{
+    for (int k = 0; k < o->growths; k++) {
+        const real *at = o->growth[k].rule->at;
+        if (hypot(at[0] - w->tip.place[0], at[1] - w->tip.place[1]) <= SAME_PLACE * o->spacing) return k;
+    }
+    return -1;
+}
+
+/* A crack is led by the factors of its own tip: without `at` every probe watches the first. */
+static status own_growth(const struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+{
+    for (int k = 0; k < o->growths; k++) {
+        const struct growth_rule *g = o->growth[k].rule;
+        if (strcmp(g->probe, r->name) == 0 && k != w->growth)
+            return status_set(REFUSED, "probe \"%s\": it rules %s but watches the tip at (%.6g, %.6g) m; at: [%.6g m, %.6g m] "
+                              "is expected", r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
+    }
+    return OK;
+}
+
+static status find_tip(struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+{
+    w->follows = tip_meant(r, o);
+    const struct tip *tip = w->follows >= 0 ? &o->tips->tip[w->follows] : NULL;
+    if (!tip && !r->has_at)
+        return status_set(REFUSED, "probe \"%s\": no pre-crack ends inside a body; at and direction can name a tip",
+                          r->name);
+    if (!tip && !r->has_direction)
+        return status_set(REFUSED, "probe \"%s\": no pre-crack ends at (%.6g, %.6g) m; direction has to say where ahead "
+                          "is", r->name, r->at[0], r->at[1]);
+    const real *place = r->has_at ? r->at : tip->origin, *along = r->has_direction ? r->direction : tip->along;
+    const real length = hypot(along[0], along[1]);
+    for (int d = 0; d < 2; d++) w->tip.place[d] = place[d], w->tip.along[d] = along[d] / length;
+    w->growth = growth_meant(w, o);
+    return own_growth(w, r, o);
+}
+
+/* Pre-cracks hide particles; behind a tip that is the end of none lies a straight crack. Particles on a crack are on the
+ * side of its normal (crack_cuts). */
+static void make_cracks(struct sif_watch *w, const struct observed *o)
+{
+    const struct sif_tip *t = &w->tip;
+    bool ends = false;
+    w->tip.face = 1;
+    w->crack = NEW("sif.crack", o->cracks + 1, struct crack);
+    for (int k = 0; k < o->cracks; k++) {
+        w->crack[k] = o->crack[k];
+        for (int e = 0; e < 2; e++) {
+            const real *here = o->crack[k].corner[e], *there = o->crack[k].corner[1 - e];
+            if (hypot(here[0] - t->place[0], here[1] - t->place[1]) > SAME_PLACE * o->spacing) continue;
+            const real onward = (here[0] - there[0]) * t->along[0] + (here[1] - there[1]) * t->along[1];
+            w->tip.face = (onward > 0) == (e == 1) ? 1 : -1;
+            ends = true;
+        }
+    }
+    for (int d = 0; d < 2; d++) {
+        w->behind[0][d] = t->place[d] - 2 * w->reach * t->along[d];
+        w->behind[1][d] = t->place[d];
+    }
+    w->crack[o->cracks] = (struct crack){2, w->behind};
+    w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
+}
+
+/* A place on the ring without a particle; false: none. */
+static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed *o, real place[2])
+{
+    const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
+    for (int k = 0; k <= stations; k++) {
+        const real angle = OPEN_ANGLE * pi * (2.0 * k / stations - 1), c = radius * cos(angle), s = radius * sin(angle);
+        place[0] = t->place[0] + c * t->along[0] - s * t->along[1];
+        place[1] = t->place[1] + c * t->along[1] + s * t->along[0];
+        if (particle_nearest(o, (real[DIM_MAX]){place[0], place[1]}) < 0) return true;
+    }
+    return false;
+}
+
+static status check_ring(const struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+{
+    real place[2];
+    for (int k = 0; k < w->contours; k++) {
+        const struct contour *c = &w->contour[k];
+        if (c->outer - c->inner < NARROWEST * o->spacing * (1 - 1e-9))
+            return status_set(REFUSED, "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; "
+                              "choose a larger outer radius", r->name, c->inner, c->outer, NARROWEST);
+    }
+    if (ring_leaves(&w->tip, w->reach, o, place))
+        return status_set(REFUSED, "probe \"%s\": the ring of radius %.6g m round the tip (%.6g, %.6g) m leaves the body "
+                          "at (%.6g, %.6g) m; choose a smaller outer radius",
+                          r->name, w->reach, w->tip.place[0], w->tip.place[1], place[0], place[1]);
+    for (int k = 0; o->tips && k < o->tips->n; k++) {
+        const real *other = o->tips->tip[k].origin;
+        if (k != w->follows && hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]) < w->reach)
+            return status_set(REFUSED, "probe \"%s\": another crack's tip at (%.6g, %.6g) m lies within its radius %.6g "
+                              "m; choose a smaller outer radius", r->name, other[0], other[1], w->reach);
+    }
+    return OK;
+}
+
+/* The material round the tip, and no other. */
+static status find_medium(struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+{
+    const struct particles *p = o->part;
+    const real *e = w->tip.along, *at = w->tip.place;
+    const int32_t ahead = particle_nearest(o, (real[DIM_MAX]){at[0] + o->spacing * e[0], at[1] + o->spacing * e[1]});
+    if (ahead < 0)
+        return status_set(REFUSED, "probe \"%s\": there is no body ahead of its tip (%.6g, %.6g) m", r->name, at[0],
+                          at[1]);
+    w->tip.body = p->body[ahead];
+    w->tip.medium = crack_medium_of(&o->material[p->material[ahead]], o->space);
+    for (int64_t i = 0; i < p->n; i++) {
+        if (hypot(p->X[0][i] - at[0], p->X[1][i] - at[1]) > w->reach) continue;
+        if (p->material[i] != p->material[ahead] || p->body[i] != w->tip.body)
+            return status_set(REFUSED, "probe \"%s\": another material or body lies within its radius %.6g m, at (%.6g, "
+                              "%.6g) m; choose a smaller outer radius", r->name, w->reach, p->X[0][i], p->X[1][i]);
+    }
+    return OK;
+}
+
+status sif_bind(struct probe *q, const struct observed *o)
+{
+    const struct probe_request *r = &q->request;
+    if (o->part->dim != 2) return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", r->name);
+    struct sif_watch *w = q->sif = NEW("sif", 1, struct sif_watch);
+    make_contours(w, r, o->spacing);
+    TRY(find_tip(w, r, o));
+    TRY(find_medium(w, r, o));
+    TRY(check_ring(w, r, o));
+    make_cracks(w, o);
+    w->tip.weight = r->weight, w->tip.stress = r->stress, w->tip.thickness = o->thickness;
+    w->tip.core = isnan(r->core) ? CORE * o->horizon : r->core;
+    w->rule.method = r->gradient, w->rule.diffraction = r->diffraction;
+    w->rule.reach = (given(r->reach) ? r->reach : 1.5) * o->spacing;
+    for (int d = 0; d < 2; d++) {
+        q->memory.trail[0][d] = w->tip.place[d] - STEP_BACK * o->spacing * w->tip.along[d];
+        q->memory.trail[1][d] = w->tip.place[d];
+    }
+    return OK;
+}
+
+void sif_free(struct sif_watch *w)
+{
+    if (!w) return;
+    for (int d = 0; d < 2; d++) {
+        memory_free(w->u[d]), memory_free(w->v[d]);
+        memory_free(w->mean[d]), memory_free(w->acceleration[d]);
+    }
+    for (int k = 0; k < 3; k++) memory_free(w->stress[k]);
+    memory_free(w->crack);
+    memory_free(w);
+}
+
+/* ---- where the tip is now ----------------------------------------------------------------------------------- */
+
+/* A tip that has grown: its place, its speed, and the direction in which it came. */
+static void follow(struct probe *q, const struct observed *o)
+{
+    struct sif_watch *w = q->sif;
+    const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
+    real (*trail)[2] = q->memory.trail;
+    w->tip.speed = 0;
+    if (w->growth >= 0) {                /* its tip is known exactly */
+        const struct growth *g = &o->growth[w->growth];
+        for (int d = 0; d < 2; d++) w->tip.place[d] = g->place[d], w->tip.along[d] = g->along[d];
+        w->tip.speed = real_min(g->speed, FASTEST * w->tip.medium.rayleigh);
+        return;
+    }
+    if (!tip || !(tip->growth > 0)) return;
+    for (int d = 0; d < 2; d++) w->tip.place[d] = tip->place[d];
+    const real speed = given(q->request.speed) ? q->request.speed : tips_speed(o->tips, w->follows);
+    w->tip.speed = real_max(0, real_min(speed, FASTEST * w->tip.medium.rayleigh));
+    if (hypot(w->tip.place[0] - trail[1][0], w->tip.place[1] - trail[1][1]) >= STEP_BACK * o->spacing)
+        for (int d = 0; d < 2; d++) trail[0][d] = trail[1][d], trail[1][d] = w->tip.place[d];
+    if (q->request.has_direction) return;
+    const real way[2] = {w->tip.place[0] - trail[0][0], w->tip.place[1] - trail[0][1]}, length = hypot(way[0], way[1]);
+    for (int d = 0; d < 2; d++) w->tip.along[d] = way[d] / length;
+}
+
+/* ---- samples ------------------------------------------------------------------------------------------------- */
+
+static void room(real **array, int64_t n)
+{
+    if (!*array) *array = NEW("sif.motion", n, real);
+}
+
+static void keep_displacement(struct sif_watch *w, const struct particles *p)
+{
+    for (int d = 0; d < 2; d++) {
+        room(&w->u[d], p->n_all);
+        for (int64_t i = 0; i < p->n_all; i++) w->u[d][i] = p->x[d][i] - p->X[d][i];
+    }
+    for (int k = 0; k < 3 && w->tip.stress == SIF_PARTICLE; k++) {
+        room(&w->stress[k], p->n_all);
+        memcpy(w->stress[k], p->stress[k], (size_t)p->n_all * sizeof(real));
+    }
+}
+
+void sif_keep(struct probe *q, const struct observed *o)
+{
+    struct sif_watch *w = q->sif;
+    const struct particles *p = o->part;
+    w->kept = true, w->t = o->t, w->t_velocity = o->t_velocity;
+    keep_displacement(w, p);
+    for (int d = 0; d < 2; d++) {
+        room(&w->v[d], p->n_all), room(&w->mean[d], p->n_all), room(&w->acceleration[d], p->n_all);
+        memcpy(w->v[d], p->v[d], (size_t)p->n_all * sizeof(real));
+    }
+}
+
+/* Acceleration by the velocities before and after, of peridynamic particles and material points alike: in the leap-frog
+ * scheme it is the force of the sample's time over the mass. Velocity along that line, at the sample's time. No step
+ * follows the last sample: it tells of one step earlier, as forces of its own are not made. */
+static void find_inertia(struct sif_watch *w, const struct particles *p, real t_velocity)
+{
+    for (int d = 0; d < 2; d++)
+        for (int64_t i = 0; i < p->n_all; i++) {
+            w->acceleration[d][i] = (p->v[d][i] - w->v[d][i]) / (t_velocity - w->t_velocity);
+            w->mean[d][i] = p->v[d][i] + (w->t - t_velocity) * w->acceleration[d][i];
+        }
+}
+
+void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
+{
+    struct sif_watch *w = q->sif;
+    const struct particles *p = o->part;
+    const bool moves = w->kept && t_velocity > w->t_velocity;
+    struct sif found[SIF_CONTOURS_MAX + 1];
+    real place[2];
+    follow(q, o);
+    if (!moves) keep_displacement(w, p);
+    if (moves) find_inertia(w, p, t_velocity);
+    w->kept = false;
+    for (int k = 0; k < SIF_FIGURES; k++) q->memory.factors[k] = NAN;
+    if (w->tip.speed > 0 && ring_leaves(&w->tip, w->reach, o, place)) return;
+    for (int d = 0; d < 2; d++) w->rule.tip[d] = w->tip.place[d];
+    struct sif_motion m = {.displacement = {w->u[0], w->u[1]}, .stress = {w->stress[0], w->stress[1], w->stress[2]}};
+    for (int d = 0; d < 2 && moves; d++) m.velocity[d] = w->mean[d], m.acceleration[d] = w->acceleration[d];
+    sif_integrate(&w->tip, w->contour, w->contours, &m, &w->rule, p, o->cells, found);
+    const real factors[SIF_FIGURES] = {found[0].K[MODE_I], found[0].K[MODE_II], found[0].J,
+                                       sif_spread(found + 1, w->contours - 1)};
+    memcpy(q->memory.factors, factors, sizeof factors);
+    memcpy(q->memory.along, w->tip.along, sizeof q->memory.along);
+    q->memory.time = o->t;
+}
+
+bool probes_ruling(const struct probes *s, const char *name, struct ruling *found)
+{
+    for (int k = 0; k < s->n; k++) {
+        const struct probe *q = &s->probe[k];
+        if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
+        *found = (struct ruling){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
+                                 .along = {q->memory.along[0], q->memory.along[1]}, .time = q->memory.time,
+                                 .medium = q->sif->tip.medium};
+        return true;
+    }
+    return false;
+}

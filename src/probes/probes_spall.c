@@ -1,0 +1,143 @@
+/* floor 3: where a bar comes apart: the first plane across it that nothing holds together any more. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "probes/probes.h"
+#include "probes_parts.h"
+
+/* A body cut into columns, one spacing wide along x; plane k lies between columns k and k + 1. */
+struct columns {
+    int64_t n;
+    real low, spacing;                   /* centre of column 0 [m]; [m]                               */
+    int32_t *intact, *cut;               /* [n] bonds across plane k                                  */
+    real *last, *next;                   /* [n] farthest x of material points left, nearest right of plane k [m] */
+    real longest;                        /* bond seen [m]                                             */
+};
+
+static int64_t column_of(const struct columns *c, real X)
+{
+    int64_t k = (int64_t)floor((X - c->low) / c->spacing + 0.5);
+    return k < 0 ? 0 : k >= c->n ? c->n - 1 : k;
+}
+
+/* False if the body has fewer than two columns. */
+static bool columns_make(struct columns *c, const struct observed *o, int body)
+{
+    const struct particles *p = o->part;
+    real low = INFINITY, high = -INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->body[i] != body) continue;
+        low = real_min(low, p->X[0][i]), high = real_max(high, p->X[0][i]);
+    }
+    *c = (struct columns){.low = low, .spacing = o->spacing};
+    if (!(high > low)) return false;
+    c->n = (int64_t)floor((high - low) / o->spacing + 0.5) + 1;
+    c->intact = NEW("spall.intact", c->n, int32_t);
+    c->cut = NEW("spall.cut", c->n, int32_t);
+    c->last = NEW("spall.last", c->n, real);
+    c->next = NEW("spall.next", c->n, real);
+    return c->n > 1;
+}
+
+static void columns_free(struct columns *c)
+{
+    memory_free(c->intact);
+    memory_free(c->cut);
+    memory_free(c->last);
+    memory_free(c->next);
+}
+
+/* Counts the bond's ends; the sums over columns make them bonds across planes. */
+static void count_across(int32_t *count, int64_t a, int64_t b)
+{
+    count[a < b ? a : b]++;
+    count[a < b ? b : a]--;
+}
+
+static void columns_bonds(struct columns *c, const struct observed *o, int body)
+{
+    const struct bonds *b = o->bonds;
+    const struct particles *p = o->part;
+    for (int64_t row = 0; row < b->rows; row++) {
+        int32_t i = b->particle[row];
+        if (p->body[i] != body) continue;
+        int64_t group = row / LANES, from = column_of(c, p->X[0][i]);
+        for (int64_t k = 0; k < b->slot_count[group]; k++) {
+            int64_t q = bond_index(b, group, k, (int)(row % LANES));
+            if (b->inverse_length[q] == 0) continue;
+            int64_t to = column_of(c, p->X[0][b->nbr[q]]);
+            c->longest = real_max(c->longest, fabs(1 / b->inverse_length[q]));
+            if (b->w[q] != 0) count_across(c->intact, from, to);
+            else if (b->broken[row] > 0) count_across(c->cut, from, to);
+        }
+    }
+    for (int64_t k = 1; k < c->n; k++) c->intact[k] += c->intact[k - 1], c->cut[k] += c->cut[k - 1];
+}
+
+/* Material points hold together through the grid; those that have just lost a bond are about to be converted. */
+static void columns_points(struct columns *c, const struct particles *p, int body)
+{
+    for (int64_t k = 0; k < c->n; k++) c->last[k] = -INFINITY, c->next[k] = INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->body[i] != body || p->kind[i] != KIND_MPM || p->flag[i] & FLAG_CUT) continue;
+        int64_t k = column_of(c, p->X[0][i]);
+        c->last[k] = real_max(c->last[k], p->X[0][i]);
+        if (k > 0) c->next[k - 1] = real_min(c->next[k - 1], p->X[0][i]);
+    }
+    for (int64_t k = 1; k < c->n; k++) c->last[k] = real_max(c->last[k], c->last[k - 1]);
+    for (int64_t k = c->n - 2; k >= 0; k--) c->next[k] = real_min(c->next[k], c->next[k + 1]);
+}
+
+static bool is_apart(const struct columns *c, int64_t plane)
+{
+    return c->intact[plane] == 0 && c->cut[plane] > 0 && !(c->next[plane] - c->last[plane] <= c->longest);
+}
+
+/* Planes that come apart together are one fracture, at their middle. */
+static bool columns_apart(const struct columns *c, real *position)
+{
+    for (int64_t k = 0; k < c->n - 1; k++) {
+        if (!is_apart(c, k)) continue;
+        int64_t end = k;
+        while (end + 1 < c->n - 1 && is_apart(c, end + 1)) end++;
+        *position = c->low + (0.5 * (real)(k + end) + 0.5) * c->spacing;
+        return true;
+    }
+    return false;
+}
+
+void spall_look(struct probe *q, const struct observed *o)
+{
+    int bodies = 0;
+    if (!o->bonds || o->bonds->rows == 0) return;
+    for (int64_t i = 0; i < o->part->n; i++)
+        if (o->part->body[i] >= bodies) bodies = o->part->body[i] + 1;
+    for (int body = 0; body < bodies && isnan(q->memory.first_time); body++) {
+        struct columns c;
+        if (columns_make(&c, o, body)) {
+            columns_bonds(&c, o, body);
+            columns_points(&c, o->part, body);
+            real position;
+            if (columns_apart(&c, &position)) {
+                q->memory.first_time = o->t;
+                q->memory.place[0] = position;
+                q->memory.body = body;
+            }
+        }
+        columns_free(&c);
+    }
+}
+
+void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest)
+{
+    real mass[2] = {0}, momentum[2] = {0};
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->body[i] != q->memory.body) continue;
+        int side = p->X[0][i] > q->memory.place[0];
+        mass[side] += p->mass[i];
+        momentum[side] += p->mass[i] * p->v[0][i];
+    }
+    int end = mass[1] <= mass[0];
+    *speed = mass[end] > 0 ? momentum[end] / mass[end] : NAN;
+    *speed_rest = mass[!end] > 0 ? momentum[!end] / mass[!end] : NAN;
+}

@@ -1,0 +1,433 @@
+/* floor 4: particles from a scene: lattices and lists, volumes, masses, initial state.
+ *
+ * The lattice of a body hangs on the bounding box of the first solid of its shape: with m = round(edge / spacing)
+ * particles along an edge they stand at centre + (k + 1/2 - m/2) spacing, k any whole number. A symmetric solid
+ * is filled symmetrically to the last bit about its centre, and solids added later (a driven layer, say)
+ * continue the lattice of the first. A body whose first solid is unbounded uses the first body's lattice.
+ *
+ * Centre and spacing are rounded so that all places are exact numbers: then neighbours are at exactly the same distances
+ * everywhere (struct pattern), and nothing that follows from distances knows where in the body it is. */
+#include <math.h>
+#include <string.h>
+
+#include "data/cells.h"
+#include "scene/fill.h"
+#include "base/memory.h"
+#include "scene/particle_list.h"
+#include "base/team.h"
+
+/* Two particles closer than this are one, given twice [spacings]. */
+static const real too_close = 1e-3;
+/* Farther from the origin doubles no longer resolve strains: at this distance [spacings] a place is rounded by 1e-9 of a spacing, and
+ * a strain of 1e-4 is known to 1e-5 of it; ten thousand times as far stresses are 3 % off. */
+static const real too_far = 1e7;
+
+enum { PARTICLES_MAX = INT32_MAX - 64 };
+
+/* Particles in the order in which the scene makes them, before struct particles knows how many there are. */
+struct draft {
+    const struct scene *scene;
+    int64_t n, room;
+    real *X[DIM_MAX], *volume;           /* [m], [m^3] */
+    uint8_t *material, *body;
+};
+
+static void draft_free(struct draft *d)
+{
+    for (int a = 0; a < DIM_MAX; a++) memory_free(d->X[a]);
+    memory_free(d->volume);
+    memory_free(d->material);
+    memory_free(d->body);
+}
+
+static status draft_refuse(const struct draft *d, int body, const char *why)
+{
+    const char *path = d->scene->path != NULL ? d->scene->path : d->scene->name;
+    return status_set(REFUSED, "%s: body %s: %s", path, d->scene->body[body].name, why);
+}
+
+static void draft_grow(struct draft *d)
+{
+    int64_t room = d->room > 0 ? 2 * d->room : 4096;
+    for (int a = 0; a < d->scene->dim; a++)
+        d->X[a] = memory_resize("fill.X", d->X[a], d->room, room, sizeof(real));
+    d->volume = memory_resize("fill.volume", d->volume, d->room, room, sizeof(real));
+    d->material = memory_resize("fill.material", d->material, d->room, room, sizeof(uint8_t));
+    d->body = memory_resize("fill.body", d->body, d->room, room, sizeof(uint8_t));
+    d->room = room;
+}
+
+static status draft_add(struct draft *d, const real *X, real volume, int material, int body)
+{
+    if (d->n >= PARTICLES_MAX) return draft_refuse(d, body, "more than 2147483583 particles; use a larger spacing");
+    if (d->n == d->room) draft_grow(d);
+    for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = X[a];
+    d->volume[d->n] = volume;
+    d->material[d->n] = (uint8_t)material;
+    d->body[d->n] = (uint8_t)body;
+    d->n++;
+    return OK;
+}
+
+/* ---- lattices -------------------------------------------------------------------------------------- */
+
+/* Along one direction: places first .. last at centre + (k + 1/2 - m/2) spacing. */
+struct axis {
+    real centre, half_count, spacing;    /* [m], m/2, [m] */
+    int64_t first, last;
+};
+
+static real axis_place(const struct axis *a, int64_t k)
+{
+    return a->centre + ((real)k + 0.5 - a->half_count) * a->spacing;
+}
+
+/* Rounds centre and half the spacing to whole multiples of a power of two, so small that places keep to where they are meant
+ * to be, and so large that all of them are exact. A body of 10,000 spacings has no such power; its places are rounded one by one. */
+static void axis_round(struct axis *a)
+{
+    const real ends = fabs(a->centre) + (fabs((real)a->first - a->half_count) + fabs((real)a->last - a->half_count) + 2) * a->spacing;
+    const real unit = exp2(ceil(log2(ends)) - 53), half = nearbyint(0.5 * a->spacing / unit) * unit;
+    const real farthest = 2 * real_max(fabs((real)a->first - a->half_count), fabs((real)a->last - a->half_count)) + 1;
+    if (fabs(2 * half - a->spacing) * 0.5 * farthest > 0.5 * LATTICE_NEAR * a->spacing) return;
+    a->centre = nearbyint(a->centre / unit) * unit;
+    a->spacing = 2 * half;
+}
+
+/* Box of a shape's first added solid; false if it is unbounded. */
+static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MAX], real high[DIM_MAX])
+{
+    for (int k = 0; k < shape->n; k++)
+        if (!shape->solid[k].subtract)
+            return region_bounds(&(struct region){.n = 1, .solid = &shape->solid[k]}, dim, low, high);
+    return false;
+}
+
+/* Splitmix64's finaliser (Steele, Lea, Flood 2014) over a counter: a uniform number in [-1/2, 1/2) that depends on
+ * seed, particle and component alone. */
+static real scatter(uint64_t seed, int64_t id, int component)
+{
+    uint64_t z = seed + ((uint64_t)id * DIM_MAX + (uint64_t)component + 1) * 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    z ^= z >> 31;
+    return (real)(z >> 11) * 0x1p-53 - 0.5;
+}
+
+static real cell_volume(const struct scene *s)
+{
+    return lattice_volume(scene_section(s), s->spacing, s->dim);
+}
+
+/* The lattice that covers the whole shape of a body. */
+static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM_MAX])
+{
+    const struct scene *s = d->scene;
+    real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
+    if (!region_bounds(&s->body[body].shape, s->dim, from, to))
+        return draft_refuse(d, body, "its shape has no end; add boxes, balls or cylinders of finite size");
+    if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
+        !first_solid_box(&s->body[0].shape, s->dim, low, high))
+        return draft_refuse(d, body, "its first solid has no end; begin with one of finite size");
+    for (int a = 0; a < s->dim; a++) {
+        struct axis *x = &axis[a];
+        x->centre = 0.5 * (low[a] + high[a]);
+        x->half_count = 0.5 * round((high[a] - low[a]) / s->spacing);
+        x->spacing = s->spacing;
+        real first = floor((from[a] - x->centre) / s->spacing + x->half_count - 0.5);
+        real last = ceil((to[a] - x->centre) / s->spacing + x->half_count - 0.5);
+        places *= real_max(0, last - first + 1);
+        if (!(places < 64.0 * PARTICLES_MAX && -first < too_far && last < too_far))
+            return draft_refuse(d, body, "too large for the spacing");
+        x->first = (int64_t)first, x->last = (int64_t)last;
+        axis_round(x);
+    }
+    return OK;
+}
+
+static status lattice_point(struct draft *d, int body, const real *place, real volume)
+{
+    const struct scene *s = d->scene;
+    real X[DIM_MAX] = {0};
+    if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
+    for (int a = 0; a < s->dim; a++)
+        X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a);   /* Imachi et al. 2019, eq. 49 */
+    return draft_add(d, X, volume, s->body[body].material, body);
+}
+
+static status fill_lattice(struct draft *d, int body)
+{
+    real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
+    struct axis axis[DIM_MAX] = {{0}};   /* unused directions hold the one place 0 */
+    if (!(spacing > 0)) return draft_refuse(d, body, "a shape is filled with particles.spacing, which is not given");
+    TRY(lattice_axes(d, body, axis));
+    for (int64_t k = axis[2].first; k <= axis[2].last; k++)
+        for (int64_t j = axis[1].first; j <= axis[1].last; j++)
+            for (int64_t i = axis[0].first; i <= axis[0].last; i++) {
+                const int64_t at[DIM_MAX] = {i, j, k};
+                for (int a = 0; a < DIM_MAX; a++) place[a] = axis_place(&axis[a], at[a]);
+                TRY(lattice_point(d, body, place, volume));
+            }
+    return OK;
+}
+
+/* ---- lists ----------------------------------------------------------------------------------------- */
+
+/* Begins with `file:line` of a list's entry, or `file: entry`. */
+static status refuse_entry(const struct particle_list *l, const char *path, int64_t i, const char *what, int number)
+{
+    bool csv = l->line != NULL;
+    return status_set(REFUSED, "%s:%s%lld: %s %d (numbered from 0 in the order of the scene)", path,
+                      csv ? "" : " entry ", (long long)(csv ? l->line[i] : i), what, number);
+}
+
+/* Does body number k take its particles from the same file? */
+static bool shares_file(const struct scene *s, int k, const char *file)
+{
+    return k < s->bodies && s->body[k].file != NULL && strcmp(s->body[k].file, file) == 0;
+}
+
+/* Takes the entries of a body: those that bear its number, or all where the list knows no bodies. */
+static status take_list(struct draft *d, int body, const struct particle_list *l)
+{
+    const struct scene *s = d->scene;
+    const char *path = s->body[body].file;
+    for (int64_t i = 0; i < l->n; i++) {
+        int owner = l->body != NULL ? (int)l->body[i] : body;
+        int material = l->material != NULL ? (int)l->material[i] : s->body[body].material;
+        real X[DIM_MAX];
+        if (!shares_file(s, owner, path))
+            return refuse_entry(l, path, i, "this file is not that of body", owner);
+        if (owner != body) continue;
+        if (material >= s->materials) return refuse_entry(l, path, i, "the scene has no material", material);
+        for (int a = 0; a < s->dim; a++) X[a] = l->X[a][i];
+        TRY(draft_add(d, X, l->volume[i], material, body));
+    }
+    return OK;
+}
+
+static status fill_list(struct draft *d, int body)
+{
+    struct particle_list list;
+    TRY(particle_list_read(&list, d->scene->body[body].file, d->scene->dim));
+    status s = take_list(d, body, &list);
+    particle_list_free(&list);
+    return s;
+}
+
+static status draft_make(struct draft *d)
+{
+    for (int body = 0; body < d->scene->bodies; body++) {
+        int64_t before = d->n;
+        TRY(d->scene->body[body].file != NULL ? fill_list(d, body) : fill_lattice(d, body));
+        if (d->n == before) return draft_refuse(d, body, "holds no particle; is it thinner than the spacing?");
+    }
+    return OK;
+}
+
+/* ---- particles ------------------------------------------------------------------------------------- */
+
+static real volume_term(const void *volume, int64_t i) { return ((const real *)volume)[i]; }
+
+/* The scene's spacing, or the edge of the mean particle where all come from lists [m]. */
+static real spacing_of(const struct draft *d)
+{
+    const struct scene *s = d->scene;
+    if (s->spacing > 0) return s->spacing;
+    return pow(team_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section(s)), 1.0 / s->dim);
+}
+
+static void take_draft(struct particles *p, const struct draft *d, int optional)
+{
+    const struct scene *s = d->scene;
+    particles_make(p, s->dim, d->n, optional);
+    p->plane_strain = s->space == SPACE_PLANE_STRAIN ? s->material : NULL;
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < d->n; i++) {
+        for (int a = 0; a < s->dim; a++) {
+            p->X[a][i] = p->x[a][i] = d->X[a][i];
+            p->v[a][i] = s->body[d->body[i]].velocity[a];
+            if (optional & WITH_STRETCH) p->stretch[a][i] = 1;
+            if (optional & WITH_TURNS && s->dim == 3) p->end_turn[ROTATION - 1][i] = 1;
+        }
+        p->volume0[i] = p->volume[i] = d->volume[i];
+        p->material[i] = d->material[i];
+        p->body[i] = d->body[i];
+        p->mass[i] = s->material[p->material[i]].density * p->volume0[i];
+        p->kind[i] = s->method == METHOD_PD ? KIND_PD : KIND_MPM;
+        p->id[i] = (int32_t)i;
+    }
+}
+
+static status check_values(const struct particles *p, const struct draft *d, real spacing)
+{
+    for (int64_t i = 0; i < p->n; i++) {
+        bool good = isfinite(p->mass[i]) && p->mass[i] > 0 && isfinite(spacing);
+        for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= too_far * spacing;
+        if (!good) return draft_refuse(d, p->body[i], "a particle lies beyond 1e7 spacings from the origin, where doubles no longer "
+                                                      "resolve strains, or has no finite mass; see whether places and spacing have "
+                                                      "the same unit, and move the body to the origin");
+    }
+    return OK;
+}
+
+static status check_origin(const struct scene *s)
+{
+    for (int a = 0; a < s->dim && s->has_grid_origin; a++)
+        if (!(fabs(s->grid_origin[a]) <= too_far * s->spacing))
+            return status_set(REFUSED, "%s: mpm.origin: %.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a "
+                                       "place near the body is expected", s->path != NULL ? s->path : s->name, s->grid_origin[a]);
+    return OK;
+}
+
+/* What `initial` has moved is where it can be, and no stress or speed is past all numbers. */
+static status check_start(const struct particles *p, const struct draft *d, real spacing)
+{
+    for (int64_t i = 0; i < p->n; i++) {
+        real sum = p->volume[i];
+        bool good = p->volume[i] > 0;
+        for (int a = 0; a < p->dim; a++) good = good && fabs(p->x[a][i]) <= too_far * spacing;
+        for (int a = 0; a < p->dim; a++) sum += p->v[a][i];
+        for (int k = 0; k < symmetric_count(p->dim); k++) sum += p->stress[k][i];
+        if (!good || !isfinite(sum))
+            return draft_refuse(d, p->body[i], "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or "
+                                               "gives it a speed or stress that is no number; strains near 1e-3 are usual");
+    }
+    return OK;
+}
+
+/* Refuses particles on top of each other; names the first pair in the sorted order, on any number of threads. */
+static status check_distances(const struct particles *p, const struct draft *d, real spacing)
+{
+    struct cells cells;
+    int64_t first = p->n;
+    int32_t other = -1;
+    real X[DIM_MAX] = {0};
+    cells_make(&cells, p, 3 * spacing);  /* of about one particle each */
+#pragma omp parallel for schedule(static) reduction(min : first)
+    for (int64_t i = 0; i < p->n; i++) {
+        real here[DIM_MAX];
+        int32_t found;
+        particle_place(p, i, here);
+        if (cells_near(&cells, p, here, too_close * spacing, (int32_t)i, &found, 1) > 0 && i < first) first = i;
+    }
+    if (first < p->n) {
+        particle_place(p, first, X);
+        cells_near(&cells, p, X, too_close * spacing, (int32_t)first, &other, 1);
+    }
+    cells_free(&cells);
+    if (first == p->n) return OK;
+    return status_set(REFUSED, "%s: bodies %s and %s have particles in one place: (%.6g, %.6g, %.6g) m",
+                      d->scene->path != NULL ? d->scene->path : d->scene->name, d->scene->body[p->body[first]].name,
+                      d->scene->body[p->body[other]].name, X[0], X[1], X[2]);
+}
+
+/* ---- initial state --------------------------------------------------------------------------------- */
+
+static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *arm)
+{
+    for (int a = 0; a < p->dim; a++) {
+        p->v[a][i] = s->velocity[a] + dot(&s->velocity_gradient[a * p->dim], arm, p->dim);
+        for (int b = 0; b < p->dim; b++) {
+            real *gradient = p->gradient[a * p->dim + b];
+            if (gradient != NULL) gradient[i] = s->velocity_gradient[a * p->dim + b];
+        }
+    }
+}
+
+/* x = X + H (X - centre) and what goes with it at small strain: stress C : sym H, volume factor 1 + tr H. */
+static void start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
+                         const real *arm)
+{
+    const real *H = s->displacement_gradient;
+    int dim = p->dim, count = symmetric_count(dim);
+    real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX], growth = 1;
+    for (int k = 0; k < count; k++) {
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
+        strain[k] = 0.5 * (H[a * dim + b] + H[b * dim + a]);
+    }
+    material_stiffness(m, dim, stiffness);
+    for (int k = 0; k < count; k++) p->stress[k][i] = dot(&stiffness[k * count], strain, count);
+    for (int a = 0; a < dim; a++) {
+        p->x[a][i] = p->X[a][i] + dot(&H[a * dim], arm, dim);
+        if (p->stretch[a] != NULL) p->stretch[a][i] = 1 + H[a * dim + a];
+        growth += H[a * dim + a];
+    }
+    p->volume[i] = p->volume0[i] * growth;
+}
+
+static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
+                        const real *X)
+{
+    const struct wave_state wave = wave_pulse_at(w, X, w->transverse ? m->shear_speed : m->wave_speed, p->dim);
+    const real *along = w->direction, *moved = w->polarisation;
+    const int dim = p->dim, count = symmetric_count(dim);
+    real strain[SYM_MAX], stiffness[SYM_MAX * SYM_MAX];
+    for (int k = 0; k < count; k++) {
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
+        strain[k] = 0.5 * wave.strain * (along[a] * moved[b] + along[b] * moved[a]);
+    }
+    material_stiffness(m, dim, stiffness);
+    for (int k = 0; k < count; k++) p->stress[k][i] += dot(&stiffness[k * count], strain, count);
+    for (int a = 0; a < dim; a++) {
+        p->v[a][i] += wave.velocity * moved[a];
+        p->x[a][i] += wave.displacement * moved[a];
+        if (p->stretch[a] != NULL) p->stretch[a][i] += strain[a];
+    }
+    p->volume[i] *= 1 + wave.strain * dot(along, moved, dim);
+}
+
+static status check_initial(const struct scene *s, const struct scene_initial *initial)
+{
+    real growth = 1;
+    for (int a = 0; a < s->dim && initial->sets_strain; a++) {
+        real stretch = 1 + initial->displacement_gradient[a * s->dim + a];
+        growth += stretch - 1;
+        if (!(stretch > 0)) growth = -1;
+    }
+    if (growth > 0) return OK;
+    return status_set(REFUSED, "%s: an initial displacement gradient turns the body inside out",
+                      s->path != NULL ? s->path : s->name);
+}
+
+static void start_particle(struct particles *p, int64_t i, const struct scene *s, real tolerance)
+{
+    real X[DIM_MAX], arm[DIM_MAX];
+    particle_place(p, i, X);
+    for (const struct scene_initial *k = s->initial; k < s->initial + s->initials; k++) {
+        if ((k->body >= 0 && k->body != p->body[i]) || !region_contains(&k->region, X, p->dim, tolerance)) continue;
+        for (int a = 0; a < p->dim; a++) arm[a] = X[a] - k->centre[a];
+        if (k->sets_velocity) start_velocity(p, i, k, arm);
+        if (k->sets_strain) start_strain(p, i, k, &s->material[p->material[i]], arm);
+        if (k->sets_pulse) start_pulse(p, i, &k->pulse, &s->material[p->material[i]], X);
+    }
+}
+
+static status fill_made(struct particles *p, const struct draft *d, int optional)
+{
+    const struct scene *s = d->scene;
+    real spacing = spacing_of(d);
+    for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
+    take_draft(p, d, optional);
+    TRY(check_values(p, d, spacing));
+    TRY(check_origin(s));
+    TRY(fill_check_lists(p, s));
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, ON_SURFACE * spacing);
+    TRY(check_start(p, d, spacing));
+    particles_sort(p, spacing, optional);
+    return check_distances(p, d, spacing);
+}
+
+status fill_particles(struct particles *p, const struct scene *s, int optional)
+{
+    struct draft draft = {.scene = s};
+    *p = (struct particles){0};
+    status result = s->bodies > 0 ? draft_make(&draft) : status_set(REFUSED, "%s: no bodies", s->name);
+    if (result == OK) result = fill_made(p, &draft, optional);
+    if (result != OK) particles_free(p);
+    draft_free(&draft);
+    return result;
+}

@@ -1,0 +1,200 @@
+/* floor 4: does a list of particles go with the spacing of the scene? One in another unit is read without a fault: its particles
+ * have no neighbours and no forces, or all are neighbours of all and no memory holds the bonds. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/fill.h"
+#include "base/memory.h"
+#include "base/team.h"
+
+/* A body of this many particles is believed: mass points placed one by one. */
+enum { FEW = 7 };
+/* So many of a body are looked at, each beside all others: in a long list a share is known to 4 % then, whatever its shape. */
+enum { LOOKED_AT = 128 };
+/* Refused where more than this share has no neighbour. A wrong unit leaves none to nearly all. Grains of several particles have
+ * their own, chips of one particle round them are fewer than what they broke off, and particles strewn at random as densely as the
+ * spacing says leave 2 % alone on a line, and one in 1e5 elsewhere. */
+#define LONE_MOST 0.5
+/* Refused where the typical neighbour is closer than this share of a spacing: units are apart by 10 and more, the finest and the
+ * coarsest parts of a graded body rarely by more than 4. */
+#define CLOSE_LEAST (1.0 / 6)
+/* Refused where the typical particle's volume and the space up to its nearest neighbour are further apart than this: in another unit
+ * they are by 1e3 and more; at random places by 2 on a line, 4 in the plane and 6 in space. */
+#define VOLUME_MOST 100.0
+#define CROWDED 0.5                      /* neighbours so much closer than a spacing: bonds are counted before they are made */
+#define ONE_PLACE 1e-9                   /* of the body's longest edge: given twice, and refused elsewhere (fill.c) */
+#define REACH_LEAST 1.5                  /* of a material point, where a cell is no more than one spacing [spacings] */
+
+/* The particles of a body in one piece. */
+struct crowd {
+    const struct particles *p;
+    const struct scene *s;
+    int body;
+    int64_t n;
+    real *X[DIM_MAX], *volume;           /* [n] [m], [m^3] */
+    real reach;                          /* [m]      */
+    real one_place;                      /* [m]      */
+};
+
+/* What a sample of a body's particles says. */
+struct verdict {
+    real lone;                           /* share without a neighbour                          [1]     */
+    real apart;                          /* median distance of the nearest other place         [m]     */
+    real family;                         /* mean number of others within reach                 [1]     */
+    real filled;                         /* median volume over the space up to the nearest     [1]     */
+};
+
+static void crowd_take(struct crowd *c)
+{
+    const struct particles *p = c->p;
+    real longest = 0;
+    int64_t own = 0;
+    for (int64_t i = 0; i < p->n; i++) c->n += p->body[i] == c->body;
+    c->volume = NEW("fill.crowd", c->n, real);
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->body[i] == c->body) c->volume[own++] = p->volume0[i];
+    for (int d = 0; d < p->dim; d++) {
+        real low = INFINITY, high = -INFINITY;
+        int64_t k = 0;
+        c->X[d] = NEW("fill.crowd", c->n, real);
+        for (int64_t i = 0; i < p->n; i++) {
+            if (p->body[i] != c->body) continue;
+            c->X[d][k++] = p->X[d][i];
+            low = real_min(low, p->X[d][i]), high = real_max(high, p->X[d][i]);
+        }
+        longest = real_max(longest, high - low);
+    }
+    c->one_place = ONE_PLACE * longest;
+}
+
+/* Square of the distance of the nearest other place, and how many of n particles are within reach of X, itself among them. */
+static real nearest_of(const struct crowd *c, real *const *others, int64_t n, const real *X, int64_t *within)
+{
+    const real reach2 = square(c->reach), place2 = square(c->one_place);
+    const int dim = c->p->dim;
+    real nearest = INFINITY;
+    int64_t count = 0;
+#pragma omp simd reduction(min : nearest) reduction(+ : count)
+    for (int64_t j = 0; j < n; j++) {
+        real r2 = 0;
+        for (int d = 0; d < dim; d++) r2 += square(others[d][j] - X[d]);
+        const real apart = r2 > place2 ? r2 : INFINITY;
+        nearest = apart < nearest ? apart : nearest;
+        count += r2 <= reach2;
+    }
+    *within = count;
+    return nearest;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const real x = *(const real *)a, y = *(const real *)b;
+    return (x > y) - (x < y);
+}
+
+/* Evenly strewn over the list, at places in it that no pattern of the list goes with (Weyl's sequence of the golden ratio). Points
+ * of other bodies count as neighbours of material points, which meet them on the grid, not of bonds. */
+static struct verdict crowd_look(const struct crowd *c)
+{
+    const struct particles *p = c->p;
+    const int64_t looked = c->n < LOOKED_AT ? c->n : LOOKED_AT;
+    const real section = scene_section(c->s);
+    real apart[LOOKED_AT], filled[LOOKED_AT], family = 0;
+    int64_t lone = 0, within[LOOKED_AT];
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < looked; k++) {
+        const real turn = 0.6180339887498949 * (real)k;
+        const int64_t i = c->n <= LOOKED_AT ? k : (int64_t)((turn - floor(turn)) * (real)c->n);
+        real X[DIM_MAX];
+        for (int d = 0; d < p->dim; d++) X[d] = c->X[d][i];
+        apart[k] = sqrt(nearest_of(c, c->X, c->n, X, &within[k]));
+        filled[k] = c->volume[i] / lattice_volume(section, apart[k], p->dim);
+        if (within[k] < 2 && c->s->method != METHOD_PD) nearest_of(c, p->X, p->n, X, &within[k]);
+    }
+    for (int64_t k = 0; k < looked; k++) lone += within[k] < 2, family += (real)(within[k] - 1);
+    qsort(apart, (size_t)looked, sizeof *apart, ascending);
+    qsort(filled, (size_t)looked, sizeof *filled, ascending);
+    return (struct verdict){(real)lone / (real)looked, apart[looked / 2], family / (real)looked, filled[looked / 2]};
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------ */
+
+/* " (is it in mm?)" where one length is a unit times the other. */
+static const char *unit_guess(real ratio)
+{
+    static const struct { real ratio; const char *guess; } unit[] = {
+        {1e2, " (is it in cm?)"}, {1e3, " (is it in mm?)"}, {1e6, " (is it in um?)"}};
+    for (size_t k = 0; k < COUNT_OF(unit); k++)
+        if (fabs(log(ratio / unit[k].ratio)) < log(2)) return unit[k].guess;
+    return "";
+}
+
+static const char *volume_guess(real ratio)
+{
+    return fabs(log10(ratio) - 9) < 1 ? " (are they in mm^3?)" : fabs(log10(ratio) - 6) < 1 ? " (are they in cm^3, or areas in mm^2?)" : "";
+}
+
+static status refuse_list(const struct crowd *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static status refuse_list(const struct crowd *c, const char *format, ...)
+{
+    const struct scene_body *b = &c->s->body[c->body];
+    char why[384];
+    va_list more;
+    va_start(more, format);
+    vsnprintf(why, sizeof why, format, more);
+    va_end(more);
+    return status_set(REFUSED, "%s%sbody %s: %s", b->place[0] ? b->place : b->file, b->place[0] ? "" : ": ", b->name, why);
+}
+
+static status crowd_judge(const struct crowd *c, const struct verdict *v)
+{
+    const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
+    if (!isfinite(v->apart)) return OK;          /* all in one place: refused elsewhere */
+    if (v->lone > LONE_MOST)
+        return refuse_list(c, "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: those of the list are "
+                              "%.4g m apart; a list in m is expected%s, or a particles.spacing of about %.2g m",
+                           c->n > LOOKED_AT ? "about " : "", 100 * v->lone, c->reach / spacing, spacing, v->apart,
+                           unit_guess(v->apart / spacing), v->apart);
+    if (v->apart < CLOSE_LEAST * spacing)
+        return refuse_list(c, "neighbours of the list are %.4g m apart, and the spacing is %.4g m; a particles.spacing of about "
+                              "%.2g m is expected%s, or a list in m", v->apart, spacing, v->apart, unit_guess(spacing / v->apart));
+    if (!(v->filled < VOLUME_MOST && v->filled > 1 / VOLUME_MOST))
+        return refuse_list(c, "volumes of its particles are %.2g times the space up to their neighbours, which are %.4g m apart%s; "
+                              "volumes in m^3 are expected%s", v->filled, v->apart,
+                           c->s->dim == 1 ? ", times the section" : c->s->dim == 2 ? ", times the thickness" : "",
+                           volume_guess(v->filled));
+    if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && team_memory() > 0 && bytes > (real)team_memory())
+        return refuse_list(c, "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need some %.2g "
+                              "GB, and %.2g can be had; those of the list are %.4g m apart: a particles.spacing like that "
+                              "is expected", v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9,
+                           v->apart);
+    return OK;
+}
+
+/* ---- all lists ------------------------------------------------------------------------------------------ */
+
+/* How far forces go: bonds as far as the horizon, on the grid about a cell [spacings]. */
+static real reach_of(const struct scene *s)
+{
+    const real bonds = s->method == METHOD_MPM ? 0 : s->horizon, grid = s->method == METHOD_PD ? 0 : s->cell;
+    return real_max(REACH_LEAST, real_max(bonds, grid));
+}
+
+status fill_check_lists(const struct particles *p, const struct scene *s)
+{
+    status result = OK;
+    for (int b = 0; b < s->bodies && result == OK; b++) {
+        if (!s->body[b].file || !(s->spacing > 0)) continue;
+        struct crowd c = {.p = p, .s = s, .body = b, .reach = reach_of(s) * s->spacing * (1 + 1e-9)};
+        crowd_take(&c);
+        if (c.n > FEW) {
+            const struct verdict v = crowd_look(&c);
+            result = crowd_judge(&c, &v);
+        }
+        for (int d = 0; d < DIM_MAX; d++) memory_free(c.X[d]);
+        memory_free(c.volume);
+    }
+    return result;
+}

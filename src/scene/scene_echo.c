@@ -1,0 +1,416 @@
+/* floor 4: the scene as run, in YAML that reads back to the same scene bit by bit: SI, every default written out. */
+#include "scene_internal.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+struct writer {
+    FILE *out;
+    const struct scene *scene;
+    int indent;
+    bool dash;                           /* the next line begins an item of a list */
+};
+
+static void begin(struct writer *w, const char *key)
+{
+    fprintf(w->out, "%*s%s%s:", w->indent - (w->dash ? 2 : 0), "", w->dash ? "- " : "", key);
+    w->dash = false;
+}
+
+static void write_real(struct writer *w, real value)
+{
+    char text[32];
+    fputs(number_text(text, value), w->out);
+}
+
+static void write_list(struct writer *w, const real *value, int n)
+{
+    for (int k = 0; k < n; k++) {
+        fputs(k ? ", " : "[", w->out);
+        write_real(w, value[k]);
+    }
+    fputc(']', w->out);
+}
+
+static void write_matrix(struct writer *w, const real *value)
+{
+    int dim = w->scene->dim;
+    for (int k = 0; k < dim; k++) {
+        fputs(k ? ", " : "[", w->out);
+        write_list(w, value + k * dim, dim);
+    }
+    fputc(']', w->out);
+}
+
+/* Bytes of the letter at c and its code; a byte that begins no letter stands for itself. */
+static int letter_of(const unsigned char *c, unsigned *code)
+{
+    int more = *c >= 0xF0 ? 3 : *c >= 0xE0 ? 2 : *c >= 0xC0 ? 1 : 0;
+    *code = more ? *c & (0x3F >> more) : *c;
+    for (int k = 1; k <= more; k++) {
+        if ((c[k] & 0xC0) != 0x80) {
+            *code = *c;
+            return 1;
+        }
+        *code = *code << 6 | (c[k] & 0x3F);
+    }
+    return more + 1;
+}
+
+static void write_quoted(struct writer *w, const char *text)
+{
+    fputc('"', w->out);
+    for (const unsigned char *c = (const unsigned char *)text; *c;) {
+        unsigned code;
+        c += letter_of(c, &code);
+        if (code == '"' || code == '\\') fprintf(w->out, "\\%c", (char)code);
+        else if (code >= ' ' && code < 0x7F) fputc((int)code, w->out);
+        else fprintf(w->out, "\\U%08X", code);
+    }
+    fputc('"', w->out);
+}
+
+static void write_word(struct writer *w, const char *words, int index)
+{
+    while (index-- > 0) words = strchr(words, '|') + 1;
+    fprintf(w->out, "%.*s", (int)strcspn(words, "|"), words);
+}
+
+static void write_choice(struct writer *w, const struct key *k, const void *place)
+{
+    int word = 0;
+    if (k->size == sizeof word) memcpy(&word, place, sizeof word);
+    if (k->size == 1) word = *(const bool *)place;
+    write_word(w, k->words, word);
+}
+
+static void write_set(struct writer *w, const struct key *k, unsigned bits)
+{
+    const char *between = "[";
+    if (!bits) fputs("none", w->out);
+    for (int word = 0; bits >> word; word++) {
+        if (!(bits >> word & 1)) continue;
+        fputs(between, w->out);
+        write_word(w, k->words, word);
+        between = ", ";
+    }
+    if (bits) fputc(']', w->out);
+}
+
+static void write_region(struct writer *w, const struct region *region);
+
+/* A value in the table's hands. */
+static void write_value(struct writer *w, const struct key *k, const void *place)
+{
+    const struct scene *s = w->scene;
+    switch (k->type) {
+    case KEY_REAL: {
+        real value = *(const real *)place;
+        bool word = k->words && (value == k->word_value || isnan(value));
+        if (word) fputs(k->words, w->out);
+        else write_real(w, value);
+        break;
+    }
+    case KEY_INT: fprintf(w->out, "%d", *(const int *)place); break;
+    case KEY_SEED: fprintf(w->out, "%" PRIu64, *(const uint64_t *)place); break;
+    case KEY_FLAG: fputs(*(const bool *)place ? "true" : "false", w->out); break;
+    case KEY_CHOICE: write_choice(w, k, place); break;
+    case KEY_SET: write_set(w, k, *(const unsigned *)place); break;
+    case KEY_SERIES: {
+        const struct number_list *list = place;
+        write_list(w, list->value, list->n);
+        break;
+    }
+    case KEY_NAME: write_quoted(w, place); break;
+    case KEY_POINT: write_list(w, place, s->dim); break;
+    case KEY_MATRIX: write_matrix(w, place); break;
+    case KEY_REGION: write_region(w, place); break;
+    case KEY_BODY: write_quoted(w, s->body[*(const int *)place].name); break;
+    case KEY_MATERIAL: write_quoted(w, s->material[*(const int *)place].name); break;
+    default: break;
+    }
+}
+
+/* Is there something to say? What is not given and has no default has not. */
+static bool has_value(const struct key *k, const void *base, const void *place)
+{
+    if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
+    if (k->has && !*((const bool *)base + (k->has - 1))) return false;
+    if (k->type == KEY_REAL) return k->words || !isnan(*(const real *)place);
+    if (k->type == KEY_NAME) return *(const char *)place != '\0';
+    if (k->type == KEY_REGION) return ((const struct region *)place)->n > 0;
+    if (k->type == KEY_BODY) return *(const int *)place >= 0;
+    if (k->type == KEY_SERIES) return ((const struct number_list *)place)->n > 0;
+    return true;
+}
+
+static const void *place_of(const struct key *k, const void *base)
+{
+    return k->place ? (const char *)base + (k->place - 1) : NULL;
+}
+
+static void write_group(struct writer *w, const char *group, const void *base)
+{
+    for (int i = 0; i < keys_count; i++) {
+        const struct key *k = &keys[i];
+        if (!key_in(k, group)) continue;
+        if (k->type == KEY_MAP) {
+            begin(w, key_leaf(k));
+            fputc('\n', w->out);
+            w->indent += 2;
+            write_group(w, k->path, base);
+            w->indent -= 2;
+        }
+        if (!has_value(k, base, place_of(k, base))) continue;
+        begin(w, key_leaf(k));
+        fputc(' ', w->out);
+        write_value(w, k, place_of(k, base));
+        fprintf(w->out, "%s%s\n", k->unit ? "  # " : "", unit_rows[k->unit].symbol);
+    }
+}
+
+/* ---- solids --------------------------------------------------------------------------------------------- */
+
+static void write_solid(struct writer *w, const struct solid *s)
+{
+    static const char *const words[] = {[SOLID_BOX] = "solid.box", [SOLID_BALL] = "solid.ball",
+                                        [SOLID_CYLINDER] = "solid.cylinder", [SOLID_HALF_SPACE] = "solid.half-space",
+                                        [SOLID_ALL] = "solid.all"};
+    const char *group = words[s->kind], *between = "";
+    fprintf(w->out, "%s{%s: %s", s->subtract ? "{subtract: " : "", strchr(group, '.') + 1,
+            s->kind == SOLID_ALL ? "true" : "{");
+    for (int i = 0; i < keys_count; i++) {
+        if (!key_in(&keys[i], group)) continue;
+        fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
+        write_value(w, &keys[i], place_of(&keys[i], s));
+        between = ", ";
+    }
+    fprintf(w->out, "%s}%s", s->kind == SOLID_ALL ? "" : "}", s->subtract ? "}" : "");
+}
+
+static void write_region(struct writer *w, const struct region *region)
+{
+    for (int k = 0; k < region->n; k++) {
+        fputs(k ? ", " : "[", w->out);
+        write_solid(w, &region->solid[k]);
+    }
+    fputc(']', w->out);
+}
+
+/* ---- lists ---------------------------------------------------------------------------------------------- */
+
+static void begin_item(struct writer *w)
+{
+    w->indent = 4;
+    w->dash = true;
+}
+
+static void write_materials(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    bool one = s->materials == 1;        /* so that overrides of material.young work on what is written, too */
+    fprintf(w->out, one ? "material:\n" : "materials:\n");
+    for (int k = 0; k < s->materials; k++) {
+        struct material m = s->material[k];
+        if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN;     /* follows from it */
+        begin_item(w);
+        if (one) w->indent = 2, w->dash = false;
+        write_group(w, "material", &m);
+    }
+}
+
+/* The file by its whole name, so that the echo runs from anywhere, and what was in it: a run goes on with the same contents only. */
+static void write_particle_list(struct writer *w, const struct scene_body *b)
+{
+    char *whole = b->contents ? realpath(b->file, NULL) : NULL;
+    begin(w, "particles");
+    fputc(' ', w->out);
+    write_quoted(w, whole ? whole : b->file);
+    if (b->contents) fprintf(w->out, "  # contents %016" PRIx64, b->contents);
+    fputc('\n', w->out);
+    free(whole);
+}
+
+static void write_bodies(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    fputs("bodies:\n", w->out);
+    for (int k = 0; k < s->bodies; k++) {
+        begin_item(w);
+        write_group(w, "bodies", &s->body[k]);
+        if (s->body[k].file) write_particle_list(w, &s->body[k]);
+    }
+}
+
+static void write_cracks(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->cracks) fputs("cracks:\n", w->out);
+    for (int k = 0; k < s->cracks; k++) {
+        const struct crack *c = &s->crack[k];
+        fprintf(w->out, "  - {%s: ", s->dim == 1 ? "at" : s->dim == 2 ? "from" : "polygon");
+        for (int j = 0; j < c->n; j++) {
+            fputs(j == 0 ? s->dim == 3 ? "[" : "" : s->dim == 2 ? ", to: " : ", ", w->out);
+            write_list(w, c->corner[j], s->dim);
+        }
+        fprintf(w->out, "%s}\n", s->dim == 3 ? "]" : "");
+    }
+}
+
+/* A mapping below an item of a list. */
+static void write_part(struct writer *w, const char *key, const char *group, const void *base)
+{
+    begin(w, key);
+    fputc('\n', w->out);
+    w->indent += 2;
+    write_group(w, group, base);
+    w->indent -= 2;
+}
+
+static void write_growths(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->growths) fputs("growth:\n", w->out);
+    for (int k = 0; k < s->growths; k++) {
+        struct growth_rule g = s->growth[k];
+        if (!g.probe[0]) g.toughness = NAN;      /* means nothing then */
+        begin_item(w);
+        write_group(w, "growth", &g);
+    }
+}
+
+static void write_initials(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->initials) fputs("initial:\n", w->out);
+    for (int k = 0; k < s->initials; k++) {
+        begin_item(w);
+        write_group(w, "initial", &s->initial[k]);
+        if (s->initial[k].sets_pulse) write_part(w, "pulse", "initial.pulse", &s->initial[k]);
+    }
+}
+
+static void write_time(struct writer *w, const struct time_function *f)
+{
+    static const char *const words[] = {[TIME_STEP] = "step", [TIME_PULSE] = "pulse", [TIME_RAMP] = "ramp"};
+    begin(w, "time");
+    if (f->kind == TIME_CONSTANT) fputs(" constant", w->out);
+    else if (f->kind == TIME_TABLE) fputs(" {table: [", w->out);
+    else {
+        fprintf(w->out, " {%s: {from: ", words[f->kind]);
+        write_real(w, f->from);
+        fputs(", until: ", w->out);
+        write_real(w, f->until);
+        fputs("}}", w->out);
+    }
+    for (int k = 0; k < f->n; k++) {
+        real row[2] = {f->t[k], f->value[k]};
+        fputs(k ? ", " : "", w->out);
+        write_list(w, row, 2);
+    }
+    fputs(f->kind == TIME_TABLE ? "]}\n" : "\n", w->out);
+}
+
+static void write_profile(struct writer *w, const struct profile *f)
+{
+    const char *group = "boundary.profile.sine", *between = " {sine: {";
+    begin(w, "profile");
+    for (int i = 0; i < keys_count && f->kind == PROFILE_SINE; i++) {
+        if (!key_in(&keys[i], group)) continue;
+        fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
+        write_value(w, &keys[i], place_of(&keys[i], f));
+        between = ", ";
+    }
+    fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
+}
+
+static void write_velocity(struct writer *w, const struct boundary *b)
+{
+    begin(w, "velocity");
+    for (int d = 0; d < w->scene->dim; d++) {
+        fputs(d ? ", " : " [", w->out);
+        if (b->components >> d & 1) write_real(w, b->value[d]);
+        else fputs("free", w->out);
+    }
+    fputs("]\n", w->out);
+}
+
+static void write_boundary(struct writer *w, const struct boundary *b)
+{
+    write_group(w, "boundary", b);
+    if (b->kind == BOUNDARY_MIRROR) {
+        write_part(w, "mirror", "boundary.mirror", b);
+        return;
+    }
+    if (b->kind == BOUNDARY_VELOCITY) {
+        write_velocity(w, b);
+    } else {
+        begin(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force");
+        fputc(' ', w->out);
+        write_list(w, b->value, w->scene->dim);
+        fputc('\n', w->out);
+    }
+    if (b->kind == BOUNDARY_TRACTION) {
+        begin(w, "face");
+        fprintf(w->out, " %c%c\n", 'x' + b->face, b->side > 0 ? '+' : '-');
+    }
+    if (b->kind == BOUNDARY_BODY_FORCE) write_profile(w, &b->profile);
+    write_time(w, &b->time);
+}
+
+static void write_boundaries(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->boundaries) fputs("boundary:\n", w->out);
+    for (int k = 0; k < s->boundaries; k++) {
+        begin_item(w);
+        write_boundary(w, &s->boundary[k]);
+    }
+}
+
+static void write_probes(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->probes) fputs("probes:\n", w->out);
+    for (int k = 0; k < s->probes; k++) {
+        char group[32] = "probes.";
+        strcat(group, probe_names[s->probe[k].kind]);
+        fprintf(w->out, "  - %s:\n", probe_names[s->probe[k].kind]);
+        w->indent = 6;
+        write_group(w, group, &s->probe[k]);
+    }
+}
+
+char *scene_echo(const struct scene *s)
+{
+    char *text = NULL, *kept;
+    size_t length = 0;
+    struct scene head = *s;              /* without what its space does not have */
+    if (s->dim != 2) head.thickness = NAN;
+    if (s->dim != 1) head.section = NAN;
+    head.has_frames = s->times.n == 0;
+    struct writer w = {.out = open_memstream(&text, &length), .scene = s};
+    if (!w.out) return NULL;
+    write_group(&w, "", &head);
+    write_materials(&w);
+    write_bodies(&w);
+    write_cracks(&w);
+    write_initials(&w);
+    write_boundaries(&w);
+    write_probes(&w);
+    write_growths(&w);
+    bool whole = !ferror(w.out);
+    if (fclose(w.out) != 0 || !whole) {
+        free(text);
+        return NULL;
+    }
+    kept = NEW("scene text", length + 1, char);
+    memcpy(kept, text, length + 1);
+    free(text);
+    return kept;
+}

@@ -1,0 +1,330 @@
+/* floor 4: the boundary conditions of a scene with their functions of time, and its probes. */
+#include "scene_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* ---- functions of time ---------------------------------------------------------------------------------- */
+
+static status read_table(struct reader *r, const struct node *n, struct time_function *f)
+{
+    const struct key *k = key_find("boundary.time", "table");
+    struct key time = *k, factor = *k;
+    time.range.given = factor.range.given = false;
+    factor.unit = UNIT_NONE;
+    TRY(expect_list(r, k, n));
+    f->kind = TIME_TABLE;
+    f->t = NEW("time table", n->n, real);
+    f->value = NEW("time table", n->n, real);
+    for (const struct node *row = n->first; row; row = row->next) {
+        if (row->kind != NODE_LIST || row->n != 2)
+            return fault(r, row, "%s is not a pair; [time, factor] is expected, as [5 us, 1]", shown(r, row));
+        TRY(read_number(r, &time, row->first, &f->t[f->n]));
+        TRY(read_number(r, &factor, row->last, &f->value[f->n]));
+        if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
+            return fault(r, row->first, "%s does not lie after the time before; times ascend", shown(r, row->first));
+        f->n++;
+    }
+    return OK;
+}
+
+static status read_time(struct reader *r, const struct node *n, struct time_function *f)
+{
+    static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};
+    const char *forms = "constant, step, pulse, ramp or table";
+    if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "constant") == 0)) return OK;
+    if (n->kind != NODE_MAP)
+        return fault(r, n, "%s is no function of time; %s is expected", shown(r, n), forms);
+    TRY(check_keys(r, n, "boundary.time"));
+    if (n->n != 1) return fault(r, n, "has %d keys; one of %s is expected", n->n, forms);
+    const struct node *form = n->first;
+    int kind = word_index("step|pulse|ramp", form->key);
+    if (kind < 0) return read_table(r, form, f);
+    f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
+    TRY(read_group(r, form, form, groups[kind], f));
+    return f->from < f->until ? OK : fault(r, form, "from is not before until; it begins at from and ends at until");
+}
+
+/* ---- profiles in space ---------------------------------------------------------------------------------- */
+
+static status read_profile(struct reader *r, const struct node *n, struct profile *f)
+{
+    f->direction[0] = 1;
+    if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "uniform") == 0)) return OK;
+    if (n->kind != NODE_MAP)
+        return fault(r, n, "%s is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected",
+                     shown(r, n));
+    TRY(check_keys(r, n, "boundary.profile"));
+    if (n->n != 1) return fault(r, n, "has %d keys; sine is expected", n->n);
+    f->kind = PROFILE_SINE;
+    TRY(read_group(r, n->first, n->first, "boundary.profile.sine", f));
+    real length2 = dot(f->direction, f->direction, r->dim);
+    if (length2 > 0 && isfinite(length2)) return OK;
+    return fault(r, node_find(n->first, "direction"),
+                 "its length is 0 or not finite; the direction in which the force varies is expected");
+}
+
+/* ---- boundary conditions -------------------------------------------------------------------------------- */
+
+static status read_axis(struct reader *r, const struct node *n, const char *text, int *axis)
+{
+    *axis = word_index("x|y|z", text);
+    if (n->kind != NODE_SCALAR || *axis < 0 || *axis >= r->dim)
+        return fault(r, n, "%s is no axis of space %s; %s is expected", shown(r, n), space_names[r->scene->space],
+                     r->dim == 1 ? "x" : r->dim == 2 ? "x or y" : "x, y or z");
+    return OK;
+}
+
+static status read_fixed(struct reader *r, const struct node *n, struct boundary *b)
+{
+    int axis;
+    if (n->kind == NODE_SCALAR && strcmp(n->text, "all") == 0) {
+        b->components = (uint8_t)((1 << r->dim) - 1);
+        return OK;
+    }
+    if (n->kind != NODE_LIST || n->n == 0)
+        return fault(r, n, "%s is no list of axes; all or a list such as [x, y] is expected", shown(r, n));
+    for (const struct node *c = n->first; c; c = c->next) {
+        TRY(read_axis(r, c, c->text, &axis));
+        b->components |= (uint8_t)(1 << axis);
+    }
+    return OK;
+}
+
+static status read_component(struct reader *r, const struct node *n, struct boundary *b, int d)
+{
+    if (n->kind == NODE_SCALAR && strcmp(n->text, "free") == 0) return OK;
+    b->components |= (uint8_t)(1 << d);
+    return read_number(r, key_find("boundary", "velocity"), n, &b->value[d]);
+}
+
+static status read_velocity(struct reader *r, const struct node *n, struct boundary *b)
+{
+    int d = 0;
+    if (n->kind == NODE_LIST && n->n == r->dim) {
+        for (const struct node *c = n->first; c; c = c->next) TRY(read_component(r, c, b, d++));
+    } else if (n->kind == NODE_SCALAR && r->dim == 1) {
+        TRY(read_component(r, n, b, 0));
+    } else {
+        return fault(r, n, "%s does not fit space %s; a list of %d is expected, as %s", shown(r, n),
+                     space_names[r->scene->space], r->dim,
+                     r->dim == 1 ? "[22 m/s]" : r->dim == 2 ? "[22 m/s, free]" : "[22 m/s, free, free]");
+    }
+    return b->components ? OK : fault(r, n, "every component is free; at least one velocity is expected");
+}
+
+static status read_mirror(struct reader *r, const struct node *map, const struct node *n, struct boundary *b)
+{
+    const char *const senseless[] = {"region", "body", "time"};
+    int axis;
+    for (size_t k = 0; k < COUNT_OF(senseless); k++) {
+        const struct node *other = node_find(map, senseless[k]);
+        if (other) return fault(r, other, "has no meaning with mirror, which always acts on every body; leave it out");
+    }
+    TRY(read_group(r, n, n, "boundary.mirror", b));
+    const struct node *at = node_find(n, "axis");
+    return read_axis(r, at, at->text, &axis);
+}
+
+static status read_face(struct reader *r, const struct node *map, struct boundary *b)
+{
+    const struct node *n = node_find(map, "face");
+    const struct key *k = key_find("boundary", "face");
+    if (!n) return fault_missing(r, map, k);
+    int face = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
+    if (face < 0 || face >= 2 * r->dim)
+        return fault(r, n, "%s is no face in space %s; %s is expected", shown(r, n), space_names[r->scene->space],
+                     r->dim == 1   ? "x+ or x-"
+                     : r->dim == 2 ? "x+, x-, y+ or y-"
+                                   : word_list(r, k->words));
+    b->face = face / 2;
+    b->side = face % 2 == 0 ? 1 : -1;
+    b->section = scene_section(r->scene);
+    return OK;
+}
+
+/* The one key that says what the condition is. */
+static status kind_of_boundary(struct reader *r, const struct node *map, const struct node **kind)
+{
+    const char *const words = "fixed|velocity|traction|body_force|mirror";
+    *kind = NULL;
+    for (const struct node *n = map->first; n; n = n->next) {
+        if (word_index(words, n->key) < 0) continue;
+        if (*kind) return fault(r, n, "given beside %s; two conditions are two items of the list", (*kind)->key);
+        *kind = n;
+    }
+    return *kind ? OK : fault(r, map, "does nothing; %s is expected", word_list(r, words));
+}
+
+static status read_boundary(struct reader *r, const struct node *n, struct boundary *b)
+{
+    const struct node *kind, *face = NULL, *profile = node_find(n, "profile");
+    TRY(expect(r, n, NODE_MAP, "a mapping of keys to values"));
+    TRY(check_keys(r, n, "boundary"));
+    TRY(kind_of_boundary(r, n, &kind));
+    TRY(read_group(r, n, n, "boundary", b));
+    TRY(read_time(r, node_find(n, "time"), &b->time));
+    b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
+              : *kind->key == 'b' ? BOUNDARY_BODY_FORCE
+              : *kind->key == 'm' ? BOUNDARY_MIRROR
+                                  : BOUNDARY_VELOCITY;
+    if (b->kind != BOUNDARY_TRACTION) face = node_find(n, "face");
+    if (face) return fault(r, face, "has no meaning without traction; leave it out");
+    if (profile && b->kind != BOUNDARY_BODY_FORCE)
+        return fault(r, profile, "has no meaning without body_force; leave it out");
+    TRY(read_profile(r, profile, &b->profile));
+    if (b->kind == BOUNDARY_MIRROR) return read_mirror(r, n, kind, b);
+    if (*kind->key == 'f') return read_fixed(r, kind, b);
+    if (*kind->key == 'v') return read_velocity(r, kind, b);
+    TRY(read_point(r, key_find("boundary", kind->key), kind, b->value));
+    return b->kind == BOUNDARY_TRACTION ? read_face(r, n, b) : OK;
+}
+
+status read_boundaries(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *list = node_find(root, "boundary");
+    if (!list) return OK;
+    TRY(expect_list(r, key_find("", "boundary"), list));
+    s->boundaries = list->n;
+    s->boundary = NEW("boundary conditions", list->n, struct boundary);
+    const struct node *n = list->first;
+    for (int k = 0; k < s->boundaries; k++, n = n->next) {
+        struct boundary *b = &s->boundary[k];
+        b->body = -1;
+        snprintf(b->name, sizeof b->name, "boundary%d", k);
+        TRY(read_boundary(r, n, b));
+        for (int j = 0; j < k; j++)
+            if (strcmp(s->boundary[j].name, b->name) == 0)
+                return fault(r, n, "%s is the name of another boundary; every one has its own", b->name);
+    }
+    return OK;
+}
+
+/* ---- probes --------------------------------------------------------------------------------------------- */
+
+const char *const probe_names[PROBES] = {"tip",   "break", "reaction", "patch",   "spall",
+                                         "point", "line",  "energy",   "momentum", "pulse",
+                                         "exact", "sif",   "growth",   "rigid"};
+
+/* The kind, and the mapping of its keys (NULL: none): `tip`, `tip:` or `tip: {at: [..]}`. */
+static status kind_of_probe(struct reader *r, const struct node *n, enum probe_kind *kind, const struct node **map)
+{
+    struct node word = *n, list = {.kind = NODE_MAP, .n = 1, .first = &word};
+    *map = NULL;
+    if (n->kind == NODE_SCALAR) {
+        word.key = n->text, word.next = NULL;
+        TRY(check_keys(r, &list, "probes"));
+    } else {
+        TRY(expect(r, n, NODE_MAP, "a probe such as tip or point: {at: [..]}"));
+        TRY(check_keys(r, n, "probes"));
+        if (n->n != 1) return fault(r, n, "has %d keys; a probe is one kind with its keys below it", n->n);
+        if (n->first->kind != NODE_SCALAR || *n->first->text) *map = n->first;
+    }
+    const char *name = n->kind == NODE_SCALAR ? n->text : n->first->key;
+    for (int k = 0; k < PROBES; k++)
+        if (strcmp(probe_names[k], name) == 0) *kind = (enum probe_kind)k;
+    return OK;
+}
+
+static status check_probe_boundary(struct reader *r, const struct node *n, const struct probe_request *p)
+{
+    const struct scene *s = r->scene;
+    int nearest = 0;
+    if (p->kind != PROBE_REACTION) return OK;
+    if (s->boundaries == 0) return fault(r, n, "there is no boundary condition to watch; boundary is expected");
+    for (int k = 0; k < s->boundaries; k++) {
+        if (strcmp(s->boundary[k].name, p->boundary) == 0) return OK;
+        if (edit_distance(s->boundary[k].name, p->boundary) < edit_distance(s->boundary[nearest].name, p->boundary))
+            nearest = k;
+    }
+    return fault(r, n, "there is no boundary %s; the nearest is %s", p->boundary, s->boundary[nearest].name);
+}
+
+/* A closed form needs the space it is solved in, and its numbers. */
+static status check_exact(struct reader *r, const struct node *n, const struct node *map, const struct probe_request *p)
+{
+    const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
+    if (p->kind != PROBE_EXACT) return OK;
+    if (r->scene->space != SPACE_LINE)
+        return fault(r, map ? map : n, "closed forms are those of a bar; space line is expected");
+    for (size_t k = 0; k < COUNT_OF(numbers); k++) {
+        const struct node *given = node_find(map, numbers[k]);
+        if (given && p->form != EXACT_MANUFACTURED)
+            return fault(r, given, "has no meaning without form: manufactured; leave it out");
+        if (!given && p->form == EXACT_MANUFACTURED)
+            return fault_missing(r, map, key_find("probes.exact", numbers[k]));
+    }
+    return OK;
+}
+
+static status check_rigid(struct reader *r, const struct node *n, const struct node *map, const struct probe_request *p)
+{
+    if (p->kind != PROBE_RIGID || r->dim == 2) return OK;
+    return fault(r, map ? map : n, "plane spaces only in this version");
+}
+
+/* What the numbers alone tell of a ring round a tip. */
+static status check_sif(struct reader *r, const struct node *n, const struct node *map, struct probe_request *p)
+{
+    enum { CONTOURS_MAX = 16 };
+    if (p->kind != PROBE_SIF) return OK;
+    if (r->dim != 2) return fault(r, map ? map : n, "plane spaces only in this version");
+    const struct number_list *c = &p->contours;
+    const struct node *contours = node_find(map, "contours");
+    if (c->n > CONTOURS_MAX) return fault(r, contours, "has %d items; 1 to %d are expected", c->n, CONTOURS_MAX);
+    if (isnan(p->outer) && c->n > 0) p->outer = c->value[c->n - 1];
+    const real outer = isnan(p->outer) ? 20 * r->scene->spacing : p->outer;
+    if (p->inner >= outer)
+        return fault(r, node_find(map, "inner"), "%s is not less than outer, %.6g m; about half of it is usual",
+                     shown(r, node_find(map, "inner")), outer);
+    const real shares[2] = {p->direction[0], p->direction[1]};
+    if (!p->has_direction || dot(shares, shares, 2) > 0) return OK;
+    return fault(r, node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
+}
+
+static status read_probe(struct reader *r, const struct node *n, struct probe_request *p)
+{
+    const struct node *map;
+    struct node form, short_form;
+    char group[32] = "probes.";
+    TRY(kind_of_probe(r, n, &p->kind, &map));
+    if (p->kind == PROBE_EXACT && map && map->kind == NODE_SCALAR) {     /* `exact: step bar` */
+        form = short_form = *map;
+        form.key = (char *)"form", form.next = NULL;
+        short_form.kind = NODE_MAP, short_form.n = 1, short_form.first = short_form.last = &form;
+        map = &short_form;
+    }
+    p->amplitude = p->period = p->wavelength = p->origin = NAN;
+    p->inner = p->outer = p->core = p->experiment = NAN;
+    strcat(group, probe_names[p->kind]);
+    strcpy(p->name, probe_names[p->kind]);
+    TRY(read_group(r, map ? map : n, map, group, p));
+    if (p->kind == PROBE_LINE && memcmp(p->from, p->to, sizeof p->from) == 0)
+        return fault(r, map, "has no length; from and to are its two ends");
+    TRY(check_exact(r, n, map, p));
+    TRY(check_sif(r, n, map, p));
+    TRY(check_rigid(r, n, map, p));
+    return check_probe_boundary(r, map ? node_find(map, "boundary") : n, p);
+}
+
+status read_probes(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *list = node_find(root, "probes");
+    if (!list) return OK;
+    TRY(expect_list(r, key_find("", "probes"), list));
+    s->probes = list->n;
+    s->probe = NEW("probes", list->n, struct probe_request);
+    const struct node *n = list->first;
+    for (int k = 0; k < s->probes; k++, n = n->next) {
+        TRY(read_probe(r, n, &s->probe[k]));
+        for (int j = 0; j < k; j++)
+            if (strcmp(s->probe[j].name, s->probe[k].name) == 0)
+                return fault(r, n, "%s is the name of another probe; give it a name of its own", s->probe[k].name);
+    }
+    return OK;
+}

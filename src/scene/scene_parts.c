@@ -1,0 +1,289 @@
+/* floor 4: the materials, bodies and initial states of a scene. */
+#include "scene_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "output/checksum.h"
+#include "base/memory.h"
+
+/* ---- materials ------------------------------------------------------------------------------------------ */
+
+/* What fracture costs may be said in one of three ways; two could contradict each other. */
+static status read_strength(struct reader *r, const struct node *n, struct material *m)
+{
+    const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
+    const struct node *given = NULL, *toughness = node_find(n, "toughness");
+    for (size_t k = 0; k < COUNT_OF(ways); k++) {
+        const struct node *way = node_find(n, ways[k]);
+        if (way && given) return fault(r, way, "given beside %s; one of the two fixes the other", given->key);
+        if (way) given = way;
+    }
+    if (toughness) {
+        real K;
+        bool plane_strain = r->scene->space == SPACE_PLANE_STRAIN || r->scene->space == SPACE_SOLID;
+        TRY(read_number(r, key_find("material", "toughness"), toughness, &K));
+        m->energy_release_rate = K * K / m->young * (plane_strain ? 1 - square(m->poisson) : 1);
+    }
+    if (!given) m->critical_stretch = INFINITY;
+    return OK;
+}
+
+/* Bonds have one constant where an isotropic solid has two. */
+static status check_poisson(struct reader *r, const struct node *n, const struct material *m)
+{
+    const struct scene *s = r->scene;
+    real bond = material_bond_poisson(s->space);
+    const struct node *poisson = node_find(n, "poisson");
+    if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
+    if (fabs(m->poisson - bond) <= 1e-6) return OK;
+    return fault(r, poisson, "%s is impossible with bond-based peridynamics in space %s; %s is expected",
+                 shown(r, poisson), space_names[s->space], s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4");
+}
+
+/* The slope behind the yield point may be said in one of two ways. */
+static status read_hardening(struct reader *r, const struct node *n, struct material *m)
+{
+    const struct node *tangent = node_find(n, "yield_tangent"), *hardening = node_find(n, "yield_hardening");
+    real H;
+    if (tangent && hardening) return fault(r, hardening, "given beside yield_tangent; one of the two fixes the other");
+    if (hardening) {
+        TRY(read_number(r, key_find("material", "yield_hardening"), hardening, &H));
+        m->yield_tangent = m->young * H / (m->young + H);
+    }
+    if (m->yield_tangent < m->young) return OK;
+    return fault(r, tangent ? tangent : hardening, "%s is no slope below young; a tangent modulus is expected",
+                 shown(r, tangent ? tangent : hardening));
+}
+
+/* From G_c: in closed form, or with rotations from the work that separates the lattice. */
+static real critical_stretch(const struct scene *s, const struct material *m)
+{
+    const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
+    if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
+    struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
+    const struct state_modulus modulus = state_modulus_of(m, s->space, true);
+    family_make(&f, s->space, s->spacing, s->horizon, scene_section(s));
+    return sqrt(m->energy_release_rate / family_separation(&f, &modulus, !s->bulk));
+}
+
+static status read_material(struct reader *r, const struct node *n, struct material *m)
+{
+    const struct scene *s = r->scene;
+    bool line = s->space == SPACE_LINE;
+    m->energy_release_rate = NAN;
+    m->poisson = line ? 0 : material_bond_poisson(s->space);
+    strcpy(m->name, "material");
+    TRY(read_group(r, n, n, "material", m));
+    TRY(check_poisson(r, n, m));
+    TRY(read_strength(r, n, m));
+    TRY(read_hardening(r, n, m));
+    if (s->model != MODEL_BOND && material_yields(m))
+        return fault(r, node_find(n, "yield_stress"), "state-based models do not yield in this version; model bond, or no "
+                                                      "yield_stress, is expected");
+    material_derive(m, s->space);
+    if (!isnan(m->energy_release_rate))
+        m->critical_stretch = critical_stretch(s, m);
+    if (m->critical_stretch > 0) return OK;
+    return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
+}
+
+status read_materials(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *one = node_find(root, "material"), *many = node_find(root, "materials");
+    if (!one && !many) return fault_missing(r, root, key_find("", "material"));
+    if (one && many) return fault_both(r, one, many);
+    if (many) TRY(expect_list(r, key_find("", "materials"), many));
+    s->materials = many ? many->n : 1;
+    s->material = NEW("materials", s->materials, struct material);
+    const struct node *n = many ? many->first : one;
+    for (int k = 0; k < s->materials; k++, n = n->next) {
+        TRY(read_material(r, n, &s->material[k]));
+        if (many && !node_find(n, "name")) return fault_missing(r, n, key_find("material", "name"));
+        for (int j = 0; j < k; j++)
+            if (strcmp(s->material[j].name, s->material[k].name) == 0)
+                return fault(r, node_find(n, "name"), "%s is the name of another material", s->material[k].name);
+    }
+    return OK;
+}
+
+/* ---- bodies --------------------------------------------------------------------------------------------- */
+
+/* A list of particles lies in the scene's folder, or where the program was started. */
+static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
+{
+    const char *slash = strrchr(r->name, '/');
+    size_t folder = slash ? (size_t)(slash - r->name) + 1 : 0, length = strlen(n->text);
+    fault_place(r, n, b->place, sizeof b->place);
+    bool csv = length > 4 && strcmp(n->text + length - 4, ".csv") == 0;
+    bool h5 = length > 3 && strcmp(n->text + length - 3, ".h5") == 0;
+    if (n->kind != NODE_SCALAR || (!csv && !h5))
+        return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected", shown(r, n));
+    b->file = NEW("file name", folder + length + 1, char);
+    if (r->files && folder > 0 && n->text[0] != '/') {
+        memcpy(b->file, r->name, folder);
+        memcpy(b->file + folder, n->text, length + 1);
+        if (access(b->file, R_OK) == 0) return file_contents(b->file, &b->contents);
+    }
+    memcpy(b->file, n->text, length + 1);
+    if (!r->files) return OK;
+    if (access(b->file, R_OK) == 0) return file_contents(b->file, &b->contents);
+    return fault(r, n, "%s cannot be read; a particle list in the scene's folder is expected", shown(r, n));
+}
+
+static status read_body(struct reader *r, const struct node *n, struct scene_body *b, int number)
+{
+    const struct node *shape = node_find(n, "shape"), *file = node_find(n, "particles");
+    snprintf(b->name, sizeof b->name, "body%d", number);
+    b->material = -1;
+    r->bounded = true;
+    TRY(read_group(r, n, n, "bodies", b));
+    r->bounded = false;
+    if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
+    if (shape && file) return fault_both(r, shape, file);
+    if (file) TRY(read_file(r, file, b));
+    if (b->material < 0 && r->scene->materials > 1) return fault_missing(r, n, key_find("bodies", "material"));
+    if (b->material < 0) b->material = 0;
+    if (!node_find(n, "frame")) b->frame = r->scene->frame;
+    for (int j = 0; j < number; j++)
+        if (strcmp(r->scene->body[j].name, b->name) == 0)
+            return fault(r, n, "%s is the name of another body; every body has its own", b->name);
+    return OK;
+}
+
+status read_bodies(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *one = node_find(root, "body"), *many = node_find(root, "bodies");
+    if (!one && !many) return fault_missing(r, root, key_find("", "body"));
+    if (one && many) return fault_both(r, one, many);
+    if (one && s->materials > 1) return fault(r, one, "which of %d materials is it; use bodies", s->materials);
+    if (many) TRY(expect_list(r, key_find("", "bodies"), many));
+    s->bodies = many ? many->n : 1;
+    s->body = NEW("bodies", s->bodies, struct scene_body);
+    if (one) {
+        strcpy(s->body->name, "body");
+        s->body->frame = s->frame;
+        r->bounded = true;
+        TRY(read_region(r, one, &s->body->shape));
+        r->bounded = false;
+        return OK;
+    }
+    const struct node *n = many->first;
+    for (int k = 0; k < s->bodies; k++, n = n->next) TRY(read_body(r, n, &s->body[k], k));
+    return OK;
+}
+
+/* ---- initial states ------------------------------------------------------------------------------------- */
+
+/* Along the direction of the wave, or across it; nothing given: along. What is off by round-off is put right. */
+static status read_polarisation(struct reader *r, const struct node *n, struct wave_pulse *w)
+{
+    const int dim = r->dim;
+    real *moved = w->polarisation, length = sqrt(dot(moved, moved, dim));
+    if (!n) memcpy(moved, w->direction, sizeof w->direction);
+    else if (!(length > 0)) return fault(r, n, "has no length; direction, or a vector across it, is expected");
+    for (int d = 0; n && d < dim; d++) moved[d] /= length;
+    const real along = dot(moved, w->direction, dim);
+    w->transverse = fabs(along) < 1e-6;
+    if (!w->transverse && fabs(along) < 1 - 1e-6)
+        return fault(r, n, "lies neither along direction nor across it; particles of a plane wave move in one of the two ways");
+    for (int d = 0; d < dim; d++) moved[d] = w->transverse ? moved[d] - along * w->direction[d] : along * w->direction[d];
+    length = sqrt(dot(moved, moved, dim));
+    for (int d = 0; d < dim; d++) moved[d] /= length;
+    return OK;
+}
+
+static status read_pulse(struct reader *r, const struct node *n, struct scene_initial *initial)
+{
+    real *direction = initial->pulse.direction, length;
+    if (!n) return OK;
+    TRY(read_group(r, n, n, "initial.pulse", initial));
+    length = sqrt(dot(direction, direction, r->dim));
+    if (!(length > 0)) return fault(r, node_find(n, "direction"), "has no length; a direction such as 1 is expected");
+    for (int d = 0; d < r->dim; d++) direction[d] /= length;
+    initial->sets_pulse = true;
+    return read_polarisation(r, node_find(n, "polarisation"), &initial->pulse);
+}
+
+static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)
+{
+    initial->body = -1;
+    TRY(read_group(r, n, n, "initial", initial));
+    TRY(read_pulse(r, node_find(n, "pulse"), initial));
+    if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
+    return fault(r, n, "sets nothing; velocity, velocity_gradient, displacement_gradient or pulse is expected");
+}
+
+status read_initials(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *list = node_find(root, "initial");
+    if (!list) return OK;
+    TRY(expect_list(r, key_find("", "initial"), list));
+    s->initials = list->n;
+    s->initial = NEW("initial states", list->n, struct scene_initial);
+    const struct node *n = list->first;
+    for (int k = 0; k < s->initials; k++, n = n->next) TRY(read_initial(r, n, &s->initial[k]));
+    return OK;
+}
+
+/* ---- growth --------------------------------------------------------------------------------------------- */
+
+static status read_growth(struct reader *r, const struct node *n, struct growth_rule *g, int number)
+{
+    real length;
+    snprintf(g->name, sizeof g->name, "growth%d", number);
+    TRY(read_group(r, n, n, "growth", g));
+    length = sqrt(dot(g->direction, g->direction, r->dim));
+    if (!(length > 0)) return fault(r, node_find(n, "direction"), "has no length; a direction such as [1, 0] is expected");
+    for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
+    if (!g->probe[0] && node_find(n, "toughness"))
+        return fault(r, node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
+    if (!g->probe[0] && !isnan(g->smoothing))
+        return fault(r, node_find(n, "smoothing"), "has no meaning without probe, the name of a sif probe");
+    if (growth_follows(g) && !(g->toughness > 0))
+        return fault(r, node_find(n, "speed"), "a speed that follows needs probe and toughness, the K_eq that it keeps");
+    if (!growth_follows(g) && !isnan(g->fastest))
+        return fault(r, node_find(n, "fastest"), "has no meaning beside a given speed; speed: follow is expected");
+    for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
+        if (r->scene->probe[k].kind == PROBE_SIF && strcmp(r->scene->probe[k].name, g->probe) == 0) return OK;
+    return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
+}
+
+/* Probes watch cracks that are there. */
+static status check_growth_probes(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *list = node_find(root, "probes"), *n = list ? list->first : NULL;
+    for (int k = 0; k < s->probes; k++, n = n->next) {
+        bool found = false;
+        if (s->probe[k].kind != PROBE_GROWTH) continue;
+        if (s->growths == 0) return fault(r, n, "no crack grows as it is told; growth is expected");
+        for (int g = 0; g < s->growths; g++)
+            found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
+        if (!found)
+            return fault(r, node_find(n->first, "of"), "there is no growth %s; the first is %s", s->probe[k].of,
+                         s->growth[0].name);
+    }
+    return OK;
+}
+
+/* After the probes, which may rule it. */
+status read_growths(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *list = node_find(root, "growth");
+    if (!list) return check_growth_probes(r, root);
+    TRY(expect_list(r, key_find("", "growth"), list));
+    if (s->dim != 2) return fault(r, list, "plane spaces only in this version");
+    if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; pd or adaptive is expected");
+    s->growths = list->n;
+    s->growth = NEW("growth", list->n, struct growth_rule);
+    const struct node *n = list->first;
+    for (int k = 0; k < s->growths; k++, n = n->next) TRY(read_growth(r, n, &s->growth[k], k));
+    return check_growth_probes(r, root);
+}

@@ -1,0 +1,427 @@
+/* floor 4: from nodes to values, as the table of keys says; and the messages about what does not fit. */
+#include "scene_internal.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { SHOWN_LONGEST = 40 };
+
+/* ---- messages ------------------------------------------------------------------------------------------- */
+
+const char *shown_text(struct reader *r, const char *text)
+{
+    size_t length = strlen(text), cut = length;
+    if (cut > SHOWN_LONGEST) cut = SHOWN_LONGEST;
+    while (cut < length && cut > 0 && ((unsigned char)text[cut] & 0xC0) == 0x80) cut--;   /* whole letters only */
+    char *copy = arena_new(r, cut + 4);
+    memcpy(copy, text, cut);
+    text_harmless(copy);
+    if (cut < length) memcpy(copy + cut, "...", 3);
+    return copy;
+}
+
+const char *shown(struct reader *r, const struct node *n)
+{
+    if (n->kind == NODE_LIST) return "a list";
+    if (n->kind == NODE_MAP) return "a mapping";
+    return *n->text ? shown_text(r, n->text) : "no value";
+}
+
+/* The name a message gives a node: its key, or that of the list it is in with its place: `velocity[1]`. */
+static void node_name(const struct node *n, char *name, size_t room)
+{
+    if (n->key) {
+        snprintf(name, room, "%.48s", n->key);
+    } else if (n->parent) {
+        int place = 0;
+        for (const struct node *c = n->parent->first; c != n; c = c->next) place++;
+        node_name(n->parent, name, room);
+        size_t used = strlen(name);
+        snprintf(name + used, room - used, "[%d]", place);
+    } else {
+        *name = '\0';
+    }
+}
+
+static void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room)
+{
+    if (origin < 0) {
+        snprintf(text, room, "%.300s:%d:%d", r->name, line, column);
+        return;
+    }
+    snprintf(text, room, "-s %.100s=%.100s", r->override[origin].key, r->override[origin].value);
+}
+
+status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
+{
+    char what[512], place[400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    place_text(r, origin, line, column, place, sizeof place);
+    return status_set(REFUSED, "%s: %s", place, what);
+}
+
+void fault_place(const struct reader *r, const struct node *at, char *text, size_t room)
+{
+    char name[100];
+    node_name(at, name, sizeof name);
+    place_text(r, at->origin, at->line, at->column, text, room);
+    snprintf(text + strlen(text), room - strlen(text), ": %s%s", name, *name ? ": " : "");
+}
+
+status fault(const struct reader *r, const struct node *at, const char *format, ...)
+{
+    char what[512], place[PLACE_LENGTH];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    fault_place(r, at, place, sizeof place);
+    return status_set(REFUSED, "%s%s", place, what);
+}
+
+status fault_both(const struct reader *r, const struct node *a, const struct node *b)
+{
+    const struct node *late = a->origin > b->origin ? a : b;
+    return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
+}
+
+/* What a missing key would hold. */
+static const char *form_text(struct reader *r, const struct key *k)
+{
+    switch (k->type) {
+    case KEY_REAL: return unit_rows[k->unit].name;
+    case KEY_POINT: return "a list of numbers";
+    case KEY_REGION: return "a solid or a list of solids";
+    case KEY_NAME: return "a name";
+    case KEY_MATERIAL: return "the name of a material";
+    default: return k->words ? word_list(r, k->words) : "a mapping of keys";
+    }
+}
+
+status fault_missing(struct reader *r, const struct node *map, const struct key *k)
+{
+    char group[64];
+    snprintf(group, sizeof group, "%s", k->path);
+    char *dot = strrchr(group, '.');
+    if (dot) *dot = '\0';
+    bool number = k->type == KEY_REAL;
+    return fault_mark(r, map->origin, map->line, map->column, "%s: missing%s%s; %s is expected%s%s", key_leaf(k),
+                      dot ? " in " : "", dot ? group : "", form_text(r, k), number ? ", as " : "",
+                      number ? unit_rows[k->unit].example : "");
+}
+
+const char *word_list(struct reader *r, const char *words)
+{
+    int left = 1;
+    for (const char *c = words; *c; c++) left += *c == '|';
+    char *text = arena_new(r, strlen(words) + 4 * (size_t)left + 1), *to = text;
+    for (const char *c = words; *c; c++) {
+        if (*c != '|') {
+            *to++ = *c;
+            continue;
+        }
+        left--;
+        to = stpcpy(to, left == 1 ? " or " : ", ");
+    }
+    return text;
+}
+
+int word_index(const char *words, const char *text)
+{
+    size_t length = strlen(text);
+    int place = 0;
+    for (const char *c = words; c; place++) {
+        const char *end = strchr(c, '|');
+        size_t word = end ? (size_t)(end - c) : strlen(c);
+        if (word == length && memcmp(c, text, length) == 0) return place;
+        c = end ? end + 1 : NULL;
+    }
+    return -1;
+}
+
+/* ---- keys ----------------------------------------------------------------------------------------------- */
+
+static status fault_unknown(const struct reader *r, const struct node *n, const char *group)
+{
+    const struct key *nearest = key_nearest(group, n->key);
+    const char *leaf = nearest ? key_leaf(nearest) : "";
+    int most = (int)strlen(leaf) / 2 > 2 ? (int)strlen(leaf) / 2 : 2;
+    if (nearest && edit_distance(leaf, n->key) <= most) return fault(r, n, "unknown key; the nearest is %s", leaf);
+    for (int k = 0; k < keys_count; k++)
+        if (keys[k].type != KEY_GROUP && strcmp(key_leaf(&keys[k]), n->key) == 0)
+            return fault(r, n, "does not belong here; it is the key %s", keys[k].path);
+    return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
+}
+
+/* As all keys before are known and different, the search for a twin is short. */
+status check_keys(struct reader *r, const struct node *map, const char *group)
+{
+    for (const struct node *n = map->first; n; n = n->next) {
+        const struct key *k = key_find(group, n->key);
+        if (!k) return fault_unknown(r, n, group);
+        for (const struct node *twin = map->first; twin != n; twin = twin->next)
+            if (strcmp(twin->key, n->key) == 0)
+                return fault(r, n, "given twice, first in line %d; keep one", twin->line);
+    }
+    return OK;
+}
+
+status expect(struct reader *r, const struct node *n, enum node_kind kind, const char *what)
+{
+    return n->kind == kind ? OK : fault(r, n, "%s is not %s", shown(r, n), what);
+}
+
+status expect_list(struct reader *r, const struct key *k, const struct node *n)
+{
+    int least = (int)k->range.least, most = (int)k->range.most;
+    TRY(expect(r, n, NODE_LIST, "a list"));
+    if (n->n >= least && n->n <= most) return OK;
+    return fault(r, n, "has %d items; %d to %d are expected", n->n, least, most);
+}
+
+/* ---- scalars -------------------------------------------------------------------------------------------- */
+
+static status check_range(struct reader *r, const struct key *k, const struct node *n, real value)
+{
+    const struct range *range = &k->range;
+    char least[32], most[32];
+    if (!range->given) return OK;
+    bool low = range->open ? !(value > range->least) : !(value >= range->least);
+    if (!low && value <= range->most) return OK;
+    if (low && k->low) return fault(r, n, "%s %s", shown(r, n), k->low);
+    const struct unit_row *unit = &unit_rows[k->unit];
+    const char *name = k->type == KEY_INT ? "a whole number" : unit->name;
+    bool bounded = isfinite(range->most);
+    return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s", shown(r, n), name,
+                 range->open ? "above" : "from", number_text(least, range->least),
+                 bounded ? (range->open ? " up to " : " to ") : range->open ? "" : " on",
+                 bounded ? number_text(most, range->most) : "", k->unit ? ", as " : "", k->unit ? unit->example : "");
+}
+
+status read_number(struct reader *r, const struct key *k, const struct node *n, real *value)
+{
+    char what[256];
+    if (n->kind != NODE_SCALAR)
+        return fault(r, n, "%s is not a number; %s is expected, as %s", shown(r, n), unit_rows[k->unit].name,
+                     unit_rows[k->unit].example);
+    if (k->type == KEY_REAL && k->words && strcmp(n->text, k->words) == 0) {
+        *value = k->word_value;
+        return OK;
+    }
+    bool infinite = k->infinite && !(k->type == KEY_POINT && r->bounded);
+    if (!number_read(value, n->text, k->unit, infinite, what, sizeof what))
+        return fault(r, n, "%s %s", shown(r, n), what);
+    return check_range(r, k, n, *value);
+}
+
+static status read_int(struct reader *r, const struct key *k, const struct node *n, int *value)
+{
+    const char *c = n->text + (*n->text == '-');
+    size_t digits = strspn(c, "0123456789");
+    if (n->kind != NODE_SCALAR || digits == 0 || c[digits] != '\0' || (*c == '0' && digits > 1))
+        return fault(r, n, "%s is not a whole number; digits alone are expected, as 20", shown(r, n));
+    errno = 0;
+    long long number = strtoll(n->text, NULL, 10);
+    if (errno || number > INT32_MAX || number < INT32_MIN) number = *n->text == '-' ? INT32_MIN : INT32_MAX;
+    *value = (int)number;
+    return check_range(r, k, n, (real)number);
+}
+
+static status read_seed(struct reader *r, const struct node *n, uint64_t *value)
+{
+    size_t digits = strspn(n->text, "0123456789");
+    errno = 0;
+    if (n->kind == NODE_SCALAR && digits > 0 && n->text[digits] == '\0') *value = strtoull(n->text, NULL, 10);
+    else errno = EINVAL;
+    if (errno == 0) return OK;
+    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected", shown(r, n));
+}
+
+static status read_flag(struct reader *r, const struct node *n, bool *value)
+{
+    int word = n->kind == NODE_SCALAR ? word_index("false|true", n->text) : -1;
+    if (word < 0) return fault(r, n, "%s is neither true nor false; write true or false", shown(r, n));
+    *value = word == 1;
+    return OK;
+}
+
+static status read_choice(struct reader *r, const struct key *k, const struct node *n, void *place)
+{
+    const char *words = word_list(r, k->words);
+    int word = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
+    if (word < 0) return fault(r, n, "%s is unknown; %s is expected", shown(r, n), words);
+    if (k->size == sizeof(int)) memcpy(place, &word, sizeof word);
+    if (k->size == 1) *(bool *)place = word == 1;
+    return OK;
+}
+
+/* Some of the words, as bits. */
+static status read_set(struct reader *r, const struct key *k, const struct node *n, unsigned *bits)
+{
+    const char *words = word_list(r, k->words);
+    *bits = 0;
+    if (n->kind == NODE_SCALAR && strcmp(n->text, "none") == 0) return OK;
+    if (n->kind != NODE_LIST || n->n == 0)
+        return fault(r, n, "%s is unknown; none or a list of %s is expected", shown(r, n), words);
+    for (const struct node *c = n->first; c; c = c->next) {
+        int word = c->kind == NODE_SCALAR ? word_index(k->words, c->text) : -1;
+        if (word < 0) return fault(r, c, "%s is unknown; %s is expected", shown(r, c), words);
+        *bits |= 1u << word;
+    }
+    return OK;
+}
+
+static status read_name(struct reader *r, const struct node *n, char *name)
+{
+    size_t length = strlen(n->text), fine = 0;
+    while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
+    if (n->kind != NODE_SCALAR || length == 0 || fine != length || n->text[0] == '-')
+        return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", shown(r, n));
+    if (length >= NAME_MAX_LENGTH)
+        return fault(r, n, "%s is too long; at most %d characters are expected", shown(r, n), NAME_MAX_LENGTH - 1);
+    memset(name, 0, NAME_MAX_LENGTH);
+    memcpy(name, n->text, length);
+    return OK;
+}
+
+/* ---- lists of numbers ----------------------------------------------------------------------------------- */
+
+const char *const space_names[] = {"line", "plane stress", "plane strain", "solid"};
+
+status read_point(struct reader *r, const struct key *k, const struct node *n, real *point)
+{
+    int d = 0;
+    if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
+    const char *space = space_names[r->scene->space];
+    if (n->kind != NODE_LIST)
+        return fault(r, n, "%s is not a list; %d components are expected in space %s", shown(r, n), r->dim, space);
+    if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in space %s", n->n, r->dim, space);
+    for (const struct node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
+    return OK;
+}
+
+/* dim x dim numbers, row by row or in one list. */
+static status read_matrix(struct reader *r, const struct key *k, const struct node *n, real *matrix)
+{
+    int dim = r->dim, entry = 0;
+    if (dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, matrix);
+    bool rows = n->kind == NODE_LIST && n->n == dim && n->first->kind == NODE_LIST;
+    if (!rows && (n->kind != NODE_LIST || n->n != dim * dim))
+        return fault(r, n, "%s is not a matrix; %d rows of %d numbers are expected", shown(r, n), dim, dim);
+    for (const struct node *c = n->first; c; c = c->next) {
+        TRY(rows ? read_point(r, k, c, &matrix[entry]) : read_number(r, k, c, &matrix[entry]));
+        entry += rows ? dim : 1;
+    }
+    return OK;
+}
+
+enum { SERIES_MOST = 100000 };
+
+/* Numbers that ascend. */
+static status read_series(struct reader *r, const struct key *k, const struct node *n, struct number_list *series)
+{
+    TRY(expect(r, n, NODE_LIST, "a list"));
+    if (n->n < 1 || n->n > SERIES_MOST)
+        return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
+    series->value = NEW("scene series", n->n, real);
+    for (const struct node *c = n->first; c; c = c->next) {
+        TRY(read_number(r, k, c, &series->value[series->n]));
+        if (series->n > 0 && !(series->value[series->n] > series->value[series->n - 1]))
+            return fault(r, c, "%s does not lie after the one before; they ascend", shown(r, c));
+        series->n++;
+    }
+    return OK;
+}
+
+/* ---- names of other things ------------------------------------------------------------------------------ */
+
+static status fault_reference(struct reader *r, const struct node *n, const char *what, const char *nearest)
+{
+    return fault(r, n, "there is no %s %s; the nearest is %s", what, shown(r, n), nearest);
+}
+
+static status read_material(struct reader *r, const struct node *n, int *index)
+{
+    const struct scene *s = r->scene;
+    const struct material *m = s->material;
+    int nearest = 0;
+    for (int k = 0; k < s->materials; k++) {
+        *index = k;
+        if (strcmp(m[k].name, n->text) == 0) return OK;
+        if (edit_distance(m[k].name, n->text) < edit_distance(m[nearest].name, n->text)) nearest = k;
+    }
+    return fault_reference(r, n, "material", m[nearest].name);
+}
+
+static status read_body(struct reader *r, const struct node *n, int *index)
+{
+    const struct scene *s = r->scene;
+    const struct scene_body *b = s->body;
+    int nearest = 0;
+    for (int k = 0; k < s->bodies; k++) {
+        *index = k;
+        if (strcmp(b[k].name, n->text) == 0) return OK;
+        if (edit_distance(b[k].name, n->text) < edit_distance(b[nearest].name, n->text)) nearest = k;
+    }
+    return fault_reference(r, n, "body", b[nearest].name);
+}
+
+/* ---- groups --------------------------------------------------------------------------------------------- */
+
+status read_key(struct reader *r, const struct key *k, const struct node *n, void *base)
+{
+    char none[16];
+    void *place = k->place ? (char *)base + (k->place - 1) : (void *)none;
+    switch (k->type) {
+    case KEY_REAL: return read_number(r, k, n, place);
+    case KEY_INT: return read_int(r, k, n, place);
+    case KEY_SEED: return read_seed(r, n, place);
+    case KEY_FLAG: return read_flag(r, n, place);
+    case KEY_CHOICE: return read_choice(r, k, n, place);
+    case KEY_SET: return read_set(r, k, n, place);
+    case KEY_SERIES: return read_series(r, k, n, place);
+    case KEY_NAME: return read_name(r, n, place);
+    case KEY_POINT: return k->place ? read_point(r, k, n, place) : OK;
+    case KEY_MATRIX: return read_matrix(r, k, n, place);
+    case KEY_REGION: return read_region(r, n, place);
+    case KEY_BODY: return read_body(r, n, place);
+    case KEY_MATERIAL: return read_material(r, n, place);
+    default: return OK;
+    }
+}
+
+static status read_fallback(struct reader *r, const struct node *where, const struct key *k, void *base)
+{
+    struct node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};
+    if (k->type >= KEY_MAP || *k->fallback == '-' || *k->fallback == '(') return OK;
+    if (strcmp(k->fallback, "required") == 0) return fault_missing(r, where, k);
+    n.key = (char *)key_leaf(k);
+    n.text = (char *)k->fallback;
+    return read_key(r, k, &n, base);
+}
+
+status read_group(struct reader *r, const struct node *where, const struct node *map, const char *group, void *base)
+{
+    if (map) TRY(expect(r, map, NODE_MAP, "a mapping of keys to values"));
+    if (map) TRY(check_keys(r, map, group));
+    for (int i = 0; i < keys_count; i++) {
+        const struct key *k = &keys[i];
+        if (!key_in(k, group)) continue;
+        const struct node *n = node_find(map, key_leaf(k));
+        if (k->type == KEY_MAP) TRY(read_group(r, n ? n : where, n, k->path, base));
+        else if (n) TRY(read_key(r, k, n, base));
+        else TRY(read_fallback(r, where, k, base));
+        if (n && k->has) *((char *)base + (k->has - 1)) = true;
+    }
+    return OK;
+}

@@ -1,0 +1,263 @@
+/* floor 4: libyaml's events to a tree of nodes that know their line and column; what a scene may not use is refused. */
+#include "scene_internal.h"
+
+#include <string.h>
+#include <yaml.h>
+
+#include "base/memory.h"
+
+enum { DEPTH_MOST = 16, EVENTS_MOST = 1000000, ARENA_BLOCK = 32768 };
+
+/* ---- memory of one reading ------------------------------------------------------------------------------ */
+
+struct arena_block {
+    struct arena_block *next;
+    size_t used, room;
+    _Alignas(16) char bytes[];
+};
+
+void *arena_new(struct reader *r, size_t size)
+{
+    size = (size + 15) & ~(size_t)15;
+    struct arena_block *block = r->arena;
+    if (!block || block->room - block->used < size) {
+        size_t room = size > ARENA_BLOCK ? size : ARENA_BLOCK;
+        block = memory_new("scene", (int64_t)(sizeof *block + room), 1);
+        *block = (struct arena_block){.next = r->arena, .room = room};
+        r->arena = block;
+    }
+    void *place = block->bytes + block->used;
+    block->used += size;
+    return place;
+}
+
+char *arena_text(struct reader *r, const char *text, size_t length)
+{
+    char *copy = arena_new(r, length + 1);
+    memcpy(copy, text, length);
+    return copy;
+}
+
+void arena_free(struct reader *r)
+{
+    while (r->arena) {
+        struct arena_block *next = r->arena->next;
+        memory_free(r->arena);
+        r->arena = next;
+    }
+}
+
+/* ---- nodes ---------------------------------------------------------------------------------------------- */
+
+void node_append(struct node *parent, struct node *child)
+{
+    child->parent = parent;
+    child->next = NULL;
+    if (parent->last)
+        parent->last->next = child;
+    else
+        parent->first = child;
+    parent->last = child;
+    parent->n++;
+}
+
+struct node *node_find(const struct node *map, const char *key)
+{
+    if (!map || map->kind != NODE_MAP) return NULL;
+    for (struct node *child = map->first; child; child = child->next)
+        if (strcmp(child->key, key) == 0) return child;
+    return NULL;
+}
+
+/* ---- events --------------------------------------------------------------------------------------------- */
+
+struct parse {
+    struct reader *r;
+    yaml_parser_t yaml;
+    const char *text;
+    size_t length;
+    int origin, events;
+};
+
+static status fault_at(struct parse *p, yaml_mark_t mark, const char *what)
+{
+    return fault_mark(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
+}
+
+/* Faults in the bytes themselves come with an offset only. */
+static yaml_mark_t mark_of_offset(const struct parse *p, size_t offset)
+{
+    yaml_mark_t mark = {0};
+    for (size_t k = 0; k < offset && k < p->length; k++) {
+        bool newline = p->text[k] == '\n', inside = ((unsigned char)p->text[k] & 0xC0) == 0x80;
+        mark.line += newline;
+        mark.column = newline ? 0 : mark.column + !inside;
+    }
+    return mark;
+}
+
+static status yaml_fault(struct parse *p)
+{
+    const yaml_parser_t *yaml = &p->yaml;
+    if (yaml->error == YAML_MEMORY_ERROR) return status_set(FAILED, "%s: no memory to read it", p->r->name);
+    yaml_mark_t mark = yaml->error == YAML_READER_ERROR ? mark_of_offset(p, yaml->problem_offset) : yaml->problem_mark;
+    return fault_mark(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1,
+                      "not YAML: %s; spaces (not tabs) indent, a key ends in `: `, brackets close",
+                      yaml->problem ? yaml->problem : "it cannot be read");
+}
+
+static status next_event(struct parse *p, yaml_event_t *event)
+{
+    if (!yaml_parser_parse(&p->yaml, event)) return yaml_fault(p);
+    if (++p->events <= EVENTS_MOST) return OK;
+    yaml_mark_t mark = event->start_mark;
+    yaml_event_delete(event);
+    return fault_at(p, mark, "more than 1000000 YAML events; long data belong into a particle list");
+}
+
+/* Features by which one text stands for another; a scene says what it means in place. */
+static const char *event_refusal(const yaml_event_t *e, int depth)
+{
+    const yaml_char_t *anchor = NULL, *tag = NULL;
+    if (e->type == YAML_ALIAS_EVENT) return "an alias (*) is not allowed in a scene; write the value out";
+    if (e->type == YAML_SCALAR_EVENT) {
+        anchor = e->data.scalar.anchor, tag = e->data.scalar.tag;
+        if (memchr(e->data.scalar.value, 0, e->data.scalar.length)) return "holds a NUL character; leave it out";
+    }
+    if (e->type == YAML_SEQUENCE_START_EVENT) anchor = e->data.sequence_start.anchor, tag = e->data.sequence_start.tag;
+    if (e->type == YAML_MAPPING_START_EVENT) anchor = e->data.mapping_start.anchor, tag = e->data.mapping_start.tag;
+    if (anchor) return "an anchor (&) is not allowed in a scene; write the value out where it is used";
+    if (tag) return "a tag (!) is not allowed in a scene; the key says what its value is";
+    if (depth > DEPTH_MOST) return "nested deeper than 16 levels; no key of a scene is";
+    return NULL;
+}
+
+static const char *key_refusal(const yaml_event_t *e)
+{
+    if (e->type == YAML_SEQUENCE_START_EVENT || e->type == YAML_MAPPING_START_EVENT)
+        return "a key must be a single word, not a list or mapping";
+    if (e->type == YAML_SCALAR_EVENT && strcmp((char *)e->data.scalar.value, "<<") == 0)
+        return "merge keys (<<) are not allowed in a scene; write the keys out";
+    return NULL;
+}
+
+static struct node *node_new(struct parse *p, const yaml_event_t *e, enum node_kind kind)
+{
+    struct node *n = arena_new(p->r, sizeof *n);
+    *n = (struct node){.kind = kind,
+                       .line = (int)e->start_mark.line + 1,
+                       .column = (int)e->start_mark.column + 1,
+                       .origin = p->origin,
+                       .text = ""};
+    return n;
+}
+
+static status read_value(struct parse *p, yaml_event_t *event, int depth, struct node **out);
+
+static status read_items(struct parse *p, struct node *list, int depth)
+{
+    yaml_event_t event;
+    for (;;) {
+        struct node *child;
+        TRY(next_event(p, &event));
+        bool end = event.type == YAML_SEQUENCE_END_EVENT;
+        if (end) yaml_event_delete(&event);
+        if (end) return OK;
+        TRY(read_value(p, &event, depth + 1, &child));
+        node_append(list, child);
+    }
+}
+
+static status read_entry(struct parse *p, struct node *map, yaml_event_t *key_event, int depth)
+{
+    yaml_event_t event;
+    struct node *key, *child;
+    const char *refusal = key_refusal(key_event);
+    if (refusal) {
+        status s = fault_at(p, key_event->start_mark, refusal);
+        yaml_event_delete(key_event);
+        return s;
+    }
+    TRY(read_value(p, key_event, depth, &key));
+    TRY(next_event(p, &event));
+    TRY(read_value(p, &event, depth + 1, &child));
+    child->key = key->text;
+    child->line = key->line;
+    child->column = key->column;
+    node_append(map, child);
+    return OK;
+}
+
+static status read_entries(struct parse *p, struct node *map, int depth)
+{
+    yaml_event_t event;
+    for (;;) {
+        TRY(next_event(p, &event));
+        bool end = event.type == YAML_MAPPING_END_EVENT;
+        if (end) yaml_event_delete(&event);
+        if (end) return OK;
+        TRY(read_entry(p, map, &event, depth));
+    }
+}
+
+/* Consumes the event and all that belongs to it. */
+static status read_value(struct parse *p, yaml_event_t *event, int depth, struct node **out)
+{
+    const char *refusal = event_refusal(event, depth);
+    if (refusal) {
+        status s = fault_at(p, event->start_mark, refusal);
+        yaml_event_delete(event);
+        return s;
+    }
+    yaml_event_type_t type = event->type;
+    struct node *n = node_new(p, event,
+                              type == YAML_SCALAR_EVENT           ? NODE_SCALAR
+                              : type == YAML_SEQUENCE_START_EVENT ? NODE_LIST
+                                                                  : NODE_MAP);
+    if (type == YAML_SCALAR_EVENT)
+        n->text = arena_text(p->r, (char *)event->data.scalar.value, event->data.scalar.length);
+    yaml_event_delete(event);
+    *out = n;
+    if (type == YAML_SEQUENCE_START_EVENT) return read_items(p, n, depth);
+    if (type == YAML_MAPPING_START_EVENT) return read_entries(p, n, depth);
+    return OK;
+}
+
+/* Skips an event of the frame round the one document; `*type` is what it was. */
+static status skip_event(struct parse *p, yaml_event_type_t *type)
+{
+    yaml_event_t event;
+    TRY(next_event(p, &event));
+    *type = event.type;
+    yaml_mark_t mark = event.start_mark;
+    yaml_event_delete(&event);
+    return *type == YAML_DOCUMENT_START_EVENT && p->events > 2
+               ? fault_at(p, mark, "a second document (---) begins; a file holds one scene")
+               : OK;
+}
+
+static status read_document(struct parse *p, struct node **root)
+{
+    yaml_event_t event;
+    yaml_event_type_t type;
+    *root = NULL;
+    TRY(skip_event(p, &type));
+    TRY(skip_event(p, &type));
+    if (type == YAML_STREAM_END_EVENT) return OK;
+    TRY(next_event(p, &event));
+    TRY(read_value(p, &event, 1, root));
+    while (type != YAML_STREAM_END_EVENT) TRY(skip_event(p, &type));
+    return OK;
+}
+
+status tree_read(struct reader *r, const char *text, size_t length, int origin, struct node **root)
+{
+    struct parse p = {.r = r, .text = text, .length = length, .origin = origin};
+    const char *nul = memchr(text, 0, length);
+    if (nul) return fault_at(&p, mark_of_offset(&p, (size_t)(nul - text)), "holds a NUL byte; a scene is UTF-8 text");
+    if (!yaml_parser_initialize(&p.yaml)) return status_set(FAILED, "%s: no memory to read it", r->name);
+    yaml_parser_set_input_string(&p.yaml, (const unsigned char *)text, length);
+    status s = read_document(&p, root);
+    yaml_parser_delete(&p.yaml);
+    return s;
+}

@@ -1,0 +1,271 @@
+#!/bin/sh
+# floor 5: couplings of peridynamics and material points in bars: pulses through an interface (inputs/bar_pulse.yaml), a
+# loaded bar (bar_coupled.yaml), spallation behind an impact (bar_spall.yaml). References in tables were measured with
+# an independent code; the scenes are those of Zeng et al. 2021, sections 5.1 and 5.4.
+test_name=test_coupling_bars
+. tests/support/summary.sh
+. tests/support/scenes.sh
+. tests/support/physics.sh
+. tests/support/trust.sh
+
+# bar FOLDER SCENE ARGUMENT...: a run in the background, two at a time; `landed` waits for the last.
+bar()
+{
+    start "$@"
+    going=$((going + 1))
+    if [ $going -eq 2 ]; then landed; fi
+}
+all="handshake pm pg pmg pgg partial"
+
+# coupling NAME: the value of the key.
+coupling() { case $1 in partial*) echo "partial stress" ;; *) echo "$1" ;; esac; }
+
+# quiet FOLDER: momentum to round-off, as in sound(); 5e-14 is the worst of these runs.
+quiet()
+{
+    is "$1 status" "$(f "$1" status)" done
+    between "$1 momentum" "$(f "$1" momentum_error)" 0 1e-12
+}
+
+# ---- a pulse through an interface ----------------------------------------------------------------------------------
+
+# pulse FOLDER WIDTH ARGUMENT...: of this width in spacings.
+pulse()
+{
+    folder=$1 width=$2; shift 2
+    bar "$folder" bar_pulse -s output.frames=1 -s initial[0].pulse.width=${width}mm "$@"
+}
+reflected() { compute "100 * $(f "$1" probes.pulse.reflected)"; }
+
+for width in 16 32 64 128; do
+    for c in $all; do pulse "pulse_$c$width" $width -s "coupling=$(coupling $c)"; done
+    pulse "pulse_undamped$width" $width -s rim_damping=0
+done
+for width in 16 32 64; do
+    for origin in 0.5 1 1.5; do pulse "pulse_at$origin-$width" $width -s "mpm.origin=[${origin}mm]"; done
+done
+for width in 32 64; do pulse "pulse_apic$width" $width -s mpm.transfer=apic; done
+for c in handshake partial; do
+    pulse "pulse_stiff_$c" 128 -s "coupling=$(coupling $c)" -s pd.calibration=continuum
+    pulse "pulse_stiffer_$c" 64 -s "coupling=$(coupling $c)" -s pd.calibration=continuum
+done
+landed
+
+# Reflected velocity [%] at 16, 32, 64, 128 spacings: within 15 % or 0.15 points of the reference. The independent code moved
+# what is on the grid with the first velocity, as published: pm and pg then lost 1.1 % of the energy at the interface, pmg and pgg
+# 2.4 % (and grew in time, by 1e-3 a step: test_current_frame). With the second velocity nothing is lost and what was
+# comes back: pm, pg 12.65, 5.73 in place of 9.6, 4.4, pmg, pgg 7.66 in place of 6.4; the longer pulses are its own.
+while read -r c references; do
+    width=16
+    for reference in $references; do
+        margin=$(compute "0.15 * ($reference > 1 ? $reference : 1)")
+        apart "$c: reflected of $width spacings" "$(reflected "pulse_$c$width")" "$reference" "$margin"
+        quiet "pulse_$c$width"
+        width=$((2 * width))
+    done
+done <<'END'
+handshake 1.7 2.4 1.9 0.87
+pm 12.65 5.73 1.8 0.90
+pg 12.65 5.73 1.8 0.90
+pmg 7.66 2.7 2.1 0.96
+pgg 7.66 2.7 2.1 0.96
+undamped 6.4 1.1 0.42 0.13
+END
+# Energy change [%] at 32: none by any linear coupling, to what weights that move make of it.
+while read -r c reference; do
+    apart "$c: energy change" "$(compute "100 * $(f "pulse_${c}32" probes.pulse.energy_change)")" "$reference" 0.01
+done <<'END'
+handshake 0
+pm 0
+pg 0
+pmg 0
+pgg 0
+undamped 0
+END
+
+# Partial stress: 1.5 % at 32 and 0.6 % at 64 are the aims. Damping of the rim is better at every width, and is paid
+# with energy of short waves alone.
+between "partial: reflected of 32 spacings" "$(reflected pulse_partial32)" 0 1.5
+between "partial: reflected of 64 spacings" "$(reflected pulse_partial64)" 0 0.6
+for width in 16 32 64 128; do
+    between "partial: damped against undamped, $width" \
+        "$(reflected pulse_partial$width)" 0 "$(reflected pulse_undamped$width)"
+    quiet pulse_partial$width
+done
+between "partial: energy change at 32" "$(f pulse_partial32 probes.pulse.energy_change)" -0.012 0
+between "partial: energy change at 128" "$(f pulse_partial128 probes.pulse.energy_change)" -0.001 0
+# wherever the interface lies in its cell: 4.4, 0.84, 0.44 % at the worst
+for origin in 0.5 1 1.5; do
+    between "node at $origin mm: reflected of 16" "$(reflected pulse_at$origin-16)" 0 6
+    between "node at $origin mm: reflected of 32" "$(reflected pulse_at$origin-32)" 0 1.2
+    between "node at $origin mm: reflected of 64" "$(reflected pulse_at$origin-64)" 0 0.7
+    for width in 16 32 64; do quiet pulse_at$origin-$width; done
+done
+between "apic: reflected of 32" "$(reflected pulse_apic32)" 0 2
+between "apic: reflected of 64" "$(reflected pulse_apic64)" 0 1.6
+
+# Two wave speeds, (sqrt(4/3) - 1)/(sqrt(4/3) + 1) = 7.18 %; 0.5 for what the lattice disperses and the coupling adds.
+for c in handshake partial; do
+    apart "stiff, $c: reflected of 128" "$(reflected pulse_stiff_$c)" 7.18 0.5
+    apart "stiff, $c: reflected of 64" "$(reflected pulse_stiffer_$c)" 7.18 0.5
+done
+
+# ---- a loaded bar --------------------------------------------------------------------------------------------------
+
+for c in $all; do bar "coupled_$c" bar_coupled -s "coupling=$(coupling $c)"; done
+bar coupled_undamped bar_coupled -s rim_damping=0
+# whole: the bar and its image in the fixed end
+line='probes=[line: {name: bar, from: [0.0025], to: [0.9975], points: 200}]'
+both='boundary=[{traction: 1, face: x+}, {traction: -1, face: x-}]'
+while read -r c cell; do
+    at="-s mpm.shape=gimp -s mpm.origin=[${cell}mm] -s output.times=[12.5ms]"
+    bar "half_$c$cell" bar_coupled -s "coupling=$c" $at -s "$line"
+    bar "whole_$c$cell" bar_coupled -s "coupling=$c" $at -s "$line" -s "$both" -s 'body={box: {from: [-1], to: [1]}}' \
+        -s 'pd.region={box: {from: -0.5, to: 0.5}}'
+done <<'END'
+pg 0
+pgg 0
+pgg 2.5
+END
+landed
+
+# Error at 1.25 transits at most 1.1 times the reference; displacement of the end within 0.2 %.
+while read -r c error end; do
+    between "$c: L1" "$(f "coupled_$c" probes.exact.L1)" 0 "$(compute "1.1 * $error")"
+    apart "$c: end" "$(f "coupled_$c" probes.exact.end_displacement)" "$end" "$(compute "0.002 * $end")"
+    quiet "coupled_$c"
+done <<'END'
+handshake 0.068 1.2467e-4
+pm 0.077 1.2461e-4
+pg 0.077 1.2461e-4
+pmg 0.082 1.2467e-4
+pgg 0.080 1.2467e-4
+partial 0.068 1.2491e-4
+undamped 0.068 1.2491e-4
+END
+
+# column_rms FOLDER COLUMN FROM TO: root mean square at 7.5 ms over the particles between two places of
+# (value - 2 value + value)/4 over neighbours for `velocity`, of the value less its exact one for `stress`.
+column_rms()
+{
+    awk -F, -v name="$2" -v from="$3" -v to="$4" '
+        FNR == 1 {
+            for (k = 1; k <= NF; k++) {
+                sub(/ \[.*/, "", $k); if ($k == name) at = k; if ($k == "exact_" name) exact = k; if ($k == "x") x = k }
+            next
+        }
+        { place[++n] = $x; value[n] = $at; error[n] = $at - $exact }
+        END {
+            for (k = 2; k < n; k++) {
+                if (place[k] < from + 0 || place[k] > to + 0) continue
+                zigzag = (value[k - 1] - 2 * value[k] + value[k + 1]) / 4
+                sum += name == "velocity" ? zigzag * zigzag : error[k] * error[k]; count++
+            }
+            if (count) printf "%.9g", sqrt(sum / count) }' "$work/$1/exact_000002.csv"
+}
+
+# Noise at the interface once the front has passed, in velocities of the wave (0.01 m/s): 4.2 % with a unified grid, 0.9
+# to 1.05 % without. A limit between them is 40 % away from either side.
+for c in $all; do
+    zigzag=$(compute "100 * $(column_rms "coupled_$c" velocity 0.4 0.5)")
+    case $c in
+        pmg | pgg) between "$c: zig-zag of velocity behind the front [% x 0.01 m/s]" "$zigzag" 0.03 0.06 ;;
+        *) between "$c: zig-zag of velocity behind the front [% x 0.01 m/s]" "$zigzag" 0.001 0.015 ;;
+    esac
+done
+# Stress of material points that carry bonds on top of it is astray, by 16 to 18 %; with partial stress by 6.4 %.
+for c in handshake pm pg pmg pgg; do
+    between "$c: stress at the interface [Pa]" "$(column_rms "coupled_$c" stress 0.45 0.55)" 0.12 0.22
+done
+between "partial: stress at the interface [Pa]" "$(column_rms coupled_partial stress 0.45 0.55)" 0 0.09
+
+# The images of a fixed end are the other half of the bar, for particles on the grid, too, where a node or the middle of
+# a cell lies on the plane: displacements to the last digit written, 1e-13 of 1e-4 m.
+for run in pg0 pgg0 pgg2.5; do
+    quiet half_$run
+    holds "$run: a whole bar was compared" test "$(f whole_$run particles)" = 400
+    last=$(paste -d, "$work/half_$run/bar_000001.csv" "$work/whole_$run/bar_000001.csv" | awk -F, '
+        NR > 1 { d = $3 - $(NF / 2 + 3); if (d < 0) d = -d; if (d > most) most = d; n++ }
+        END { if (n == 200) printf "%.3g", most }')
+    between "$run: half a bar against the whole" "$last" 0 1e-12
+done
+
+# ---- spallation ----------------------------------------------------------------------------------------------------
+
+# struck FOLDER SPEED ARGUMENT...
+struck() { folder=$1 speed=$2; shift 2; bar "$folder" bar_spall -s "bodies[1].velocity=[-$speed]" "$@"; }
+
+for c in pg handshake partial; do
+    for v in 1.02 1.05; do struck "spall_$c$v" $v -s "coupling=$(coupling $c)"; done
+done
+for v in 0.9 1.0 1.1 1.3 1.7 2.0; do struck spall_pg$v $v; done
+for v in 1.02 1.05; do
+    struck spall_spline$v $v -s mpm.shape=quadratic
+    struck spall_vmpd$v $v -s pd.calibration=vmpd
+    struck spall_fine$v $v -s time.step=2us
+done
+struck spall_wide1.05 1.05 -s mpm.cell=2
+struck spall_spline_vmpd1.05 1.05 -s mpm.shape=quadratic -s pd.calibration=vmpd
+landed
+
+for run in pg handshake partial spline vmpd fine wide spline_vmpd; do
+    sound spall_${run}1.05 0.005             # FLIP damps the short waves of the steep fronts: 0.1 %
+    # tension is born at 0.2 m after 12 ms; the overshoot behind the fronts has to arrive first
+    between "$run: first break" "$(f spall_${run}1.05 probes.spall.first_time)" 12.2e-3 13.0e-3
+    between "$run: place of it" "$(f spall_${run}1.05 probes.spall.x)" 0.185 0.215
+    # it is the first anywhere
+    apart "$run: nothing before" "$(f spall_${run}1.05 probes.break.first_time)" \
+        "$(f spall_${run}1.05 probes.spall.first_time)" 0
+    between "$run: bonds" "$(f spall_${run}1.05 probes.spall.bonds)" 6 12
+done
+for run in pg handshake partial spline vmpd fine; do
+    is "$run at 1.02: status" "$(f spall_${run}1.02 status)" done
+    absent "$run at 1.02: break" "$(f spall_${run}1.02 probes.break.first_time)"
+done
+for v in 0.9 1.0; do absent "break at $v" "$(f spall_pg$v probes.break.first_time)"; done
+
+# Faster flyers break it earlier: first break [transits] within 0.01 of the reference, place within three particles.
+while read -r v time x; do
+    apart "$v m/s: first break" "$(f spall_pg$v probes.spall.first_time)" "$(compute "0.01 * $time")" 1e-4
+    apart "$v m/s: place of it" "$(f spall_pg$v probes.spall.x)" "$x" 0.0125
+done <<'END'
+1.05 1.2655 0.2075
+1.1 1.2515 0.195
+1.3 1.2415 0.200
+1.7 1.234 0.208
+2.0 1.230 0.214
+END
+
+# Compression after 0.9 transits, between its half-heights: 0.1 .. 0.5 m. 0.015 is what dispersion may do to a front (as
+# in test_bar.sh): 0.107 .. 0.4985 m.
+half=$(compute "-0.25 * 100 * 1.05")
+ends()
+{
+    awk -F, -v name=stress_xx -v half="$half" "$read_csv"'
+        n++ && (stress - half) * ($at - half) < 0 {
+            printf "%.6g ", place + ($x - place) * (half - stress) / ($at - stress) }
+        { place = $x; stress = $at }' "$work/$1/bar_000001.csv"
+}
+for run in pg handshake partial spline vmpd; do
+    set -- $(ends spall_${run}1.05)
+    is "$run: ends of the compression" $# 2
+    between "$run: head of the compression" "${1-}" 0.085 0.115
+    between "$run: tail of the compression" "${2-}" 0.485 0.515
+    between "$run: compression" "$(along spall_${run}1.05 stress_xx 0.15 0.45)" -54 -51       # 52.5 Pa, 3 %: ringing
+done
+
+# ---- the same bits -------------------------------------------------------------------------------------------------
+
+for c in pm partial; do
+    calm "$work/threads_$c" inputs/bar_pulse.yaml -t 2 -s "coupling=$(coupling $c)"
+    calm "$work/thread_$c" inputs/bar_pulse.yaml -t 1 -s "coupling=$(coupling $c)"
+    same "$c on 2 threads" "$work/thread_$c" "$work/threads_$c"
+done
+# a bar whose particles come onto the grid and leave it, and break, stopped on the way
+slow="inputs/bar_spall.yaml -s mpm.cell=2 -s time.step=1us -s bodies[1].velocity=[-2]"
+calm "$work/once" $slow -t 1
+interrupted "$work/again" 120 $slow
+calm "$work/again" --resume $slow -t 2
+same "interrupted on its way" "$work/once" "$work/again"
+holds "nothing broke, so nothing was tested" test -n "$(figure "$work/once" probes.break.first_time)"
+finish

@@ -1,0 +1,143 @@
+#!/bin/sh
+# floor 5: observed orders of convergence on four grids, spacing and step halved together, within 0.15 of theory: on the
+# known motion of inputs/bar_converge.yaml and the smooth pulse of inputs/bar_smooth.yaml.
+test_name=test_orders
+. tests/support/summary.sh
+. tests/support/scenes.sh
+
+grids="100 200 400 800"                  # particles a metre
+
+# at N: the settings of a grid; waves cross a quarter of a spacing in a step.
+at() { echo "-s particles.spacing=1/$1 -s time.step=1/$((400 * $1))"; }
+
+# pace: two runs at a time.
+going=0
+pace() { going=$((going + 1)); if [ $going -eq 2 ]; then wait; going=0; fi; }
+
+# refine NAME SCENE [ARGUMENT...]: the runs NAME.1 .. NAME.4.
+refine()
+{
+    name=$1 scene=$2 k=0; shift 2
+    for n in $grids; do k=$((k + 1)); start $name.$k $scene $(at $n) "$@"; pace; done
+}
+
+# orders NAME U V STRESS STRAIN: those wanted of the root mean squares of the errors in displacement, velocity, stress and
+# E x strain (of the displacements), between each grid and the next; -: none is expected.
+orders()
+{
+    name=$1; shift
+    for quantity in L2_displacement L2_velocity L2 L2_strain; do
+        wanted=$1; shift
+        if [ "$wanted" = - ]; then continue; fi
+        found=$(observed "$name" $quantity)
+        is "$name $quantity: orders" "$(echo $found | wc -w)" 3
+        for order in $found; do
+            between "$name $quantity: order" "$order" "$(compute "$wanted - 0.15")" "$(compute "$wanted + 0.15")"
+        done
+    done
+}
+
+# observed NAME QUANTITY: its three orders.
+observed()
+{
+    for k in 1 2 3 4; do echo "$(f $1.$k particles) $(f $1.$k probes.exact.$2)"; done |
+        awk 'NR > 1 { printf "%.4f\n", log(error / $2) / log($1 / n) } { n = $1; error = $2 }'
+}
+
+# relative NAME QUANTITY EXACT: an error over the root mean square of the exact field.
+relative() { compute "$(f "$1" probes.exact.$2) / ($3)"; }
+
+flip="linear gimp cpgimp quadratic cubic" apic="gimp cpgimp quadratic cubic"
+
+# ---- a known motion --------------------------------------------------------------------------------------------------
+
+for shape in $flip; do refine made_$shape bar_converge -s mpm.shape=$shape; done
+for shape in $apic; do refine made_apic_$shape bar_converge -s mpm.shape=$shape -s mpm.transfer=apic; done
+refine made_pd bar_converge -s method=pd
+wait
+# Shapes of first degree have one strain in a cell, exact to second order in its middle: the stress of the points beside
+# it sees first order, but their displacements are of second order, and so is their difference.
+for shape in linear gimp cpgimp; do orders made_$shape 2 2 1 2; done
+for shape in quadratic cubic; do orders made_$shape 2 2 2 2; done
+# The damping of APIC and the dispersion of B-splines have opposite signs in the velocity, which passes through zero here.
+for shape in gimp cpgimp; do orders made_apic_$shape 2 2 1 2; done
+for shape in quadratic cubic; do orders made_apic_$shape 2 - 2 2; done
+# Three neighbours on a side at every spacing: towards the local bar. In E x strain two errors of second order cancel but
+# at the ends.
+orders made_pd 2 2 2 -
+# Noise: FLIP leaves none to be seen down to the finest of these, 7e-5 of the displacement; the positions' own round-off
+# ends E x strain at 1e-5, with 3200 particles.
+root_mean_square="0.9045e-7 / sqrt(2)"
+between "made_linear.4: error" "$(relative made_linear.4 L2_displacement "$root_mean_square")" 6e-5 8e-5
+
+# ---- more neighbours in one horizon of 0.1 m -----------------------------------------------------------------------
+
+# The law of the bonds then stays, and the body force is that of its operator, (4 E/delta^2) int_0^delta (1 - cos k r)/r
+# dr in place of E k^2. Whole neighbours overlap the horizon's ends by half a spacing: first order. A ramp weighs them by
+# halves, VMPD puts the ends between two: second order.
+nonlocal="-s method=pd -s boundary[3].body_force=[-0.0417335084233727]" continuum="-s pd.calibration=continuum"
+k=0
+for m in 3 5 7 9; do
+    k=$((k + 1)) bonds="$nonlocal -s particles.horizon=$m"
+    start whole.$k bar_converge $(at ${m}0) $bonds $continuum; pace
+    start lattice.$k bar_converge $(at ${m}0) $bonds; pace
+    start ramp.$k bar_converge $(at ${m}0) $bonds $continuum -s pd.volume=ramp; pace
+    start vmpd.$k bar_converge $(at ${m}5) $bonds -s pd.calibration=vmpd; pace
+done
+wait
+orders whole 1 1 - 1
+orders lattice 1 1 - -                       # the same operator, but its long waves right: errors 60 times smaller
+orders ramp 2 2 - -
+orders vmpd 2 2 - -
+# The stress that balances this force is softer than E x strain by the operators' ratio, 1.64 %, at any number of
+# neighbours.
+between "ramp: stress of the nonlocal bar" "$(relative ramp.4 L2 "6.2832e4 * $root_mean_square")" 0.0164 0.0170
+
+# ---- a smooth pulse --------------------------------------------------------------------------------------------------
+
+for shape in $flip; do refine pulse_$shape bar_smooth -s mpm.shape=$shape; done
+for shape in $apic; do refine pulse_apic_$shape bar_smooth -s mpm.shape=$shape -s mpm.transfer=apic; done
+refine pulse_pd bar_smooth -s method=pd
+wait
+# On coarse grids the error of second order, dispersion, covers that of first order in the stress.
+for shape in linear gimp cpgimp; do
+    orders pulse_$shape 2 2 - 2
+    between "pulse_$shape: order of the stress, finest grids" "$(observed pulse_$shape L2 | tail -n 1)" 0.85 1.15
+done
+for shape in apic_gimp apic_cpgimp; do orders pulse_$shape 2 2 1 2; done
+for shape in quadratic cubic apic_quadratic apic_cubic pd; do orders pulse_$shape 2 2 2 2; done
+
+# Cell crossing: at strains of 5e-3 the finest points pass half a cell, and linear shapes lose the wave. The others end at
+# about the strain itself, where linear elasticity does.
+strong="-s initial[0].pulse.velocity=0.5"
+start crossing_linear bar_smooth $(at 800) $strong -s mpm.shape=linear; pace
+start crossing_gimp bar_smooth $(at 800) $strong; pace
+peak="0.5 * sqrt(0.1 * sqrt(2 * atan2(0, -1)) / 2 / 1.6)"
+between "crossing, linear: error of the velocity" "$(relative crossing_linear L2_velocity "$peak")" 0.1 1
+between "crossing, gimp: error of the velocity" "$(relative crossing_gimp L2_velocity "$peak")" 0 0.01
+
+# ---- where the nodes are ---------------------------------------------------------------------------------------------
+
+# A mirror half-way between two nodes serves as well as on one; elsewhere the program says so.
+start half bar_converge $(at 100) -s mpm.shape=quadratic -s mpm.origin=[1/100]; pace
+start node bar_converge $(at 100) -s mpm.shape=quadratic; pace
+apart "mirrors between nodes" "$(f half probes.exact.L2_displacement)" "$(f node probes.exact.L2_displacement)" 1e-14
+while read -r setting warnings; do
+    "$cleave" check inputs/bar_converge.yaml -s "$setting" >"$work/said" 2>&1
+    is "$setting: warnings" "$(grep -c '^warning: the mirror' "$work/said")" $warnings
+done <<'END'
+mpm.origin=[0]      0
+mpm.origin=[0.02]   0
+mpm.origin=[0.012]  2
+mpm.cell=1.7        1
+mpm.cell=2          0
+END
+# Nodes begin at a mirror, not at the bar's other end: a front that has come back from it.
+turned="boundary=[{mirror: {axis: x, at: 1 m}}, {traction: -1, face: x-}]"
+set -- bar_step $(at 400) -s method=mpm -s mpm.shape=gimp -s mpm.cell=3 -s "$turned"
+start on_mirror "$@"; pace
+start on_corner "$@" -s mpm.origin=[0]; pace
+between "node on the mirror" "$(f on_mirror probes.exact.L2_displacement)" 0 3e-7       # of 1e-4; 1.9e-7 measured
+between "node elsewhere" "$(f on_corner probes.exact.L2_displacement)" 2e-6 4e-6
+
+finish

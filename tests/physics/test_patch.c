@@ -1,0 +1,244 @@
+/* floor 4: patch tests of each method alone: uniform strain must leave a body at rest and cost the energy of
+ * elasticity. Numbers from closed forms on the lattice. Both methods together:
+ * test_coupling.c. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+#include "tests/support/patch.h"
+#include "base/team.h"
+
+#define STRAIN 1e-6 /* bonds stretch by finite geometry: relative deviations from linear theory of this order */
+
+/* Farther than `reach` spacings from every face of the lattice. */
+static bool inside(const struct particles *p, int64_t i, const int *count, real reach)
+{
+    for (int d = 0; d < p->dim; d++)
+        if (p->X[d][i] < reach * CLOUD_SPACING || p->X[d][i] > (count[d] - reach) * CLOUD_SPACING) return false;
+    return true;
+}
+
+/* ---- peridynamics ------------------------------------------------------------------------------------- */
+
+static const struct cloud_plan lattice[] = {
+    {.space = SPACE_LINE, .count = {15}, .horizon = 3},
+    {.space = SPACE_PLANE_STRESS, .count = {9, 9}, .horizon = 3.015},
+    {.space = SPACE_PLANE_STRAIN, .count = {9, 9}, .horizon = 3.015},
+    {.space = SPACE_SOLID, .count = {9, 9, 9}, .horizon = 3.015},
+};
+
+/* Forces on inner particles, as a share of the sum of the magnitudes of the bonds'. Stretches have the round-off of
+ * positions, 1e-15 of a spacing, against strains of 1e-2. */
+static void test_pd_rest(void **state)
+{
+    (void)state;
+    static const real strain[DIM_MAX][DIM_MAX] = {{0.01, 0.004, -0.003}, {0.002, -0.007, 0.005}, {0.001, 0.006, 0.008}};
+    for (size_t k = 0; k < COUNT_OF(lattice); k++)
+        for (int volume = VOLUME_WHOLE; volume <= VOLUME_CUT_RAMP; volume++) {
+            struct cloud c;
+            struct cloud_plan plan = lattice[k];
+            int checked = 0;
+            plan.volume = (enum volume_rule)volume;
+            cloud_make(&c, &plan);
+            cloud_bonds(&c);
+            cloud_strain(&c, strain);
+            bond_force_table[c.p.dim][PD_BOND](&c.bonds, &c.p, &c.source.limit, NULL);
+            real weights = c.source.family.full / c.source.family.cell_volume;
+            for (int64_t i = 0; i < c.p.n; i++) {
+                if (!inside(&c.p, i, plan.count, plan.horizon + (volume == VOLUME_RAMP))) continue;
+                for (int d = 0; d < c.p.dim; d++)
+                    at_most("inner force", c.p.f[d][i] / (c.bonds.stiffness * weights * 0.01), 1e-12);
+                checked++;
+            }
+            assert_true(checked > 0);
+            cloud_free(&c);
+        }
+}
+
+/* Stress that the bonds of the middle particle amount to over C11 strain, component by component. */
+static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_MAX][DIM_MAX], real *stress)
+{
+    struct cloud c;
+    cloud_make(&c, plan);
+    cloud_bonds(&c);
+    cloud_strain(&c, strain);
+    bond_stress_table[c.p.dim][PD_BOND](&c.bonds, &c.p);
+    for (int s = 0; s < symmetric_count(c.p.dim); s++) stress[s] = c.p.stress[s][c.p.n / 2];
+    cloud_free(&c);
+}
+
+/* C11, C12, C66 of the lattice and its answer to dilatation, over those of the material. */
+struct constants { real dilatation, c11, c12, c66; };
+
+static struct constants lattice_constants(const struct cloud_plan *plan)
+{
+    static const real dilatation[DIM_MAX][DIM_MAX] = {{STRAIN}, {0, STRAIN}, {0, 0, STRAIN}},
+                      axial[DIM_MAX][DIM_MAX] = {{STRAIN}};
+    static const real shear[DIM_MAX][DIM_MAX] = {{0, STRAIN}, {STRAIN, 0}};
+    struct constants result = {1, 1, 1, 1};
+    struct cloud c;
+    real stress[SYM_MAX];
+    const int dim = space_dim(plan->space);
+    cloud_make(&c, plan);
+    const struct material m = c.material[0];
+    cloud_free(&c);
+    lattice_stress(plan, dilatation, stress);
+    result.dilatation = stress[0] / (STRAIN * (m.c11 + (dim - 1) * m.c12));
+    lattice_stress(plan, axial, stress);
+    result.c11 = stress[0] / (STRAIN * m.c11);
+    if (dim == 1) return result;
+    result.c12 = stress[1] / (STRAIN * m.c12);
+    lattice_stress(plan, shear, stress);
+    result.c66 = stress[dim] / (STRAIN * 2 * m.shear);
+    return result;
+}
+
+/* Calibrated on the lattice: dilatation exact, what remains is the lattice's anisotropy.
+ */
+static void test_pd_lattice(void **state)
+{
+    (void)state;
+    static const struct constants expected[] = {
+        {1, 1, 1, 1}, {1, 1.011, 0.966, 0.966}, {1, 1.011, 0.966, 0.966}, {1, 0.943, 1.086, 1.086}};
+    for (size_t k = 0; k < COUNT_OF(lattice); k++) {
+        struct constants c = lattice_constants(&lattice[k]);
+        is_near("dilatation", c.dilatation, 1, 3 * STRAIN);
+        /* plane strain has other C11 : C12 than plane stress, 3 : 1 both times as in every bond-based body in 2D */
+        is_near("C11", c.c11, expected[k].c11, 6e-4);
+        is_near("C12", c.c12, expected[k].c12, 6e-4);
+        is_near("C66", c.c66, expected[k].c66, 6e-4);
+    }
+}
+
+/* Two weights for the directions make the lattice isotropic. */
+static void test_pd_isotropic(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(lattice); k++)
+        for (int volume = VOLUME_WHOLE; volume <= VOLUME_CUT_RAMP; volume++) {
+            struct cloud_plan plan = lattice[k];
+            plan.shells = SHELLS_ISOTROPIC;
+            plan.volume = (enum volume_rule)volume;
+            for (int d = 0; d < space_dim(plan.space); d++) plan.count[d] += 2;
+            struct constants c = lattice_constants(&plan);
+            /* weights are single precision: 6e-8 each */
+            is_near("dilatation", c.dilatation, 1, 3 * STRAIN);
+            is_near("C11", c.c11, 1, 3 * STRAIN);
+            is_near("C12", c.c12, 1, 3 * STRAIN);
+            is_near("C66", c.c66, 1, 3 * STRAIN);
+        }
+}
+
+/* Continuum constants and the volume-modified rule: energy of dilatation over the classical one.
+ */
+static void test_pd_calibrations(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t lattice;
+        enum volume_rule volume;
+        enum calibration calibration;
+        real expected;
+    } rule[] = {
+        {0, VOLUME_WHOLE, CALIBRATION_CONTINUUM, 4.0 / 3},  {0, VOLUME_WHOLE, CALIBRATION_VMPD, 1 - 1.0 / 49},
+        {1, VOLUME_WHOLE, CALIBRATION_CONTINUUM, 1.025},    {1, VOLUME_RAMP, CALIBRATION_CONTINUUM, 1.018},
+        {1, VOLUME_CUT_RAMP, CALIBRATION_CONTINUUM, 0.862}, {3, VOLUME_WHOLE, CALIBRATION_CONTINUUM, 1.099},
+        {3, VOLUME_RAMP, CALIBRATION_CONTINUUM, 1.059},
+    };
+    for (size_t k = 0; k < COUNT_OF(rule); k++) {
+        struct cloud_plan plan = lattice[rule[k].lattice];
+        plan.volume = rule[k].volume;
+        plan.calibration = rule[k].calibration;
+        for (int d = 0; d < space_dim(plan.space); d++) plan.count[d] += 2;
+        is_near("dilatation", lattice_constants(&plan).dilatation, rule[k].expected, 6e-4);
+    }
+}
+
+/* ---- material points ----------------------------------------------------------------------------------- */
+
+/* Two points per cell and direction, cells and points aligned, uniform stress: nothing moves an inner node. */
+static void test_mpm_rest(void **state)
+{
+    (void)state;
+    static const real from[DIM_MAX] = {4, 4, 4},
+                      to[DIM_MAX] = {8, 8, 8}; /* two cells from the edge: the cubic's reach */
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int shape = 0; shape < SHAPES; shape++) {
+            struct patch s = {0};
+            const enum space space = dim == 1 ? SPACE_LINE : dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID;
+            cloud_make(&s.c, &(struct cloud_plan){
+                                 .space = space, .count = {12, 12, 12}, .horizon = 3, .optional = WITH_STRETCH});
+            for (int64_t i = 0; i < s.c.p.n; i++) {
+                s.c.p.kind[i] = KIND_MPM;
+                for (int c = 0; c < symmetric_count(dim); c++) s.c.p.stress[c][i] = 1e6 * (c + 1);
+            }
+            particles_list(&s.c.p);
+            patch_grid(&s, 2, 0);
+            patch_map(&s, (enum shape)shape);
+            real face = 1e6 * pow(2 * CLOUD_SPACING, dim - 1) * s.c.source.family.section;
+            at_most("inner nodal force", patch_residual(&s, from, to) / face, 1e-12);     /* of about six stresses */
+            assert_true(patch_residual(&s, (real[]){-9, -9, -9}, (real[]){99, 99, 99}) >
+                        0.4 * face); /* the edge is felt */
+            patch_free(&s);
+        }
+}
+
+/* Points stretched by lambda under uniform stress: the worst residual of an inner node over sigma A, for the worst position
+ * of the points in their cells. 1D, two points per cell before the stretch. With the exact mean of the hat functions
+ * cpGIMP has none up to lambda = 4, where its width is two cells; beyond, it keeps that width and points part. */
+static real crossing_residual(enum shape shape, real lambda)
+{
+    real worst = 0;
+    for (int k = 0; k < 500; k++) {
+        struct patch s = {0};
+        cloud_make(&s.c,
+                   &(struct cloud_plan){.space = SPACE_LINE, .count = {30}, .horizon = 3, .optional = WITH_STRETCH});
+        struct particles *p = &s.c.p;
+        for (int64_t i = 0; i < p->n; i++) {
+            p->kind[i] = KIND_MPM;
+            p->x[0][i] = lambda * p->X[0][i] + (k + 0.5) / 500 * CLOUD_SPACING;
+            p->volume[i] = lambda * p->volume0[i];
+            p->stretch[0][i] = lambda;
+            p->stress[0][i] = 1;
+        }
+        particles_list(p);
+        patch_grid(&s, 2, 0);
+        patch_map(&s, shape);
+        worst = fmax(worst, patch_residual(&s, (real[]){8}, (real[]){30 * lambda - 8}) / s.c.source.family.section);
+        patch_free(&s);
+    }
+    return worst;
+}
+
+static void test_mpm_crossing(void **state)
+{
+    (void)state;
+    static const struct { real lambda, linear, gimp, cpgimp, quadratic; } row[] = {
+        {1.0, 0, 0, 0, 0}, {1.1, 0.55, 0.055, 0, 0.055}, {1.5, 0.75, 0.375, 0, 0.19},
+        {3.0, 1.5, 1.5, 0, 0.75}};
+    for (size_t k = 0; k < COUNT_OF(row); k++) {
+        /* printed to two digits, and 1 % for sampling the positions; exact zeros to round-off of places of up to 60 cells */
+        is_near("linear", crossing_residual(SHAPE_LINEAR, row[k].lambda), row[k].linear, 0.02 * row[k].linear + 1e-13);
+        is_near("uGIMP", crossing_residual(SHAPE_GIMP, row[k].lambda), row[k].gimp, 0.02 * row[k].gimp + 1e-13);
+        is_near("cpGIMP", crossing_residual(SHAPE_CPGIMP, row[k].lambda), row[k].cpgimp, 0.02 * row[k].cpgimp + 1e-13);
+        is_near("quadratic", crossing_residual(SHAPE_QUADRATIC, row[k].lambda), row[k].quadratic,
+                0.02 * row[k].quadratic + 1e-13);
+    }
+    at_most("cpGIMP, two cells wide", crossing_residual(SHAPE_CPGIMP, 4), 1e-13);
+    assert_true(crossing_residual(SHAPE_CPGIMP, 4.5) > 0.1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_pd_rest),
+        cmocka_unit_test(test_pd_lattice),
+        cmocka_unit_test(test_pd_isotropic),
+        cmocka_unit_test(test_pd_calibrations),
+        cmocka_unit_test(test_mpm_rest),
+        cmocka_unit_test(test_mpm_crossing),
+    };
+    team_make(2);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

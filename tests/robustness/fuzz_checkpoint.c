@@ -1,0 +1,71 @@
+/* floor 5: fuzz.h: checkpoints with any bytes and the right footer. They are refused in one line, or the run goes on for a few steps. */
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "output/checksum.h"
+#include "engine/engine.h"
+#include "fuzz.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+
+enum { STEPS = 3 };
+static const char text[] =
+    "space: plane stress\nthickness: 1 mm\nduration: 4 us\nmaterial: {young: 190 GPa, density: 7800, energy_release_rate: 100}\n"
+    "body: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\nparticles: {spacing: 1 mm}\ntime: {step: 0.2 us}\n"
+    "cracks: [{from: [0, 3 mm], to: [4 mm, 3 mm]}]\n"
+    "boundary: [{name: pull, velocity: [free, 10], region: {box: {from: [0, 5 mm], to: [8 mm, 6 mm]}}}]\n"
+    "output: {frames: 1, samples: 20, checkpoint: 0}\nprobes: [tip, break, reaction: {boundary: pull}]\n";
+static struct scene scene;
+static struct output out;
+
+/* An engine of the scene whose output is in the folder `fuzz_run`. */
+static void begin(struct engine *e)
+{
+    if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK) fuzz_fail("the scene", status_message());
+    *e = (struct engine){.quiet = true};
+    if (engine_make(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
+    e->quiet = true;
+    if (!out.folder && output_open(&out, "fuzz_run", scene.text, OUTPUT_OVERWRITE, false) != OK) fuzz_fail("the folder", status_message());
+}
+
+uint8_t *fuzz_checkpoint_seed(size_t *n)
+{
+    struct engine e;
+    char *bytes = NULL;
+    begin(&e);
+    if (engine_run(&e) != OK || file_get("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK) fuzz_fail("the run", status_message());
+    engine_free(&e);
+    uint8_t *seed = malloc(*n);
+    if (seed) memcpy(seed, bytes, *n -= FOOTER_BYTES);
+    memory_free(bytes);
+    return seed;
+}
+
+/* The bytes and a footer that fits become checkpoint.h5; there is no other. */
+static void put_checkpoint(const uint8_t *bytes, size_t n)
+{
+    static const char path[] = "fuzz_run/checkpoint.h5";
+    unlink("fuzz_run/checkpoint.previous.h5");
+    const int fd = open(path_aside(path).text, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (fd < 0 || write(fd, bytes, n) != (ssize_t)n) fuzz_fail("cannot write", "");
+    close(fd);
+    if (file_seal_whole(path) != OK || file_publish(path) != OK) fuzz_fail("cannot write", status_message());
+}
+
+void fuzz_checkpoint(const uint8_t *bytes, size_t n)
+{
+    struct engine e;
+    begin(&e);
+    put_checkpoint(bytes, n);
+    status_set(OK, "%s", "");
+    status s = checkpoint_read(&out, scene.text, engine_archive, &e);
+    if (s == OK) {
+        e.out = NULL;
+        if (e.steps > e.step && e.step >= 0) e.steps = e.step + STEPS < e.steps ? e.step + STEPS : e.steps;
+        s = engine_run(&e);
+    }
+    if (s != OK && (!status_message()[0] || strchr(status_message(), '\n'))) fuzz_fail("refused without a line", status_message());
+    engine_free(&e);
+}

@@ -1,0 +1,44 @@
+#!/bin/sh
+# floor 5: functions that no small scene and no other command reaches, by file, in build-coverage/uncovered.txt: to be read, there is no
+# share to be met. Benchmarks are left out.
+test_name=long_coverage
+. tests/support/summary.sh
+. tests/support/small_scenes.sh
+
+gcov=${GCOV:-gcov}
+command -v "$gcov" >/dev/null || { echo "gcov is missing: coverage not looked at"; exit 77; }
+echo 'int main(void) { return 0; }' >"$work/none.c"
+(cd "$work" && ${CC:-cc} --coverage -c none.c && ${CC:-cc} --coverage -o none none.o && ./none && "$gcov" -n none.gcda) >"$work/said" 2>&1 && grep -q "Lines executed" "$work/said" ||
+    { echo "${CC:-cc} and $gcov do not go together: coverage not looked at"; exit 77; }
+
+build=build-coverage
+instrumented $build "--coverage -fprofile-update=atomic" OPTIMISE=-O0 SETS=portable
+find $build -name '*.gcda' -exec rm {} +
+
+# ---- what runs ---------------------------------------------------------------------------------------------------------------
+
+reach() { shift; "$cleave" run -q -t 2 -o "$work/run" --overwrite "$@" >"$work/out" 2>&1 || fail "$*: $(cat "$work/out")"; }
+each_scene "${SCENES:-.}" reach
+plate="$kalthoff -s output.checkpoint=0"
+for command in "check $kalthoff" "run -q $plate -o $work/one" "run -q $plate -s method=pd -o $work/two" "compare $work/one $work/two" \
+    "plot $work/one" "help" "help --manual" "info"; do
+    "$cleave" $command >"$work/out" 2>&1 || fail "$command: $(cat "$work/out")"
+done
+rm "$work/one/summary.json"
+"$cleave" run -q -o "$work/one" --resume $plate >"$work/out" 2>&1 || fail "resume: $(cat "$work/out")"
+
+# ---- what did not ------------------------------------------------------------------------------------------------------------
+
+# Every function of an object once, with its share of lines; bodies of parallel regions belong to the function around them.
+for object in $(find "$build/src" "$build/kernels" -name "*.gcno"); do
+    "$gcov" -n -f -o "$(dirname "$object")" "$object" 2>"$work/err" | awk -v file="$(basename "${object%.gcno}" .portable)" '
+        /^Function / { name = substr($2, 2, length($2) - 2); next }
+        /^Lines executed/ && name != "" { if (name !~ /_omp_fn|^_sub_/) print file, name, $0 ~ /executed:0\.00%/; name = "" }
+        /^File / { exit }'
+done | sort -u >"$work/functions"
+awk '{ all++; if (!$3) next; none++; if ($1 != file) { printf "%s%s:", (file == "" ? "" : "\n"), $1; file = $1 } printf " %s", $2 }
+    END { printf "\n%d of %d functions are reached by no small scene\n", none, all }' "$work/functions" >$build/uncovered.txt
+tail -n 1 $build/uncovered.txt
+holds "functions are counted: $(wc -l <"$work/functions")" test "$(wc -l <"$work/functions")" -gt 1000
+holds "most are reached" test "$(awk '$3 { none++ } END { print none + 0 }' "$work/functions")" -lt $(($(wc -l <"$work/functions") / 2))
+finish

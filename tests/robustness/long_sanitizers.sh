@@ -1,0 +1,78 @@
+#!/bin/sh
+# floor 5: memory, undefined behaviour and leaks: small scenes of every kind, the other commands and refusals under the address and
+# the undefined-behaviour sanitizer. SETS: sets of kernels; the portable one alone as a rule, since each takes minutes to build.
+test_name=long_sanitizers
+. tests/support/summary.sh
+. tests/support/small_scenes.sh
+
+flags="-fsanitize=address,undefined,float-cast-overflow"
+echo 'int main(void) { return 0; }' >"$work/none.c"
+${CC:-cc} $flags -o "$work/none" "$work/none.c" >"$work/said" 2>&1 && "$work/none" >"$work/said" 2>&1 ||
+    { echo "${CC:-cc} builds nothing with the sanitizers: memory not looked at"; exit 77; }
+
+export ASAN_OPTIONS="detect_leaks=1 exitcode=99" LSAN_OPTIONS=exitcode=98 UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1 exitcode=97"
+
+# ---- the tools see what they are for ---------------------------------------------------------------------------------------
+
+cat >"$work/faults.c" <<'END'
+#include <stdlib.h>
+int main(int argc, char **argv)
+{
+    (void)argv;
+    volatile int *place = malloc(sizeof(int)), large = 1 << 30;
+    if (argc == 2) place[1] = 0;                     /* beyond its end */
+    if (argc == 3) large *= 4;                       /* beyond the largest int */
+    if (argc == 4) place = NULL;                     /* lost */
+    if (argc != 4) free((void *)place);
+    return 0;
+}
+END
+${CC:-cc} -g $flags -fno-sanitize-recover=all -o "$work/faults" "$work/faults.c" || fail "faults.c is not built"
+for arguments in "" 1 "1 2" "1 2 3"; do
+    "$work/faults" $arguments >"$work/said" 2>&1
+    result=$?
+    if [ -z "$arguments" ]; then is "no fault: exit status ($(head -n 3 "$work/said"))" $result 0
+    else holds "fault $arguments is seen" test $result -ge 97; fi
+done
+
+# ---- the program -----------------------------------------------------------------------------------------------------------
+
+instrumented build-sanitizers "$flags -fno-sanitize-recover=undefined -fno-omit-frame-pointer" OPTIMISE=-O0 SETS="${SETS:-portable}"
+
+# ends STATUS WHAT COMMAND...: this exit status and no report
+ends()
+{
+    wanted=$1 what=$2; shift 2
+    "$@" >"$work/out" 2>"$work/err"
+    is "$what: exit status" $? "$wanted"
+    holds "$what: $(grep -E -A 12 'runtime error|ERROR:' "$work/err" | head -n 40)" \
+        sh -c '! grep -q -E "runtime error|Sanitizer" "$1"' sh "$work/err"
+}
+
+clean()
+{
+    scene=$1; shift
+    for set in ${SETS:-portable}; do
+        CLEAVE_SIMD=$set ends 0 "$scene, $set" "$cleave" run -q -t 2 -o "$work/run" "$@"
+        rm -rf "$work/run"
+    done
+}
+each_scene "${SCENES:-.}" clean
+
+# what else there is to call, what is refused, and a run that is stopped and goes on
+plate="$kalthoff -s output.checkpoint=0"
+ends 0 "check" "$cleave" check $kalthoff
+ends 0 "a run" "$cleave" run -q -o "$work/one" $plate
+ends 0 "a run like it" "$cleave" run -q -o "$work/two" $plate -s method=pd
+ends 0 "compare" "$cleave" compare "$work/one" "$work/two"
+! command -v gnuplot >/dev/null || ends 0 "plot" "$cleave" plot "$work/one"
+rm "$work/one/summary.json"
+ends 0 "resume" "$cleave" run -q -o "$work/one" --resume $plate
+ends 0 "help" "$cleave" help
+ends 0 "info" "$cleave" info
+ends 2 "a word that is unknown" "$cleave" run "$work/meet.yaml" -o "$work/bad" -s method=none
+ends 2 "a number that is none" "$cleave" check "$work/meet.yaml" -s duration=long
+ends 2 "a file that is none" "$cleave" check "$work/none.yaml"
+printf 'body: [{box: {from: [0, 0]' >"$work/torn.yaml"
+ends 2 "half a file" "$cleave" check "$work/torn.yaml"
+finish

@@ -1,0 +1,498 @@
+/* floor 5: nothing is lost: every call of ours fails once, runs are stopped and killed in the midst of what they do, checkpoints are
+ * damaged; --resume always gets to the bits of a run that nobody disturbed. `test_faults whole` does the same with the calls of the
+ * whole process, libraries included (tests/robustness/long_faults.sh). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "faults.h"
+
+#ifndef __linux__
+int main(void)
+{
+    puts("no linker that wraps calls: not tested");
+    return 77;
+}
+#else
+
+#include <errno.h>
+#include <fcntl.h>
+#include <ftw.h>
+#include <libgen.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fault_scenes.h"
+#include "scene/scene.h"
+#include "trees.h"
+
+int __wrap_main(int argc, char **argv);
+
+enum { NAME = 256, SIGNAL = 1000, PATIENCE = 20 };             /* SIGNAL + 9: ended by signal 9; seconds until a run hangs */
+static const struct fault_plan undisturbed = {.deed = DO_NOTHING};
+
+static long *count;                      /* of the last run, in shared memory */
+static int wrong;                        /* what this process complained about */
+
+static void complain(const char *format, ...)
+{
+    va_list words;
+    va_start(words, format);
+    fputs("test_faults: ", stdout);
+    vprintf(format, words);
+    putchar('\n');
+    va_end(words);
+    wrong++;
+}
+
+/* ---- files --------------------------------------------------------------------------------------------------------------- */
+
+/* A run: the folder it is in, its scene and what it said. */
+struct place { char folder[NAME], scene[NAME], said[NAME]; };
+
+static struct place place_of(const char *name, const struct fault_scene *s)
+{
+    struct place p;
+    snprintf(p.folder, sizeof p.folder, "%s.%s", s->name, name);
+    snprintf(p.scene, sizeof p.scene, "%s.yaml", s->name);
+    snprintf(p.said, sizeof p.said, "%s.%s.err", s->name, name);
+    return p;
+}
+
+static void scene_put(const struct fault_scene *s)
+{
+    FILE *f = fopen(place_of("", s).scene, "w");
+    if (!f || fputs(s->text, f) < 0 || fclose(f) != 0) complain("cannot write %s", place_of("", s).scene);
+}
+
+/* The run's one line that is no warning; `lines`: how many such there are. */
+static const char *said(const struct place *p, int *lines)
+{
+    static char line[1024];
+    char next[1024];
+    FILE *f = fopen(p->said, "r");
+    *lines = 0, line[0] = '\0';
+    while (f && fgets(next, sizeof next, f))
+        if (strncmp(next, "warning: ", 9) != 0) memcpy(line, next, sizeof line), ++*lines;
+    if (f) fclose(f);
+    line[strcspn(line, "\n")] = '\0';
+    return line;
+}
+
+/* Two summaries agree as far as the machine has no part in them. */
+static bool same_figures(const char *a, const char *b)
+{
+    char x[1024], y[1024];
+    FILE *f = fopen(a, "r"), *g = fopen(b, "r");
+    bool same = f && g;
+    while (same && fgets(x, sizeof x, f) && !strstr(x, "\"threads\"")) same = fgets(y, sizeof y, g) && strcmp(x, y) == 0;
+    if (f) fclose(f);
+    if (g) fclose(g);
+    return same;
+}
+
+/* The walk over a reference: each of its files must be in the other folder, with the same bytes. */
+static const char *other;
+static size_t reference_length;
+static int files, differing;
+
+/* Checkpoints hold times taken; a lock that cannot be removed does not bind. */
+static bool is_beside(const char *name) { return name[0] == '.' || strncmp(name, "checkpoint", 10) == 0; }
+
+static int compare_one(const char *path, const struct stat *s, int type, struct FTW *walk)
+{
+    char there[2 * NAME];
+    (void)s;
+    if (type != FTW_F || is_beside(path + walk->base)) return 0;
+    snprintf(there, sizeof there, "%s%s", other, path + reference_length);
+    const bool same = strcmp(path + walk->base, "summary.json") == 0 ? same_figures(path, there) : fault_hash(path) == fault_hash(there);
+    files++;
+    if (!same) differing++, printf("    %s differs\n", there);
+    return 0;
+}
+
+static int count_one(const char *path, const struct stat *s, int type, struct FTW *walk)
+{
+    (void)s;
+    const size_t length = strlen(path);
+    if (type == FTW_F && !is_beside(path + walk->base)) files--;
+    if (length > 4 && strcmp(path + length - 4, ".tmp") == 0) files += 1000;
+    return 0;
+}
+
+/* The same files with the same bytes, and none besides. */
+static bool same(const struct place *reference, const struct place *p)
+{
+    other = p->folder, reference_length = strlen(reference->folder), files = differing = 0;
+    nftw(reference->folder, compare_one, 8, FTW_PHYS);
+    const bool some = files > 4;
+    nftw(p->folder, count_one, 8, FTW_PHYS);
+    if (files != 0) printf("    %s: other files than those of %s\n", p->folder, reference->folder);
+    return some && files == 0 && differing == 0;
+}
+
+/* ---- runs ------------------------------------------------------------------------------------------------------------------- */
+
+static _Noreturn void run_here(const struct fault_plan *plan, const struct place *p, int threads, bool resume)
+{
+    char number[16];
+    snprintf(number, sizeof number, "%d", threads);
+    char *words[] = {"cleave", "run", "-q", "-t", number, "-o", (char *)p->folder, (char *)p->scene, resume ? "--resume" : NULL, NULL};
+    const int out = open("/dev/null", O_WRONLY), err = open(p->said, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (out < 0 || err < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0) _exit(99);
+    close(out), close(err);
+    signal(SIGINT, SIG_DFL);
+    alarm(PATIENCE);
+    faults_arm(plan, count);
+    _exit(program_main(resume ? 9 : 8, words));
+}
+
+/* A run in a process of its own: its exit status, or SIGNAL + the signal that ended it. */
+static int run(const struct fault_plan *plan, const struct place *p, int threads, bool resume)
+{
+    int ended = 0;
+    fflush(NULL);
+    memset(count, 0, FAULT_CALLS * sizeof *count);
+    const pid_t child = fork();
+    if (child == 0) run_here(plan, p, threads, resume);
+    if (child < 0 || waitpid(child, &ended, 0) != child) return -1;
+    return WIFEXITED(ended) ? WEXITSTATUS(ended) : SIGNAL + WTERMSIG(ended);
+}
+
+static struct place reference_of(const struct fault_scene *s)
+{
+    const struct place p = place_of("reference", s);
+    scene_put(s);
+    remove_tree(p.folder);
+    const int end = run(&undisturbed, &p, 1, false);
+    int lines;
+    if (end != 0) complain("%s: status %d: %s", s->name, end, said(&p, &lines));
+    return p;
+}
+
+/* --resume, and all is there. */
+static void resumes(const char *what, const struct place *reference, const struct place *p, int threads)
+{
+    int lines;
+    const int end = run(&undisturbed, p, threads, true);
+    if (end != 0) complain("%s, then --resume: status %d: %s", what, end, said(p, &lines));
+    else if (!same(reference, p)) complain("%s, then --resume: other results", what);
+}
+
+/* Work for two processes, for two processors: what they complain about. */
+static int in_two(void (*share)(int worker))
+{
+    int all = 0;
+    pid_t worker[2];
+    fflush(NULL);
+    for (int k = 0; k < 2; k++) {
+        worker[k] = fork();
+        if (worker[k] != 0) continue;
+        wrong = 0;
+        count = mmap(NULL, FAULT_CALLS * sizeof *count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        share(k);
+        fflush(NULL);
+        _exit(wrong < 100 ? wrong : 100);
+    }
+    for (int k = 0; k < 2; k++) {
+        int ended = 0;
+        waitpid(worker[k], &ended, 0);
+        all += WIFEXITED(ended) ? WEXITSTATUS(ended) : 1;
+    }
+    return all;
+}
+
+/* ---- every call fails once --------------------------------------------------------------------------------------------------- */
+
+/* Every `step`-th call of a run fails. A run that fails here is resumed for each `look`-th of these, and a resumed one, stopped at sample 2
+ * before, meets them only then, too. `lossy`: libraries do not survive it; only that nothing is lost is asked for. */
+struct sweep { enum fault_call call; int cause, step, look; bool lossy; };
+
+static const struct sweep own_sweeps[] = {
+    {OWN_MALLOC, ENOMEM, 1, 16, false}, {OWN_OPEN, EMFILE, 1, 1, false},   {OWN_READ, EIO, 1, 1, false},
+    {OWN_WRITE, ENOSPC, 1, 1, false},  {OWN_FSYNC, EIO, 1, 1, false},     {OWN_CLOSE, EIO, 1, 1, false},
+    {OWN_RENAME, EACCES, 1, 1, false}, {OWN_MKDIR, EROFS, 1, 1, false},   {OWN_UNLINK, EACCES, 1, 1, false},
+    {ALL_WRITE, ENOSPC, 20, 1, false},
+};
+static const struct sweep whole_sweeps[] = {
+    {ALL_OPEN, EMFILE, 1, 1, false},  {ALL_WRITE, ENOSPC, 1, 1, false}, {ALL_FSYNC, EIO, 1, 1, false},
+    {ALL_RENAME, EIO, 1, 1, false},   {ALL_CLOSE, EIO, 1, 1, false},    {ALL_READ, EIO, 1, 1, false},
+    {ALL_MKDIR, ENOSPC, 1, 1, false}, {ALL_UNLINK, EIO, 1, 1, false},   {ALL_MMAP, ENOMEM, 1, 1, true},
+    {ALL_MALLOC, ENOMEM, 47, 1, true},
+};
+static const struct sweep *sweeps = own_sweeps;
+static int sweep_count = COUNT_OF(own_sweeps);
+static struct place small_reference;
+
+/* What a run that met a fault may do: finish as if there were none, or say in one line what failed. */
+static void outcome(const char *what, const struct place *p, int end, int cause)
+{
+    int lines;
+    const char *line = said(p, &lines);
+    if (end == 0) {
+        if (!same(&small_reference, p)) complain("%s: status 0 and other results", what);
+        return;
+    }
+    if (end != 1 && end != 2) complain("%s: status %d: %s", what, end, line);
+    else if (lines != 1) complain("%s: %d lines: %s", what, lines, line);
+    else if (!strstr(line, strerror(cause)) && !(cause == ENOMEM && strstr(line, "memory"))) complain("%s: no cause in: %s", what, line);
+}
+
+static void fail_at(const struct sweep *s, long number, const struct place *p, bool resumed, bool look)
+{
+    const struct fault_plan plan = {s->call, DO_FAIL, number, s->cause, 0}, stop = {AT_SAMPLE, DO_STOP, 2, 0, 0};
+    char what[NAME];
+    snprintf(what, sizeof what, "%s %ld %s", fault_name[s->call], number, resumed ? "of a resumed run" : "of a run");
+    remove_tree(p->folder);
+    if (resumed && run(&stop, p, 1, false) != 130) complain("%s: not stopped", what);
+    const int end = run(&plan, p, 1, resumed);
+    if (!s->lossy) outcome(what, p, end, s->cause);
+    if (look && (end != 0 || s->lossy)) resumes(what, &small_reference, p, 1);
+}
+
+static void sweep_share(int worker)
+{
+    static const struct fault_plan stop = {AT_SAMPLE, DO_STOP, 2, 0, 0};
+    const struct place p = place_of(worker ? "b" : "a", &small_scene);
+    long most[2][FAULT_CALLS];
+    for (int resumed = 0; resumed < 2; resumed++) {
+        remove_tree(p.folder);
+        if (resumed) (void)run(&stop, &p, 1, false);
+        (void)run(&undisturbed, &p, 1, resumed);
+        memcpy(most[resumed], count, sizeof most[resumed]);
+    }
+    for (const struct sweep *s = sweeps; s < sweeps + sweep_count; s++) {
+        if (worker == 0) printf("%s: %ld and %ld calls, one in %d\n", fault_name[s->call], most[0][s->call], most[1][s->call], s->step);
+        if (most[0][s->call] + most[1][s->call] == 0) complain("%s: never called", fault_name[s->call]);
+        for (int resumed = 0; resumed < 2; resumed++)
+            for (long k = worker; 1 + k * s->step <= most[resumed][s->call]; k += 2) {
+                const bool look = k / 2 % s->look == 0;
+                if (look || !resumed) fail_at(s, 1 + k * s->step, &p, resumed, look);
+            }
+    }
+}
+
+static void failing_calls_lose_nothing(void **state)
+{
+    (void)state;
+    small_reference = reference_of(&small_scene);
+    assert_int_equal(in_two(sweep_share), 0);
+}
+
+/* ---- stopped and killed ------------------------------------------------------------------------------------------------------- */
+
+static void every_probe_is_watched(void **state)
+{
+    bool watched[64] = {false};
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(fault_scenes); k++) {
+        struct scene s;
+        if (scene_read_text(&s, fault_scenes[k].text, strlen(fault_scenes[k].text), fault_scenes[k].name, NULL, 0) != OK)
+            fail_msg("%s", status_message());
+        for (int q = 0; q < s.probes; q++) watched[s.probe[q].kind] = true;
+        scene_free(&s);
+    }
+    for (int kind = 0; kind < PROBES; kind++)
+        if (!watched[kind]) fail_msg("no scene has probe %d", kind);
+}
+
+/* A run that is ended `times` times, each time by `deed` at the `number`-th call of `place` (0: such that it gets through), and goes on
+ * each time on another number of threads. */
+static void disturb(const struct fault_scene *s, enum fault_call place, long number, enum fault_deed deed, int times)
+{
+    const struct place reference = reference_of(s), p = place_of("disturbed", s);
+    const struct fault_plan plan = {place, deed, number > 0 ? number : count[place] / (times + 1), 0, 0};
+    const int expected = deed == DO_STOP ? 130 : SIGNAL + SIGKILL;
+    char what[NAME];
+    printf("%s: %d times in %ld calls of %s\n", s->name, times, count[place], fault_name[place]);
+    remove_tree(p.folder);
+    for (int k = 0; k < times; k++) {
+        const int end = run(&plan, &p, 1 + k % 3, k > 0);
+        int lines;
+        if (end != expected) complain("%s, ended at %s, time %d: status %d: %s", s->name, fault_name[place], k, end, said(&p, &lines));
+    }
+    snprintf(what, sizeof what, "%s, ended at %s", s->name, fault_name[place]);
+    resumes(what, &reference, &p, 2);
+}
+
+static void stop_share(int worker)
+{
+    for (size_t k = (size_t)worker; k < COUNT_OF(fault_scenes); k += 2) disturb(&fault_scenes[k], AT_SAMPLE, 0, DO_STOP, 4);
+}
+
+static void stopped_runs_resume(void **state)
+{
+    (void)state;
+    assert_int_equal(in_two(stop_share), 0);
+}
+
+/* A resumed run couples once when it starts, and once more where it was killed. */
+static void kill_share(int worker)
+{
+    if (worker == 0) disturb(&converting_scene, AT_CONVERSION, 7, DO_KILL, 10);
+    else disturb(&passing_scene, AT_COUPLING, 3, DO_KILL, 10);
+}
+
+static void killed_runs_resume(void **state)
+{
+    (void)state;
+    assert_int_equal(in_two(kill_share), 0);
+}
+
+/* ---- order -------------------------------------------------------------------------------------------------------------------- */
+
+static void folder_of(const char *path, char *folder)
+{
+    snprintf(folder, NAME, "%s", path);
+    char *slash = strrchr(folder, '/');
+    if (slash) *slash = '\0';
+    else strcpy(folder, ".");
+}
+
+struct log_line { char what[8], path[NAME], to[NAME]; unsigned long hash; };
+
+/* Line `from` and those before it (`step` -1) or behind it (1): the first sync of this path, -1 where there is none before a line of
+ * `end` (NULL: none ends it). */
+static int find_sync(const struct log_line *line, int lines, int from, int step, const char *path, const char *end)
+{
+    for (int k = from; k >= 0 && k < lines; k += step) {
+        if (strcmp(line[k].what, "fsync") == 0 && strcmp(line[k].path, path) == 0) return k;
+        if (k != from && end && strcmp(line[k].what, "rename") == 0 && strcmp(line[k].to, end) == 0) return -1;
+    }
+    return -1;
+}
+
+/* Renamed files are whole on the disk before, and their new names after, before the next of that name. */
+static void check_rename(const struct log_line *line, int lines, int k)
+{
+    char folder[NAME], history[2 * NAME];
+    const char *name = strrchr(line[k].to, '/') + 1;
+    const int synced = find_sync(line, lines, k, -1, line[k].path, NULL);
+    folder_of(line[k].to, folder);
+    snprintf(history, sizeof history, "%s/history.csv", folder);
+    if (strcmp(name, "checkpoint.previous.h5") == 0) return;           /* was synced under its first name */
+    if (synced < 0 || line[synced].hash != line[k].hash) complain("%s is not on the disk when it gets its name", name);
+    if (find_sync(line, lines, k, 1, folder, line[k].to) < 0) complain("the name of %s is not on the disk", name);
+    if (strcmp(name, "checkpoint.h5") == 0 && line[k].hash && find_sync(line, lines, k, -1, history, line[k].to) < 0)
+        complain("a checkpoint counts on samples that are not on the disk");
+}
+
+static int read_log(struct log_line *line, int room)
+{
+    int lines = 0;
+    FILE *f = fopen("log", "r");
+    while (f && lines < room &&
+           fscanf(f, "%7s %255s %255s %lu\n", line[lines].what, line[lines].path, line[lines].to, &line[lines].hash) == 4) lines++;
+    if (f) fclose(f);
+    return lines;
+}
+
+static void files_are_synced_in_order(void **state)
+{
+    enum { ROOM = 1000 };
+    static struct log_line line[ROOM];
+    char here[NAME - 32], folder[NAME], newest[NAME + 32];
+    struct place p = place_of("order", &small_scene);
+    (void)state;
+    wrong = 0;
+    remove_tree("new");
+    scene_put(&small_scene);
+    assert_non_null(getcwd(here, sizeof here));
+    snprintf(p.folder, sizeof p.folder, "%s/new/below", here);         /* two new folders, and frames in it */
+    const struct fault_plan plan = {.log = open("log", O_CREAT | O_TRUNC | O_WRONLY | O_APPEND, 0666)};
+    assert_int_equal(run(&plan, &p, 1, false), 0);
+    close(plan.log);
+    const int lines = read_log(line, ROOM);
+    int renames = 0, folders = 0, checkpoint = -1;
+    snprintf(newest, sizeof newest, "%s/checkpoint.h5", p.folder);
+    for (int k = 0; k < lines; k++) {
+        if (strcmp(line[k].what, "rename") == 0) check_rename(line, lines, k), renames++;
+        if (checkpoint < 0 && strcmp(line[k].to, newest) == 0) checkpoint = k;
+    }
+    for (int k = 0; k < lines; k++) {
+        if (strcmp(line[k].what, "mkdir") != 0) continue;
+        folder_of(line[k].path, folder), folders++;
+        const int synced = find_sync(line, lines, k, 1, folder, NULL);
+        if (synced < 0 || synced > checkpoint) complain("the name of the new folder %s is not on the disk", line[k].path);
+    }
+    assert_true(renames > 10 && folders == 3);
+    assert_int_equal(wrong, 0);
+}
+
+/* ---- damage ------------------------------------------------------------------------------------------------------------------- */
+
+/* Inverts a bit of a file. */
+static bool flip(const char *path, uint64_t at)
+{
+    unsigned char byte = 0;
+    struct stat s;
+    const int fd = open(path, O_RDWR);
+    bool done = fd >= 0 && fstat(fd, &s) == 0 && s.st_size > 0;
+    const off_t place = done ? (off_t)(at % (uint64_t)s.st_size) : 0;
+    done = done && pread(fd, &byte, 1, place) == 1;
+    byte ^= (unsigned char)(1u << at % 8);
+    done = done && pwrite(fd, &byte, 1, place) == 1;
+    if (fd >= 0) close(fd);
+    return done;
+}
+
+/* Half of 60 bits of the checkpoint of a run, all over it: none passes for whole, the one before it serves. */
+static void flip_share(int worker)
+{
+    static const struct fault_plan stop = {AT_SAMPLE, DO_STOP, 2, 0, 0};
+    const struct place p = place_of(worker ? "b" : "a", &small_scene);
+    char newest[2 * NAME], what[NAME];
+    snprintf(newest, sizeof newest, "%s/checkpoint.h5", p.folder);
+    for (uint64_t k = (uint64_t)worker; k < 60; k += 2) {
+        int lines;
+        remove_tree(p.folder);
+        snprintf(what, sizeof what, "flip %d", (int)k);
+        if (run(&stop, &p, 1, false) != 130 || !flip(newest, k * UINT64_C(0x9E3779B97F4A7C15) >> 16)) complain("%s: no checkpoint", what);
+        resumes(what, &small_reference, &p, 1);
+        if (!strstr(said(&p, &lines), "resuming from checkpoint.previous.h5")) complain("%s is not found: %s", what, said(&p, &lines));
+    }
+}
+
+static void damaged_checkpoints_are_found(void **state)
+{
+    (void)state;
+    small_reference = reference_of(&small_scene);
+    assert_int_equal(in_two(flip_share), 0);
+}
+
+/* All files of the tests lie beside the program. */
+static int enter(char *program, const char *name)
+{
+    return chdir(dirname(program)) != 0 || (mkdir(name, 0777) != 0 && errno != EEXIST) || chdir(name) != 0;
+}
+
+int __wrap_main(int argc, char **argv)
+{
+    static const struct CMUnitTest whole[] = {cmocka_unit_test(failing_calls_lose_nothing)};
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_probe_is_watched),     cmocka_unit_test(failing_calls_lose_nothing),
+        cmocka_unit_test(stopped_runs_resume),        cmocka_unit_test(killed_runs_resume),
+        cmocka_unit_test(files_are_synced_in_order),  cmocka_unit_test(damaged_checkpoints_are_found),
+    };
+    const bool of_all = argc > 1 && strcmp(argv[1], "whole") == 0;
+    if (argc > 1 && !of_all) cmocka_set_test_filter(argv[1]);        /* one of them: its name */
+    const char *folder = of_all ? "long_faults.files" : "test_faults.files";
+    if (enter(argv[0], folder) != 0) return 1;
+    setenv("GOMP_SPINCOUNT", "2000", 1);             /* the program would run itself again */
+    setenv("HWLOC_SYNTHETIC", "core:2 pu:1", 1);     /* to look at the machine takes longer than these runs */
+    count = mmap(NULL, FAULT_CALLS * sizeof *count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (of_all) sweeps = whole_sweeps, sweep_count = COUNT_OF(whole_sweeps);
+    const int failed = of_all ? cmocka_run_group_tests(whole, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
+    if (failed == 0 && chdir("..") == 0) remove_tree(folder);
+    return failed;
+}
+
+#endif

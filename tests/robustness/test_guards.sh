@@ -1,0 +1,224 @@
+#!/bin/sh
+# floor 5: guards round a run: whose folder it is, what an older run there is worth, and descriptors that are not there.
+test_name=test_guards
+. tests/support/summary.sh
+. tests/support/trust.sh
+small="inputs/kalthoff_winkler.yaml -s particles.spacing=4mm -s output.frames=4 -s output.samples=40"
+
+# ---- an older run -----------------------------------------------------------------------------------------------
+
+calm "$work/once" $small -t 1
+cp -r "$work/once" "$work/kept"
+refused "the same command again" "$work/kept" "holds a finished run of this scene; go on with --resume, replace it with --overwrite" $small
+same "left alone" "$work/once" "$work/kept"
+calm "$work/kept" $small --overwrite
+same "replaced" "$work/once" "$work/kept"
+refused "both" "$work/kept" "one of them" $small --resume --overwrite
+sed -i 's/"done"/"failed"/' "$work/kept/summary.json"
+refused "a failed run" "$work/kept" "holds a failed run of this scene" $small
+rm "$work/kept/summary.json"
+refused "an interrupted run" "$work/kept" "holds an interrupted run of this scene" $small
+rm "$work/kept"/checkpoint*.h5
+refused "without its checkpoints" "$work/kept" "whose checkpoints are gone; replace it with --overwrite" $small --resume
+"$cleave" run -q -o "$work/new" $small --resume 2>"$work/err"
+is "nothing to resume: exit status" $? 0
+holds "nothing to resume: said" grep -q "^warning: nothing to resume in $work/new" "$work/err"
+same "nothing to resume" "$work/once" "$work/new"
+
+# ---- two at a time -----------------------------------------------------------------------------------------------
+
+"$cleave" run -q -o "$work/live" $flat -s particles.spacing=1mm -t 1 2>/dev/null &
+first=$!
+await "$work/live" 3 $first
+kill -STOP $first                        # it holds the folder, however fast the machine
+for how in --resume --overwrite ""; do
+    refused "a second run $how" "$work/live" "live: process $first on .* runs in it" $flat -s particles.spacing=1mm $how
+done
+kill -KILL $first
+wait $first 2>/dev/null
+holds "the lock of a dead process" test -e "$work/live/.running"
+refused "a dead run of another scene" "$work/live" "another scene .*--overwrite" $small
+calm "$work/live" $flat -s particles.spacing=1mm --resume        # locks of dead processes do not bind
+holds "the lock goes with the run" test ! -e "$work/live/.running"
+
+calm "$work/live" $small --overwrite
+same "another scene, replaced" "$work/once" "$work/live"
+
+# a folder that goes while a run is in it: the next run there has it to itself
+"$cleave" run -q -o "$work/gone" $flat -s particles.spacing=1mm -s output.checkpoint=0 2>"$work/err_gone" &
+first=$!
+await "$work/gone" 3 $first
+kill -STOP $first
+mv "$work/gone" "$work/moved"
+calm "$work/gone" $small
+kill -CONT $first
+wait $first
+is "a folder that is moved: exit status" $? 1
+holds "a folder that is moved: said" grep -q "gone was moved, removed or exchanged" "$work/err_gone"
+same "a folder that is moved: the next run" "$work/once" "$work/gone"
+
+# a lock that is a file of somebody else's too
+echo mine >"$work/mine"
+ln "$work/mine" "$work/once/.running"
+refused "a lock with another name" "$work/once" "running has another name elsewhere" $small --overwrite
+is "and what is in it" "$(cat "$work/mine")" mine
+rm "$work/once/.running"
+
+# ---- files of others ---------------------------------------------------------------------------------------------
+
+mkdir -p "$work/desk" "$work/elsewhere"
+echo mine >"$work/desk/thesis.tmp"
+ln -s "$work/elsewhere/made" "$work/desk/scene.yaml.tmp"
+ln -s "$work/elsewhere/made" "$work/desk/along_000000.csv.tmp"
+sed 's/^probes: .tip./probes: [tip, {line: {name: along, from: [0, 10 mm], to: [50 mm, 10 mm]}}]/' inputs/kalthoff_winkler.yaml >"$work/along.yaml"
+holds "the scene has the probe" grep -q along "$work/along.yaml"
+calm "$work/desk" $(echo "$small" | sed "s#inputs/kalthoff_winkler.yaml#$work/along.yaml#")
+is "somebody's file" "$(cat "$work/desk/thesis.tmp")" mine
+holds "a link is not written through" test ! -e "$work/elsewhere/made"
+mkdir "$work/linked"
+touch "$work/elsewhere/000000.hdf"
+ln -s "$work/elsewhere" "$work/linked/frames"
+refused "a folder of frames that is a link" "$work/linked" "frames is a link" $small
+holds "what it leads to stays" test -e "$work/elsewhere/000000.hdf"
+
+cp -r "$work/once" "$work/|touch PWNED;echo "
+(cd "$work" && "$cleave" plot '|touch PWNED;echo ' >"$work/out" 2>&1)
+is "a folder that looks like a command: exit status" $? 0
+for name in damage energy; do
+    echo thesis >"$work/thesis"
+    ln -sf "$work/thesis" "$work/once/pictures/$name.png.tmp" 2>/dev/null ||
+        { mkdir "$work/once/pictures"; ln -s "$work/thesis" "$work/once/pictures/$name.png.tmp"; }
+done
+"$cleave" plot "$work/once" >"$work/out" 2>&1
+is "a picture writes through no link" "$(cat "$work/thesis")" thesis
+rm -r "$work/once/pictures"
+ln -s "$work" "$work/once/pictures"
+"$cleave" plot "$work/once" >"$work/out" 2>"$work/err"
+is "a folder of pictures that is a link" $? 2
+rm "$work/once/pictures"
+tabbed=$(printf '%s/a\tb' "$work")
+cp -r "$work/once" "$tabbed"
+"$cleave" plot "$tabbed" >"$work/out" 2>"$work/err"
+is "a folder with a tab: exit status" $? 2
+is "a folder with a tab: lines" "$(wc -l <"$work/err")" 1
+rm -r "$tabbed"
+holds "no command runs" test ! -e "$work/PWNED"
+holds "its pictures" test -e "$work/|touch PWNED;echo /pictures/energy.png"
+
+# ---- particle lists ----------------------------------------------------------------------------------------------
+
+mkdir "$work/lists"
+awk 'BEGIN { print "x,y,volume"; for (k = 0; k < 400; k++) print (k % 20 + 0.5) * 1e-3 "," (int(k / 20) + 0.5) * 1e-3 ",1e-9" }' >"$work/lists/grains.csv"
+cat >"$work/lists/grains.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 20 us
+method: pd
+material: {young: 200 GPa, poisson: 1/3, density: 7800}
+particles: {spacing: 1 mm}
+bodies: [{particles: grains.csv}]
+boundary: [{name: pull, traction: [1 MPa, 0], face: x+}]
+END
+(cd "$work/lists" && "$cleave" run -q -o ran grains.yaml) || fail "a particle list"
+mv "$work/lists/grains.yaml" "$work/lists/moved.yaml"
+calm "$work/again" "$work/lists/ran/scene.yaml"
+is "its echo, run from elsewhere" "$(cat "$work/again/history.csv")" "$(cat "$work/lists/ran/history.csv")"
+calm "$work/again" "$work/lists/ran/scene.yaml" --resume
+mkdir "$work/lists/deeper"
+cp "$work/lists/grains.csv" "$work/lists/deeper"
+cp "$work/lists/moved.yaml" "$work/lists/deeper/grains.yaml"
+calm "$work/again" "$work/lists/deeper/grains.yaml" --resume     # the same contents in another place
+sed -i '7s/1e-9/1.1e-9/' "$work/lists/grains.csv"
+refused "a list that changed" "$work/again" "line [0-9]* was .particles: .*grains.csv.*contents .*and is" "$work/lists/ran/scene.yaml" --resume
+calm "$work/again" "$work/lists/ran/scene.yaml" --overwrite
+
+# ---- frames that are lost or damaged ------------------------------------------------------------------------------
+
+rm -rf "$work/part"
+interrupted "$work/part" 30 $small -s output.frames=6
+rm "$work/part/frames/000001.hdf"
+printf 'short' >"$work/part/frames/000003.hdf"
+warned "frames that are lost" "$work/part" "frames/000001.hdf is missing, and 1 frames more are lost" $small -s output.frames=6 --resume
+is "the index leaves them out" "$(grep -c '"time"' "$work/part/frames.hdf.series")" 5
+is "and so does the other" "$(grep -c '<Time ' "$work/part/frames.xdmf")" 5
+holds "plots go on" "$cleave" plot "$work/part" --frames all >/dev/null
+holds "a picture of the frame behind the gap" test -e "$work/part/pictures/damage_000004.png"
+calm "$work/whole" $small -s output.frames=6
+for frame in 000000 000002 000006; do holds "frame $frame" cmp "$work/part/frames/$frame.hdf" "$work/whole/frames/$frame.hdf"; done
+# profiles of probes: those that are lost are named, and those of a longer run go with it
+cat >"$work/lined.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 20 us
+material: {young: 200 GPa, density: 8000}
+body: {box: {from: [0, 0], to: [80 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+initial: [{pulse: {at: [40 mm, 0], width: 32 mm, velocity: -10 m/s, direction: [1, 0]}}]
+output: {frames: 4, samples: 60}
+probes: [{line: {name: axis, from: [0, 5 mm], to: [80 mm, 5 mm]}}]
+END
+calm "$work/lined" "$work/lined.yaml"
+interrupted "$work/profiles" 30 "$work/lined.yaml"
+rm "$work/profiles/axis_000000.csv" "$work/profiles/axis_000001.csv"
+warned "profiles that are lost" "$work/profiles" "axis_000000.csv is missing, and 1 profiles more are" "$work/lined.yaml" --resume
+for k in 2 3 4; do holds "profile $k" cmp "$work/profiles/axis_00000$k.csv" "$work/lined/axis_00000$k.csv"; done
+calm "$work/lined" "$work/lined.yaml" -s output.frames=2 --overwrite
+is "profiles of fewer frames" "$(ls "$work/lined" | grep -c '^axis_')" 3
+size=$(wc -c <"$work/whole/frames/000006.hdf")
+for k in 1 2 3 4 5 6 7 8 9 10 11 12; do
+    cp "$work/whole/frames/000006.hdf" "$work/frame"
+    at=$((size * k / 13))
+    byte=$(od -An -tu1 -j "$at" -N 1 "$work/frame" | tr -d ' ')
+    printf "\\$(printf %o $((byte ^ 4)))" | dd of="$work/whole/frames/000006.hdf" bs=1 seek="$at" conv=notrunc 2>/dev/null
+    "$cleave" compare "$work/part" "$work/whole" >"$work/out" 2>"$work/err"
+    is "byte $at of a frame: exit status" $? 1
+    holds "byte $at of a frame: $(cat "$work/err")" grep -q "000006.hdf: it is" "$work/err"
+    cp "$work/frame" "$work/whole/frames/000006.hdf"
+done
+holds "the frame as it was" "$cleave" compare "$work/part" "$work/whole" >/dev/null
+
+# ---- what is promised --------------------------------------------------------------------------------------------
+
+"$cleave" help trust >"$work/promises" || fail "help trust"
+for test in $(grep -o '\(test\|long\)_[a-z_]*\.\(sh\|c\)' "$work/promises" | sort -u); do
+    holds "$test, which help trust names, is there" test -n "$(find tests -name "$test")"
+    holds "$test is explained in tests/README.md" grep -q "${test%.*}" tests/README.md
+done
+
+# frames that changed places, a history of another run, warnings of a run that is over
+cp -r "$work/whole" "$work/swapped"
+mv "$work/swapped/frames/000001.hdf" "$work/frame"
+mv "$work/swapped/frames/000002.hdf" "$work/swapped/frames/000001.hdf"
+mv "$work/frame" "$work/swapped/frames/000002.hdf"
+warned "frames that changed places" "$work/swapped" "frames/000001.hdf is another one, and 1 frames more" $small -s output.frames=6 --resume
+sed -i '5s/1/2/' "$work/swapped/history.csv"
+stopped "a history that changed" "$work/swapped" "history.csv is not what it was.*--overwrite" $small -s output.frames=6 --resume
+mkfifo "$work/pipe"
+mv "$work/pipe" "$work/swapped/history.csv" 2>/dev/null
+"$cleave" compare "$work/swapped" "$work/whole" >"$work/out" 2>"$work/err"
+is "a history that is a pipe: exit status" $? 1
+rm -r "$work/swapped"
+
+# ---- descriptors ---------------------------------------------------------------------------------------------------
+
+"$cleave" run -o "$work/closed" $small 0<&- 1>&- 2>&-
+is "no descriptors: exit status" $? 0
+same "no descriptors" "$work/once" "$work/closed"
+
+# ---- what is no number -------------------------------------------------------------------------------------------
+
+sed 's/^boundary:/boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 0, tangential: held}}/' inputs/kalthoff_winkler.yaml >"$work/twice.yaml"
+refused "two mirrors in one place" "$work/twice" "its mirror stands where that of" "$work/twice.yaml"
+"$cleave" run -q -o "$work/lost" $small -s material.young=1e-300 2>"$work/err"
+holds "a modulus of nothing: exit status" test $? -ne 0
+holds "a modulus of nothing: no number that is none" test -z "$(cut -d, -f3-8 "$work/lost/history.csv" 2>/dev/null | grep -i 'nan\|inf')"
+
+# ---- reactions across a stop -------------------------------------------------------------------------------------
+
+load="inputs/load_displacement.yaml -s particles.spacing=1mm -s output.samples=800 -s output.checkpoint=10ms"
+calm "$work/load" $load
+interrupted "$work/load_stopped" 300 $load
+calm "$work/load_stopped" $load --resume
+same "reactions, interrupted" "$work/load" "$work/load_stopped"
+
+finish

@@ -1,0 +1,35 @@
+#!/bin/sh
+# floor 5: limits of memory: scenes that need more are refused, and whoever runs out, this program or a library, leaves one line.
+test_name=test_little_memory
+. tests/support/summary.sh
+. tests/support/trust.sh
+solid="inputs/kalthoff_winkler_3d.yaml -s particles.spacing=2mm -s duration=1us -s output.frames=2 -s output.samples=4 -s output.checkpoint=0"
+(ulimit -v 4000000 && "$cleave" info >/dev/null 2>&1) || { echo "ulimit -v is not to be had here"; exit 77; }
+
+# within MEGABYTES THREADS: a run under that limit; $result: its status.
+within()
+{
+    (ulimit -v $(($1 * 1024)); exec "$cleave" run -q -t "$2" -o "$work/r" --overwrite $solid) >"$work/out" 2>"$work/err"
+    result=$?
+}
+
+# the least the loader needs is not ours to say
+least=24
+until (ulimit -v $((least * 1024)); "$cleave" --help) >/dev/null 2>&1; do least=$((least + 4)); done
+for threads in 1 2; do
+    megabytes=$((least + 4)) failed=0
+    while [ $megabytes -lt 400 ]; do
+        within $megabytes $threads
+        case $result in
+            0) pass ;;
+            1) is "$megabytes MB, $threads threads: lines: $(cat "$work/err")" "$(wc -l <"$work/err")" 1; failed=$((failed + 1)) ;;
+            *) fail "$megabytes MB, $threads threads: status $result: $(cat "$work/err")" ;;
+        esac
+        megabytes=$((megabytes + 1 + megabytes / 16))
+    done
+    holds "with $threads threads, some limits were too small and the largest was not" test $failed -gt 2 -a $result -eq 0
+done
+(ulimit -v 1500000; exec "$cleave" run -q -o "$work/large" $solid -s method=pd -s particles.spacing=0.3mm) 2>"$work/err"
+is "a scene beyond the limit: exit status" $? 2
+holds "a scene beyond the limit: $(cat "$work/err")" grep -q 'GB, and 1.[0-9] can be had' "$work/err"
+finish

@@ -1,0 +1,314 @@
+#!/bin/sh
+# floor 5: what the program refuses: exit status 2, one line on standard error that says where and what, and nothing left behind.
+test_name=test_refusals
+. tests/support/summary.sh
+cd "$work" || exit 1
+
+cat >good.yaml <<'END'
+name: plate
+space: plane stress
+thickness: 10 mm
+duration: 1 us
+method: adaptive
+material: {young: 190 GPa, density: 7800 kg/m^3, energy_release_rate: 69 kJ/m^2}
+body:
+  - box: {from: [0, 0], to: [20 mm, 10 mm]}
+  - subtract: {disc: {centre: [5 mm, 5 mm], radius: 2 mm}}
+particles: {spacing: 1 mm, horizon: 3.015}
+mpm: {shape: gimp, transfer: flip}
+cracks:
+  - {from: [10 mm, 5 mm], to: [20 mm, 5 mm]}
+boundary:
+  - name: pull
+    velocity: [free, 1 m/s]
+    region: {box: {from: [0, 9 mm], to: [20 mm, 10 mm]}}
+    time: {step: {until: 5 us}}
+output: {frames: 2, samples: 2}
+probes: [tip, {point: {at: [1 mm, 1 mm]}}, {reaction: {boundary: pull}}]
+END
+
+# nothing_left WHAT: only what this script put there.
+nothing_left()
+{
+    is "$1: left behind" "$(find . -mindepth 1 ! -name cleave ! -name good.yaml ! -name bad.yaml ! -name out ! -name err ! -path './kept*')" ""
+}
+
+# replace LINE TEXT: bad.yaml is the good scene but for one line; ^ is a line break.
+replace()
+{
+    LINE=$1 TEXT=$2 awk 'NR == ENVIRON["LINE"] { text = ENVIRON["TEXT"]; gsub(/\^/, "\n", text); print text; next } { print }' \
+        good.yaml >bad.yaml
+}
+
+# ended WHAT STATUS START WORDS: the last program's exit status, and its one line: how it begins, what it holds.
+ended()
+{
+    is "$1: exit status" "$2" 2
+    is "$1: lines on standard error" "$(wc -l <err)" 1
+    is "$1: standard output" "$(cat out)" ""
+    case $(cat err) in
+        "$3"*"$4"*) pass ;;
+        *) fail "$1: says '$(cat err)', not '$3 .. $4'" ;;
+    esac
+    nothing_left "$1"
+}
+
+# The good scene runs: what is refused below is refused for its one change.
+"$cleave" check good.yaml >out 2>err || fail "the good scene: $(cat err)"
+"$cleave" run good.yaml -q -o kept >out 2>err || fail "the good scene: $(cat err)"
+nothing_left "the good scene"
+
+# ---- scenes ----------------------------------------------------------------------------------------------------------
+
+# Line of the good scene | what stands in its place, ^ for a line break | line:column of the complaint | words of it.
+# `run` must refuse it; `check` must say the same.
+while IFS='|' read -r line text place words; do
+    replace "$line" "$text"
+    "$cleave" run bad.yaml >out 2>err
+    ended "$text" $? "bad.yaml:$place: " "$words"
+    cp err kept/err
+    "$cleave" check bad.yaml >out 2>err
+    ended "check: $text" $? "$(cat kept/err)" ""
+done <<'END'
+1|nme: plate|1:1|nme: unknown key; the nearest is name
+1|name: ../plate|1:1|is no name
+1|name: plate^name: plate|2:1|given twice
+1|name: &anchor plate|1:7|anchor
+1|name: *anchor|1:7|alias
+1|name: !!python/object plate|1:7|tag
+1|name: plate^<<: {a: 1}|2:1|merge
+1|name: [[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]|1:22|deeper than 16
+1|{|3:10|not YAML
+1|"name|21:1|unexpected end of stream
+2|space: plane|2:1|plane stress
+2|space: solid|3:1|thickness
+2||1:1|space: missing
+3||1:1|thickness: missing
+3|thickness: 10 kg|3:1|a length is expected
+3|thickness: 0|3:1|out of range
+3|thickness: -1e-3|3:1|out of range
+3|thickness: 1e-400|3:1|out of range
+4|duration: .inf|4:1|not a number
+4|duration: nan|4:1|not a number
+4|duration: 1e999 s|4:1|not finite
+4|duration: 1 us us|4:1|is not a time
+4|duration: 1:30|4:1|base 60
+4|duration: yes|4:1|not a number
+4|duration: 0x10 us|4:1|hexadecimal
+4|duration: 1/0 us|4:1|divides by 0
+4|duration: [1 us]|4:1|a list is not a number
+5|method: magic|5:1|pd, mpm, adaptive or auto
+5|method: auto|5:1|leave keys of pd, mpm, model and spacing to auto
+5|method: adaptive^accuracy: 1 %|6:1|no meaning without method: auto
+5|model: lps|5:1|bond, ospd or mospd
+5|solver: cg|5:1|cg is for method pd
+5|coupling: glue|5:1|partial stress, handshake, pm, pg, pmg or pgg
+6|material: {young: -1, density: 7800}|6:12|out of range
+6|material: {density: 7800}|6:1|young: missing
+6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|1/3 is expected
+6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given beside critical_stretch
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|no slope below young
+6|material: steel|6:1|not a mapping
+8|  - box: {from: [0, 0], to: [20 mm, 10 mm, 1]}|8:25|3 components
+8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not below to
+8|  - box: {from: [0, 0], to: [inf, 10 mm]}|8:30|not finite
+8|  - ball: {centre: [0, 0], radius: 1e30}|10:13|particles; 2e9 is the most
+8|  - cylinder: {radius: 1}|8:5|not in space plane stress
+8|  - half-space: {point: [0, 0], normal: [1, 0]}|8:5|infinite
+8|  - torus: {radius: 1}|8:5|unknown key
+10|particles: {spacing: 1 mm, horizon: 0.8}|10:28|smaller than one spacing; 3.015 is usual
+10|particles: {spacing: 1 mm, horizon: 100}|10:28|out of range
+10|particles: {spacing: 1 nm}|10:13|2e9 is the most
+10|particles: {spacing: 1 mm, irregularity: 2}|10:28|out of range
+10|particles: {spacing: 1 mm, seed: 1.5}|10:28|whole number
+10|particles: {}|10:1|spacing: missing
+11|mpm: {shape: linear, transfer: apic}|11:22|unstable
+11|mpm: {shape: septic}|11:7|shape
+11|mpm: {cell: 0}|11:7|out of range
+11|conversion: {alpha: 2}|11:14|out of range
+11|conversion: {criteria: [bond, luck]}|11:31|bond or stress
+13|  - {from: [10 mm, 5 mm], to: [10 mm, 5 mm]}|13:5|no length
+13|  - {from: [10 mm, 5 mm]}|13:5|to
+13|  - {polygon: [[0, 0, 0]]}|13:6|not in space plane stress
+16|    velocity: [free, free]|16:5|every component is free
+16|    velocity: [free, 1 m]|16:22|a velocity is expected
+16|    fixed: [z]|16:13|no axis
+16|    traction: [1 MPa, 0]|15:5|face
+16||15:5|does nothing
+17|    body: disk|17:5|there is no body
+18|    time: {step: {from: 6 us, until: 5 us}}|18:12|from is not before until
+18|    time: {table: [[1 us, 0], [0, 1]]}|18:32|times ascend
+18|    time: whenever|18:5|no function of time
+19|time: {step: 0}|19:8|out of range
+19|time: {step: 1e-30}|19:8|1e12 is the most
+19|time: {safety: 3}|19:8|out of range
+19|output: {frames: -1}|19:10|frames
+19|output: {frames: 1e9}|19:10|frames
+19|output: {samples: 0}|19:10|out of range
+19|output: {compress: maybe}|19:10|true or false
+20|probes: [crack]|20:10|does not belong here
+20|probes: [sif: {inner: 21 mm}]|20:16|is not less than outer
+20|probes: [growth]|20:10|growth is expected
+20|probes: [growth: {of: a}]^growth: [{name: b, at: [10 mm, 5 mm], direction: [-1, 0], speed: 1 m/s}]|20:19|no growth a
+20|growth: [{at: [0, 0], direction: [1, 0], speed: 1 m/s, smoothing: 1 mm}]|20:56|without probe
+20|probes: [growth: {experiment: 200}]|20:19|out of range
+20|probes: [rigid: {region: here}]|20:18|region
+20|probes: [tip, tip]|20:15|name of another probe
+20|probes: [exact: step bar]|20:10|space line is expected
+19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
+19|output: {times: [2 us, 1 us]}|19:24|they ascend
+20|probes: [{reaction: {boundary: push}}]|20:22|no boundary push
+20|probes: [{line: {from: [0, 0], to: [1, 1], points: 1}}]|20:44|out of range
+20|probes: {tip}|20:1|list
+20|---^name: second|20:1|second document
+END
+
+# What only the particles tell: no line to point at, but one sentence, and no folder made for nothing.
+while IFS='|' read -r line text start words; do
+    replace "$line" "$text"
+    "$cleave" run bad.yaml >out 2>err
+    ended "$text" $? "$start" "$words"
+done <<'END'
+16|    traction: [1, 0]^    face: x-|bad.yaml: probe|has no reaction
+20|probes: [{point: {at: [1, 1]}}]|bad.yaml: probe|outside the bodies
+20|probes: [{energy: {region: {box: {from: [1, 1], to: [2, 2]}}}}]|bad.yaml: probe|no particle
+20|probes: [sif]|bad.yaml: probe|leaves the body
+14|boundary:^  - {name: push, body_force: [0, 1], region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml: boundary push|no particle
+8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml: body body|holds no particle
+END
+
+# ---- files that are no scenes ----------------------------------------------------------------------------------------
+
+mkdir kept/folder
+: >kept/empty.yaml
+printf 'name: plate\nspace: plane\0stress\n' >kept/nul.yaml
+printf 'name: pl\377te\n' >kept/utf8.yaml
+head -c 100000 "$cleave" >kept/binary.yaml
+awk 'BEGIN { for (k = 0; k < 1700000; k++) print "# a comment" }' >kept/long.yaml
+awk 'BEGIN { printf "name: "; for (k = 0; k < 100000; k++) printf "["; print "" }' >kept/deep.yaml
+cut -c 1-20 good.yaml >kept/cut.yaml
+for file in missing.yaml folder empty.yaml nul.yaml utf8.yaml binary.yaml long.yaml deep.yaml cut.yaml good.yaml/below; do
+    "$cleave" run kept/$file >out 2>err
+    ended "$file" $? "kept/$file:" ""
+done
+rm kept/long.yaml
+if [ "$(id -u)" -ne 0 ]; then
+    cp good.yaml kept/secret.yaml
+    chmod 000 kept/secret.yaml
+    "$cleave" run kept/secret.yaml >out 2>err
+    ended "an unreadable scene" $? "kept/secret.yaml:" "Permission denied"
+fi
+"$cleave" run '' >out 2>err
+ended "a scene without a name" $? "" ""
+
+# ---- particle lists ----------------------------------------------------------------------------------------------------
+
+# list WHAT PLACE WORDS: the list on standard input as the body
+list()
+{
+    cat >kept/grains.csv
+    sed -e '7,9d' -e '6a\
+bodies: [{name: grains, particles: kept/grains.csv}]' good.yaml >bad.yaml
+    "$cleave" run bad.yaml >out 2>err
+    ended "list: $1" $? "$2" "$3"
+}
+list "no header" "kept/grains.csv:1:" "" <<'END'
+1,2,3
+END
+list "a column too few" "kept/grains.csv:2:" "" <<'END'
+x,y,volume
+0.5e-3,0.5e-3
+END
+list "a word" "kept/grains.csv:3:" "not a number" <<'END'
+x,y,volume
+0.5e-3,0.5e-3,1e-8
+0.5e-3,many,1e-8
+END
+list "a volume below 0" "kept/grains.csv:2:" "volume" <<'END'
+x,y,volume
+0.5e-3,0.5e-3,-1e-8
+END
+# In millimetres where metres are meant, and metres where the scene's spacing lacks its unit: `check` says so, too.
+grid() { awk -v apart="$1" 'BEGIN { print "x,y,volume"; for (k = 0; k < 200; k++) print k % 20 * apart "," int(k / 20) * apart ",1e-8" }'; }
+grid 1 >kept/millimetres.csv
+grid 1e-3 >kept/metres.csv
+for method in pd mpm adaptive; do
+    sed -e "s/^method: .*/method: $method/" -e '7,9d' -e '6a\
+bodies: [{name: grains, particles: kept/millimetres.csv}]' good.yaml >bad.yaml
+    sed -e 's/millimetres/metres/' -e 's/spacing: 1 mm/spacing: 1/' bad.yaml >kept/other.yaml
+    for command in check run; do
+        "$cleave" $command bad.yaml >out 2>err
+        ended "$command, $method: a list in mm" $? "bad.yaml:7:25: particles: " "(is it in mm?)"
+    done
+    mv kept/other.yaml bad.yaml
+    for command in check run; do
+        "$cleave" $command bad.yaml >out 2>err
+        ended "$command, $method: a spacing in mm" $? "bad.yaml:7:25: particles: " "a particles.spacing of about 0.001 m is expected"
+    done
+    sed -e 's/spacing: 1,/spacing: 1 mm,/' -e '/^cracks/,/^  - /d' bad.yaml >kept/list.yaml
+    holds "$method: a list in metres" "$cleave" run kept/list.yaml -q -o kept/list_$method -s duration=0.1us -s probes=[]
+done
+list "nan" "kept/grains.csv:2:" "" <<'END'
+x,y,volume
+nan,0.5e-3,1e-8
+END
+list "two in one place" "bad.yaml" "one place" <<'END'
+x,y,volume
+0.5e-3,0.5e-3,1e-8
+0.5e-3,0.5e-3,1e-8
+END
+list "no particle" "" "" <<'END'
+x,y,volume
+END
+
+# ---- the command line ----------------------------------------------------------------------------------------------------
+
+# words of the command line | how the complaint begins | what it holds
+while IFS='|' read -r words start middle; do
+    "$cleave" $words >out 2>err
+    ended "$words" $? "$start" "$middle"
+done <<'END'
+frobnicate|unknown command frobnicate|
+run|no scene given|usage
+run good.yaml --fast|unknown option --fast|usage
+run good.yaml -x|unknown option -x|usage
+run good.yaml good.yaml|one scene at a time|
+run good.yaml -o|-o wants a value|
+run good.yaml -s|-s wants a value|
+run good.yaml -s duration|-s duration|particles.spacing=0.5mm
+run good.yaml -s =3|-s =3|
+run good.yaml -s duraton=1us|-s duraton=1us|nearest is duration
+run good.yaml -s duration=fast|-s duration=fast|a time is expected
+run good.yaml -s duration=-1|-s duration=-1|out of range
+run good.yaml -s material.youn=1|-s material.youn=1|young
+run good.yaml -s material.young=1mm|-s material.young=1mm|a stress is expected
+run good.yaml -s particles.horizon=0.5|-s particles.horizon=0.5|smaller than one spacing
+run good.yaml -s method=[pd]|-s method=[pd]|
+run good.yaml -s space=line|good.yaml|
+run good.yaml -t 0|-t 0|from 1 to 4096
+run good.yaml -t two|-t two|from 1 to 4096
+run good.yaml -t 1e3|-t 1e3|from 1 to 4096
+run good.yaml -t 99999999999999999999|-t|from 1 to 4096
+run good.yaml -t|-t wants a value|
+check|no scene given|usage
+check missing.yaml|missing.yaml|
+plot|plot:|usage
+plot kept kept|plot:|
+plot kept --loud|plot: unknown option|
+compare|compare:|usage
+compare kept|compare:|usage
+compare kept kept kept|compare:|usage
+help nonsense|nonsense|
+help a b|usage|
+info now|info:|
+bench nonsense|unknown bench|
+END
+"$cleave" run good.yaml -o '' >out 2>err
+ended "-o ''" $? "-o" ""
+"$cleave" run good.yaml -o "$(awk 'BEGIN { for (k = 0; k < 5000; k++) printf "x" }')" >out 2>err
+ended "-o with a name of 5000 letters" $? "-o" "too long"
+"$cleave" >out 2>err
+is "no command: exit status" $? 2
+
+cd "$root" || exit 1
+finish

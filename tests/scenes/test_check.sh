@@ -1,0 +1,166 @@
+#!/bin/sh
+# floor 5: what `cleave check` says of a scene: its memory, what it does not resolve, what it does not need; and that it holds its
+# tongue where there is nothing to say. Run times are not tested: they hang on the machine's load.
+test_name=test_check
+. tests/support/summary.sh
+. tests/support/scenes.sh
+
+# says WHAT PATTERN SCENE [ARGUMENT...], silent likewise: the pattern is in what check says of a scene, or is not.
+checked()
+{
+    scene=$1; shift
+    [ -f "$scene" ] || scene=inputs/$scene.yaml
+    "$cleave" check "$scene" "$@" >"$work/said" 2>"$work/err" || fail "check $scene $*: $(cat "$work/err")"
+}
+says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" grep -q "$pattern" "$work/said"; }
+silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" sh -c "! grep -q '$pattern' '$work/said'"; }
+
+# ---- what a run takes --------------------------------------------------------------------------------------------------
+
+# Within 10 % of the system's high-water mark. Nothing converts in the first microsecond.
+for setting in "method=pd" "method=mpm" "method=mpm -s mpm.frame=current" "method=adaptive" "method=pd -s model=mospd"; do
+    arguments="-s $setting -s particles.spacing=0.25mm -s time.step=0.02us -s duration=1us"
+    "$cleave" run inputs/plate_crack.yaml -q -o "$work/ran" $arguments >/dev/null 2>&1
+    checked plate_crack $arguments
+    took=$(awk '/^memory/ { print 1e6 * $3 }' "$work/said")
+    between "memory: $setting" "$took" "$(compute "0.9 * $(figure "$work/ran" memory_peak_bytes)")" \
+        "$(compute "1.1 * $(figure "$work/ran" memory_peak_bytes)")"
+    rm -rf "$work/ran"
+done
+says "all of it peridynamic" 'run time.* if all of it were peridynamic' plate_crack
+silent "it is" 'were peridynamic' plate_crack -s method=pd
+# What is short is tried as a whole. Nobody tries 1e7 steps, nor says more of them than they are like the first; a step above the
+# critical one fails where it is tried.
+says "tried" 'run time  *about .* at first; [0-9.e-]* s if all' bar_spall -t 1
+says "too long to try" 'run time  *at least .* like the first ones, more as particles convert' plate_crack -s duration=1s
+says "too long, but nothing converts" 'run time  *about .* like the first ones$' plate_crack -s duration=1s -s method=mpm
+says "fails" 'run time  *at least' plate_crack -s time.step=0.3us -s output.samples=500
+[ -e results/plate_crack/history.csv ] && before=$(ls -l results/plate_crack/history.csv) || before=
+checked plate_crack
+[ -e results/plate_crack/history.csv ] && after=$(ls -l results/plate_crack/history.csv) || after=
+is "check writes nothing" "$after" "$before"
+
+# ---- what is not resolved ----------------------------------------------------------------------------------------------
+
+says "thin plate" 'unresolved: body body: a part of 0.01 m is 1.7 horizons (5 spacings)' kalthoff_winkler_3d
+silent "thick plate" 'unresolved: body' kalthoff_winkler
+says "narrow hole" 'unresolved: body .*: a gap of .* horizons' plate_hole -s particles.spacing=2mm
+silent "wide hole" 'unresolved: body' plate_hole
+says "short crack" 'unresolved: crack 1 is 0.01 m long, 3.3 horizons' plate_crack -s particles.spacing=1mm
+silent "long crack" 'unresolved: crack' plate_crack
+says "narrow pulse" 'unresolved: an initial pulse is .* spacings wide' bar_pulse -s particles.spacing=40mm
+silent "wide pulse" 'initial pulse' bar_pulse
+
+# The ends of the plate's crack are between four particles, on their diagonals and longer bonds: six. A tenth of a spacing on
+# they are not.
+says "ends on bonds" 'an end of crack 1 lies exactly on 6 bonds' plate_crack
+sed 's/-5 mm, 0\], to: \[5 mm/-5.05 mm, 0], to: [5.05 mm/' inputs/plate_crack.yaml >"$work/apart.yaml"
+silent "ends between bonds" 'lies exactly on' "$work/apart.yaml"
+
+# pulled FILE RATE TIME: a plate pulled at its right end.
+pulled() { sed "s/RATE/$2/; s/TIME/$3/" "$work/plate.yaml" >"$work/$1.yaml"; }
+cat >"$work/plate.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 ms
+method: mpm
+material: {young: 1 MPa, poisson: 1/3, density: 1000}
+body: {box: {from: [0, 0], to: [20 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+mpm: {frame: current}
+boundary:
+  - {name: left, fixed: all, region: {box: {from: [0, 0], to: [1 mm, 10 mm]}}}
+  - {name: right, velocity: [RATE, free], region: {box: {from: [19 mm, 0], to: [20 mm, 10 mm]}}, time: {ramp: {from: 0, until: TIME}}}
+output: {frames: 0, samples: 1}
+END
+# A ramp to 60 m/s in 1 ms: 30 mm on 19 mm between the outermost particles, a stretch of 2.58; the points are two to a cell.
+# Waves run at 33 m/s: 34 spacings while that load rises, 3.4 in a tenth of the time.
+pulled fast '60 m\/s' '1 ms'
+pulled slow '25 m\/s' '1 ms'
+pulled sudden '25 m\/s' '0.1 ms'
+says "pulled apart" 'pulled to 2.58 times' "$work/fast.yaml"
+silent "held together" 'no longer share nodes' "$work/slow.yaml"
+silent "in time" 'no longer share nodes' "$work/fast.yaml" -s mpm.cell=3
+says "sudden load" 'boundary right changes within 3.3. spacings' "$work/sudden.yaml"
+silent "slow load" 'changes within' "$work/slow.yaml"
+
+# ---- what is not needed ------------------------------------------------------------------------------------------------
+
+# Directed bonds take 0.44 and 0.55 ns in two and three dimensions, ospd 0.75 in two, mospd 2.2 in three.
+says "bonds would do" "unneeded: model ospd: .*ratio 0.3333, .* 59 % of the time" plate_crack -s model=ospd
+says "bonds would do in 3D" "unneeded: model mospd: .*ratio 0.25, .* 25 % of the time" kalthoff_winkler_3d -s method=pd -s model=mospd -s pd.surface=none
+silent "bonds would not" 'unneeded: model' plate_crack -s model=ospd -s material.poisson=0.25
+# Edges part at 36 m/s in steel of 192 GPa, 8000 kg/m^3, waves at 5196 m/s: 4 rho c v/E = 0.0312, until they have passed the plate's
+# 0.1 m four times, after 77 us.
+says "reference frame would do" 'unneeded: body body in mpm.frame current: .* strain it by 0.031 at the most.* frame auto$' plate_crack -s mpm.frame=current
+says "who knows how far" 'in mpm.frame current: it meets no other body; ' plate_crack -s mpm.frame=current -s duration=80us
+says "it would but for a key" 'unneeded: body body in mpm.frame current: .* frame reference$' plate_crack -s mpm.transfer=apic
+silent "it does" 'mpm.frame current' plate_crack
+silent "bodies meet" 'mpm.frame current' hopkinson_bar
+says "nothing breaks" 'unneeded: method pd: nothing breaks' bar_step
+# 4 rho c v = 4 x 1000 kg/m^3 x 33.54 m/s x 25 m/s; they have passed the plate's 20 mm four times after 2.4 ms.
+says "too slow to break" 'unneeded: method adaptive: waves here reach 3.35e+06 Pa at the most, bonds break at 6e+07 Pa' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=60
+silent "waves pile up" 'unneeded: method' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=60 -s duration=3ms
+silent "fast enough" 'unneeded: method' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=0.1
+
+says "halves" 'own mirror image at y = 0 m, all 20150 particles' kalthoff_winkler
+silent "no halves across the impact" 'own mirror image at x' kalthoff_winkler
+silent "a half is none" 'own mirror image' kalthoff_sif
+checked plate_crack
+is "quarters" "$(grep -c 'own mirror image' "$work/said")" 2
+silent "turned crack" 'own mirror image' inclined_crack
+sed 's/-18 m\/s/-17 m\/s/' inputs/plate_crack.yaml >"$work/uneven.yaml"
+silent "uneven loads" 'own mirror image at y' "$work/uneven.yaml"
+says "uneven loads, even sides" 'own mirror image at x' "$work/uneven.yaml"
+sed 's/to: \[5 mm, 0\]/to: [6 mm, 0]/' inputs/plate_crack.yaml >"$work/uneven.yaml"
+silent "crack to one side" 'own mirror image at x' "$work/uneven.yaml"
+
+# ---- what is wrong without being an error --------------------------------------------------------------------------------
+
+# warned WHAT PATTERN SCENE [ARGUMENT...]: check says it, a quiet run says it on standard error and writes it into the summary.
+warned()
+{
+    says "$@"
+    what=$1 pattern=$2 scene=$3; shift 3
+    "$cleave" run "$scene" -q -o "$work/warned" "$@" >"$work/out" 2>"$work/err" || fail "$what: run: $(cat "$work/err")"
+    holds "$what: -q says so: $(cat "$work/err")" grep -q "^warning: .*$pattern" "$work/err"
+    is "$what: standard output" "$(cat "$work/out")" ""
+    is "$what: in the summary" "$(grep -c "^    \".*$pattern" "$work/warned/summary.json")" 1
+    is "$what: as many as said" "$(sed -n '/"warnings": \[/,/\]/p' "$work/warned/summary.json" | grep -c '^    "')" \
+        "$(grep -c '^warning: ' "$work/err")"
+    rm -rf "$work/warned"
+}
+cat >"$work/two.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 us
+method: mpm
+mpm: {frame: current}
+materials:
+  - {name: steel, young: 200 GPa, poisson: 1/3, density: 7850}
+  - {name: glass, young: 72 GPa, poisson: 1/3, density: 2440}
+bodies:
+  - {name: left, material: steel, shape: {box: {from: [0, 0], to: [6 mm, 6 mm]}}}
+  - {name: right, material: glass, shape: {box: {from: [6 mm, 0], to: [12 mm, 6 mm]}}}
+particles: {spacing: 1 mm}
+output: {frames: 0, samples: 1}
+END
+two=$work/two.yaml apart="-s bodies.right.shape.box.from=[10mm,0]"
+through="left and right are in the reference frame and meet no other body: they pass through"
+says "the grid lets bodies meet" '^contact .*stick' "$two" $apart
+silent "the grid lets bodies meet" '^warning' "$two" $apart
+warned "reference frame" "$through" "$two" $apart -s mpm.frame=reference
+silent "reference frame: none meets" '^contact' "$two" $apart -s mpm.frame=reference
+says "one of two in the reference frame" 'left is in the reference frame and meets' "$two" $apart -s bodies.left.frame=reference
+warned "bonds" 'peridynamic bodies do not meet' "$two" $apart -s method=pd
+warned "adaptive" 'becomes peridynamic meets no other body' "$two" $apart -s method=adaptive
+warned "side by side" 'touch at the start (left with right) and are not joined' "$two" -s method=pd
+says "side by side on the grid" '(left with right) and are not joined: .* they stick until' "$two"
+silent "side by side, about to hit" 'touch at the start' "$two" -s bodies.left.velocity=[1,0]
+silent "two spacings apart" 'touch at the start' "$two" -s bodies.right.shape.box.from=[7mm,0]
+warned "a published coupling" 'coupling pgg .* no energy' inputs/plate_crack.yaml -s coupling=pgg -s duration=1us
+silent "one that is not used" 'no energy' plate_crack -s coupling=pgg -s method=pd
+"$cleave" run "$two" -q -o "$work/warned" $apart
+is "nothing to warn of: an empty list" "$(grep -c '"warnings": \[\]' "$work/warned/summary.json")" 1
+
+finish

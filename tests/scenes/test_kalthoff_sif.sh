@@ -1,0 +1,48 @@
+#!/bin/sh
+# floor 5: a crack led by stress-intensity factors: the plate with two notches of inputs/kalthoff_sif.yaml, on regular and
+# irregular particles, with factors known at every step, and seldom.
+test_name=test_kalthoff_sif
+. tests/support/summary.sh
+. tests/support/scenes.sh
+
+start regular kalthoff_sif
+start sparse kalthoff_sif -s output.samples=100 -s output.frames=0
+wait
+start slightly kalthoff_sif -s particles.irregularity=0.3 -s output.frames=0
+start strongly kalthoff_sif -s particles.irregularity=0.6 -s output.frames=0
+wait
+"$cleave" run inputs/kalthoff_sif.yaml -o "$work/threads" -t 2 -q || fail "two threads"
+
+# worst FOLDER: the largest |K_II|/K_I while the crack grows, after its first 2 mm; nothing with fewer than 30 samples.
+worst()
+{
+    awk -F, '
+        NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); at[$k] = k } next }
+        $at["growth.length"] > 2e-3 && $at["growth.speed"] > 0 && $at["sif.K_I"] ~ /^-?[0-9]/ {
+            ratio = $at["sif.K_II"] / $at["sif.K_I"]; if (ratio < 0) ratio = -ratio
+            if (ratio > most) most = ratio
+            n++
+        }
+        END { if (n >= 30) print most + 0 }' "$work/$1/history.csv"
+}
+
+# Measured: 73.0, 73.3, 73.2 degrees and at most 0.11 (Imachi et al. 2019: 73.6; experiments: about 70).
+for run in regular slightly strongly sparse; do
+    sound $run 0.02
+    between "$run: angle" "$(f $run probes.growth.angle_deg)" 70 76
+    between "$run: growth" "$(f $run probes.growth.length_end)" 0.035 0.0405
+    apart "$run: angle beside regular" "$(f $run probes.growth.angle_deg)" "$(f regular probes.growth.angle_deg)" 3
+done
+# Without the mean over the last growth K_II swings to 1.9 of K_I; turned again at every step by what the last sample found,
+# to 0.29 in the run that knows it seldom.
+for run in regular slightly strongly sparse; do between "$run: K_II" "$(worst $run)" 0 0.15; done
+
+# The tip that damage shows is where the growing one says: within the horizon.
+between "tip of damage" "$(f regular crack.angle_deg)" 68 78
+cmp -s "$work/regular/history.csv" "$work/threads/history.csv" && pass || fail "threads change the path"
+
+if command -v gnuplot >/dev/null; then
+    "$cleave" plot "$work/regular" >"$work/plot.out" 2>&1 || fail "plot: $(cat "$work/plot.out")"
+    for picture in sif path; do holds "$picture.png" test -s "$work/regular/pictures/$picture.png"; done
+fi
+finish

@@ -1,0 +1,62 @@
+#!/bin/sh
+# floor 5: static solvers from the command line: the edge crack by both, what the summary says, the same bits on any number of
+# threads and after kills, and what is refused.
+test_name=test_solver
+. tests/support/summary.sh
+. tests/support/trust.sh
+seed=4
+
+crack="inputs/edge_crack_k1.yaml -s particles.spacing=0.2mm -s model=bond -s material.poisson=1/3"
+
+# ---- the edge crack ------------------------------------------------------------------------------------------------
+
+calm "$work/cg" -t 2 $crack
+calm "$work/relaxation" -t 2 $crack -s solver=relaxation
+for solver in cg relaxation; do
+    is "$solver: status" "$(figure "$work/$solver" status)" done
+    is "$solver: name" "$(figure "$work/$solver" solver.name)" $solver
+    is "$solver: steps" "$(figure "$work/$solver" solver.steps)" "$(figure "$work/$solver" steps)"
+    is "$solver: end" "$(figure "$work/$solver" time_end)" 1
+    between "$solver: residual" "$(figure "$work/$solver" solver.residual)" 0 1e-5
+    is "$solver: lines of history" "$(wc -l <"$work/$solver/history.csv")" 3
+    is "$solver: frames" "$(ls "$work/$solver/frames" | wc -l)" 2
+    # linear in the load but for rotations of 1e-5 at the crack
+    between "$solver: balance" "$(figure "$work/$solver" energy.balance_error)" -2e-4 2e-4
+done
+between "steps of cg" "$(figure "$work/cg" solver.steps)" 100 200
+between "steps of relaxation" "$(figure "$work/relaxation" solver.steps)" 500 1000
+opening() { compute "$(figure "$work/$1" probes.mouth_above.displacement_y) - ($(figure "$work/$1" probes.mouth_below.displacement_y))"; }
+between "opening of the mouth" "$(compute "$(opening cg) / ($(opening relaxation))")" 0.999 1.001
+
+# ---- the same bits ---------------------------------------------------------------------------------------------------
+
+plate="$crack -s output.checkpoint=0.02"
+coupled="$plate -s method=adaptive -s solver=relaxation"
+for scene in "$plate" "$plate -s solver=relaxation" "$coupled"; do
+    rm -rf "$work/one" "$work/three"
+    calm "$work/one" -t 1 $scene
+    calm "$work/three" -t 3 $scene
+    same "threads: $scene" "$work/one" "$work/three"
+    kills 4 "$work/one" $scene
+done
+
+# ---- refused, and failed ---------------------------------------------------------------------------------------------
+
+"$cleave" run -q -o "$work/short" $crack -s solver_steps=20 2>"$work/err"
+is "too few steps: exit status" $? 1
+holds "too few steps: message" grep -q 'no equilibrium after 20 steps.*raise solver_steps' "$work/err"
+is "too few steps: status" "$(figure "$work/short" status)" failed
+refused()
+{
+    what=$1 text=$2; shift 2
+    "$cleave" run -q -o "$work/refused" "$@" 2>"$work/err"
+    is "$what: exit status" $? 2
+    holds "$what: message: $(cat "$work/err")" grep -q "$text" "$work/err"
+    is "$what: lines" "$(wc -l <"$work/err")" 1
+}
+refused "cg on a grid" 'edge_crack_k1.yaml:.*cg is for method pd' $crack -s method=adaptive
+refused "flip" 'mpm.transfer apic' $crack -s method=mpm -s solver=relaxation -s mpm.transfer=flip
+refused "yields" 'edge_crack_k1.yaml:.*steel yields; explicit is expected' $crack -s material.yield_stress=1GPa
+calm "$work/quiet" $crack -s material.critical_stretch=1e-5
+holds "bonds past their limit" [ "$(figure "$work/quiet" solver.bonds_past_limit)" -gt 0 ]
+finish

@@ -1,0 +1,107 @@
+/* floor 5: small bodies set by hand, a notched plate, and archives in memory, for what watches a run. */
+#ifndef CLEAVE_BODIES_H
+#define CLEAVE_BODIES_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "data/material.h"
+#include "base/memory.h"
+#include "near.h"
+#include "fracture/tips.h"
+
+/* Sums of a few hundred terms of order one: their round-off is below a hundred times 2^-53. */
+#define ROUND_OFF 1e-13
+
+/* ---- a lattice of spacing 1 m, particles at half-integers --------------------------------------------- */
+
+struct body { struct particles p; struct cells c; };
+
+static inline void body_make(struct body *b, int dim, const int *count)
+{
+    int64_t n = 1;
+    for (int d = 0; d < dim; d++) n *= count[d];
+    particles_make(&b->p, dim, n, 0);
+    for (int64_t i = 0; i < n; i++) {
+        int64_t rest = i;
+        for (int d = 0; d < dim; d++, rest /= count[d - 1])
+            b->p.X[d][i] = b->p.x[d][i] = 0.5 + (real)(rest % count[d]);
+        b->p.mass[i] = b->p.volume0[i] = b->p.volume[i] = 1;
+        b->p.id[i] = (int32_t)i;
+    }
+    cells_make(&b->c, &b->p, 3.1);
+}
+
+static inline void body_free(struct body *b)
+{
+    cells_free(&b->c);
+    particles_free(&b->p);
+}
+
+static inline int64_t particle_at(const struct body *b, real x, real y, real z)
+{
+    const real X[DIM_MAX] = {x, y, z};
+    for (int64_t i = 0; i < b->p.n; i++) {
+        bool same = true;
+        for (int d = 0; d < b->p.dim; d++) same = same && fabs(b->p.X[d][i] - X[d]) < 1e-9;
+        if (same) return i;
+    }
+    fail_msg("no particle at %g %g %g", x, y, z);
+    return -1;
+}
+
+static inline void hurt(struct body *b, real x, real y, real z) { b->p.damage[particle_at(b, x, y, z)] = 0.5; }
+
+/* ---- archives in memory -------------------------------------------------------------------------------- */
+
+enum { ENTRIES = 64 };
+struct store { int n; struct { char name[64]; size_t size; char *data; } entry[ENTRIES]; };
+
+static inline status store_exchange(struct archive *a, const char *name, void *data, size_t size)
+{
+    struct store *s = a->file;
+    for (int k = 0; k < s->n; k++) {
+        if (strcmp(s->entry[k].name, name) != 0) continue;
+        assert_false(a->saving);         /* names are unique */
+        assert_int_equal(s->entry[k].size, size);
+        memcpy(data, s->entry[k].data, size);
+        return OK;
+    }
+    assert_true(a->saving && s->n < ENTRIES);
+    snprintf(s->entry[s->n].name, sizeof s->entry[s->n].name, "%s", name);
+    s->entry[s->n].size = size;
+    s->entry[s->n].data = malloc(size);
+    memcpy(s->entry[s->n++].data, data, size);
+    return OK;
+}
+
+static inline void store_free(struct store *s)
+{
+    for (int k = 0; k < s->n; k++) free(s->entry[k].data);
+}
+
+/* A plate of 40 x 20 with a pre-crack from the left edge to (10, 10.5), along a row of particles. */
+static inline void notched_make(struct body *b, struct tips *t, real window)
+{
+    body_make(b, 2, (const int[]){40, 20});
+    for (real x = 0.5; x < 9; x++) hurt(b, x, 10.5, 0), hurt(b, x, 9.5, 0);
+    real corner[2][DIM_MAX] = {{-1, 10.5, 0}, {10, 10.5, 0}};
+    struct crack crack = {2, corner};
+    tips_make(t, &b->p, &b->c, &crack, 1, 1, window);
+}
+
+static inline void notched_free(struct body *b, struct tips *t)
+{
+    tips_free(t);
+    body_free(b);
+}
+
+static inline struct material steel(enum space space)
+{
+    struct material m = {.young = 200, .poisson = 0.25, .density = 1, .critical_stretch = 1};
+    material_derive(&m, space);
+    return m;
+}
+
+#endif

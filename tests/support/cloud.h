@@ -1,0 +1,181 @@
+/* floor 4: small bodies made by hand for tests: a lattice, shaken if wanted, with its family, cells and bonds. */
+#ifndef CLEAVE_TEST_CLOUD_H
+#define CLEAVE_TEST_CLOUD_H
+
+#include <math.h>
+#include <string.h>
+
+#include "bonds/bonds.h"
+#include "base/memory.h"
+#include "data/particles.h"
+
+enum { CLOUD_MATERIALS = 2 };
+#define CLOUD_SPACING 1e-3               /* [m] */
+
+/* What to make. Zeros are a regular lattice with whole volumes, calibrated on the lattice. */
+struct cloud_plan {
+    enum space space;
+    int count[DIM_MAX];                  /* particles per direction; 0 is 1                      */
+    real horizon;                        /* in spacings                                          */
+    real shake;                          /* largest displacement in spacings; volumes vary as much */
+    uint64_t seed;
+    int optional;                        /* WITH_* arrays                                        */
+    enum volume_rule volume;
+    enum calibration calibration;
+    enum surface_rule surface;
+    enum shell_rule shells;
+    enum influence influence;
+};
+
+struct cloud {
+    struct particles p;
+    struct material material[CLOUD_MATERIALS];
+    real limit[CLOUD_MATERIALS * CLOUD_MATERIALS];
+    real yield[CLOUD_MATERIALS * CLOUD_MATERIALS], hardening[CLOUD_MATERIALS * CLOUD_MATERIALS];   /* never, 0 */
+    struct cells cells;
+    struct bond_source source;
+    struct bonds bonds;
+    real *neighbour_volume;
+};
+
+/* Uniform in [0, 1); a linear congruence is random enough for shaking particles, and the same everywhere. */
+static inline real cloud_random(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (real)(*seed >> 11) * 0x1p-53;
+}
+
+static inline real cloud_between(uint64_t *seed, real low, real high)
+{
+    return low + (high - low) * cloud_random(seed);
+}
+
+static inline void cloud_materials(struct cloud *c, enum space space)
+{
+    static const real young[] = {200e9, 70e9}, density[] = {8000, 2700};
+    for (int m = 0; m < CLOUD_MATERIALS; m++) {
+        struct material *k = &c->material[m];
+        *k = (struct material){.young = young[m], .density = density[m], .energy_release_rate = NAN,
+                               .critical_stretch = INFINITY};
+        k->poisson = space == SPACE_LINE ? 0 : material_bond_poisson(space);
+        material_derive(k, space);
+    }
+    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
+}
+
+/* All peridynamic, one body, material 0, at rest in the reference position. */
+static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
+{
+    static const real section[DIM_MAX + 1] = {0, 4e-6, 2e-3, 1};
+    memset(c, 0, sizeof *c);
+    int dim = space_dim(plan->space);
+    int64_t count[DIM_MAX], n = 1;
+    for (int d = 0; d < DIM_MAX; d++) n *= count[d] = d < dim && plan->count[d] ? plan->count[d] : 1;
+    cloud_materials(c, plan->space);
+    c->source.family = (struct family){.volume = plan->volume, .calibration = plan->calibration,
+                                       .surface = plan->surface, .shells = plan->shells,
+                                       .influence = plan->influence};
+    family_make(&c->source.family, plan->space, CLOUD_SPACING, plan->horizon, section[dim]);
+
+    struct particles *p = &c->p;
+    uint64_t seed = plan->seed;
+    particles_make(p, dim, n, plan->optional);
+    for (int64_t i = 0; i < n; i++) {
+        int64_t at[DIM_MAX] = {i % count[0], i / count[0] % count[1], i / count[0] / count[1]};
+        for (int d = 0; d < dim; d++) {
+            real shaken = plan->shake > 0 ? cloud_between(&seed, -plan->shake, plan->shake) : 0;
+            p->x[d][i] = p->X[d][i] = ((real)at[d] + 0.5 + shaken) * CLOUD_SPACING;
+        }
+        real bigger = plan->shake > 0 ? cloud_between(&seed, 1 - plan->shake, 1 + plan->shake) : 1;
+        p->volume[i] = p->volume0[i] = bigger * c->source.family.cell_volume;
+        p->mass[i] = p->volume0[i] * c->material[0].density;
+        p->kind[i] = KIND_PD;
+        p->id[i] = (int32_t)i;
+        for (int d = 0; d < dim && plan->optional & WITH_STRETCH; d++) p->stretch[d][i] = 1;
+        if (dim == 3 && plan->optional & WITH_TURNS) p->end_turn[ROTATION - 1][i] = 1;
+    }
+    particles_list(p);
+}
+
+/* Places that are exact numbers, as fill.c makes them; not of a shaken cloud. */
+static inline void cloud_exact(struct cloud *c)
+{
+    const real half = nearbyint(0.5 * CLOUD_SPACING * 0x1p50) * 0x1p-50;
+    for (int d = 0; d < c->p.dim; d++)
+        for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] = half * nearbyint(c->p.X[d][i] / half);
+}
+
+/* All bonds where they are stored. */
+static inline void cloud_unfold(const struct bonds *b)
+{
+    for (int64_t g = 0; g < b->groups; g++)
+        if (b->folded[g]) group_unfold(b, g);
+}
+
+/* What bonds are made from, once kinds, bodies and materials are as the test wants them. */
+static inline void cloud_source(struct cloud *c)
+{
+    struct bond_source *s = &c->source;
+    particles_list(&c->p);
+    cells_make(&c->cells, &c->p, s->family.cutoff);
+    s->cells = &c->cells;
+    s->material = c->material;
+    s->materials = CLOUD_MATERIALS;
+    s->limit = (struct bond_limit){c->limit, CLOUD_MATERIALS, false};
+    s->yield = (struct bond_yield){c->yield, c->hardening, CLOUD_MATERIALS};
+    if (s->family.surface != SURFACE_VOLUME) return;
+    c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);
+    bonds_neighbour_volume(c->neighbour_volume, &c->p, s);
+    s->neighbour_volume = c->neighbour_volume;
+}
+
+static inline void cloud_bonds(struct cloud *c)
+{
+    cloud_source(c);
+    bonds_make(&c->bonds, NULL, &c->p, &c->source);
+}
+
+/* x = X + strain X. */
+static inline void cloud_strain(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
+{
+    struct particles *p = &c->p;
+    for (int64_t i = 0; i < p->n; i++)
+        for (int a = 0; a < p->dim; a++) {
+            p->x[a][i] = p->X[a][i];
+            for (int b = 0; b < p->dim; b++) p->x[a][i] += strain[a][b] * p->X[b][i];
+        }
+}
+
+static inline void cloud_free(struct cloud *c)
+{
+    if (c->bonds.slot) bonds_free(&c->bonds);
+    if (c->cells.start) cells_free(&c->cells);
+    memory_free(c->neighbour_volume);
+    particles_free(&c->p);
+    memset(c, 0, sizeof *c);
+}
+
+/* A copy with arrays of its own. */
+static inline void cloud_copy(struct particles *to, const struct particles *from, int optional)
+{
+    particles_make(to, from->dim, from->n, optional);
+    for (int f = 0; f < particle_fields_count; f++) {
+        const struct particle_field *field = &particle_fields[f];
+        for (int k = 0; k < field->count(from->dim, optional); k++)
+            memcpy(particle_array(to, field, k), particle_array(from, field, k), (size_t)from->n * field->size);
+    }
+    particles_list(to);
+}
+
+/* Largest difference of two arrays over the largest entry of the second. */
+static inline real cloud_difference(const real *a, const real *b, int64_t n)
+{
+    real difference = 0, largest = 0;
+    for (int64_t i = 0; i < n; i++) {
+        if (!(fabs(a[i] - b[i]) <= difference)) difference = fabs(a[i] - b[i]);
+        largest = real_max(largest, fabs(b[i]));
+    }
+    return difference == 0 ? 0 : difference / largest;
+}
+
+#endif

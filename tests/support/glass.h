@@ -1,0 +1,16 @@
+/* floor 4: the glass of Imachi et al. 2019, for tests of crack tips. */
+#ifndef CLEAVE_GLASS_H
+#define CLEAVE_GLASS_H
+
+#include "fracture/sif_fields.h"
+
+static const real pi = 3.14159265358979323846;
+
+static inline struct crack_medium glass(enum space space)
+{
+    struct material m = {.young = 75.629e9, .poisson = 0.286, .density = 2456};
+    material_derive(&m, space);
+    return crack_medium_of(&m, space);
+}
+
+#endif

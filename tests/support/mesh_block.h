@@ -1,0 +1,167 @@
+/* floor 3: a block of points in the reference frame for tests of its mesh, and the plain twin of its energy. */
+#ifndef CLEAVE_MESH_BLOCK_H
+#define CLEAVE_MESH_BLOCK_H
+
+#include "src/mesh/mesh_parts.h"
+
+#include "cloud.h"
+#include "near.h"
+#include "kernels/pd/polar.h"
+#include "sets.h"
+
+static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+
+/* A block of points with a hole in one corner, so that it has whole and cut cells. */
+struct block {
+    struct cloud c;
+    struct mesh mesh;
+    struct elastic elastic[CLOUD_MATERIALS];
+    struct mesh_source source;
+};
+
+static void block_make(struct block *b, enum space space, bool hole, bool cubic)
+{
+    static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {27, 0, 0}, {23, 12, 0}, {21, 6, 6}};
+    struct cloud_plan plan = {.space = space, .horizon = 3};
+    const int dim = space_dim(space);
+    struct grid like = {.dim = dim, .h = 2 * CLOUD_SPACING};
+    memset(b, 0, sizeof *b);
+    memcpy(plan.count, size[dim], sizeof plan.count);
+    cloud_make(&b->c, &plan);
+    struct particles *p = &b->c.p;
+    for (int m = 0; m < CLOUD_MATERIALS; m++) {
+        const struct material *k = &b->c.material[m];
+        b->elastic[m] = (struct elastic){.c11 = k->c11, .c12 = (cubic ? 0.8 : 1) * k->c12, .shear = k->shear,
+                                         .trigger = INFINITY, .space = space};
+    }
+    b->source = (struct mesh_source){.elastic = b->elastic, .isotropic = b->elastic, .materials = CLOUD_MATERIALS};
+    for (int d = 0; d < dim; d++) {
+        like.anchor[d] = INFINITY;
+        for (int64_t i = 0; i < p->n; i++) like.anchor[d] = real_min(like.anchor[d], p->X[d][i] - 0.5 * CLOUD_SPACING);
+    }
+    for (int64_t i = 0; i < p->n; i++) {
+        bool out = hole;
+        for (int d = 0; d < dim; d++) out = out && p->X[d][i] - like.anchor[d] < 3 * CLOUD_SPACING;
+        p->kind[i] = out ? KIND_PD : KIND_MPM;
+        p->flag[i] |= FLAG_MESHED;
+    }
+    assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
+    assert_true(b->mesh.runs > 0 && b->mesh.cuts > 0);
+}
+
+static void block_free(struct block *b)
+{
+    mesh_free(&b->mesh);
+    cloud_free(&b->c);
+}
+
+/* Displacement of every node that has mass. */
+static void shake(struct block *b, real by, uint64_t seed)
+{
+    for (int64_t I = 0; I < b->mesh.grid.n; I++)
+        for (int d = 0; d < b->c.p.dim; d++)
+            b->mesh.displacement[d][I] = b->mesh.grid.mass[I] > 0 ? cloud_between(&seed, -by, by) * CLOUD_SPACING : 0;
+}
+
+static real node_place(const struct mesh *mesh, int64_t I, int d)
+{
+    return grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
+}
+
+/* u = (R - 1) X by an angle about z, then stretched along x. */
+static void turn(struct block *b, real angle, real stretch)
+{
+    const int dim = b->c.p.dim;
+    for (int64_t I = 0; I < b->mesh.grid.n; I++) {
+        real X[DIM_MAX] = {0}, x[DIM_MAX];
+        if (b->mesh.grid.mass[I] == 0) continue;
+        for (int d = 0; d < dim; d++) X[d] = node_place(&b->mesh, I, d);
+        x[0] = (1 + stretch) * X[0], x[1] = X[1], x[2] = X[2];
+        const real y[DIM_MAX] = {dim > 1 ? cos(angle) * x[0] - sin(angle) * x[1] : x[0], sin(angle) * x[0] + cos(angle) * x[1], x[2]};
+        for (int d = 0; d < dim; d++) b->mesh.displacement[d][I] = y[d] - X[d];
+    }
+}
+
+/* ---- plain twin: energy point by point -------------------------------------------------------------------- */
+
+static real point_energy(const struct block *b, int64_t i, bool finite)
+{
+    const struct mesh *mesh = &b->mesh;
+    const int dim = b->c.p.dim, place = mesh->place[i] & ((1 << dim) - 1);
+    const int64_t I = mesh->place[i] >> dim;
+    const struct elastic *m = &b->elastic[b->c.p.material[i]];
+    real F[9] = {0}, mean[9] = {0}, R[9] = {1}, e[9], normal = 0, shear = 0, trace = 0;
+    for (int a = 0; a < dim; a++)
+        for (int k = 0; k < dim; k++) {
+            F[a * dim + k] = mean[a * dim + k] = a == k;
+            for (int c = 0; c < 1 << dim; c++) {
+                real slope = 1, flat = 1;        /* of the hat functions at the point, at the cell's centre */
+                for (int d = 0; d < dim; d++) {
+                    const real xi = place >> d & 1 ? 0.75 : 0.25, sign = c >> d & 1 ? 1 : -1;
+                    slope *= d == k ? sign : c >> d & 1 ? xi : 1 - xi;
+                    flat *= d == k ? sign : 0.5;
+                }
+                F[a * dim + k] += slope / mesh->grid.h * mesh->displacement[a][I + mesh->corner[c]];
+                mean[a * dim + k] += flat / mesh->grid.h * mesh->displacement[a][I + mesh->corner[c]];
+            }
+        }
+    for (int a = 0; a < dim * dim; a++) R[a] = a % (dim + 1) == 0;
+    if (finite && dim > 1) polar_rotation(mean, R, dim);
+    for (int a = 0; a < dim; a++)
+        for (int k = 0; k < dim; k++) {
+            e[a * dim + k] = -(a == k);
+            for (int c = 0; c < dim; c++) e[a * dim + k] += R[c * dim + a] * F[c * dim + k];
+        }
+    for (int a = 0; a < dim; a++) {
+        normal += square(e[a * dim + a]), trace += e[a * dim + a];
+        for (int k = 0; k < a; k++) shear += square(e[a * dim + k] + e[k * dim + a]);
+    }
+    return 0.5 * mesh->volume * ((m->c11 - m->c12) * normal + m->c12 * square(trace) + m->shear * shear);
+}
+
+static real plain_energy(const struct block *b, bool finite)
+{
+    real sum = 0;
+    for (int64_t i = 0; i < b->c.p.n; i++)
+        if (b->mesh.place[i] >= 0) sum += point_energy(b, i, finite);
+    return sum;
+}
+
+static void forces(struct block *b, bool finite)
+{
+    mesh_clear(&b->mesh);
+    mesh_force(&b->mesh, &b->c.p, b->elastic, finite);
+}
+
+static real largest_force(const struct block *b)
+{
+    real most = 0;
+    for (int64_t I = 0; I < b->mesh.grid.n; I++)
+        for (int d = 0; d < b->c.p.dim; d++) most = real_max(most, fabs(b->mesh.grid.force[d][I]));
+    return most;
+}
+
+/* Partial stress of every point: any symmetric T up to `most` of the shear modulus, M = T C^-1. */
+static void partial_of(struct partial_stress *partial, const struct particles *p, const struct material *material, real most)
+{
+    const int n = symmetric_count(p->dim);
+    uint64_t seed = 17;
+    real compliance[SYM_MAX * SYM_MAX];
+    memset(partial, 0, sizeof *partial);
+    partial->index = NEW("test.index", p->n, int32_t);
+    partial->matrix = NEW("test.matrix", p->n * n * n, real);
+    for (int64_t i = 0; i < p->n; i++) {
+        real T[SYM_MAX * SYM_MAX];
+        partial->index[i] = (int32_t)i;
+        material_compliance(&material[p->material[i]], p->dim, compliance);
+        for (int a = 0; a < n; a++)
+            for (int c = 0; c <= a; c++)
+                T[a * n + c] = T[c * n + a] = most > 0 ? material->young * cloud_between(&seed, -most, most) : 0;
+        for (int a = 0; a < n; a++)
+            for (int c = 0; c < n; c++)
+                for (int k = 0; k < n; k++)
+                    partial->matrix[(i * n + a) * n + c] += T[a * n + k] * (k < p->dim ? 1 : 2) * compliance[k * n + c];
+    }
+}
+
+#endif

@@ -1,0 +1,217 @@
+/* floor 5: the linearised operator of small bodies: the stiffness K of their internal forces by differences, through the engine.
+ * Unknowns are the displacements of peridynamic particles and of the nodes of the reference frame's mesh that nothing holds. */
+#ifndef CLEAVE_OPERATOR_H
+#define CLEAVE_OPERATOR_H
+
+#include <string.h>
+
+#include "../bench/stability/stability.h"
+#include "eigen.h"
+#include "base/memory.h"
+
+/* Component d of particle `at`, or of a node of the mesh. */
+struct unknown { bool node; int32_t at; int d; };
+
+struct operator {
+    struct engine e;
+    struct scene s;
+    int64_t n;
+    struct unknown *unknown;             /* [n] */
+    real *mass;                          /* [n] by unknown, with that of a node beyond a plane that follows it [kg] */
+    real *K;                             /* [n][n] force on a row's unknown over -displacement of a column's [N/m] */
+};
+
+/* What is known of it. Eigenvalues of M^-1/2 K M^-1/2, of the symmetric part but for the imaginary ones. */
+struct spectrum {
+    real asymmetry;                      /* max |K - K^T| over max |K| */
+    real lowest, highest;                /* [1/s^2] */
+    int64_t zeros;                       /* eigenvalues below OPERATOR_ZERO of the highest */
+    real energy;                         /* |energy that the ledger has/(1/2 u K u) - 1| of a body shaken at random */
+    real imaginary;                      /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not asked for */
+};
+#define OPERATOR_ZERO 1e-9
+#define OPERATOR_SHAKE 1e-6              /* displacement [spacings]: terms of third order are as much of the energy */
+#define OPERATOR_STEP 2e-4               /* displacement [spacings]: four-point differences are off by 1e-14, round-off by 1e-11 */
+
+/* ---- unknowns ----------------------------------------------------------------------------------------------------- */
+
+/* Components of particles that a driven region holds, and of nodes that walls hold or that follow others. */
+static inline uint8_t *operator_held(struct engine *e, bool node)
+{
+    const int64_t n = node ? e->mesh.grid.n : e->part.n;
+    uint8_t *held = NEW("test.held", n + 1, uint8_t);
+    if (node) {
+        const struct grid *g = &e->mesh.grid;
+        loads_mesh_walls(&e->loads, &e->mesh, 0, e->dt);
+        for (int64_t k = 0; k < g->walls; k++) held[g->wall[k].node] |= (uint8_t)(1 << g->wall[k].component);
+        for (int64_t k = 0; k < g->folds; k++) held[g->fold[k].node] = 7;
+        return held;
+    }
+    for (int b = 0; b < e->loads.n; b++)
+        for (int64_t k = 0; k < e->loads.load[b].n && e->loads.load[b].boundary->kind == BOUNDARY_VELOCITY; k++)
+            held[e->loads.load[b].particle[k]] |= e->loads.load[b].boundary->components;
+    return held;
+}
+
+static inline void operator_add(struct operator *o, bool node, const uint8_t *held, int64_t at, real mass)
+{
+    for (int d = 0; d < o->e.part.dim; d++) {
+        if (held[at] >> d & 1) continue;
+        if (o->unknown) o->unknown[o->n] = (struct unknown){node, (int32_t)at, d}, o->mass[o->n] = mass;
+        o->n++;
+    }
+}
+
+static inline void operator_unknowns(struct operator *o)
+{
+    struct engine *e = &o->e;
+    const struct grid *g = &e->mesh.grid;
+    const int64_t nodes = e->mesh.points > 0 ? g->n : 0;
+    uint8_t *held = operator_held(e, false), *held_node = nodes > 0 ? operator_held(e, true) : NULL;
+    real *mass = NEW("test.node_mass", nodes + 1, real);
+    for (int64_t I = 0; I < nodes; I++) mass[I] = g->mass[I];
+    for (int64_t k = 0; nodes > 0 && k < g->folds; k++) mass[g->fold[k].image] += g->mass[g->fold[k].node];
+    for (int pass = 0; pass < 2; pass++) {
+        if (pass > 0) o->unknown = NEW("test.unknown", o->n, struct unknown), o->mass = NEW("test.mass", o->n, real);
+        o->n = 0;
+        for (int64_t i = 0; i < e->part.n; i++)
+            if (e->part.kind[i] == KIND_PD) operator_add(o, false, held, i, e->part.mass[i]);
+        for (int64_t I = 0; I < nodes; I++)
+            if (mass[I] > 0) operator_add(o, true, held_node, I, mass[I]);
+    }
+    memory_free(held);
+    memory_free(held_node);
+    memory_free(mass);
+}
+
+/* ---- forces ------------------------------------------------------------------------------------------------------- */
+
+static inline void operator_place(struct operator *o, struct unknown q, real u)
+{
+    struct engine *e = &o->e;
+    if (q.node) e->mesh.displacement[q.d][q.at] = u;
+    else e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
+}
+
+/* Nodes beyond planes of symmetry follow their images, which take the forces on them: as mesh_move has it. */
+static inline void operator_forces(struct operator *o, real *f)
+{
+    struct engine *e = &o->e;
+    struct grid *g = &e->mesh.grid;
+    const int64_t folds = e->mesh.points > 0 ? g->folds : 0;
+    for (int64_t k = 0; k < folds; k++)
+        for (int d = 0; d < g->dim; d++)
+            e->mesh.displacement[d][g->fold[k].node] = g->fold[k].sign[d] * e->mesh.displacement[d][g->fold[k].image];
+    if (getenv("OPERATOR_SHOW")) engine_mesh_show(e);
+    engine_forces(e);
+    for (int64_t k = 0; k < folds; k++)
+        for (int d = 0; d < g->dim; d++)
+            g->force[d][g->fold[k].image] += g->fold[k].sign[d] * g->force[d][g->fold[k].node];
+    for (int64_t k = 0; k < o->n; k++) {
+        const struct unknown q = o->unknown[k];
+        f[k] = q.node ? g->force[q.d][q.at] : e->part.f[q.d][q.at];
+    }
+}
+
+/* Column by column: -df/du = (8 (f(-h) - f(h)) - (f(-2h) - f(2h)))/12 h. */
+static inline void operator_fill(struct operator *o)
+{
+    const real h = OPERATOR_STEP * o->s.spacing;
+    real *f = NEW("test.f", o->n, real);
+    o->K = NEW("test.K", o->n * o->n, real);
+    for (int64_t c = 0; c < o->n; c++) {
+        for (int k = -2; k <= 2; k++) {
+            const real weight = (const real[]){-1, 8, 0, -8, 1}[k + 2] / (12 * h);
+            if (k == 0) continue;
+            operator_place(o, o->unknown[c], k * h);
+            operator_forces(o, f);
+            for (int64_t r = 0; r < o->n; r++) o->K[r * o->n + c] += weight * f[r];
+        }
+        operator_place(o, o->unknown[c], 0);
+    }
+    memory_free(f);
+}
+
+/* ---- the whole ------------------------------------------------------------------------------------------------------ */
+
+static inline status operator_make(struct operator *o, const struct stability_case *c)
+{
+    char text[4096];
+    *o = (struct operator){.n = 0};
+    stability_text(c, text, sizeof text);
+    TRY(bench_engine_make(&o->e, &o->s, "block", text, NULL, 0));
+    operator_unknowns(o);
+    operator_fill(o);
+    return OK;
+}
+
+static inline void operator_free(struct operator *o)
+{
+    memory_free(o->unknown);
+    memory_free(o->mass);
+    memory_free(o->K);
+    bench_engine_free(&o->e, &o->s);
+}
+
+/* The ledger's energy of bonds and cells beside half u K u. */
+static inline real operator_energy(struct operator *o)
+{
+    struct engine *e = &o->e;
+    uint64_t seed = 3;
+    real *u = NEW("test.u", o->n, real), *f = NEW("test.f", o->n, real), half = 0;
+    for (int64_t k = 0; k < o->n; k++) {
+        u[k] = OPERATOR_SHAKE * o->s.spacing * bench_random(&seed);
+        operator_place(o, o->unknown[k], u[k]);
+    }
+    operator_forces(o, f);
+    const real W = e->kernels.bond_energy(&e->bonds, &e->part) + mesh_strain(&e->mesh, &e->part, e->cell_elastic, !o->s.small_strain);
+    for (int64_t k = 0; k < o->n * o->n; k++) half += 0.5 * u[k / o->n] * o->K[k] * u[k % o->n];
+    for (int64_t k = 0; k < o->n; k++) operator_place(o, o->unknown[k], 0);
+    memory_free(u);
+    memory_free(f);
+    return fabs(W / half - 1);
+}
+
+static inline struct spectrum operator_spectrum(struct operator *o, bool imaginary)
+{
+    const int64_t n = o->n;
+    struct spectrum s = {.imaginary = NAN, .energy = operator_energy(o)};
+    real *A = NEW("test.A", n * n, real), *d = NEW("test.d", n, real), *scratch = NEW("test.e", n, real), largest = 0, least;
+    for (int64_t k = 0; k < n * n; k++) {
+        const int64_t i = k / n, j = k % n;
+        largest = real_max(largest, fabs(o->K[k]));
+        s.asymmetry = real_max(s.asymmetry, fabs(o->K[k] - o->K[j * n + i]));
+        A[k] = 0.5 * (o->K[k] + o->K[j * n + i]) / sqrt(o->mass[i] * o->mass[j]);
+    }
+    s.asymmetry /= largest;
+    eigen_symmetric(A, n, d, scratch);
+    s.lowest = d[0], s.highest = d[n - 1];
+    for (int64_t k = 0; k < n; k++) s.zeros += fabs(d[k]) < OPERATOR_ZERO * s.highest;
+    for (int64_t k = 0; k < n * n && imaginary; k++) A[k] = o->K[k] / sqrt(o->mass[k / n] * o->mass[k % n]);
+    if (imaginary) s.imaginary = eigen_imaginary(A, n, &least) / s.highest;
+    memory_free(A);
+    memory_free(d);
+    memory_free(scratch);
+    return s;
+}
+
+/* One line an unknown (node or particle, its number, component, reference place [m], mass [kg]), then K row by row [N/m]. */
+static inline void operator_dump(const struct operator *o, const char *path)
+{
+    FILE *to = fopen(path, "w");
+    if (!to) return;
+    fprintf(to, "# %lld unknowns: node at component X Y Z mass; then K\n", (long long)o->n);
+    for (int64_t k = 0; k < o->n; k++) {
+        const struct unknown q = o->unknown[k];
+        const struct grid *g = &o->e.mesh.grid;
+        fprintf(to, "%d %d %d", q.node, q.at, q.d);
+        for (int d = 0; d < DIM_MAX; d++)
+            fprintf(to, " %.9g", d >= o->e.part.dim ? 0 : q.node ? grid_position(g, d, q.at / g->stride[d] % g->count[d])
+                                                                 : o->e.part.X[d][q.at]);
+        fprintf(to, " %.17g\n", o->mass[k]);
+    }
+    for (int64_t k = 0; k < o->n * o->n; k++) fprintf(to, "%.17g%c", o->K[k], k % o->n == o->n - 1 ? '\n' : ' ');
+    fclose(to);
+}
+
+#endif

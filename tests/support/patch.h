@@ -1,0 +1,74 @@
+/* floor 4: a uniformly strained patch of particles of one or both kinds on a grid, and what its nodes feel. */
+#ifndef CLEAVE_TEST_PATCH_H
+#define CLEAVE_TEST_PATCH_H
+
+#include "cloud.h"
+#include "coupling/convert.h"
+#include "kernels/kernels.h"
+
+static inline void at_most(const char *what, real value, real most)
+{
+    if (!(fabs(value) <= most)) fail_msg("%s: %g is more than %g", what, value, most);
+}
+
+static inline void is_near(const char *what, real value, real expected, real tolerance)
+{
+    if (!(fabs(value - expected) <= tolerance)) fail_msg("%s: %g, not %g +- %g", what, value, expected, tolerance);
+}
+
+/* What a patch of material points, or of both kinds, gives to its nodes. */
+struct patch {
+    struct cloud c;
+    struct grid g;
+    struct transfer_order order;
+    struct partial_stress partial;
+};
+
+/* Cells of `ratio` spacings; their lower corners lie `offset` spacings right of the lattice's cells in x. */
+static inline void patch_grid(struct patch *s, real ratio, real offset)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    bool changed;
+    s->g = (struct grid){.dim = s->c.p.dim, .h = ratio * CLOUD_SPACING, .anchor = {offset * CLOUD_SPACING}};
+    for (int d = 0; d < s->c.p.dim; d++) {
+        from[d] = 0, to[d] = 0;
+        for (int64_t i = 0; i < s->c.p.n; i++) to[d] = fmax(to[d], s->c.p.x[d][i]);
+    }
+    assert_int_equal(grid_cover(&s->g, from, to, 1000000, &changed), OK);
+}
+
+static inline void patch_map(struct patch *s, enum shape shape)
+{
+    struct transfer_data t = {.order = &s->order, .partial = &s->partial, .half_width = 0.5 * CLOUD_SPACING};
+    transfer_order_sort(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);
+    grid_clear(&s->g);
+    p2g_table[s->g.dim][shape][TRANSFER_FLIP](&s->g, &s->c.p, &t);
+}
+
+/* Largest force of a node between from and to [spacings] in every direction; assured to be of some node. */
+static inline real patch_residual(const struct patch *s, const real *from, const real *to)
+{
+    real largest = -1;
+    for (int64_t I = 0; I < s->g.n; I++) {
+        real f2 = 0;
+        bool in = true;
+        for (int d = 0; d < s->g.dim; d++) {
+            real x = grid_position(&s->g, d, I / s->g.stride[d] % s->g.count[d]) / CLOUD_SPACING;
+            in = in && x > from[d] - 1e-6 && x < to[d] + 1e-6;
+            f2 += square(s->g.force[d][I]);
+        }
+        if (in) largest = fmax(largest, sqrt(f2));
+    }
+    assert_true(largest >= 0);
+    return largest;
+}
+
+static inline void patch_free(struct patch *s)
+{
+    partial_stress_free(&s->partial);
+    transfer_order_free(&s->order);
+    grid_free(&s->g);
+    cloud_free(&s->c);
+}
+
+#endif

@@ -1,0 +1,315 @@
+/* floor 2: plain twins of the transfer kernels, written from the formulas of the material point method and not
+ * from the kernels: every particle meets every node, one node at a time, whole tensors, no threads. */
+#ifndef CLEAVE_REFERENCE_POINTS_H
+#define CLEAVE_REFERENCE_POINTS_H
+
+#include "data/grid.h"
+#include "kernels/kernels.h"
+#include "reference.h"
+
+/* ==== shape functions ==================================================== */
+
+struct reference_shape { real value, slope; };
+
+static inline real reference_tent(real r, real h) { return fmax(0, 1 - fabs(r) / h); }
+
+/* Integral of the tent from -h to r. */
+static inline real reference_tent_integral(real r, real h)
+{
+    if (r <= -h) return 0;
+    if (r >= h) return h;
+    return r < 0 ? 0.5 * (h + r) * (h + r) / h : h - 0.5 * (h - r) * (h - r) / h;
+}
+
+/* N and dN/dx at distance r = x_p - x_I; GIMP is the tent averaged over the particle's width 2 l. */
+static inline struct reference_shape reference_shape(enum shape shape, real r, real h, real l)
+{
+    real s = fabs(r) / h, sign = r < 0 ? -1 : 1;
+    switch (shape) {
+    case SHAPE_LINEAR: return (struct reference_shape){reference_tent(r, h), s < 1 ? -sign / h : 0};
+    case SHAPE_GIMP:
+    case SHAPE_CPGIMP:
+        return (struct reference_shape){(reference_tent_integral(r + l, h) - reference_tent_integral(r - l, h)) /
+                                            (2 * l),
+                                        (reference_tent(r + l, h) - reference_tent(r - l, h)) / (2 * l)};
+    case SHAPE_QUADRATIC:
+        if (s < 0.5) return (struct reference_shape){0.75 - s * s, -2 * s * sign / h};
+        if (s < 1.5) return (struct reference_shape){0.5 * (1.5 - s) * (1.5 - s), -(1.5 - s) * sign / h};
+        return (struct reference_shape){0, 0};
+    case SHAPE_CUBIC:
+        if (s < 1)
+            return (struct reference_shape){2.0 / 3 - s * s + 0.5 * s * s * s, (-2 * s + 1.5 * s * s) * sign / h};
+        if (s < 2) return (struct reference_shape){pow(2 - s, 3) / 6, -0.5 * (2 - s) * (2 - s) * sign / h};
+        return (struct reference_shape){0, 0};
+    default: return (struct reference_shape){NAN, NAN};
+    }
+}
+
+/* ==== one step of the material point method  =================================== */
+
+struct reference_step {
+    enum shape shape;
+    enum transfer transfer;
+    real half_width, dt, dt_velocity, smallest_mass;
+    const struct elastic *elastic;
+    const struct partial_stress *partial;
+    const uint8_t *bonded;               /* not 0: bonds meet the point; NULL: none        */
+    struct particles *p;                 /* overwritten step by step                       */
+    const struct grid *g;                /* where nodes are; its values are not touched    */
+    real *value, *slope[DIM_MAX];        /* N and grad N, [n][nodes], of the old positions */
+    real *mass, *momentum[DIM_MAX], *force[DIM_MAX], *velocity[DIM_MAX], *change[DIM_MAX];
+};
+
+static inline void reference_node_position(const struct grid *g, int64_t node, real *x)
+{
+    for (int d = 0; d < g->dim; d++) {
+        x[d] = grid_position(g, d, node % g->count[d]);
+        node /= g->count[d];
+    }
+}
+
+/* N and grad N of every particle at every node. */
+static inline void reference_weights(struct reference_step *s)
+{
+    const struct particles *p = s->p;
+    for (int64_t i = 0; i < p->n; i++)
+        for (int64_t I = 0; I < s->g->n; I++) {
+            real x[DIM_MAX], *value = &s->value[i * s->g->n + I];
+            struct reference_shape one[DIM_MAX];
+            reference_node_position(s->g, I, x);
+            *value = 1;
+            for (int d = 0; d < p->dim; d++) {
+                real l = s->half_width * (s->shape == SHAPE_CPGIMP ? p->stretch[d][i] : 1);
+                one[d] = reference_shape(s->shape, p->x[d][i] - x[d], s->g->h, l);
+                *value *= one[d].value;
+            }
+            for (int d = 0; d < p->dim; d++) {
+                real slope = one[d].slope;
+                for (int e = 0; e < p->dim; e++) slope *= e == d ? 1 : one[e].value;
+                s->slope[d][i * s->g->n + I] = slope;
+            }
+        }
+}
+
+static inline void reference_step_make(struct reference_step *s)
+{
+    int64_t nodes = s->g->n;
+    s->value = NEW("reference.value", s->p->n * nodes, real);
+    s->mass = NEW("reference.mass", nodes, real);
+    for (int d = 0; d < s->p->dim; d++) {
+        s->slope[d] = NEW("reference.slope", s->p->n * nodes, real);
+        s->momentum[d] = NEW("reference.momentum", nodes, real);
+        s->force[d] = NEW("reference.force", nodes, real);
+        s->velocity[d] = NEW("reference.velocity", nodes, real);
+        s->change[d] = NEW("reference.change", nodes, real);
+    }
+    reference_weights(s);
+}
+
+static inline void reference_step_free(struct reference_step *s)
+{
+    memory_free(s->value);
+    memory_free(s->mass);
+    for (int d = 0; d < s->p->dim; d++) {
+        memory_free(s->slope[d]);
+        memory_free(s->momentum[d]);
+        memory_free(s->force[d]);
+        memory_free(s->velocity[d]);
+        memory_free(s->change[d]);
+    }
+}
+
+/* The stress that a point gives to the grid. */
+static inline void reference_given(const struct reference_step *s, int64_t i, real tensor[DIM_MAX][DIM_MAX])
+{
+    int n = symmetric_count(s->p->dim);
+    real sigma[SYM_MAX], given[SYM_MAX];
+    for (int a = 0; a < n; a++) given[a] = sigma[a] = s->p->stress[a][i];
+    if (s->partial->index && s->partial->index[i] >= 0)
+        for (int a = 0; a < n; a++)
+            for (int b = 0; b < n; b++)
+                given[a] -= s->partial->matrix[(s->partial->index[i] * n + a) * n + b] * sigma[b];
+    reference_tensor(given, s->p->dim, tensor);
+}
+
+/* Mass and momentum (step 1); affine: the velocity of a point varies with its gradient. */
+static inline void reference_map(struct reference_step *s, bool with_mass)
+{
+    const struct particles *p = s->p;
+    for (int64_t I = 0; I < s->g->n; I++) {
+        real x[DIM_MAX];
+        reference_node_position(s->g, I, x);
+        if (with_mass) s->mass[I] = 0;
+        for (int d = 0; d < p->dim; d++) s->momentum[d][I] = 0;
+        for (int64_t i = 0; i < p->n; i++) {
+            if (p->kind[i] != KIND_MPM) continue;
+            real share = p->mass[i] * s->value[i * s->g->n + I];
+            if (with_mass) s->mass[I] += share;
+            for (int a = 0; a < p->dim; a++) {
+                real v = p->v[a][i];
+                for (int b = 0; b < p->dim && s->transfer == TRANSFER_APIC; b++)
+                    v += p->gradient[a * p->dim + b][i] * (x[b] - p->x[b][i]);
+                s->momentum[a][I] += share * v;
+            }
+        }
+    }
+}
+
+/* f = -sum V sigma . grad N + sum N f (step 3). */
+static inline void reference_forces(struct reference_step *s)
+{
+    const struct particles *p = s->p;
+    for (int64_t i = 0; i < p->n; i++) {
+        real sigma[DIM_MAX][DIM_MAX];
+        if (p->kind[i] != KIND_MPM) continue;
+        reference_given(s, i, sigma);
+        for (int64_t I = 0; I < s->g->n; I++)
+            for (int a = 0; a < p->dim; a++) {
+                s->force[a][I] += s->value[i * s->g->n + I] * p->f[a][i];
+                for (int b = 0; b < p->dim; b++)
+                    s->force[a][I] -= p->volume[i] * sigma[a][b] * s->slope[b][i * s->g->n + I];
+            }
+    }
+}
+
+/* End of step 3: what nodes move with; nodes lighter than the smallest mass rest. */
+static inline void reference_move(struct reference_step *s)
+{
+    for (int64_t I = 0; I < s->g->n; I++)
+        for (int d = 0; d < s->p->dim; d++) {
+            bool light = s->mass[I] < s->smallest_mass;
+            s->change[d][I] = light ? 0 : s->dt_velocity * s->force[d][I] / s->mass[I];
+            s->velocity[d][I] = light ? 0 : s->momentum[d][I] / s->mass[I] + s->change[d][I];
+        }
+}
+
+static inline real reference_at(const struct reference_step *s, const real *weight, const real *field, int64_t i)
+{
+    real sum = 0;
+    for (int64_t I = 0; I < s->g->n; I++) sum += weight[i * s->g->n + I] * field[I];
+    return sum;
+}
+
+/* Steps 4 to 6 of FLIP: velocities of points, then the second map with the old weights; after it `momentum` holds its
+ * velocity. */
+static inline void reference_remap(struct reference_step *s)
+{
+    for (int64_t i = 0; i < s->p->n; i++)
+        for (int d = 0; d < s->p->dim; d++)
+            if (s->p->kind[i] == KIND_MPM) s->p->v[d][i] += reference_at(s, s->value, s->change[d], i);
+    reference_map(s, false);
+    for (int64_t I = 0; I < s->g->n; I++)
+        for (int d = 0; d < s->p->dim; d++)
+            s->momentum[d][I] = s->mass[I] < s->smallest_mass ? 0 : s->momentum[d][I] / s->mass[I];
+}
+
+static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][DIM_MAX], real c[DIM_MAX][DIM_MAX],
+                                     int dim)
+{
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) {
+            c[i][j] = 0;
+            for (int k = 0; k < dim; k++) c[i][j] += a[i][k] * b[k][j];
+        }
+}
+
+/* sigma + W s - s W, s the stress of before below 3e-5 rad, half-way up to 1e-3 rad; beyond R sigma R^T with R = exp W, summed as its
+ * power series. */
+static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX][DIM_MAX], int dim)
+{
+    real a[DIM_MAX][DIM_MAX], b[DIM_MAX][DIM_MAX], R[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, angle2 = 0;
+    real term[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, turned[DIM_MAX][DIM_MAX];
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < i; j++) angle2 += W[i][j] * W[i][j];
+    reference_product(W, sigma, a, dim);
+    reference_product(sigma, W, b, dim);
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) turned[i][j] = sigma[i][j] + (sqrt(angle2) <= 3e-5 ? 0 : 0.5 * (a[i][j] - b[i][j]));
+    reference_product(W, turned, a, dim);
+    reference_product(turned, W, b, dim);
+    for (int i = 0; i < dim && sqrt(angle2) <= 1e-3; i++)
+        for (int j = 0; j < dim; j++) sigma[i][j] += a[i][j] - b[i][j];
+    if (sqrt(angle2) <= 1e-3) return;
+    for (int n = 1; n < 20; n++) {
+        reference_product(term, W, a, dim);
+        for (int i = 0; i < dim; i++)
+            for (int j = 0; j < dim; j++) R[i][j] += term[i][j] = a[i][j] / n;
+    }
+    reference_product(R, sigma, turned, dim);
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) a[i][j] = R[j][i];
+    reference_product(turned, a, b, dim);
+    memcpy(sigma, b, sizeof b);
+}
+
+/* Step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain sym(L) dt - W W/2, volume, axial stretch. */
+static inline void reference_stress(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
+{
+    struct particles *p = s->p;
+    const struct elastic *c = &s->elastic[p->material[i]];
+    real sigma[DIM_MAX][DIM_MAX] = {{0}}, W[DIM_MAX][DIM_MAX] = {{0}}, WW[DIM_MAX][DIM_MAX], old[SYM_MAX], trace = 0;
+    for (int a = 0; a < symmetric_count(p->dim); a++) old[a] = p->stress[a][i];
+    reference_tensor(old, p->dim, sigma);
+    for (int a = 0; a < p->dim; a++)
+        for (int b = 0; b < p->dim; b++) W[a][b] = 0.5 * s->dt * (L[a][b] - L[b][a]);
+    reference_product(W, W, WW, p->dim);
+    for (int a = 0; a < p->dim; a++) trace += L[a][a] * s->dt - 0.5 * WW[a][a];
+    reference_rotate(sigma, W, p->dim);
+    for (int a = 0; a < p->dim; a++)
+        for (int b = 0; b <= a; b++) {
+            real strain = 0.5 * s->dt * (L[a][b] + L[b][a]) - 0.5 * WW[a][b];
+            sigma[a][b] += a == b ? (c->c11 - c->c12) * strain + c->c12 * trace : 2 * c->shear * strain;
+            p->stress[reference_symmetric(p->dim, a, b)][i] = sigma[a][b];
+        }
+    p->volume[i] *= 1 + trace;
+    for (int a = 0; a < p->dim && s->shape == SHAPE_CPGIMP; a++) p->stretch[a][i] *= 1 + s->dt * L[a][a];
+}
+
+/* Positions with the nodal velocity or, where bonds meet a point, that of the second map; gradient from the second map (FLIP) or
+ * the nodal velocity itself (APIC). */
+static inline void reference_gather(struct reference_step *s)
+{
+    struct particles *p = s->p;
+    bool affine = s->transfer == TRANSFER_APIC;
+    for (int64_t i = 0; i < p->n; i++) {
+        real L[DIM_MAX][DIM_MAX];
+        if (p->kind[i] != KIND_MPM) continue;
+        real *const *straining = affine ? s->velocity : s->momentum;
+        real *const *moving = s->bonded && s->bonded[i] ? straining : s->velocity;
+        for (int a = 0; a < p->dim; a++)
+            for (int b = 0; b < p->dim; b++) {
+                L[a][b] = reference_at(s, s->slope[b], straining[a], i);
+                if (affine) p->gradient[a * p->dim + b][i] = L[a][b];
+            }
+        for (int a = 0; a < p->dim; a++) {
+            real v = reference_at(s, s->value, moving[a], i);
+            if (affine) p->v[a][i] = v;
+            p->x[a][i] += s->dt * v;
+        }
+        reference_stress(s, i, L);
+    }
+}
+
+/* Largest principal stress: the largest n . sigma . n, by Jacobi rotations of the tensor. */
+static inline real reference_principal(const real *symmetric, int dim)
+{
+    real t[DIM_MAX][DIM_MAX], largest = -INFINITY;
+    reference_tensor(symmetric, dim, t);
+    for (int sweep = 0; sweep < 20; sweep++)
+        for (int a = 0; a < dim; a++)
+            for (int b = a + 1; b < dim; b++) {
+                real angle = 0.5 * atan2(2 * t[a][b], t[a][a] - t[b][b]), c = cos(angle), s = sin(angle);
+                for (int k = 0; k < dim; k++) {
+                    real left = t[a][k], right = t[b][k];
+                    t[a][k] = c * left + s * right, t[b][k] = c * right - s * left;
+                }
+                for (int k = 0; k < dim; k++) {
+                    real left = t[k][a], right = t[k][b];
+                    t[k][a] = c * left + s * right, t[k][b] = c * right - s * left;
+                }
+            }
+    for (int a = 0; a < dim; a++) largest = fmax(largest, t[a][a]);
+    return largest;
+}
+
+#endif

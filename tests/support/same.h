@@ -1,0 +1,18 @@
+/* floor 5: two bodies of particles, to the last bit. */
+#ifndef CLEAVE_TEST_SAME_H
+#define CLEAVE_TEST_SAME_H
+
+#include "near.h"
+#include "data/particles.h"
+
+/* Every array that both have; `optional` is a sum of WITH_*. */
+static inline void assert_same_particles(const struct particles *a, const struct particles *b, int optional)
+{
+    assert_int_equal(a->n, b->n);
+    for (int f = 0; f < particle_fields_count; f++)
+        for (int k = 0; k < particle_fields[f].count(a->dim, optional); k++)
+            assert_memory_equal(particle_array(a, &particle_fields[f], k), particle_array(b, &particle_fields[f], k),
+                                (size_t)a->n * particle_fields[f].size);
+}
+
+#endif

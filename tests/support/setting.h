@@ -1,0 +1,45 @@
+/* floor 5: a small scene made by hand: the ground that tests of filling stand on. */
+#ifndef CLEAVE_SETTING_H
+#define CLEAVE_SETTING_H
+
+#include <stdio.h>
+
+#include "engine/engine.h"
+
+enum { EVERYTHING = WITH_EVERYTHING, SOLIDS = 3, BODIES = 2, INITIALS = 3 };
+
+/* A scene with its parts in one place. */
+struct setting {
+    struct scene scene;
+    struct material material[2];
+    struct scene_body body[BODIES];
+    struct solid solid[BODIES][SOLIDS];
+    struct scene_initial initial[INITIALS];
+};
+
+/* Two materials, one body that is the box 0 .. `edge`, spacing 0.5. */
+static inline void setting_make(struct setting *s, enum space space, const real *edge)
+{
+    static const char *const name[BODIES] = {"plate", "layer"};
+    *s = (struct setting){0};
+    struct scene *c = &s->scene;
+    c->path = "folder/test.yaml";
+    c->space = space, c->dim = space_dim(space);
+    c->thickness = c->section = 1, c->spacing = 0.5, c->method = METHOD_MPM;
+    c->materials = 2, c->material = s->material;
+    c->bodies = 1, c->body = s->body;
+    c->initial = s->initial;
+    for (int m = 0; m < 2; m++) {
+        s->material[m] = (struct material){.young = 1e9 * (m + 1), .poisson = 0.25, .density = 1000 * (m + 1)};
+        material_derive(&s->material[m], space);
+    }
+    for (int b = 0; b < BODIES; b++) {
+        s->body[b].shape = (struct region){1, s->solid[b]};
+        snprintf(s->body[b].name, sizeof s->body[b].name, "%s", name[b]);
+    }
+    s->solid[0][0].kind = SOLID_BOX;
+    for (int d = 0; d < c->dim; d++) s->solid[0][0].to[d] = edge[d];
+    for (int k = 0; k < INITIALS; k++) s->initial[k].body = -1;
+}
+
+#endif

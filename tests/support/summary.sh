@@ -1,0 +1,117 @@
+#!/bin/sh
+# floor 5: what the test scripts share: figures out of summary.json and history.csv with awk alone, and checks that are counted.
+# Sourced from the project's root, after `test_name` is set. Gives $cleave, $root and $work, a folder that goes at the end.
+set -u
+root=$(pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' INT TERM HUP
+cleave=$work/cleave                      # a copy: a build in the meantime must not mix two programs in one test
+cp "${BUILD:-build}/cleave" "$cleave" || exit 1
+look_through=$(cd "${BUILD:-build}" && pwd)/tests/robustness/test_numbers       # there with `make test`
+checks=0 failures=0
+
+fail() { echo "$test_name: $1" >&2; failures=$((failures + 1)); }
+pass() { checks=$((checks + 1)); }
+
+# numbers FOLDER: below it no frame holds a number that is none, nor does a history, but for nan where there is no tip or no front yet,
+# fewer than two contours, no factors, or nothing that has yielded.
+numbers()
+{
+    [ ! -x "$look_through" ] || none=$(find "$1" -path '*/frames/*.hdf' -exec "$look_through" {} +) || fail "$1: $none"
+    none=$(find "$1" -name history.csv -exec awk -F, '
+        FNR == 1 { for (k = 1; k <= NF; k++) name[k] = $k; next }
+        { for (k = 1; k <= NF; k++)
+            if ($k ~ /inf/ || $k ~ /nan/ && name[k] !~ /^tip_[xyz]|\.[xyz] |\.(front|plateau)|\.contour_spread|\.K_eq|\.strain_(elastic|plastic)/)
+                none[FILENAME ": " name[k] ": " $k]++ }
+        END { for (what in none) print what }' {} +)
+    is "$1: histories" "$none" ""
+}
+
+# finish: the count, and the exit status of the script.
+finish()
+{
+    numbers "$work"
+    echo "$test_name: $checks checks held, $failures failed"
+    [ $failures -eq 0 ]
+    exit
+}
+
+# figure DIR PATH: the entry of DIR/summary.json with this path, as in crack.tips.0.x; nothing where there is none.
+figure()
+{
+    [ -f "$1/summary.json" ] || return 0
+    awk -v wanted="$2" '
+        { text = text $0 "\n" }
+        function place(key) { path[depth + 1] = depth > 1 ? path[depth] "." key : key }
+        END {
+            while (length(text) > 0) {
+                if (match(text, /^[ \t\n,:]+/)) { text = substr(text, RLENGTH + 1); continue }
+                letter = substr(text, 1, 1)
+                if (letter == "}" || letter == "]") { depth--; text = substr(text, 2); continue }
+                if (list[depth]) { place(count[depth]++); named = 1 }
+                if (letter == "{" || letter == "[") {
+                    depth++; list[depth] = letter == "["; count[depth] = 0; named = 0
+                    text = substr(text, 2); continue
+                }
+                if (letter == "\"") { match(text, /^"([^"\\]|\\.)*"/); word = substr(text, 2, RLENGTH - 2) }
+                else { match(text, /^[^ \t\n,}\]]+/); word = substr(text, 1, RLENGTH) }
+                text = substr(text, RLENGTH + 1)
+                if (letter == "\"" && !named) { place(word); named = 1; continue }
+                named = 0
+                if (path[depth + 1] == wanted) { print word; exit }
+            }
+        }' "$1/summary.json"
+}
+
+# column DIR NAME TIME: a column of DIR/history.csv (its name without the unit) at the last sample not after TIME [s].
+column()
+{
+    awk -F, -v name="$2" -v time="$3" '
+        NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k } next }
+        at && $1 + 0 <= time * (1 + 1e-9) { value = $at }
+        END { print value }' "$1/history.csv"
+}
+
+# passes DIR NAME VALUE: the time [s] of the first sample at which a column of DIR/history.csv is at least VALUE.
+passes()
+{
+    awk -F, -v name="$2" -v value="$3" '
+        NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k } next }
+        at && $at + 0 >= value + 0 { print $1; exit }' "$1/history.csv"
+}
+
+# compute FORMULA: what awk makes of it.
+compute() { awk "BEGIN { printf \"%.9g\", $1 }" </dev/null; }
+
+# between WHAT VALUE LOW HIGH: a number, and LOW <= VALUE <= HIGH.
+between()
+{
+    if awk -v v="$2" -v low="$3" -v high="$4" 'BEGIN {
+        exit !(v ~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ && v + 0 >= low + 0 && v + 0 <= high + 0) }'; then pass
+    else fail "$1: ${2:-missing}, not within $3 and $4"; fi
+}
+
+# apart WHAT A B MOST: two numbers no farther apart than MOST.
+apart()
+{
+    if awk -v a="$2" -v b="$3" -v most="$4" 'BEGIN { n = "^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
+        d = a - b; exit !(a ~ n && b ~ n && d <= most + 0 && -d <= most + 0) }'; then pass
+    else fail "$1: ${2:-missing} and ${3:-missing} are more than $4 apart"; fi
+}
+
+# near WHAT VALUE WANTED SHARE: no farther from it than this share of it.
+near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
+
+# absent WHAT VALUE: the run has no such figure.
+absent() { if [ -z "$2" ]; then pass; else fail "$1: $2, where there should be none"; fi; }
+
+# is WHAT VALUE WANTED: the same word.
+is() { if [ "$2" = "$3" ]; then pass; else fail "$1: '$2', not '$3'"; fi; }
+
+# holds WHAT COMMAND...: the command succeeds.
+holds()
+{
+    claim=$1; shift
+    if "$@"; then pass; else fail "$claim"; fi
+}

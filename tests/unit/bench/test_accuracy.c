@@ -1,0 +1,305 @@
+/* floor 5: what the speed-accuracy chart says of a cloud of points: its front, and the cheapest way to an error. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "bench/accuracy/accuracy.h"
+#include "src/auto/chart.h"
+#include "bench/common/manufactured.h"
+
+/* A staircase with points above it, two alike, one unstable and one that was not timed. */
+static const struct accuracy_dot cloud[] = {
+    {4, 0.001}, {1, 0.1}, {2, 0.02}, {2, 0.03}, {3, 0.02}, {1, 0.1}, {0.5, NAN}, {INFINITY, 1e-5}, {8, 0.0015}, {0.7, 0.3}};
+enum { DOTS = COUNT_OF(cloud) };
+
+static void front_has_what_nothing_beats(void **state)
+{
+    (void)state;
+    static const int expected[] = {9, 1, 2, 0};
+    int front[DOTS];
+    assert_int_equal(accuracy_front(cloud, DOTS, front), COUNT_OF(expected));
+    for (size_t k = 0; k < COUNT_OF(expected); k++) assert_int_equal(front[k], expected[k]);
+    assert_int_equal(accuracy_front(cloud, 0, front), 0);
+    assert_int_equal(accuracy_front(&cloud[6], 2, front), 0);
+}
+
+/* The definition, over random clouds: a point is on the front exactly if no other is as good in both and better in one. */
+static void front_of_random_clouds(void **state)
+{
+    (void)state;
+    enum { N = 60 };
+    struct accuracy_dot dot[N];
+    int front[N];
+    srand(7);
+    for (int trial = 0; trial < 50; trial++) {
+        for (int k = 0; k < N; k++) dot[k] = (struct accuracy_dot){rand() % 40, rand() % 40};
+        const int n = accuracy_front(dot, N, front);
+        for (int k = 1; k < n; k++) {
+            assert_true(dot[front[k]].time > dot[front[k - 1]].time);
+            assert_true(dot[front[k]].error < dot[front[k - 1]].error);
+        }
+        for (int k = 0; k < N; k++) {
+            bool reached = false;        /* by a point of the front */
+            for (int j = 0; j < n; j++)
+                reached |= dot[front[j]].time <= dot[k].time && dot[front[j]].error <= dot[k].error;
+            assert_true(reached);
+        }
+    }
+}
+
+static void cheapest_is_the_first_good_enough(void **state)
+{
+    (void)state;
+    assert_int_equal(accuracy_cheapest(cloud, DOTS, 1), 9);
+    assert_int_equal(accuracy_cheapest(cloud, DOTS, 0.05), 2);
+    assert_int_equal(accuracy_cheapest(cloud, DOTS, 0.02), 2);
+    assert_int_equal(accuracy_cheapest(cloud, DOTS, 0.019), 0);
+    assert_int_equal(accuracy_cheapest(cloud, DOTS, 1e-4), -1);
+}
+
+/* ---- exact forms satisfy rho u_tt = c12 grad div u + G (lap u + grad div u) + f ------------------------------------- */
+
+struct motion {
+    int dim;
+    real c12, shear, density, length, time;      /* size of its features, for the steps of differences */
+    void (*at)(const void *context, const real *X, real t, real *u);
+    const void *context;
+};
+
+static real second_difference(const struct motion *m, const real *X, real t, int component, int a, int b)
+{
+    const real h = 1e-3 * m->length;
+    real sum = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        real Y[DIM_MAX], u[DIM_MAX];
+        const int sa = corner & 1 ? -1 : 1, sb = corner & 2 ? -1 : 1;
+        for (int d = 0; d < m->dim; d++) Y[d] = X[d];
+        Y[a] += sa * h, Y[b] += sb * h;
+        m->at(m->context, Y, t, u);
+        sum += sa * sb * u[component];
+    }
+    return sum / (4 * h * h);
+}
+
+static real acceleration(const struct motion *m, const real *X, real t, int component)
+{
+    const real h = 1e-3 * m->time;
+    real before[DIM_MAX], now[DIM_MAX], after[DIM_MAX];
+    m->at(m->context, X, t - h, before), m->at(m->context, X, t, now), m->at(m->context, X, t + h, after);
+    return (before[component] - 2 * now[component] + after[component]) / (h * h);
+}
+
+/* What is left of the equation of motion with the force f, over its largest term: differences are good to 1e-5. */
+static void assert_moves(const struct motion *m, const real *X, real t, const real *f)
+{
+    for (int a = 0; a < m->dim; a++) {
+        const real inertia = m->density * acceleration(m, X, t, a);
+        real elastic = 0, largest = fabs(inertia) + fabs(f[a]);
+        for (int b = 0; b < m->dim; b++) {
+            const real grow = (m->c12 + m->shear) * second_difference(m, X, t, b, a, b);
+            const real bend = m->shear * second_difference(m, X, t, a, b, b);
+            elastic += grow + bend, largest = fmax(largest, fabs(grow) + fabs(bend));
+        }
+        assert_true(fabs(inertia - elastic - f[a]) <= 2e-5 * largest);
+    }
+}
+
+static void manufactured_motion(const void *context, const real *X, real t, real *u)
+{
+    const struct manufactured_values v = manufactured_at(context, X, t);
+    for (int d = 0; d < ((const struct manufactured *)context)->dim; d++) u[d] = v.displacement[d];
+}
+
+/* The sum of the scene's body forces at X and t, read back from its text. */
+static void force_of_scene(const struct manufactured *m, const real *X, real t, real *f)
+{
+    char text[4096];
+    struct scene s;
+    FILE *to = fmemopen(text, sizeof text, "w");
+    fprintf(to, "space: %s\nduration: 1\nmethod: mpm\nmaterial: {young: 1, density: 1}\nparticles: {spacing: 0.5}\n"
+                "body: {box: {from: %s, to: %s}}\nboundary:\n", m->dim == 2 ? "plane stress\nthickness: 1" : "solid",
+            m->dim == 2 ? "[0, 0]" : "[0, 0, 0]", m->dim == 2 ? "[1, 1]" : "[1, 1, 1]");
+    manufactured_boundaries(to, m);
+    fclose(to);
+    assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
+    for (int a = 0; a < m->dim; a++) f[a] = 0;
+    for (int k = 0; k < s.boundaries; k++) {
+        const struct profile *q = &s.boundary[k].profile;
+        const real along = dot(X, q->direction, m->dim) / sqrt(dot(q->direction, q->direction, m->dim));
+        const real factor = sin(2 * M_PI * along / q->wavelength) * time_function_at(&s.boundary[k].time, t);
+        for (int a = 0; a < m->dim; a++) f[a] += factor * s.boundary[k].value[a];
+    }
+    scene_free(&s);
+}
+
+static void manufactured_is_a_solution(void **state)
+{
+    (void)state;
+    static const real place[][3] = {{0.13, 0.27, 0.41}, {0.62, 0.91, 0.33}, {0.05, 0.48, 0.77}};
+    for (int dim = 2; dim <= 3; dim++) {
+        const struct manufactured m = {dim, 1e-3, 2, 1.5, {1, -0.5, 0.75}, 3, 2, 1.7};
+        const struct motion moving = {dim, m.c12, m.shear, m.density, m.length, m.period, manufactured_motion, &m};
+        for (int k = 0; k < 3; k++)
+            for (real t = 0.3; t < 2; t += 0.4) {
+                const struct manufactured_values v = manufactured_at(&m, place[k], t);
+                real f[DIM_MAX], u[2][DIM_MAX];
+                force_of_scene(&m, place[k], t, f);
+                assert_moves(&moving, place[k], t, f);
+                for (int a = 0; a < dim; a++) assert_true(fabs(v.force[a] - f[a]) <= 1e-12 * m.amplitude * 1e3);
+                const real h = 1e-4;
+                manufactured_motion(&m, place[k], t - h, u[0]), manufactured_motion(&m, place[k], t + h, u[1]);
+                for (int a = 0; a < dim; a++)
+                    assert_true(fabs((u[1][a] - u[0][a]) / (2 * h) - v.velocity[a]) <= 1e-6 * m.amplitude);
+                for (int s = 0; s < symmetric_count(dim); s++) {
+                    int a, b;
+                    real ends[4][DIM_MAX], slope = 0;
+                    symmetric_axes(dim, s, &a, &b);
+                    for (int end = 0; end < 4; end++) {
+                        real Y[DIM_MAX] = {place[k][0], place[k][1], place[k][2]};
+                        Y[end < 2 ? b : a] += end % 2 ? -h : h;
+                        manufactured_motion(&m, Y, t, ends[end]);
+                    }
+                    slope = (ends[0][a] - ends[1][a] + ends[2][b] - ends[3][b]) / (4 * h);
+                    assert_true(fabs(slope - v.strain[s]) <= 1e-5 * m.amplitude);
+                }
+            }
+    }
+}
+
+struct wave { struct wave_pulse pulse; real speed; int dim; };
+
+static void wave_motion(const void *context, const real *X, real t, real *u)
+{
+    const struct wave *w = context;
+    struct wave_pulse moved = w->pulse;
+    for (int d = 0; d < w->dim; d++) moved.at[d] += w->speed * t * moved.direction[d];
+    const struct wave_state s = wave_pulse_at(&moved, X, w->speed, w->dim);
+    for (int d = 0; d < w->dim; d++) u[d] = s.displacement * moved.polarisation[d];
+}
+
+/* Pulses as scenes read them, along and across their direction, without any force. */
+static void pulses_are_solutions(void **state)
+{
+    (void)state;
+    static const char *const pulse[] = {"direction: [0.6, 0.8]", "direction: [3, 4], polarisation: [-3, -4]",
+                                        "direction: [0.6, 0.8], polarisation: [8, -6]"};
+    for (size_t k = 0; k < COUNT_OF(pulse); k++) {
+        char text[1024];
+        struct scene s;
+        snprintf(text, sizeof text, "space: plane stress\nthickness: 1\nduration: 1\nmethod: mpm\n"
+                 "material: {young: 2, density: 1.3, poisson: 0.2}\nparticles: {spacing: 0.5}\n"
+                 "body: {box: {from: [0, 0], to: [1, 1]}}\ninitial: [{pulse: {at: [0.1, 0.2], width: 0.8, velocity: 0.01, %s}}]\n",
+                 pulse[k]);
+        assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
+        const struct material *m = &s.material[0];
+        const struct wave w = {s.initial[0].pulse, k == 2 ? m->shear_speed : m->wave_speed, 2};
+        assert_true(w.pulse.transverse == (k == 2));
+        const struct motion moving = {2, m->c12, m->shear, m->density, 0.2, 0.2 / w.speed, wave_motion, &w};
+        const real X[DIM_MAX] = {0.21, 0.34}, none[DIM_MAX] = {0};
+        for (real t = 0; t < 0.3; t += 0.07) assert_moves(&moving, X, t, none);
+        scene_free(&s);
+    }
+}
+
+/* Particles start with the stress and the velocity of the wave: rho c v against the traction on its plane. */
+static void particles_start_in_a_transverse_wave(void **state)
+{
+    (void)state;
+    static const char text[] = "space: plane stress\nthickness: 1\nduration: 1\nmethod: mpm\n"
+                               "material: {young: 2, density: 1.3, poisson: 0.2}\nparticles: {spacing: 0.1}\n"
+                               "body: {box: {from: [0, 0], to: [1, 1]}}\ninitial: [{pulse: {at: [0.5, 0.5], "
+                               "direction: [0.6, 0.8], polarisation: [-0.8, 0.6], width: 0.8, velocity: 0.01}}]\n";
+    struct scene s;
+    struct particles p;
+    assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
+    assert_int_equal(fill_particles(&p, &s, 0), OK);
+    const struct wave_pulse *w = &s.initial[0].pulse;
+    const real speed = sqrt(2 / (2 * 1.2) / 1.3), *n = w->direction;
+    for (int64_t i = 0; i < p.n; i++) {
+        const real X[2] = {p.X[0][i], p.X[1][i]};
+        const struct wave_state wave = wave_pulse_at(w, X, speed, 2);
+        const real traction[2] = {p.stress[0][i] * n[0] + p.stress[2][i] * n[1], p.stress[2][i] * n[0] + p.stress[1][i] * n[1]};
+        for (int d = 0; d < 2; d++) {
+            assert_true(fabs(p.v[d][i] - wave.velocity * w->polarisation[d]) <= 1e-15);
+            assert_true(fabs(p.x[d][i] - X[d] - wave.displacement * w->polarisation[d]) <= 1e-15);
+            assert_true(fabs(traction[d] + 1.3 * speed * p.v[d][i]) <= 1e-14);
+        }
+    }
+    particles_free(&p);
+    scene_free(&s);
+}
+
+/* ---- the chart of the program --------------------------------------------------------------------------------------- */
+
+static const struct accuracy_problem *problem_named(const char *name)
+{
+    for (int k = 0; k < accuracy_problems; k++)
+        if (strcmp(accuracy_problem[k]->name, name) == 0) return accuracy_problem[k];
+    return NULL;
+}
+
+static int case_named(const struct accuracy_problem *q, const char *name)
+{
+    for (int k = 0; k < accuracy_cases(q); k++)
+        if (strcmp(q->cases[k], name) == 0) return k;
+    return -1;
+}
+
+static const struct accuracy_method *method_named(const char *name)
+{
+    for (int k = 0; k < accuracy_methods; k++)
+        if (strcmp(accuracy_method[k].name, name) == 0) return &accuracy_method[k];
+    return NULL;
+}
+
+/* Every line of src/auto/chart.csv is a run that the plan knows, of a method whose scene keys are still those of the line: otherwise
+ * method auto would set keys that no one measured. */
+static void the_chart_is_of_these_methods(void **state)
+{
+    (void)state;
+    struct chart c;
+    assert_int_equal(chart_read(&c, NULL), OK);
+    for (int k = 0; k < c.n; k++) {
+        const struct chart_point *p = &c.point[k];
+        const struct accuracy_problem *q = problem_named(p->problem);
+        const struct accuracy_method *m = method_named(p->method);
+        assert_non_null(q);
+        assert_non_null(m);
+        assert_true(m->family & q->families);
+        const struct accuracy_point at = {.problem = q, .method = m, .at = case_named(q, p->at),
+                                          .resolution = (int)p->resolution, .horizon = p->horizon, .step = p->step};
+        assert_true(at.at >= 0 && (!q->applies || q->applies(&at)));
+        struct accuracy_scene s;
+        accuracy_scene_make(&at, &s);
+        bench_overrides_ready(&s.set);
+        for (int j = 0; j < s.set.n; j++) {
+            const char *key = s.set.at[j].key;
+            bool column = false, later = false;
+            const char *const apart[] = {"particles.", "time.", "output."};
+            for (size_t a = 0; a < COUNT_OF(apart); a++) column |= strncmp(key, apart[a], strlen(apart[a])) == 0;
+            for (int i = j + 1; i < s.set.n; i++) later |= strcmp(s.set.at[i].key, key) == 0;
+            if (!column && !later) assert_true(chart_says(p, key, s.set.at[j].value));
+        }
+    }
+    chart_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(front_has_what_nothing_beats),
+        cmocka_unit_test(front_of_random_clouds),
+        cmocka_unit_test(cheapest_is_the_first_good_enough),
+        cmocka_unit_test(manufactured_is_a_solution),
+        cmocka_unit_test(pulses_are_solutions),
+        cmocka_unit_test(particles_start_in_a_transverse_wave),
+        cmocka_unit_test(the_chart_is_of_these_methods),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

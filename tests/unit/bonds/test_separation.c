@@ -1,0 +1,94 @@
+/* floor 2: the critical stretch of state-based bonds is that of their energy release rate: halves of a lattice are drawn
+ * apart by the kernels until nothing holds them, and the work per area is G_c. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+#include "tests/support/cloud.h"
+#include "kernels/kernels.h"
+
+#define STRETCH 1e-4                     /* small: lengths are of first order in the opening */
+enum { COLUMNS = 15, ROWS = 12, STEPS = 1000 };
+
+struct pulled { struct cloud c; struct state_modulus modulus[CLOUD_MATERIALS]; enum pd_model model; };
+
+static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enum influence influence, bool local)
+{
+    const struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .count = {COLUMNS, ROWS}, .horizon = 3.015,
+                                    .influence = influence};
+    memset(b, 0, sizeof *b);
+    b->model = model;
+    cloud_make(&b->c, &plan);
+    for (int k = 0; k < CLOUD_MATERIALS; k++) {
+        b->c.material[k].poisson = poisson;
+        material_derive(&b->c.material[k], plan.space);
+        b->modulus[k] = state_modulus_of(&b->c.material[k], plan.space, model == PD_MOSPD);
+    }
+    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) b->c.limit[k] = STRETCH;
+    b->c.source.modulus = b->modulus, b->c.source.local = local, b->c.source.turns = model == PD_MOSPD;
+    cloud_bonds(&b->c);
+}
+
+/* What holds back the upper half of the middle column [N], at this opening. */
+static real pull(struct pulled *b, real opening)
+{
+    struct particles *p = &b->c.p;
+    real hold = 0;
+    for (int64_t i = 0; i < p->n; i++) p->x[1][i] = p->X[1][i] + (i / COLUMNS < ROWS / 2 ? 0 : opening);
+    state_force_table[2][b->model](&b->c.bonds, p, &b->c.source.limit, NULL);
+    for (int64_t i = ROWS / 2 * COLUMNS + COLUMNS / 2; i < p->n; i += COLUMNS) hold -= p->f[1][i];
+    return hold;
+}
+
+/* Work of separation of a column, over the area it leaves and the square of the critical stretch [N/m]. */
+static real separation(struct pulled *b)
+{
+    /* the last bond breaks at r^2/z = 5 spacings */
+    const real most = 5.5 * STRETCH * CLOUD_SPACING, step = most / STEPS;
+    real work = 0;
+    for (int k = 0; k < STEPS; k++) work += pull(b, (k + 0.5) * step) * step;
+    assert_true(fabs(pull(b, most)) < 1e-8 * work / most);     /* round-off of places: 1e-16 over openings of 1e-4 */
+    return work / (b->c.source.family.section * CLOUD_SPACING * square(STRETCH));
+}
+
+/* A bond holds half a step too long and half its force in the step it breaks in: 1000 steps leave 0.2 %. */
+static void test_rotations(void **state)
+{
+    (void)state;
+    static const enum influence influence[] = {INFLUENCE_ONE, INFLUENCE_INVERSE};
+    for (size_t k = 0; k < COUNT_OF(influence); k++)
+        for (int local = 0; local < 2; local++)
+            for (int n = 0; n < 2; n++) {
+                struct pulled b;
+                pulled_make(&b, PD_MOSPD, n ? 0.45 : 0.2, influence[k], local);
+                real want = family_separation(&b.c.source.family, &b.modulus[0], local);
+                assert_true(fabs(separation(&b) / want - 1) < 3e-3);
+                cloud_free(&b.c);
+            }
+}
+
+/* The closed form of Madenci & Oterkus 2014 is of a continuum with omega = delta/r and a full Q: the lattice at m = 3.015
+ * is within 3 % of it for every nu, and as much above, 5 to 9 %, as Q shrinks with the family. */
+static void test_ordinary(void **state)
+{
+    (void)state;
+    for (int local = 0; local < 2; local++)
+        for (int n = 0; n < 3; n++) {
+            struct pulled b;
+            pulled_make(&b, PD_OSPD, (const real[]){0.2, 1.0 / 3, 0.45}[n], INFLUENCE_INVERSE, local);
+            struct material m = b.c.material[0];
+            m.energy_release_rate = 1;
+            real s = material_critical_stretch(&m, SPACE_PLANE_STRESS, b.c.source.family.horizon, STRETCH_OSPD);
+            real released = separation(&b) * square(s);
+            assert_true(local ? released > 1.04 && released < 1.10 : fabs(released - 1) < 0.035);
+            cloud_free(&b.c);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rotations), cmocka_unit_test(test_ordinary)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

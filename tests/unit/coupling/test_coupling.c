@@ -1,0 +1,286 @@
+/* floor 4: both methods together: the patch residual of a flat interface, and the energy of conversion. Numbers:
+ * measured with an independent prototype. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+#include "tests/support/patch.h"
+#include "base/team.h"
+
+#define STRAIN 1e-7          /* bonds stretch by finite geometry: deviations from linear theory of this order */
+
+/* ---- a flat interface ----------------------------------------------------------------------------------- */
+
+struct interface {
+    struct cloud_plan plan;
+    int split;                           /* peridynamic columns, left of the interface                        */
+    enum shape shape;
+    real ratio, offset;                  /* cell size and place of the grid's nodes [spacings]                */
+    enum coupling coupling;
+};
+
+/* Stress of every material point by Hooke's law; returns its components. */
+static void set_stress(struct cloud *c, const real strain[DIM_MAX][DIM_MAX], real *stress)
+{
+    const struct material *m = &c->material[0];
+    const int dim = c->p.dim;
+    real trace = 0;
+    for (int a = 0; a < dim; a++) trace += strain[a][a];
+    for (int a = 0; a < dim; a++) stress[a] = (m->c11 - m->c12) * strain[a][a] + m->c12 * trace;
+    for (int a = 0; a < dim && dim > 1; a++) {
+        int b = (a + 1) % dim, at = dim == 2 ? 2 : 3 + a;
+        stress[at] = m->shear * (strain[a][b] + strain[b][a]);
+    }
+    for (int64_t i = 0; i < c->p.n; i++)
+        for (int s = 0; s < symmetric_count(dim); s++) c->p.stress[s][i] = c->p.kind[i] == KIND_MPM ? stress[s] : 0;
+}
+
+/* Largest nodal force, free edges left out, per area of a cell's face [Pa]; also the stress of the points. Peridynamic
+ * particles, whose families are full, must feel nothing in either coupling. */
+static real interface_residual(const struct interface *k, const real strain[DIM_MAX][DIM_MAX], real *stress)
+{
+    struct patch s = {0};
+    const int *count = k->plan.count;
+    real from[DIM_MAX], to[DIM_MAX], reach = ceil(k->plan.horizon) + 2 * k->ratio;
+    cloud_make(&s.c, &k->plan);
+    struct particles *p = &s.c.p;
+    for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->X[0][i] > k->split * CLOUD_SPACING ? KIND_MPM : KIND_PD;
+    cloud_bonds(&s.c);
+    cloud_strain(&s.c, strain);
+    set_stress(&s.c, strain, stress);
+    bond_force_table[p->dim][PD_BOND](&s.c.bonds, p, &s.c.source.limit, NULL);
+    if (k->coupling == COUPLING_PARTIAL_STRESS) partial_stress_make(&s.partial, p, &s.c.bonds, &s.c.source, NULL, 0);
+    patch_grid(&s, k->ratio, k->offset);
+    patch_map(&s, k->shape);
+    for (int d = 0; d < p->dim; d++) from[d] = reach, to[d] = count[d] - reach;
+    from[0] = 0;
+    real residual = patch_residual(&s, from, to) / (pow(s.g.h, p->dim - 1) * s.c.source.family.section);
+    patch_free(&s);
+    return residual;
+}
+
+static const struct cloud_plan bar = {.space = SPACE_LINE, .count = {32}, .horizon = 3};
+
+/* The interface, half-way between two particles, lies on a node, as in the prototype that the table is from. */
+static void test_interface_1d(void **state)
+{
+    (void)state;
+    static const real axial[DIM_MAX][DIM_MAX] = {{STRAIN}};
+    static const struct { real ratio, handshake; } row[] = {{1, 0.75}, {2, 0.54}};
+    for (size_t k = 0; k < COUNT_OF(row); k++)
+        for (int shape = SHAPE_LINEAR; shape <= SHAPE_CPGIMP; shape++) {
+            real S[SYM_MAX];
+            struct interface i = {bar, 16, (enum shape)shape, row[k].ratio, 0, COUPLING_HANDSHAKE};
+            if (shape == SHAPE_CPGIMP) i.plan.optional = WITH_STRETCH;
+            is_near("1D handshake", interface_residual(&i, axial, S) / S[0], row[k].handshake,
+                    0.005); /* printed digits */
+            i.coupling = COUPLING_PARTIAL_STRESS;
+            /* round-off of positions, 1e-15 of a spacing, over the strain: 1e-8 a bond; and strains of finite size */
+            at_most("1D partial stress", interface_residual(&i, axial, S) / S[0], 3e-6);
+        }
+}
+
+/* h = 2D, linear shapes. S is sigma_xx (axial: uniaxial strain), C11 strain (biaxial), sigma_xy (shear). Of the prototype's
+ * table the hand-shake's 0.50 and 0.63 are found with the interface on a node; its 0.38 for shear lies between the 0.42
+ * found on a node and the 0.33 in the middle of a cell, its 0.017 for shear with partial stress is found in the middle
+ * of a cell (0.034 on a node). What partial stress leaves is no fault of the coupling: the lattice transmits 1.1 % more
+ * (axial), as much (biaxial), 3.4 % less (shear) than the points, all of it at one node or half of it at two. The
+ * prototype's 0.0007 and 0.007 (axial, biaxial) were not found at any position of the interface; 0.0007 is less than half
+ * of what C11 of this lattice is off. */
+static void test_interface_2d(void **state)
+{
+    (void)state;
+    static const real load[][DIM_MAX][DIM_MAX] = {{{STRAIN}}, {{STRAIN}, {0, STRAIN}}, {{0, STRAIN}, {STRAIN, 0}}};
+    static const struct { real offset, handshake[3], partial[3]; } row[] = {
+        {0, {0.497, 0.637, 0.420}, {0.0114, 0, 0.0343}}, {1, {0.364, 0.473, 0.331}, {0.0057, 0, 0.0172}}};
+    for (size_t k = 0; k < COUNT_OF(row); k++)
+        for (int l = 0; l < 3; l++) {
+            real S[SYM_MAX];
+            struct interface i = {{.space = SPACE_PLANE_STRESS, .count = {32, 24}, .horizon = 3.015},
+                                  16,
+                                  SHAPE_LINEAR,
+                                  2,
+                                  row[k].offset,
+                                  COUPLING_HANDSHAKE};
+            real residual = interface_residual(&i, load[l], S), scale = l == 2 ? S[2] : l == 1 ? 0.75 * S[0] : S[0];
+            is_near("2D handshake", residual / scale, row[k].handshake[l], 0.001);
+            i.coupling = COUPLING_PARTIAL_STRESS;
+            is_near("2D partial stress", interface_residual(&i, load[l], S) / scale, row[k].partial[l], 1e-4);
+            i.plan.shells = SHELLS_ISOTROPIC;    /* no anisotropy, no residual */
+            at_most("2D partial stress, isotropic", interface_residual(&i, load[l], S) / scale, 3e-6);
+        }
+}
+
+/* Three dimensions, isotropic weights: nothing is left for any strain. */
+static void test_interface_3d(void **state)
+{
+    (void)state;
+    static const real strain[DIM_MAX][DIM_MAX] = {{3e-7, 1e-7, -2e-7}, {1e-7, -2e-7, 1e-7}, {-2e-7, 1e-7, 2e-7}};
+    real S[SYM_MAX];
+    struct interface i = {{.space = SPACE_SOLID, .count = {16, 16, 16}, .horizon = 2.015, .shells = SHELLS_ISOTROPIC},
+                          8, SHAPE_LINEAR, 2, 0, COUPLING_PARTIAL_STRESS};
+    at_most("3D partial stress", interface_residual(&i, strain, S) / S[0], 5e-6);
+    i.coupling = COUPLING_HANDSHAKE;
+    assert_true(interface_residual(&i, strain, S) / S[0] > 0.2);
+}
+
+/* The part of its stress that a point gives: 1/4, 2/3, 11/12 for N = 3, by distance from the interface. */
+static void test_share_given(void **state)
+{
+    (void)state;
+    static const real given[] = {1.0 / 4, 2.0 / 3, 11.0 / 12};
+    struct cloud c;
+    struct partial_stress partial = {0};
+    cloud_make(&c, &bar);
+    for (int64_t i = 16; i < c.p.n; i++) c.p.kind[i] = KIND_MPM;
+    cloud_bonds(&c);
+    partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
+    for (int64_t i = 0; i < c.p.n; i++) {
+        int64_t k = i - 16;
+        if (k < 0 || k > 2) assert_true(partial.index[i] < 0);
+        else
+            is_near("share given", 1 - partial.matrix[partial.index[i]], given[k], 1e-12);
+    }
+    partial_stress_free(&partial);
+    cloud_free(&c);
+}
+
+/* Partial stress of a bar of 2 x 2 lines, half of it bonds; `off`: its last particle, which no bond reaches, stands beside the
+ * lattice, so that nothing is looked up. */
+static void shares_make(struct cloud *c, struct partial_stress *partial, real horizon, bool off)
+{
+    const struct cloud_plan plan = {.space = SPACE_SOLID, .count = {24, 2, 2}, .horizon = horizon};
+    cloud_make(c, &plan);
+    if (off)
+        for (int64_t i = 0; i < c->p.n; i++) c->p.X[0][i] += c->p.X[0][i] > 23 * CLOUD_SPACING ? 0.01 * CLOUD_SPACING : 0;
+    for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = c->p.X[0][i] > 12 * CLOUD_SPACING ? KIND_MPM : KIND_PD;
+    cloud_bonds(c);
+    partial_stress_make(partial, &c->p, &c->bonds, &c->source, NULL, 0);
+}
+
+/* What tables answer is what is found bond by bond; where there are too many bonds for tables (8: 2108 in a family), nobody looks
+ * them up. */
+static void test_wide_families(void **state)
+{
+    (void)state;
+    static const real horizon[] = {3.015, 7.015, 8.015};
+    for (size_t k = 0; k < COUNT_OF(horizon); k++) {
+        struct cloud c[2];
+        struct partial_stress partial[2] = {0};
+        int crossed = 0;
+        for (int off = 0; off < 2; off++) shares_make(&c[off], &partial[off], horizon[k], off);
+        for (int64_t i = 0; i < c[0].p.n; i++) {
+            const int32_t a = partial[0].index[i], b = partial[1].index[i];
+            assert_int_equal(a < 0, b < 0);
+            for (int q = 0; q < SYM_MAX * SYM_MAX && a >= 0; q++)
+                is_near("share", partial[0].matrix[a * SYM_MAX * SYM_MAX + q], partial[1].matrix[b * SYM_MAX * SYM_MAX + q], 1e-12);
+            crossed += a >= 0;
+        }
+        assert_true(crossed >= 4 * (int)horizon[k]);
+        for (int off = 0; off < 2; off++) partial_stress_free(&partial[off]), cloud_free(&c[off]);
+    }
+}
+
+/* ---- energy of conversion -------------------------------------------------------------------------------- */
+
+/* Bonds, and half sigma_given : C^-1 sigma of the points [J]. */
+static real energy_of(const struct cloud *c, const struct partial_stress *partial)
+{
+    const struct particles *p = &c->p;
+    real sum = c->bonds.rows > 0 ? bond_energy_table[1][PD_BOND](&c->bonds, p) : 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->kind[i] != KIND_MPM) continue;
+        real share = partial->index && partial->index[i] >= 0 ? partial->matrix[partial->index[i]] : 0;
+        sum += 0.5 * p->volume0[i] * (1 - share) * square(p->stress[0][i]) / c->material[0].young;
+    }
+    return sum;
+}
+
+/* Energy of a uniformly strained bar of material points when `block` of them, in its middle, have been converted, less
+ * that before, in energies of a particle. */
+static void test_energy_at_start(void **state)
+{
+    (void)state;
+    static const real strain[DIM_MAX][DIM_MAX] = {{STRAIN}};
+    static const struct { int block; real handshake, partial; } row[] = {
+        {1, 1, -0.5}, {2, 11.0 / 6, -1.0 / 3}, {3, 7.0 / 3, 0}, {4, 7.0 / 3, 0}, {9, 7.0 / 3, 0}};
+    for (size_t k = 0; k < COUNT_OF(row); k++) {
+        struct cloud c;
+        struct partial_stress partial = {0};
+        real stress[SYM_MAX];
+        cloud_make(&c, &bar);
+        for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM;
+        cloud_source(&c);
+        cloud_strain(&c, strain);
+        set_stress(&c, strain, stress);
+        real particle = 0.5 * c.material[0].young * square(STRAIN) * c.p.volume0[0], before = energy_of(&c, &partial);
+        is_near("energy before", before / particle, (real)c.p.n, 1e-4);
+        struct solid box = {
+            .kind = SOLID_BOX, .from = {12 * CLOUD_SPACING}, .to = {(12 + row[k].block) * CLOUD_SPACING}};
+        convert_start(&c.p, &c.source, &(struct region){1, &box});
+        assert_int_equal(c.p.n_of[KIND_PD], row[k].block);
+        bonds_make(&c.bonds, NULL, &c.p, &c.source);
+        set_stress(&c, strain, stress);
+        /* finite strain and round-off as above, of 32 particle energies */
+        is_near("handshake", (energy_of(&c, &partial) - before) / particle, row[k].handshake, 1e-4);
+        partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
+        is_near("partial stress", (energy_of(&c, &partial) - before) / particle, row[k].partial, 1e-4);
+        partial_stress_free(&partial);
+        cloud_free(&c);
+    }
+}
+
+/* The same in a run: one point is marked; its horizon goes with it. Momentum and kinetic energy are untouched: the
+ * state of motion is not even written. */
+static void test_energy_in_run(void **state)
+{
+    (void)state;
+    static const real strain[DIM_MAX][DIM_MAX] = {{STRAIN}};
+    for (int coupling = COUPLING_PARTIAL_STRESS; coupling <= COUPLING_HANDSHAKE; coupling++) {
+        struct cloud c;
+        struct particles before;
+        struct partial_stress partial = {0};
+        struct conversion conversion = {.first_time = NAN};
+        const struct conversion_rule rule = {
+            .criteria = CONVERT_ON_STRESS | CONVERT_ON_CUT, .stress = NAN, .alpha = 1, .block = true};
+        real stress[SYM_MAX];
+        bool with = coupling == COUPLING_PARTIAL_STRESS;
+        cloud_make(&c, &bar);
+        struct particles *p = &c.p;
+        for (int64_t i = 0; i < p->n; i++) p->kind[i] = KIND_MPM, p->v[0][i] = (real)(i % 5);
+        cloud_bonds(&c);
+        cloud_strain(&c, strain);
+        set_stress(&c, strain, stress);
+        real particle = 0.5 * c.material[0].young * square(STRAIN) * p->volume0[0], energy = energy_of(&c, &partial);
+        cloud_copy(&before, p, 0);
+        assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 0);
+        p->flag[15] |= FLAG_STRESSED;
+        assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 7);
+        for (int64_t i = 0; i < p->n; i++) assert_int_equal(p->kind[i], i >= 12 && i <= 18 ? KIND_PD : KIND_MPM);
+        assert_int_equal(p->flag[15], 0);
+        assert_int_equal(conversion.converted, 7);
+        assert_true(conversion.first_time == 3e-6 && conversion.first_place[0] == p->X[0][15]);
+        assert_memory_equal(p->v[0], before.v[0], (size_t)p->n * sizeof(real));
+        assert_memory_equal(p->x[0], before.x[0], (size_t)p->n * sizeof(real));
+        is_near("jump", (energy_of(&c, &partial) - energy) / particle, with ? 0 : 7.0 / 3, 1e-4);
+        particles_free(&before);
+        partial_stress_free(&partial);
+        cloud_free(&c);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_interface_1d),
+        cmocka_unit_test(test_interface_2d),
+        cmocka_unit_test(test_interface_3d),
+        cmocka_unit_test(test_share_given),
+        cmocka_unit_test(test_wide_families),
+        cmocka_unit_test(test_energy_at_start),
+        cmocka_unit_test(test_energy_in_run),
+    };
+    team_make(2);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,240 @@
+/* floor 5: material points at the end of state-based bonds: forces on particles and nodes are the exact gradient of one energy,
+ * also of bodies that turn; what a point on the grid is taken to know; and what stress it leaves to its bonds. */
+#include <string.h>
+
+#include "tests/support/cloud.h"
+#include "engine/engine.h"
+#include "tests/support/near.h"
+#include "tests/support/sets.h"
+#include "base/team.h"
+
+#define TURN_MOST 0.2                    /* of a particle [rad] */
+#define SHAKE 0.02                       /* of places [spacings]: strains of some percent */
+
+/* Half a body whose bonds end at points, and at images of peridynamic particles. */
+static const char plate[] =
+    "name: plate\nspace: plane stress\nthickness: 1 mm\nduration: 1 us\nmethod: adaptive\n"
+    "material: {young: 72 GPa, poisson: 0.2, density: 2440 kg/m^3}\n"
+    "body: [{box: {from: [0, 0], to: [20 mm, 16 mm]}}]\nparticles: {spacing: 1 mm, horizon: 3.015}\n"
+    "pd: {region: {disc: {centre: [10 mm, 0], radius: 5 mm}}}\n"
+    "boundary: [{mirror: {axis: y, at: 0, tangential: free}}]\n";
+static const char block[] =
+    "name: block\nspace: solid\nduration: 1 us\nmethod: adaptive\n"
+    "material: {young: 72 GPa, poisson: 0.3, density: 2440 kg/m^3}\n"
+    "body: [{box: {from: [0, 0, 0], to: [12 mm, 8 mm, 6 mm]}}]\nparticles: {spacing: 1 mm, horizon: 2.015}\n"
+    "pd: {region: {ball: {centre: [6 mm, 0, 3 mm], radius: 3 mm}}}\n"
+    "boundary: [{mirror: {axis: y, at: 0, tangential: free}}]\n";
+
+static void engine_from(struct engine *e, struct scene *s, const char *text)
+{
+    if (scene_read_text(s, text, strlen(text), "points.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    assert_int_equal(engine_make(e, s, NULL), OK);
+}
+
+/* ---- gradient ---------------------------------------------------------------------------------------- */
+
+/* Turned about z and shaken; a mirror's plane stays. */
+static real shaken(const struct engine *e, const real *X, int d, uint64_t *seed)
+{
+    const real angle = TURN_MOST * X[0] / 20e-3;
+    const real turn[3] = {-angle * X[1], angle * X[1], 0.5 * angle * X[1]};
+    return turn[d] + cloud_between(seed, -SHAKE, SHAKE) * e->scene->spacing;
+}
+
+static void shake(struct engine *e)
+{
+    struct particles *p = &e->part;
+    struct mesh *mesh = &e->mesh;
+    uint64_t seed = 5;
+    for (int64_t i = 0; i < p->n; i++) {
+        real X[DIM_MAX] = {0};
+        particle_place(p, i, X);
+        for (int d = 0; d < p->dim; d++) p->x[d][i] = X[d] + shaken(e, X, d, &seed);
+    }
+    for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0; d < p->dim; d++) X[d] = grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
+        for (int d = 0; d < p->dim; d++) mesh->displacement[d][I] = shaken(e, X, d, &seed);
+    }
+}
+
+static real energy_of(struct engine *e)
+{
+    engine_forces(e);
+    return e->kernels.bond_energy(&e->bonds, &e->part) + mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain);
+}
+
+/* Force on one component against the slope of the energy. */
+static void check_slope(struct engine *e, real *place, const real *force, real scale)
+{
+    const real step = 1e-5 * e->scene->spacing, was = *place;
+    *place = was + step;
+    const real above = energy_of(e);
+    *place = was - step;
+    const real below = energy_of(e);
+    *place = was;
+    (void)energy_of(e);
+    assert_near(-(above - below) / (2 * step), *force, 1e-6 * scale);
+}
+
+static real largest(const struct engine *e)
+{
+    real most = 0;
+    for (int64_t i = 0; i < e->part.n; i++)
+        if (e->part.kind[i] == KIND_PD) most = real_max(most, fabs(e->part.f[0][i]));
+    return most;
+}
+
+/* Every few unknowns, of both kinds. What moves with an image or a plane of symmetry is left out: nodes beyond or on it. */
+static void check_gradient(struct engine *e)
+{
+    struct particles *p = &e->part;
+    struct mesh *mesh = &e->mesh;
+    int64_t particles = 0, nodes = 0;
+    shake(e);
+    (void)energy_of(e);
+    const real scale = largest(e);
+    for (int64_t i = 0; i < p->n; i++)
+        for (int d = 0; d < p->dim && p->kind[i] == KIND_PD; d++)
+            if (++particles % 5 == 0) check_slope(e, &p->x[d][i], &p->f[d][i], scale);
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        for (int d = 0; d < p->dim && mesh->grid.mass[I] > 0; d++)
+            if (grid_position(&mesh->grid, 1, I / mesh->grid.stride[1] % mesh->grid.count[1]) > 0.5 * e->scene->spacing && ++nodes % 5 == 0)
+                check_slope(e, &mesh->displacement[d][I], &mesh->grid.force[d][I], scale);
+    assert_true(particles > 60 && nodes > 50);
+}
+
+/* 1e-6 of the largest force: the energy's third derivative times the step squared, and its round-off over the step. */
+static void test_gradient(void **state)
+{
+    (void)state;
+    static const char *const text[] = {plate, block}, *const model[] = {"ospd", "mospd"}, *const coupling[] = {"partial stress", "handshake"};
+    for (int k = 0; k < 8; k++) {
+        struct scene s;
+        struct engine e = {0};
+        char whole[2048];
+        snprintf(whole, sizeof whole, "%smodel: %s\ncoupling: %s\nmpm: {frame: reference}\n", text[k / 4], model[k % 2], coupling[k / 2 % 2]);
+        engine_from(&e, &s, whole);
+        check_gradient(&e);
+        engine_free(&e);
+        scene_free(&s);
+    }
+}
+
+/* ---- a point on the grid -------------------------------------------------------------------------------- */
+
+/* Pressure of the strain that its bonds see and the rest by its stress; its own rotation. */
+static void check_point(const struct engine *e, int64_t row)
+{
+    const struct bonds *b = &e->bonds;
+    const struct particles *p = &e->part;
+    const int32_t i = b->particle[row];
+    const int dim = p->dim, n = symmetric_count(dim);
+    const struct state_modulus *m = &b->state.modulus[0];
+    const real share = p->volume0[i] / b->state.weighted[row], *local = e->partial.local + e->partial.index[i] * n;
+    real S = 0, compliance[SYM_MAX * SYM_MAX];
+    material_compliance(&e->scene->material[0], dim, compliance);
+    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        real y2 = 0, r = fabs(1 / bond.inverse_length);
+        for (int d = 0; d < dim; d++) y2 += square(p->x[d][bond.nbr] - p->x[d][i]);
+        if (bond.w != 0) S += bond.w * r * (sqrt(y2) - r) / b->state.weighted[row];
+    }
+    for (int c = 0; c < n; c++)
+        for (int d = 0; d < n; d++) S += local[c] * (c < dim ? 1 : 2) * compliance[c * n + d] * p->stress[d][i];
+    assert_near(b->state.pressure[i], m->A * S * share, 1e-12 * fabs(m->A * share));
+    assert_close(p->end_pull[i], m->A * S * p->volume0[i], 1e-9);
+    assert_close(b->state.spring[i], m->B * share, 1e-14);
+}
+
+static void check_points(const char *text)
+{
+    struct scene s;
+    struct engine e = {0};
+    char whole[2048];
+    int64_t points = 0;
+    uint64_t seed = 3;
+    snprintf(whole, sizeof whole, "%smodel: mospd\nmpm: {frame: current}\n", text);
+    engine_from(&e, &s, whole);
+    shake(&e);
+    for (int64_t i = 0; i < e.part.n; i++)
+        for (int c = 0; c < symmetric_count(e.part.dim); c++) e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
+    engine_ends_know(&e);
+    families_know(&e.bonds, &e.part, &e.source);
+    for (int64_t row = 0; row < e.bonds.rows; row++) {
+        const int64_t i = e.bonds.particle[row];
+        if (e.part.kind[i] != KIND_MPM || e.partial.index[i] < 0 || !partial_end(&e.partial, i, e.part.dim)) continue;
+        check_point(&e, row);
+        points++;
+    }
+    assert_true(points > 40);
+    engine_free(&e);
+    scene_free(&s);
+}
+
+static void test_points(void **state)
+{
+    (void)state;
+    check_points(plate);
+    check_points(block);
+}
+
+/* ---- partial stress ---------------------------------------------------------------------------------------- */
+
+/* Of a point, with the map of sites and by searching: the same bits. */
+static void same_partials(const struct partial_stress *a, const struct partial_stress *b, int64_t n, int dim)
+{
+    const int symmetric = symmetric_count(dim), size = symmetric * symmetric;
+    int64_t points = 0;
+    for (int64_t i = 0; i < n; i++) {
+        assert_int_equal(a->index[i] >= 0, b->index[i] >= 0);
+        if (a->index[i] < 0) continue;
+        assert_memory_equal(a->matrix + a->index[i] * size, b->matrix + b->index[i] * size, (size_t)size * sizeof(real));
+        assert_memory_equal(a->local + a->index[i] * symmetric, b->local + b->index[i] * symmetric, (size_t)symmetric * sizeof(real));
+        points++;
+    }
+    assert_true(points > 40);
+}
+
+static void check_partials(const char *text)
+{
+    struct scene s;
+    struct engine e = {0};
+    struct bonds searched;
+    struct partial_stress again = {0};
+    char whole[2048];
+    snprintf(whole, sizeof whole, "%smodel: mospd\nmpm: {frame: current}\n", text);
+    engine_from(&e, &s, whole);
+    int64_t point = 0;
+    while (e.part.kind[point] != KIND_MPM || e.bonds.row_of[point] < 0) point++;
+    e.part.flag[point] |= FLAG_STRESSED;
+    assert_true(convert(&e.conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.partial, NULL, 0) > 0);
+    assert_non_null(e.bonds.sites);
+    bonds_make(&searched, NULL, &e.part, &e.source);
+    struct lattice *sites = searched.sites;
+    searched.sites = NULL;
+    partial_stress_make(&again, &e.part, &searched, &e.source, NULL, 0);
+    searched.sites = sites;
+    same_partials(&e.partial, &again, e.part.n, e.part.dim);
+    partial_stress_free(&again);
+    bonds_free(&searched);
+    engine_free(&e);
+    scene_free(&s);
+}
+
+static void test_partials(void **state)
+{
+    (void)state;
+    check_partials(plate);
+    check_partials(block);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gradient), cmocka_unit_test(test_points),
+                                      cmocka_unit_test(test_partials)};
+    team_make(2);
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
+}

@@ -1,0 +1,410 @@
+/* floor 5: tests of stress-intensity factors from particles: gradients on clouds, and the integral over lattices that
+ * carry exact crack-tip fields. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/support/cloud.h"
+#include "tests/support/glass.h"
+#include "tests/support/near.h"
+#include "fracture/sif.h"
+
+/* ---- gradients ------------------------------------------------------------------------------------------------- */
+
+/* A shaken square of particles with room for two fields. */
+struct patch { struct particles p; struct cells c; real *u[2]; };
+
+static void patch_make(struct patch *k, int edge, real shake, uint64_t seed)
+{
+    particles_make(&k->p, 2, (int64_t)edge * edge, 0);
+    for (int64_t i = 0; i < k->p.n; i++) {
+        const real place[2] = {(real)(i % edge), (real)(i / edge)};
+        for (int d = 0; d < 2; d++)
+            k->p.X[d][i] = k->p.x[d][i] = place[d] - 0.5 * (edge - 1) + cloud_between(&seed, -shake, shake);
+        k->p.volume0[i] = 1 + cloud_between(&seed, -shake, shake);
+    }
+    cells_make(&k->c, &k->p, 3.1);
+    for (int d = 0; d < 2; d++) k->u[d] = NEW("test.u", k->p.n, real);
+}
+
+static void patch_free(struct patch *k)
+{
+    for (int d = 0; d < 2; d++) memory_free(k->u[d]);
+    cells_free(&k->c);
+    particles_free(&k->p);
+}
+
+/* Coefficients of two quadratics, and their gradient. */
+static const real quadratic[2][6] = {{0.3, 1.5, -0.7, 0.2, 0.9, -0.4}, {-2, 0.1, 0.6, -1.1, 0.35, 0.8}};
+
+static real quadratic_at(const real *a, real x, real y)
+{
+    return a[0] + a[1] * x + a[2] * y + a[3] * x * x + a[4] * x * y + a[5] * y * y;
+}
+
+static real quadratic_slope(const real *a, real x, real y, int d)
+{
+    return d == 0 ? a[1] + 2 * a[3] * x + a[4] * y : a[2] + a[4] * x + 2 * a[5] * y;
+}
+
+static void gradients_are_exact_for_polynomials(const struct gradient_rule *rule, struct patch *k, bool bends)
+{
+    struct gradient_stencil s = {0};
+    real coefficient[2][6] = {{0}}, gradient[2][2], worst = 0;
+    const real *const field[2] = {k->u[0], k->u[1]};
+    for (int a = 0; a < 2; a++)
+        for (int m = 0; m < (bends ? 6 : 3); m++) coefficient[a][m] = quadratic[a][m];
+    for (int64_t i = 0; i < k->p.n; i++)
+        for (int a = 0; a < 2; a++) k->u[a][i] = quadratic_at(coefficient[a], k->p.X[0][i], k->p.X[1][i]);
+    for (int64_t i = 0; i < k->p.n; i++) {
+        gradient_stencil_at(&s, rule, &k->p, &k->c, i);
+        assert_int_equal(s.order, rule->method == GRADIENT_MLS ? 2 : 1);
+        gradient_of(&s, i, field, gradient);
+        for (int a = 0; a < 2; a++)
+            for (int d = 0; d < 2; d++)
+                worst = real_max(worst, fabs(gradient[a][d]
+                                             - quadratic_slope(coefficient[a], k->p.X[0][i], k->p.X[1][i], d)));
+    }
+    assert_near(worst, 0, 1e-10);            /* slopes up to 20; corners of the patch lie badly */
+    gradient_stencil_free(&s);
+}
+
+static void gradients_on_irregular_clouds(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed < 4; seed++) {
+        struct patch k;
+        patch_make(&k, 12, 0.25 * (real)(seed - 1), seed);
+        struct gradient_rule rule = {.method = GRADIENT_MLS, .reach = 1.5};
+        gradients_are_exact_for_polynomials(&rule, &k, true);
+        rule.method = GRADIENT_PDDO;
+        gradients_are_exact_for_polynomials(&rule, &k, false);
+        patch_free(&k);
+    }
+}
+
+/* A jump across a crack does not enter; with diffraction, what the crack hides counts round the tip. */
+static void cracks_hide_particles(void **state)
+{
+    (void)state;
+    struct patch k;
+    patch_make(&k, 13, 0, 1);
+    real corner[2][DIM_MAX] = {{-20, 0.5, 0}, {0.5, 0.5, 0}};
+    const struct crack crack = {2, corner};
+    struct gradient_rule rule = {.reach = 1.5, .sight = {.crack = &crack, .cracks = 1}, .tip = {0.5, 0.5}};
+    struct gradient_stencil s = {0};
+    const real *const field[2] = {k.u[0], k.u[1]};
+    for (int64_t i = 0; i < k.p.n; i++)
+        k.u[0][i] = 3 * k.p.X[0][i] + (k.p.X[1][i] > 0.5 && k.p.X[0][i] < 0.5 ? 7 : 0);
+    for (int64_t i = 0; i < k.p.n; i++) {
+        real gradient[2][2];
+        for (int method = 0; method < 2; method++) {
+            if (k.p.X[0][i] > -3) continue;               /* wholly behind the tip */
+            rule.method = method;
+            gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
+            gradient_of(&s, i, field, gradient);
+            assert_near(gradient[0][0], 3, 1e-12);
+            assert_near(gradient[0][1], 0, 1e-12);
+        }
+    }
+    int64_t i = 6 * 13 + 6;                               /* the origin, beside the tip */
+    rule.method = GRADIENT_MLS;
+    gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
+    const int seen = s.n;
+    rule.diffraction = 1;
+    gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
+    const int round = s.n;
+    rule.sight.cracks = 0;
+    gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
+    assert_true(seen < round && round < s.n);
+    gradient_stencil_free(&s);
+    patch_free(&k);
+}
+
+/* Fewer than six particles, or all on two lines: linear; alone: nothing. */
+static void gradients_fall_back(void **state)
+{
+    (void)state;
+    static const real place[3][8][2] = {{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}},
+                                        {{0, 0}, {1, 0}, {2, 0}, {-1, 0}, {-2, 0}, {0, 1}, {1, 1}, {-1, 1}},
+                                        {{0, 0}}};
+    static const int count[] = {5, 8, 1}, order[] = {1, 1, 0};
+    for (int k = 0; k < 3; k++) {
+        struct particles p;
+        struct cells c;
+        struct gradient_stencil s = {0};
+        particles_make(&p, 2, count[k], 0);
+        for (int i = 0; i < count[k]; i++)
+            for (int d = 0; d < 2; d++) p.X[d][i] = place[k][i][d];
+        for (int i = 0; i < count[k]; i++) p.volume0[i] = 1;
+        cells_make(&c, &p, 3.1);
+        const real *const field[2] = {p.X[0], p.X[1]};
+        real gradient[2][2];
+        for (int method = 0; method < 2; method++) {
+            gradient_stencil_at(&s, &(struct gradient_rule){.method = method, .reach = 1.5}, &p, &c, 0);
+            assert_int_equal(s.order, order[k]);
+            gradient_of(&s, 0, field, gradient);
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2; b++) assert_near(gradient[a][b], order[k] > 0 && a == b, 1e-14);
+        }
+        gradient_stencil_free(&s);
+        cells_free(&c);
+        particles_free(&p);
+    }
+}
+
+/* ---- the integral from particles ---------------------------------------------------------------------------------- */
+
+/* An even lattice of spacing 1 round the tip at (shift), displaced by the exact field of a crack at an angle. */
+struct lattice {
+    struct patch patch;
+    struct sif_tip tip;
+    real corner[2][DIM_MAX];
+    struct crack crack;
+    struct gradient_rule rule;
+    real *a[2], *v[2];
+};
+
+static void rotate(const struct sif_tip *tip, const real local[2], real global[2])
+{
+    global[0] = tip->along[0] * local[0] - tip->along[1] * local[1];
+    global[1] = tip->along[1] * local[0] + tip->along[0] * local[1];
+}
+
+static void lattice_field(struct lattice *l, const real K[MODES])
+{
+    struct particles *p = &l->patch.p;
+    for (int64_t i = 0; i < p->n; i++) {
+        const real d[2] = {p->X[0][i] - l->tip.place[0], p->X[1][i] - l->tip.place[1]}, *e = l->tip.along;
+        real x[2] = {d[0] * e[0] + d[1] * e[1], d[1] * e[0] - d[0] * e[1]}, sum[3][2] = {{0}}, turned[2];
+        if (fabs(x[1]) < 1e-9) x[1] = copysign(0, l->tip.face);
+        for (int mode = 0; mode < MODES; mode++) {
+            struct crack_field f;
+            crack_field(&l->tip.medium, mode, l->tip.speed, x, &f);
+            for (int k = 0; k < 2; k++) {
+                sum[0][k] += K[mode] * f.displacement[k];
+                sum[1][k] += K[mode] * f.state.velocity[k];
+                sum[2][k] += K[mode] * f.state.acceleration[k];
+            }
+        }
+        real *const to[3][2] = {{l->patch.u[0], l->patch.u[1]}, {l->v[0], l->v[1]}, {l->a[0], l->a[1]}};
+        for (int k = 0; k < 3; k++) {
+            rotate(&l->tip, sum[k], turned);
+            to[k][0][i] = turned[0], to[k][1][i] = turned[1];
+        }
+    }
+}
+
+static void lattice_make(struct lattice *l, int edge, real degrees, const real shift[2], real speed)
+{
+    memset(l, 0, sizeof *l);
+    patch_make(&l->patch, edge, 0, 1);
+    const real angle = degrees * pi / 180;
+    l->tip = (struct sif_tip){.medium = glass(SPACE_PLANE_STRAIN), .place = {shift[0], shift[1]},
+                              .along = {cos(angle), sin(angle)}, .face = 1, .body = -1, .thickness = 1, .speed = speed};
+    for (int d = 0; d < 2; d++) {
+        l->corner[0][d] = shift[d] - 2 * edge * l->tip.along[d];
+        l->corner[1][d] = shift[d];
+        l->v[d] = NEW("test.v", l->patch.p.n, real), l->a[d] = NEW("test.a", l->patch.p.n, real);
+        l->rule.tip[d] = shift[d];
+    }
+    l->crack = (struct crack){2, l->corner};
+    l->rule.reach = 1.5, l->rule.sight = (struct sight){.crack = &l->crack, .cracks = 1};
+}
+
+static void lattice_free(struct lattice *l)
+{
+    for (int d = 0; d < 2; d++) memory_free(l->v[d]), memory_free(l->a[d]);
+    patch_free(&l->patch);
+}
+
+static struct sif lattice_sif(const struct lattice *l, real inner, real outer)
+{
+    const struct contour c = {inner, outer};
+    const bool moves = l->tip.speed > 0;
+    const struct sif_motion m = {.displacement = {l->patch.u[0], l->patch.u[1]},
+                                 .velocity = {moves ? l->v[0] : NULL, moves ? l->v[1] : NULL},
+                                 .acceleration = {l->a[0], l->a[1]}};
+    struct sif found;
+    sif_integrate(&l->tip, &c, 1, &m, &l->rule, &l->patch.p, &l->patch.c, &found);
+    return found;
+}
+
+/* Error of K over |K|. */
+static real sif_error(const struct sif *s, const real K[MODES])
+{
+    return real_max(fabs(s->K[0] - K[0]), fabs(s->K[1] - K[1])) / hypot(K[0], K[1]);
+}
+
+/* The midpoint sum with exact gradients: what is left is quadrature. */
+static real exact_gradient_error(const struct lattice *l, real outer, enum crack_mode mode)
+{
+    const struct contour c = {0.5 * outer, outer};
+    const struct particles *p = &l->patch.p;
+    real sum[MODES] = {0}, K[MODES] = {mode == MODE_I, mode == MODE_II}, worst = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const real d[2] = {p->X[0][i] - l->tip.place[0], p->X[1][i] - l->tip.place[1]}, *e = l->tip.along;
+        const real x[2] = {d[0] * e[0] + d[1] * e[1], d[1] * e[0] - d[0] * e[1]};
+        struct crack_field f[MODES];
+        if (hypot(x[0], x[1]) > outer || hypot(x[0], x[1]) < 0.5 * outer) continue;
+        for (int m = 0; m < MODES; m++) crack_field(&l->tip.medium, m, 0, x, &f[m]);
+        for (int m = 0; m < MODES; m++) sum[m] += sif_density(&l->tip, &c, x, &f[mode].state, &f[m].state, false);
+    }
+    for (int m = 0; m < MODES; m++) worst = real_max(worst, fabs(0.5 * l->tip.medium.modulus * sum[m] - K[m]));
+    return worst;
+}
+
+/* What quadrature over a lattice costs: with the cubic weight 0.35 % at 10 spacings and 0.05 % at 20 for a tip in the
+ * middle of four particles, twice as much elsewhere; the quintic weight leaves a tenth of it. */
+static void lattice_sums_of_exact_gradients(void **state)
+{
+    (void)state;
+    const real shift[][2] = {{0, 0}, {0.499, 0}, {0, 0.3}, {0.5, 0.3}, {0.2, 0.4}}, degrees[] = {0, 30, 45};
+    const real outer[] = {10, 20, 40}, cubic[] = {0.0035, 0.0005, 0.0005}, quintic[] = {0.0007, 0.00007, 0.00002};
+    for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
+        struct lattice l;
+        lattice_make(&l, 90, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
+        for (int mode = 0; mode < MODES; mode++)
+            for (int k = 0; k < 3; k++) {
+                l.tip.weight = SIF_QUINTIC;
+                assert_near(exact_gradient_error(&l, outer[k], mode), 0, quintic[k]);
+                l.tip.weight = SIF_CUBIC;
+                assert_near(exact_gradient_error(&l, outer[k], mode), 0,
+                            cubic[k] * (n < COUNT_OF(degrees) ? 1 : k == 1 ? 2.4 : 1.7));
+            }
+        lattice_free(&l);
+    }
+}
+
+/* Modes alone and mixed, cracks along the lattice and across it, between rows of particles and along one: K_I and K_II
+ * over |K|, and J E* = |K|^2. */
+static void lattice_sums_of_fitted_gradients(void **state)
+{
+    (void)state;
+    const real shift[][2] = {{0, 0}, {0.5, 0.5}, {0.2, 0.4}}, degrees[] = {0, 30, 45}, outer[] = {10, 20, 40};
+    const real Ks[][MODES] = {{1, 0}, {0, 1}, {0.8, -0.6}};
+    const real allowed[] = {0.0025, 0.00025, 0.00005};       /* gradients err by 1/r^2, and quadrature by more */
+    real worst[2][3] = {{0}};
+    for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
+        struct lattice l;
+        lattice_make(&l, 96, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
+        for (size_t k = 0; k < COUNT_OF(Ks); k++) {
+            lattice_field(&l, Ks[k]);
+            for (int method = 0; method < 2; method++)
+                for (size_t o = 0; o < COUNT_OF(outer); o++) {
+                    l.rule.method = method;
+                    const struct sif s = lattice_sif(&l, 0.5 * outer[o], outer[o]);
+                    worst[method][o] = real_max(worst[method][o], sif_error(&s, Ks[k]));
+                    assert_near(s.J * l.tip.medium.modulus, 1, 2 * allowed[o]);
+                }
+        }
+        lattice_free(&l);
+    }
+    for (int method = 0; method < 2; method++) {
+        print_message("%s: %.4f %% at 10, %.4f %% at 20, %.4f %% at 40 spacings\n", method ? "PDDO" : "MLS",
+                      100 * worst[method][0], 100 * worst[method][1], 100 * worst[method][2]);
+        for (size_t o = 0; o < COUNT_OF(outer); o++) assert_near(worst[method][o], 0, allowed[o]);
+    }
+}
+
+/* Hooke's law for the particles' own stress, handed over in the frame of the body. */
+static void particle_stresses_are_turned(void **state)
+{
+    (void)state;
+    struct lattice l;
+    real *stress[3];
+    const real K[MODES] = {0.8, 0.6};
+    lattice_make(&l, 48, 30, (const real[]){0, 0}, 0);
+    lattice_field(&l, K);
+    const struct sif hooke = lattice_sif(&l, 10, 20);
+    for (int c = 0; c < 3; c++) stress[c] = NEW("test.stress", l.patch.p.n, real);
+    struct gradient_stencil s = {0};
+    const real *const field[2] = {l.patch.u[0], l.patch.u[1]};
+    for (int64_t i = 0; i < l.patch.p.n; i++) {
+        real gradient[2][2], t[2][2];
+        gradient_stencil_at(&s, &l.rule, &l.patch.p, &l.patch.c, i);
+        gradient_of(&s, i, field, gradient);
+        crack_hooke(&l.tip.medium, gradient, t);
+        stress[0][i] = t[0][0], stress[1][i] = t[1][1], stress[2][i] = t[0][1];
+    }
+    l.tip.stress = SIF_PARTICLE;
+    const struct sif_motion m = {.displacement = {field[0], field[1]}, .stress = {stress[0], stress[1], stress[2]}};
+    struct sif own;
+    sif_integrate(&l.tip, &(struct contour){10, 20}, 1, &m, &l.rule, &l.patch.p, &l.patch.c, &own);
+    for (int mode = 0; mode < MODES; mode++) assert_near(own.K[mode], hooke.K[mode], 1e-12);
+    assert_close(own.J, hooke.J, 1e-12);
+    for (int c = 0; c < 3; c++) memory_free(stress[c]);
+    gradient_stencil_free(&s);
+    lattice_free(&l);
+}
+
+/* A steadily moving crack, with inertia: K comes back, and J E* = A_I K_I^2 + A_II K_II^2. The core is left out, as the
+ * gradients of particles there are none of the field. */
+static void lattice_sums_of_a_moving_crack(void **state)
+{
+    (void)state;
+    const real speed[] = {500, 1000, 2000}, K[MODES] = {0.8, -0.6}, degrees[] = {0, 30};
+    for (size_t n = 0; n < COUNT_OF(speed) * 2; n++) {
+        struct lattice l;
+        lattice_make(&l, 96, degrees[n % 2], (const real[]){0.2, 0.4}, speed[n / 2]);
+        l.tip.core = 5;
+        lattice_field(&l, K);
+        const struct sif s = lattice_sif(&l, 10, 20), large = lattice_sif(&l, 20, 40);
+        const real J = crack_universal(&l.tip.medium, MODE_I, l.tip.speed) * square(K[0])
+                       + crack_universal(&l.tip.medium, MODE_II, l.tip.speed) * square(K[1]);
+        print_message("moving at %g m/s, %g deg: %.4f %%, %.4f %%, J %.4f %%\n", l.tip.speed, degrees[n % 2],
+                      100 * sif_error(&s, K), 100 * sif_error(&large, K), 100 * (large.J * l.tip.medium.modulus / J - 1));
+        assert_near(sif_error(&s, K), 0, 0.0007);
+        assert_near(sif_error(&large, K), 0, 0.0004);
+        assert_near(large.J * l.tip.medium.modulus, J, 0.001);
+        lattice_free(&l);
+    }
+}
+
+/* Where the motion is not that of a steady crack, the second sum does not vanish at the edge of the core. It must not
+ * change as the tip passes particle after particle: with accelerations of 20 times the steady ones an edge that lets
+ * particles in and out one by one changes K_I by 1.6 %, one that fades by less than 0.01 %. */
+static void a_core_does_not_see_single_particles(void **state)
+{
+    (void)state;
+    enum { PLACES = 8 };
+    real low = INFINITY, high = -INFINITY;
+    for (int place = 0; place < PLACES; place++) {
+        struct lattice l;
+        lattice_make(&l, 96, 0, (const real[]){(real)place / PLACES, 0.4}, 1000);
+        l.tip.core = 5;
+        lattice_field(&l, (const real[MODES]){1, 0});
+        for (int d = 0; d < 2; d++)
+            for (int64_t i = 0; i < l.patch.p.n; i++) l.a[d][i] *= 20;
+        const real K = lattice_sif(&l, 10, 20).K[MODE_I];
+        low = real_min(low, K), high = real_max(high, K);
+        lattice_free(&l);
+    }
+    print_message("wrong acceleration: K_I from %.4f to %.4f\n", low, high);
+    assert_true(high - low < 0.001);
+}
+
+static void spread_of_contours(void **state)
+{
+    (void)state;
+    const struct sif found[] = {{{3, 4.5}, 2}, {{3, 3.5}, 2}, {{3, 4}, 2}};
+    assert_near(sif_spread(found, 3), 0.2, 1e-15);
+    assert_near(sif_spread((const struct sif[]){{{3, 4}, 1.9}, {{3, 4}, 2.1}}, 2), 0.1, 1e-15);
+    assert_exact(sif_spread(found, 1), 0);
+    assert_true(isnan(sif_spread((const struct sif[]){{{0, 0}, 0}, {{0, 0}, 0}}, 2)));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gradients_on_irregular_clouds),
+        cmocka_unit_test(cracks_hide_particles),
+        cmocka_unit_test(gradients_fall_back),
+        cmocka_unit_test(lattice_sums_of_exact_gradients),
+        cmocka_unit_test(lattice_sums_of_fitted_gradients),
+        cmocka_unit_test(particle_stresses_are_turned),
+        cmocka_unit_test(lattice_sums_of_a_moving_crack),
+        cmocka_unit_test(a_core_does_not_see_single_particles),
+        cmocka_unit_test(spread_of_contours),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

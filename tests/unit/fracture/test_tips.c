@@ -1,0 +1,260 @@
+/* floor 5: tests of crack tips, on damage set by hand. */
+#include "tests/support/bodies.h"
+
+static void tip_starts_only_where_the_body_goes_on(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    notched_make(&b, &t, 4);
+    assert_int_equal(t.n, 1);
+    assert_true(t.tip[0].from_crack);
+    assert_near(t.tip[0].origin[0], 10, 0);
+    assert_near(t.tip[0].along[0], 1, 0);
+    assert_near(t.tip[0].along[1], 0, 0);
+    assert_int_equal(t.label[particle_at(&b, 3.5, 10.5, 0)], 255);
+    assert_null(tips_longest(&t));
+    assert_true(isnan(tip_angle(&t.tip[0], 2)));
+    tips_free(&t);
+
+    /* both ends inside: two tips; a second segment that goes on from the first takes their common end away */
+    real first[2][DIM_MAX] = {{10, 10, 0}, {20, 10, 0}}, second[2][DIM_MAX] = {{20, 10, 0}, {25, 15, 0}};
+    struct crack crack[2] = {{2, first}, {2, second}};
+    tips_make(&t, &b.p, &b.c, crack, 1, 1, 4);
+    assert_int_equal(t.n, 2);
+    assert_near(t.tip[0].along[0], -1, 0);
+    tips_free(&t);
+    tips_make(&t, &b.p, &b.c, crack, 2, 1, 4);
+    assert_int_equal(t.n, 2);
+    assert_near(t.tip[1].origin[0], 25, 0);
+    assert_near(t.tip[1].along[1], sqrt(0.5), 1e-15);
+    tips_free(&t);
+
+    /* no tip where the body ends with a single particle */
+    real out[2][DIM_MAX] = {{30, 19.9, 0}, {39.2, 19.9, 0}};
+    struct crack outward = {2, out};
+    tips_make(&t, &b.p, &b.c, &outward, 1, 1, 4);
+    assert_int_equal(t.n, 1);
+    assert_near(t.tip[0].along[0], -1, 0);
+    tips_free(&t);
+
+    /* particles that are held cannot crack: no tip before them */
+    for (int64_t i = 0; i < b.p.n; i++)
+        if (b.p.X[0][i] < 10) b.p.flag[i] |= FLAG_DRIVEN;
+    tips_make(&t, &b.p, &b.c, crack, 1, 1, 4);
+    assert_int_equal(t.n, 1);
+    assert_near(t.tip[0].along[0], 1, 0);
+    notched_free(&b, &t);
+}
+
+/* One particle a sample for ten samples of 1/500 s, then rest: 500 m/s, from the second on. */
+static void tip_speed_is_the_slope_of_growth(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    real dt = 1.0 / 500;
+    notched_make(&b, &t, 4 * dt);
+    for (int k = 0; k <= 16; k++) {
+        if (k >= 1 && k <= 10) hurt(&b, 9.5 + k, 10.5, 0);
+        tips_sample(&t, &b.p, &b.c, k * dt);
+        assert_true(isnan(t.tip[0].arrest_time) == (k < 2));
+    }
+    const struct tip *tip = tips_longest(&t);
+    assert_ptr_equal(tip, &t.tip[0]);
+    assert_int_equal(t.n, 1);
+    assert_int_equal(tip->particles, 10);
+    assert_near(tip->growth, 9.5, ROUND_OFF);
+    assert_near(tip->place[0], 19.5, ROUND_OFF);
+    assert_near(tip->first_time, dt, 1e-15);
+    assert_near(tip->start_time, 2 * dt, 1e-15);
+    assert_near(tip->arrest_time, 10 * dt, 1e-15);
+    assert_near(tip->speed_max, 500, 1e-9);       /* slopes of exact lines: round-off times 500 / dt */
+    assert_near(tip->speed_mean, 500, 1e-9);
+    assert_near(tip_angle(tip, 2), 0, 1e-5);      /* acos near 1 halves the digits */
+    notched_free(&b, &t);
+}
+
+/* A rate that changes: the steepest window counts, the mean lies between. Slow: a particle every second sample. */
+static void tip_speed_takes_the_steepest_window(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    notched_make(&b, &t, 4);
+    int reached = 0;
+    for (int k = 0; k <= 20; k++) {
+        int wanted = k <= 12 ? k / 2 : 6 + (k - 12);
+        for (; reached < wanted; reached++) hurt(&b, 10.5 + reached, 10.5, 0);
+        tips_sample(&t, &b.p, &b.c, k);
+    }
+    assert_near(t.tip[0].speed_max, 1, 1e-12);
+    assert_true(t.tip[0].speed_mean > 0.6 && t.tip[0].speed_mean < 0.8);
+    notched_free(&b, &t);
+}
+
+static void tip_turns(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    notched_make(&b, &t, 4);
+    hurt(&b, 10.5, 11.5, 0), hurt(&b, 11.5, 12.5, 0), hurt(&b, 12.5, 13.5, 0);
+    tips_sample(&t, &b.p, &b.c, 0);
+    assert_int_equal(t.n, 1);
+    assert_near(tip_angle(&t.tip[0], 2), atan2(3, 2.5) * 180 / M_PI, 1e-10);
+    /* a mirror twin: the tip is the mean of the two, the growth stays */
+    hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0), hurt(&b, 12.5, 7.5, 0);
+    tips_sample(&t, &b.p, &b.c, 1);
+    assert_int_equal(t.tip[0].particles, 6);
+    assert_near(t.tip[0].place[1], 10.5, ROUND_OFF);
+    assert_near(t.tip[0].growth, hypot(2.5, 3), ROUND_OFF);
+    notched_free(&b, &t);
+}
+
+/* The faces of the pre-crack beside its end belong to the crack and are no growth; held particles and another
+ * body's belong to none of it. */
+static void tip_growth_leaves_out(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    notched_make(&b, &t, 4);
+    hurt(&b, 9.5, 11.5, 0);
+    hurt(&b, 30.5, 2.5, 0);
+    b.p.flag[particle_at(&b, 30.5, 2.5, 0)] |= FLAG_DRIVEN;
+    tips_sample(&t, &b.p, &b.c, 0);
+    assert_int_equal(t.n, 1);
+    assert_int_equal(t.tip[0].particles, 1);
+    assert_near(t.tip[0].growth, 0, 0);
+    assert_true(isnan(t.tip[0].start_time));
+    assert_near(t.tip[0].first_time, 0, 0);
+
+    hurt(&b, 10.5, 10.5, 0), hurt(&b, 11.5, 10.5, 0);
+    b.p.body[particle_at(&b, 11.5, 10.5, 0)] = 1;
+    tips_sample(&t, &b.p, &b.c, 1);
+    assert_int_equal(t.n, 2);
+    assert_near(t.tip[0].growth, 0.5, ROUND_OFF);
+    assert_int_equal(t.tip[1].body, 1);
+    assert_false(t.tip[1].from_crack);
+    notched_free(&b, &t);
+}
+
+/* A crack that starts by itself becomes part of the one that reaches it; that jump is length, not speed. */
+static void tip_joins_a_crack_ahead(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    notched_make(&b, &t, 3);
+    for (int k = 0; k <= 5; k++) {
+        if (k > 0) hurt(&b, 9.5 + k, 10.5, 0);
+        for (int m = 0; k == 3 && m < 4; m++) hurt(&b, 16.5 + m, 10.5, 0);
+        if (k > 3) hurt(&b, 30.5, 0.5 + k, 0);
+        tips_sample(&t, &b.p, &b.c, k);
+    }
+    assert_int_equal(t.n, 3);
+    assert_near(t.tip[1].growth, 3, ROUND_OFF);
+    assert_near(t.tip[0].growth, 4.5, ROUND_OFF);
+    real origin = t.tip[1].origin[0];
+    assert_near(origin, 16.5, 0);                 /* equal damage: the lowest index */
+    hurt(&b, 15.5, 10.5, 0);
+    hurt(&b, 30.5, 6.5, 0);
+    tips_sample(&t, &b.p, &b.c, 6);
+    assert_int_equal(t.n, 2);
+    assert_int_equal(t.tip[0].particles, 10);
+    assert_near(t.tip[0].growth, 9.5, ROUND_OFF);
+    assert_near(t.tip[0].speed_max, 1, 1e-12);
+    for (int64_t i = 0; i < b.p.n; i++) assert_true(t.label[i] <= 2 || t.label[i] == 255);
+
+    /* the third crack, one particle a second, has kept its record under its new number */
+    hurt(&b, 30.5, 7.5, 0);
+    tips_sample(&t, &b.p, &b.c, 7);
+    assert_near(t.tip[1].growth, 3, ROUND_OFF);
+    assert_near(t.tip[1].speed_max, 1, 1e-12);
+    notched_free(&b, &t);
+}
+
+/* In 3D the whole edge inside the body is one front, wherever along it the crack grows. */
+static void tip_of_a_front(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    body_make(&b, 3, (const int[]){12, 6, 6});
+    real corner[4][DIM_MAX] = {{-1, 3, -20}, {5, 3, -20}, {5, 3, 8}, {-1, 3, 8}};
+    struct crack crack = {4, corner};
+    tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
+    assert_int_equal(t.n, 1);
+    assert_near(t.tip[0].along[0], 1, 1e-15);
+    assert_near(t.tip[0].origin[0], 5, 1e-12);
+    assert_true(t.tip[0].origin[2] > 1 && t.tip[0].origin[2] < 5);
+    for (real x = 5.5; x < 9; x++) hurt(&b, x, 3.5, 0.5);
+    tips_sample(&t, &b.p, &b.c, 0);
+    assert_int_equal(t.n, 1);
+    assert_near(t.tip[0].growth, hypot(3.5, 0.5), 1e-12);
+    assert_near(tip_angle(&t.tip[0], 3), atan2(0.5, 3.5) * 180 / M_PI, 1e-9);
+    notched_free(&b, &t);
+}
+
+static void tips_never_outgrow_their_list(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    body_make(&b, 2, (const int[]){40, 20});
+    tips_make(&t, &b.p, &b.c, NULL, 0, 1, 4);
+    for (int i = 0; i < 13; i++)
+        for (int j = 0; j < 6; j++) hurt(&b, 0.5 + 3 * i, 0.5 + 3 * j, 0);
+    tips_sample(&t, &b.p, &b.c, 0);
+    assert_int_equal(t.n, TIPS_MAX);
+    int64_t members = 0;
+    for (int k = 0; k < t.n; k++) members += t.tip[k].particles;
+    assert_int_equal(members, 13 * 6);
+    notched_free(&b, &t);
+}
+
+static void tips_survive_a_restart(void **state)
+{
+    (void)state;
+    struct body b, fresh;
+    struct tips t, again;
+    struct store s = {0};
+    struct archive a = {true, store_exchange, NULL, &s};
+    notched_make(&b, &t, 3);
+    for (int k = 0; k < 6; k++) {
+        hurt(&b, 10.5 + k, 10.5, 0);
+        tips_sample(&t, &b.p, &b.c, k);
+    }
+    assert_ok(tips_archive(&t, &a));
+    a.saving = false;
+    notched_make(&fresh, &again, 3);
+    assert_ok(tips_archive(&again, &a));
+    for (int k = 6; k < 12; k++) {
+        hurt(&b, 10.5 + k, 10.5, 0);
+        tips_sample(&t, &b.p, &b.c, k);
+        tips_sample(&again, &b.p, &b.c, k);
+    }
+    assert_int_equal(again.samples, 12);
+    assert_memory_equal(&t.tip[0], &again.tip[0], sizeof t.tip[0]);
+    assert_memory_equal(t.label, again.label, (size_t)t.count);
+    store_free(&s);
+    notched_free(&fresh, &again);
+    notched_free(&b, &t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tip_starts_only_where_the_body_goes_on),
+        cmocka_unit_test(tip_speed_is_the_slope_of_growth),
+        cmocka_unit_test(tip_speed_takes_the_steepest_window),
+        cmocka_unit_test(tip_turns),
+        cmocka_unit_test(tip_growth_leaves_out),
+        cmocka_unit_test(tip_joins_a_crack_ahead),
+        cmocka_unit_test(tip_of_a_front),
+        cmocka_unit_test(tips_never_outgrow_their_list),
+        cmocka_unit_test(tips_survive_a_restart),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

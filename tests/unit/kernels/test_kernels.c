@@ -1,0 +1,461 @@
+/* floor 4: every bond kernel in the tables against its plain twin, and partial stresses against brute force. Transfers
+ * have a file of their own. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <cmocka.h>
+#include <omp.h>
+
+#include "tests/support/cloud.h"
+#include "tests/support/eigen.h"
+#include "coupling/convert.h"
+#include "tests/support/reference.h"
+#include "tests/support/same.h"
+#include "tests/support/sets.h"
+#include "base/team.h"
+
+/* Sums of up to 200 terms, each with a few roundings of 1.1e-16; stretches of 1e-2 lose two digits to cancellation:
+ * 2e-14 is usual, 1e-12 of the largest entry leaves room for any order of terms. */
+#define CLOSE 1e-12
+/* Sums of momenta: round-off only, of the sum of magnitudes. */
+#define CONSERVED 1e-13
+
+static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {45}, {12, 9}, {6, 5, 5}};
+
+enum { REGULAR = 0, SHAKEN = 1, MIXED = 2, WAYS = 4 };
+
+/* A strained, shaken body of two materials; MIXED: two of three particles are material points. */
+static void body_make(struct cloud *c, int dim, int way)
+{
+    struct cloud_plan plan = {.space = space_of[dim], .horizon = dim == 3 ? 2.015 : 3.015, .seed = 21 + (uint64_t)dim,
+                              .shake = way & SHAKEN ? 0.3 : 0};
+    uint64_t seed = 31;
+    memcpy(plan.count, count_of[dim], sizeof plan.count);
+    cloud_make(c, &plan);
+    struct particles *p = &c->p;
+    for (int64_t i = 0; i < p->n; i++) {
+        p->kind[i] = way & MIXED && cloud_random(&seed) < 0.67 ? KIND_MPM : KIND_PD;
+        p->material[i] = cloud_random(&seed) < 0.3;
+        p->flag[i] = cloud_random(&seed) < 0.2 ? FLAG_DRIVEN : 0;
+        for (int d = 0; d < dim; d++) {
+            p->x[d][i] = p->X[d][i] * (1.01 + 0.005 * d) + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
+            p->v[d][i] = cloud_between(&seed, -10, 10);
+            p->f[d][i] = cloud_between(&seed, -1, 1);
+        }
+    }
+    for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c->limit[m] = m == 0 ? 0.02 : 0.025;
+    cloud_bonds(c);
+}
+
+/* ---- force and breaking ------------------------------------------------------------------------------- */
+
+static void check_force(const struct cloud *c, const struct particles *before, const real *w)
+{
+    const struct particles *p = &c->p;
+    real *force = NEW("test.force", p->n, real), *got = NEW("test.got", p->n, real);
+    for (int d = 0; d < p->dim; d++) {
+        for (int64_t i = 0; i < p->n; i++) {
+            bool row = c->bonds.row_of[i] >= 0;
+            force[i] = row ? reference_row(p, w, c->bonds.stiffness, i).force[d] : 0;
+            got[i] = row ? p->f[d][i] : 0;
+            if (!row) assert_true(p->f[d][i] == before->f[d][i]);
+        }
+        assert_true(cloud_difference(got, force, p->n) <= CLOSE);
+    }
+    memory_free(force);
+    memory_free(got);
+}
+
+/* Every bond of row i: broken if and only if stretched beyond its limit; what the row books for it. Returns how many
+ * broke. */
+static int64_t check_breaking(const struct cloud *c, const real *w, const real *after, int64_t i)
+{
+    const struct particles *p = &c->p;
+    int64_t row = c->bonds.row_of[i], broken = 0;
+    real volume = 0, energy = 0;
+    bool cracked = false;                /* by a bond that no driven particle pulls */
+    for (int64_t j = 0; j < p->n; j++) {
+        if (isnan(w[i * p->n + j])) continue;
+        struct reference_bond q = reference_bond(p, i, j);
+        bool breaks = q.stretch > c->limit[p->material[i] * CLOUD_MATERIALS + p->material[j]];
+        assert_true(after[i * p->n + j] == (breaks ? 0 : w[i * p->n + j]));
+        if (!breaks) continue;
+        broken++;
+        cracked |= !(p->flag[i] & FLAG_DRIVEN) && !(p->flag[j] & FLAG_DRIVEN);
+        volume += p->volume0[j];
+        energy += 0.5 * 0.5 * c->bonds.stiffness * w[i * p->n + j] * square(q.stretch) * q.length;
+    }
+    assert_int_equal(c->bonds.broken[row], broken);
+    assert_int_equal((p->flag[i] & FLAG_CUT) != 0, broken > 0);
+    assert_int_equal((p->flag[i] & FLAG_CRACKED) != 0, cracked);
+    assert_true(fabs(c->bonds.fracture_energy[row] - energy) <= CLOSE * energy);
+    /* volumes are kept in single precision: 6e-8 for each of up to ten additions */
+    if (p->kind[i] == KIND_PD) assert_true(fabs(p->damage[i] - volume / c->bonds.family_volume[row]) <= 1e-6);
+    return broken;
+}
+
+/* One call: a bond that breaks in it acts with half its force, which makes breaking second order in time; a second
+ * call: without it. */
+static void force_case(bond_force_fn *bond_force, int dim, int way)
+{
+    struct cloud c;
+    struct particles before;
+    body_make(&c, dim, way);
+    cloud_copy(&before, &c.p, 0);
+    real *w = reference_table(&c.bonds, &c.p);
+    int64_t directed = bond_force(&c.bonds, &c.p, &c.source.limit, NULL), expected = 0;
+    real *after = reference_table(&c.bonds, &c.p), *acting = NEW("test.acting", c.p.n * c.p.n, real);
+    for (int64_t q = 0; q < c.p.n * c.p.n; q++) acting[q] = 0.5 * (w[q] + after[q]);
+    check_force(&c, &before, acting);
+    for (int64_t i = 0; i < c.p.n; i++)
+        if (c.bonds.row_of[i] >= 0) expected += check_breaking(&c, w, after, i);
+    assert_true(expected > 0);
+    assert_int_equal(directed, expected);
+    for (int64_t i = 0; i < c.p.n; i++)           /* both ends break a bond in the same call */
+        for (int64_t j = 0; j < c.p.n; j++)
+            if (!isnan(after[i * c.p.n + j]) && !isnan(after[j * c.p.n + i]))
+                assert_true(after[i * c.p.n + j] == after[j * c.p.n + i]);
+    assert_int_equal(bond_force(&c.bonds, &c.p, &c.source.limit, NULL), 0);
+    check_force(&c, &before, after);
+    memory_free(w);
+    memory_free(after);
+    memory_free(acting);
+    particles_free(&before);
+    cloud_free(&c);
+}
+
+static void test_bond_force(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
+            for (int way = 0; way < WAYS; way++) force_case(bond_force_table[dim][model], dim, way);
+}
+
+/* A bond at exactly its limit is kept, one a little beyond is not. Powers of two make the stretch exact. */
+static void test_equality_keeps(void **state)
+{
+    (void)state;
+    for (int beyond = 0; beyond < 2; beyond++) {
+        struct cloud c;
+        cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
+        c.limit[0] = 0.25;
+        for (int i = 0; i < 2; i++) c.p.X[0][i] = i * 0x1p-10, c.p.x[0][i] = i * 0x1p-10 * (1.25 + beyond * 1e-6);
+        cloud_bonds(&c);
+        assert_int_equal(bond_force_table[1][PD_BOND](&c.bonds, &c.p, &c.source.limit, NULL), 2 * beyond);
+        cloud_free(&c);
+    }
+}
+
+/* Forces of a body add up to nothing, and so do their moments. */
+static void test_bond_momentum(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
+            for (int way = 0; way < WAYS; way++) {
+                struct cloud c;
+                real sum = 0, size = 0, moment = 0, moments = 0;
+                body_make(&c, dim, way);
+                struct particles *p = &c.p;
+                for (int d = 0; d < dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
+                bond_force_table[dim][model](&c.bonds, p, &c.source.limit, NULL);
+                for (int d = 0; d < dim; d++)
+                    for (int64_t i = 0; i < p->n; i++) sum += p->f[d][i], size += fabs(p->f[d][i]);
+                for (int64_t i = 0; i < p->n && dim > 1; i++) {
+                    moment += p->x[0][i] * p->f[1][i] - p->x[1][i] * p->f[0][i];
+                    moments += fabs(p->x[0][i] * p->f[1][i]) + fabs(p->x[1][i] * p->f[0][i]);
+                }
+                assert_true(fabs(sum) <= CONSERVED * size && fabs(moment) <= CONSERVED * moments);
+                cloud_free(&c);
+            }
+}
+
+/* ---- what slots have in common -------------------------------------------------------------------------- */
+
+/* A lattice of one material, displaced; some bonds broken by load, one faded. */
+static void lattice_make(struct cloud *c, int dim, bool state)
+{
+    uint64_t seed = 5;
+    cloud_make(c, &(struct cloud_plan){.space = space_of[dim], .count = {17, 11, 9}, .horizon = dim == 3 ? 2.015 : 3.015,
+                                       .surface = SURFACE_VOLUME});
+    static struct state_modulus modulus;
+    modulus = state_modulus_of(&c->material[0], space_of[dim], true);
+    if (state) c->source.modulus = &modulus, c->source.turns = true, c->source.local = true;
+    for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c->limit[m] = 0.02;
+    cloud_bonds(c);
+    for (int d = 0; d < dim; d++)
+        for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
+    const struct bonds *b = &c->bonds;
+    const int64_t row = b->row_of[c->p.n / 2], q = bond_index(b, row / LANES, 2, (int)(row % LANES));
+    bond_fade(&c->bonds, &c->p, row, q, 0.5f * b->w[q]);
+}
+
+/* Forces with `alike` and then `lattice` taken from all slots: [3][dim n]. Says which kinds of slots there were. */
+static real *forces_by_kind(struct cloud *c, bond_force_fn *force, bool kinds[3])
+{
+    const int64_t all = c->p.dim * c->p.n;
+    real *f = NEW("test.forces", 3 * all, real);
+    assert_true(force(&c->bonds, &c->p, &c->source.limit, NULL) > 0);
+    for (int64_t slot = 0; slot < c->bonds.slots; slot++)
+        kinds[c->bonds.common[slot].alike ? 2 : c->bonds.common[slot].lattice ? 1 : 0] = true;
+    for (int pass = 0; pass < 3; pass++) {
+        for (int64_t slot = 0; slot < c->bonds.slots && pass > 0; slot++) {
+            c->bonds.common[slot].alike = 0;
+            if (pass == 2) c->bonds.common[slot].lattice = 0;
+        }
+        assert_int_equal(force(&c->bonds, &c->p, &c->source.limit, NULL), 0);
+        for (int d = 0; d < c->p.dim; d++)
+            memcpy(f + pass * all + d * c->p.n, c->p.f[d], (size_t)c->p.n * sizeof(real));
+    }
+    return f;
+}
+
+/* However a slot is read the forces are the same: to the last bit, but for lengths that are mere factors of state-based
+ * ones; those differ by the round-off of positions, 17 spacings of 1.1e-16 over one, summed over a family. */
+static void test_slot_kinds(void **unused)
+{
+    (void)unused;
+    bool kinds[3] = {false};
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int model = PD_BOND; model <= PD_MOSPD; model++) {
+            const bool state = model >= PD_OSPD;
+            struct cloud c;
+            if (model == PD_BOND_PLASTIC || (dim == 1 && state)) continue;
+            lattice_make(&c, dim, state);
+            const size_t bytes = (size_t)(dim * c.p.n) * sizeof(real);
+            real *f = forces_by_kind(&c, state ? state_force_table[dim][model] : bond_force_table[dim][model], kinds);
+            assert_memory_equal(f, f + dim * c.p.n, bytes);
+            if (state) assert_true(cloud_difference(f, f + 2 * dim * c.p.n, dim * c.p.n) <= CLOSE);
+            else assert_memory_equal(f, f + 2 * dim * c.p.n, bytes);
+            memory_free(f);
+            cloud_free(&c);
+        }
+    assert_true(kinds[0] && kinds[1] && kinds[2]);
+}
+
+/* ---- energy and stress --------------------------------------------------------------------------------- */
+
+static void test_bond_energy(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
+            for (int way = 0; way < WAYS; way++) {
+                struct cloud c;
+                real expected = 0;
+                body_make(&c, dim, way);
+                real *w = reference_table(&c.bonds, &c.p);
+                for (int64_t i = 0; i < c.p.n; i++) expected += reference_row(&c.p, w, c.bonds.stiffness, i).energy;
+                real energy = bond_energy_table[dim][model](&c.bonds, &c.p);
+                assert_true(expected > 0 && fabs(energy - expected) <= CLOSE * expected);
+                memory_free(w);
+                cloud_free(&c);
+            }
+}
+
+static void test_bond_stress(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
+            for (int way = 0; way < WAYS; way++) {
+                struct cloud c;
+                body_make(&c, dim, way);
+                real *w = reference_table(&c.bonds, &c.p), *stress = NEW("test.stress", c.p.n, real);
+                for (int s = 0; s < symmetric_count(dim); s++)      /* material points keep theirs */
+                    for (int64_t i = 0; i < c.p.n; i++) c.p.stress[s][i] = 1e6 * (real)(i + s);
+                bond_stress_table[dim][model](&c.bonds, &c.p);
+                for (int a = 0; a < dim; a++)
+                    for (int b = a; b < dim; b++) {
+                        int s = reference_symmetric(dim, a, b);
+                        for (int64_t i = 0; i < c.p.n; i++)
+                            stress[i] = c.p.kind[i] == KIND_PD
+                                            ? reference_row(&c.p, w, c.bonds.stiffness, i).stress[a][b]
+                                            : 1e6 * (real)(i + s);
+                        assert_true(cloud_difference(c.p.stress[s], stress, c.p.n) <= CLOSE);
+                    }
+                memory_free(stress);
+                memory_free(w);
+                cloud_free(&c);
+            }
+}
+
+/* ---- motion -------------------------------------------------------------------------------------------- */
+
+static void test_pd_move(void **state)
+{
+    (void)state;
+    const real dt = 3e-8, dt_velocity = 1.5e-8;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int way = 0; way < WAYS; way++) {
+            struct cloud c;
+            struct particles old;
+            body_make(&c, dim, way);
+            cloud_copy(&old, &c.p, 0);
+            const struct pd_motion motion = {dt, dt_velocity, INFINITY, NULL, false};
+            assert_false(pd_move_table[dim](&c.p, c.p.list[KIND_PD], c.p.n_of[KIND_PD], &motion));
+            for (int d = 0; d < dim; d++) {
+                for (int64_t i = 0; i < old.n; i++) {
+                    if (old.kind[i] != KIND_PD) continue;
+                    old.v[d][i] += dt_velocity * old.f[d][i] / old.mass[i];
+                    old.x[d][i] += dt * old.v[d][i];
+                }
+                /* two roundings of each */
+                assert_true(cloud_difference(c.p.v[d], old.v[d], old.n) <= 1e-15);
+                assert_true(cloud_difference(c.p.x[d], old.x[d], old.n) <= 1e-15);
+            }
+            particles_free(&old);
+            cloud_free(&c);
+        }
+}
+
+/* ---- threads ------------------------------------------------------------------------------------------- */
+
+static void test_bond_threads(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int model = PD_BOND; model <= PD_BOND_PLASTIC; model++)
+            for (int way = 0; way < WAYS; way++) {
+                struct cloud c[2];
+                real energy[2];
+                for (int t = 0; t < 2; t++) {
+                    omp_set_num_threads(t + 1);
+                    body_make(&c[t], dim, way);
+                    energy[t] = bond_energy_table[dim][model](&c[t].bonds, &c[t].p);
+                    bond_force_table[dim][model](&c[t].bonds, &c[t].p, &c[t].source.limit, NULL);
+                    bond_stress_table[dim][model](&c[t].bonds, &c[t].p);
+                    pd_move_table[dim](&c[t].p, c[t].p.list[KIND_PD], c[t].p.n_of[KIND_PD],
+                                       &(struct pd_motion){1e-8, 1e-8, INFINITY, NULL, false});
+                }
+                assert_memory_equal(&energy[0], &energy[1], sizeof(real));
+                assert_same_particles(&c[0].p, &c[1].p, 0);
+                for (int t = 0; t < 2; t++) cloud_free(&c[t]);
+            }
+}
+
+/* ---- partial stress -------------------------------------------------------------------------------------- */
+
+/* The least eigenvalue of (1 - M) C, what a point keeps of its stiffness, M over symmetric components of stress [Pa]. */
+static real least_kept(const struct material *m, int dim, const real *M)
+{
+    const int n = symmetric_count(dim);
+    real kept[SYM_MAX * SYM_MAX], value[SYM_MAX], scratch[SYM_MAX], least = INFINITY;
+    for (int a = 0; a < n; a++)
+        for (int b = 0; b < n; b++) {
+            kept[a * n + b] = 0;
+            for (int k = 0; k < n; k++) {
+                const real C = k < dim && b < dim ? (k == b ? m->c11 : m->c12) : k == b ? 2 * m->shear : 0;
+                kept[a * n + b] += ((a == k) - M[a * n + k]) * C * (a < dim ? 1 : M_SQRT2) / (b < dim ? 1 : M_SQRT2);
+            }
+        }
+    eigen_symmetric(kept, n, value, scratch);
+    for (int a = 0; a < n; a++) least = fmin(least, value[a]);
+    return least;
+}
+
+/* The matrix of point q applied to unit stresses against T : C^-1 sigma in whole tensors. False: bonds would carry more than all. */
+static bool check_partial(const struct cloud *c, const struct partial_stress *partial, const real *w, int64_t q)
+{
+    const struct particles *p = &c->p;
+    const int n = symmetric_count(p->dim);
+    real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX], expected[SYM_MAX * SYM_MAX], got[SYM_MAX * SYM_MAX] = {0}, largest = 0;
+    reference_partial(p, w, c->bonds.stiffness, c->source.family.section, q, T);
+    for (int b = 0; b < n; b++) {
+        real sigma[SYM_MAX] = {0}, carried[SYM_MAX];
+        sigma[b] = 1;
+        reference_carried(&c->material[p->material[q]], p->dim, T, sigma, carried);
+        for (int a = 0; a < n; a++) {
+            expected[a * n + b] = p->kind[q] == KIND_MPM ? carried[a] : 0;
+            largest = fmax(largest, fabs(expected[a * n + b]));
+            if (partial->index[q] >= 0) got[a * n + b] = partial->matrix[(partial->index[q] * n + a) * n + b];
+        }
+    }
+    assert_int_equal(partial->index[q] >= 0, largest > 0);
+    const struct material *m = &c->material[p->material[q]];
+    if (least_kept(m, p->dim, expected) < 0) {       /* bonds would carry more than there is: as much as there is */
+        assert_true(least_kept(m, p->dim, got) >= -CLOSE * m->c11);
+        return false;
+    }
+    /* the share of a bond that only touches a corner of the cell has an absolute error of 1e-16: of order one is 1 */
+    for (int k = 0; k < n * n; k++) assert_true(fabs(got[k] - expected[k]) <= CLOSE * fmax(largest, 1e-3));
+    return true;
+}
+
+static void check_partials(const struct cloud *c, const struct partial_stress *partial, int whole[2])
+{
+    real *w = reference_table(&c->bonds, &c->p);
+    for (int64_t q = 0; q < c->p.n; q++) whole[check_partial(c, partial, w, q)]++;
+    memory_free(w);
+}
+
+/* All at once, and again when more particles have become peridynamic and only their surroundings are done anew. */
+static void test_partial_stress(void **state)
+{
+    (void)state;
+    int whole[2] = {0};                  /* points that bonds would take more from than they have, and others */
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int way = 0; way < WAYS; way++) {
+            struct cloud c;
+            struct partial_stress partial = {0};
+            body_make(&c, dim, way | MIXED);
+            for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[0][i] < 2.2e-3 ? KIND_PD : KIND_MPM;
+            particles_list(&c.p);
+            bonds_free(&c.bonds);
+            bonds_make(&c.bonds, NULL, &c.p, &c.source);
+            if (way & MIXED) bond_break_all(&c.bonds, &c.p, &c.source.limit);     /* broken bonds carry nothing */
+            partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
+            check_partials(&c, &partial, whole);
+
+            int32_t changed[] = {(int32_t)c.p.n - 2, (int32_t)c.p.n - 1};
+            struct bonds old = c.bonds;
+            for (size_t k = 0; k < COUNT_OF(changed); k++) c.p.kind[changed[k]] = KIND_PD;
+            particles_list(&c.p);
+            bonds_make(&c.bonds, &old, &c.p, &c.source);
+            bonds_free(&old);
+            partial_stress_make(&partial, &c.p, &c.bonds, &c.source, changed, COUNT_OF(changed));
+            check_partials(&c, &partial, whole);
+            partial_stress_free(&partial);
+            cloud_free(&c);
+        }
+    assert_true(whole[false] > 10 && whole[true] > 100);
+}
+
+/* One peridynamic particle in a corner, where it sees an eighth of what the points beside it see. */
+static void test_partial_stress_corner(void **state)
+{
+    (void)state;
+    struct cloud c;
+    struct partial_stress partial = {0};
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_SOLID, .count = {8, 8, 8}, .horizon = 3.015});
+    for (int64_t i = 1; i < c.p.n; i++) c.p.kind[i] = KIND_MPM;
+    cloud_bonds(&c);
+    int whole[2] = {0};
+    partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
+    check_partials(&c, &partial, whole);
+    assert_int_equal(whole[false], 0);
+    partial_stress_free(&partial);
+    cloud_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bond_force),
+        cmocka_unit_test(test_equality_keeps),
+        cmocka_unit_test(test_bond_momentum),
+        cmocka_unit_test(test_slot_kinds),
+        cmocka_unit_test(test_bond_energy),
+        cmocka_unit_test(test_bond_stress),
+        cmocka_unit_test(test_pd_move),
+        cmocka_unit_test(test_bond_threads),
+        cmocka_unit_test(test_partial_stress),
+        cmocka_unit_test(test_partial_stress_corner),
+    };
+    team_make(2);
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
+}

@@ -1,0 +1,123 @@
+/* floor 2: what every shape function owes, through the kernels that scatter with it: weights that add up to one and
+ * slopes that see a linear field exactly, at any place, for any width, in one, two and three dimensions. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+#include "tests/support/cloud.h"
+#include "data/grid.h"
+#include "kernels/kernels.h"
+#include "tests/support/near.h"
+#include "base/team.h"
+
+/* A few points on a small grid; spacing 1/2 and node distance 1, so that errors are those of weights and slopes [m]. */
+struct points {
+    struct particles p;
+    struct grid g;
+    struct transfer_order order;
+    struct partial_stress partial;
+    struct transfer_data t;
+};
+
+enum { POINTS = 40, PLACES = 50 };
+
+static void points_make(struct points *s, int dim)
+{
+    bool changed;
+    memset(s, 0, sizeof *s);
+    particles_make(&s->p, dim, POINTS, WITH_STRETCH | WITH_GRADIENT);
+    s->g = (struct grid){.dim = dim, .h = 1, .anchor = {0.3, -0.2, 0.1}};
+    assert_int_equal(grid_cover(&s->g, (real[]){-4, -4, -4}, (real[]){4, 4, 4}, 100000, &changed), OK);
+    s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .half_width = 0.25};
+    for (int64_t i = 0; i < POINTS; i++) s->p.volume[i] = 1;
+    particles_list(&s->p);
+}
+
+/* Anywhere between -4 and 4, every fourth on a node or in the middle of a cell; stretched up to a width of two cells. */
+static void points_place(struct points *s, uint64_t *seed)
+{
+    for (int64_t i = 0; i < POINTS; i++)
+        for (int d = 0; d < s->p.dim; d++) {
+            real place = cloud_between(seed, -4, 4);
+            s->p.x[d][i] = i % 4 ? place : s->g.anchor[d] + 0.5 * floor(2 * place + 1);
+            s->p.stretch[d][i] = cloud_between(seed, 0.1, 4);
+        }
+    transfer_order_sort(&s->order, &s->p, s->p.list[KIND_MPM], POINTS, &s->g);
+}
+
+static void points_free(struct points *s)
+{
+    transfer_order_free(&s->order);
+    grid_free(&s->g);
+    particles_free(&s->p);
+}
+
+/* Sum over the nodes of a field times 1 (axis -1) or times the place of the node [m]. */
+static real moment(const struct grid *g, const real *field, int axis)
+{
+    real sum = 0;
+    for (int64_t I = 0; I < g->n; I++)
+        sum += field[I] * (axis < 0 ? 1 : grid_position(g, axis, I / g->stride[axis] % g->count[axis]));
+    return sum;
+}
+
+/* sum N = 1, sum N x_I = x: the scatter of a single value. Sums of up to 64 terms of at most 10: round-off 1e-14. */
+static void check_weights(struct points *s, enum shape shape)
+{
+    const int dim = s->p.dim;
+    real *field = NEW("test.field", s->g.n, real);
+    for (int32_t i = 0; i < POINTS; i++) {
+        memset(field, 0, (size_t)s->g.n * sizeof *field);
+        spread_table[dim][shape](&s->g, &s->p, s->t.half_width, &i, 1, (real[]){1}, field);
+        assert_near(moment(&s->g, field, -1), 1, 1e-13);
+        for (int d = 0; d < dim; d++) assert_near(moment(&s->g, field, d), s->p.x[d][i], 1e-13);
+    }
+    memory_free(field);
+}
+
+/* sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0: the forces of a point of unit volume under the unit stress of
+ * component `c`, one point at a time. Slopes are means over at least a twentieth of a cell: round-off 20 times larger. */
+static void check_slopes(struct points *s, enum shape shape, enum transfer transfer)
+{
+    static const int component[DIM_MAX + 1][DIM_MAX][DIM_MAX] = {
+        {{0}}, {{0}}, {{0, 2}, {2, 1}}, {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
+    const int dim = s->p.dim;
+    for (int64_t i = 0; i < POINTS; i++)
+        for (int c = 0; c < symmetric_count(dim); c++) {
+            s->p.stress[c][i] = 1;
+            grid_clear(&s->g);
+            p2g_table[dim][shape][transfer](&s->g, &s->p, &s->t);
+            s->p.stress[c][i] = 0;
+            for (int a = 0; a < dim; a++) {
+                assert_near(moment(&s->g, s->g.force[a], -1), 0, 1e-12);
+                for (int b = 0; b < dim; b++)
+                    assert_near(moment(&s->g, s->g.force[a], b), -(component[dim][a][b] == c), 1e-12);
+            }
+        }
+}
+
+static void test_complete(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct points s;
+        points_make(&s, dim);
+        for (int k = 0; k < (dim == 1 ? PLACES : dim == 2 ? PLACES / 5 : 1); k++) {
+            points_place(&s, &seed);
+            for (int shape = 0; shape < SHAPES; shape++) {
+                check_weights(&s, (enum shape)shape);
+                check_slopes(&s, (enum shape)shape, k % 2 ? TRANSFER_APIC : TRANSFER_FLIP);
+            }
+        }
+        points_free(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_complete)};
+    team_make(2);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

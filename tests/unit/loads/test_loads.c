@@ -1,0 +1,215 @@
+/* floor 3: applied forces: what a body force that varies over the body gives to every particle. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "tests/support/cloud.h"
+#include "loads/loads.h"
+#include "tests/support/near.h"
+#include "base/team.h"
+
+/* A sine along (3, 4)/5 with its origin inside, pulling in x and y; the particles have moved since, which must not
+ * matter: the profile holds on reference positions. */
+static void test_sine(void **state)
+{
+    (void)state;
+    const real length = 5 * CLOUD_SPACING, volume = square(CLOUD_SPACING) * 2e-3, dt = 1e-6;
+    const struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6},
+                                  .time = {.kind = TIME_RAMP, .until = 4},
+                                  .profile = {PROFILE_SINE, length, {CLOUD_SPACING, -CLOUD_SPACING}, {3, 4}}};
+    struct cloud c;
+    struct loads l;
+    real sum[2] = {0};
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 3});
+    struct particles *p = &c.p;
+    assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
+    loads_clear(&l, p);
+    loads_apply(&l, p, 1 + 0.5 * dt, dt, dt);        /* a kick round t = 1: a quarter of the ramp */
+    for (int64_t i = 0; i < p->n; i++) {
+        real along = 0.6 * (p->X[0][i] - CLOUD_SPACING) + 0.8 * (p->X[1][i] + CLOUD_SPACING);
+        real factor = 0.25 * sin(2 * M_PI * along / length);
+        assert_near(p->f[0][i], 2e6 * volume * factor, 1e-12 * 2e6 * volume);
+        assert_near(p->f[1][i], -3e6 * volume * factor, 1e-12 * 3e6 * volume);
+        for (int d = 0; d < 2; d++) sum[d] += p->f[d][i] * dt;
+    }
+    for (int d = 0; d < 2; d++) assert_near(l.impulse[d], sum[d], 1e-12 * 3e6 * volume * dt * (double)p->n);
+
+    real work = 0;                                   /* over the way they go, with the same forces */
+    for (int64_t i = 0; i < p->n; i++)
+        for (int d = 0; d < 2; d++) {
+            real way = 1e-6 * (real)(i + d);
+            p->x[d][i] += way;
+            work += way * p->f[d][i];
+        }
+    struct grid none = {0};
+    loads_hold(&l, &none, p, 1, dt, dt);                 /* as if the step's middle were at t = 1 */
+    assert_close(l.work, work, 1e-8);                /* ways of 1e-6 of positions near 1e-2, to 1e-18 */
+    assert_true(fabs(work) > 1e-9);
+    loads_free(&l);
+    cloud_free(&c);
+}
+
+/* Loads of the same particles go together, with terms of equal shares as one; what they give is that of each alone, on any
+ * number of threads. Two of one profile, one of another, one of a part of the body, one whose region is every particle but in
+ * other words, and a traction. */
+static void check_together(int threads, bool together, real *impulse, real *work, real *f)
+{
+    const real length = 5 * CLOUD_SPACING, dt = 1e-6;
+    const struct profile wave = {PROFILE_SINE, length, {0}, {3, 4}};
+    const struct boundary row[] = {
+        {.name = "steady", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6}, .profile = wave},
+        {.name = "ramp", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {5e6, 1e6}, .profile = wave, .time = {.kind = TIME_RAMP, .until = 4}},
+        {.name = "other", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {0, 7e6}, .profile = {PROFILE_SINE, length, {0}, {1, -1}}},
+        {.name = "even", .kind = BOUNDARY_BODY_FORCE, .body = 0, .value = {1e6, 0}},
+        {.name = "first", .kind = BOUNDARY_BODY_FORCE, .body = 1, .value = {-4e6, 4e6}},
+        {.name = "face", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 2e6}, .face = 1, .side = 1}};
+    struct cloud c;
+    struct grid none = {0};
+    struct loads l;
+    team_make(threads);
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {71, 53}, .horizon = 3});
+    for (int64_t i = 0; i < c.p.n; i++) c.p.body[i] = i % 3 == 0;
+    impulse[0] = impulse[1] = *work = 0;
+    for (size_t k = 0; k < (together ? 1 : COUNT_OF(row)); k++) {
+        assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+        if (k == 0) loads_clear(&l, &c.p);
+        loads_apply(&l, &c.p, 1, dt, dt);
+        for (int d = 0; d < 2; d++)
+            for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
+        loads_hold(&l, &none, &c.p, 1, dt, dt);
+        for (int d = 0; d < 2; d++) impulse[d] += l.impulse[d];
+        *work += l.work;
+        for (int d = 0; d < 2; d++)
+            for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] = c.p.X[d][i];
+        if (together) assert_ptr_equal(l.load[0].share[1], l.load[1].share[0]);
+        if (together) assert_int_equal(l.load[2].leader, 0);
+        loads_free(&l);
+    }
+    for (int d = 0; d < 2; d++) memcpy(f + d * c.p.n, c.p.f[d], (size_t)c.p.n * sizeof *f);
+    cloud_free(&c);
+}
+
+static void test_together(void **state)
+{
+    (void)state;
+    enum { N = 71 * 53 };
+    static real f[4][2 * N];
+    real impulse[4][2], work[4];
+    check_together(1, false, impulse[0], &work[0], f[0]);
+    for (int threads = 1; threads <= 3; threads++) check_together(threads, true, impulse[threads], &work[threads], f[threads]);
+    for (int i = 0; i < 2 * N; i++) assert_near(f[1][i], f[0][i], 1e-14 * 2e7 * square(CLOUD_SPACING) * 2e-3);
+    for (int d = 0; d < 2; d++) assert_close(impulse[1][d], impulse[0][d], 1e-12);
+    assert_close(work[1], work[0], 1e-10);           /* terms of both signs, 1e-3 of them left */
+    for (int threads = 2; threads <= 3; threads++) {
+        assert_memory_equal(f[threads], f[1], sizeof f[1]);
+        assert_memory_equal(impulse[threads], impulse[1], sizeof impulse[1]);
+        assert_memory_equal(&work[threads], &work[1], sizeof work[1]);
+    }
+    team_make(2);
+}
+
+/* Leap-frog: a half kick, then whole ones, each round the instant of its forces. What a force gives up to the velocities
+ * is its integral in time: exactly for what is linear in it or switches at a whole step, else to second order. */
+static void test_kicks(void **state)
+{
+    (void)state;
+    const real volume = CLOUD_SPACING * 4e-6, dt = 1e-3;
+    const struct { struct time_function time; real until_now; } row[] = {
+        {{.kind = TIME_CONSTANT}, 9.5 * dt},
+        {{.kind = TIME_STEP, .until = 5 * dt}, 5 * dt},                          /* all of it */
+        {{.kind = TIME_STEP, .from = 3 * dt, .until = 99}, 6.5 * dt},
+        {{.kind = TIME_RAMP, .until = 20 * dt}, 9.5 * 9.5 / 40 * dt},            /* integral of t/20 dt */
+    };
+    for (size_t k = 0; k < COUNT_OF(row); k++) {
+        const struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {3e6},
+                                      .time = row[k].time};
+        struct cloud c;
+        struct loads l;
+        cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {4}, .horizon = 3});
+        assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+        for (int step = 0; step < 10; step++) {
+            loads_clear(&l, &c.p);
+            loads_apply(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
+        }
+        assert_close(l.impulse[0], 4 * 3e6 * volume * row[k].until_now, 1e-12);
+        loads_free(&l);
+        cloud_free(&c);
+    }
+}
+
+/* Every particle has its cell's volume, as where a scene fills a body. */
+static void even_volumes(struct particles *p)
+{
+    for (int64_t i = 0; i < p->n; i++) p->volume0[i] = square(CLOUD_SPACING) * 2e-3;
+}
+
+/* A traction's force is t A and its moment that of a force on the face, half a spacing outside the particles, whatever its
+ * direction and however far the lattice is shaken (shifts of 0.3 spacings: a layer 0.6 thick); the moment of what acts
+ * along the face is exact on the lattice, where the layers' depths are. */
+static void test_traction(void **state)
+{
+    (void)state;
+    const int rows = 30, columns = 12;
+    const real area = rows * CLOUD_SPACING * 2e-3, t[2] = {3e6, -7e6};
+    for (int shaken = 0; shaken < 2; shaken++)
+        for (int side = -1; side <= 1; side += 2) {
+            const struct boundary pull = {.name = "pull", .kind = BOUNDARY_TRACTION, .body = -1, .value = {t[0], t[1]},
+                                          .face = 0, .side = side};
+            struct cloud c;
+            struct loads l;
+            cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {columns, rows}, .horizon = 3,
+                                                .shake = shaken ? 0.3 : 0, .seed = 5});
+            real sum[2] = {0}, first = 0, *X = c.p.X[0];
+            even_volumes(&c.p);
+            assert_ok(loads_make(&l, &pull, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+            loads_static_force(&l, &c.p);
+            real low = INFINITY, high = -INFINITY;
+            for (int64_t i = 0; i < c.p.n; i++) low = fmin(low, X[i]), high = fmax(high, X[i]);
+            for (int64_t i = 0; i < c.p.n; i++) {
+                for (int d = 0; d < 2; d++) sum[d] += c.p.f[d][i];
+                first += c.p.f[1][i] * X[i];
+            }
+            for (int d = 0; d < 2; d++) assert_close(sum[d], t[d] * area, 1e-12);
+            if (!shaken) assert_near(first / (t[1] * area), (side > 0 ? high : low) + side * 0.5 * CLOUD_SPACING,
+                                     1e-9 * CLOUD_SPACING);
+            loads_free(&l);
+            cloud_free(&c);
+        }
+}
+
+/* What turns a body that nothing holds is met by its inertia: no moment is left, nor does a force come in. */
+static void test_relief(void **state)
+{
+    (void)state;
+    const struct boundary shear[] = {
+        {.name = "up", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 0}, .face = 1, .side = 1},
+        {.name = "down", .kind = BOUNDARY_TRACTION, .body = -1, .value = {-1e6, 0}, .face = 1, .side = -1}};
+    struct cloud c;
+    struct loads l;
+    real sum[2] = {0}, moment = 0, size = 0;
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {12, 9}, .horizon = 3, .shake = 0.2,
+                                        .seed = 3});
+    even_volumes(&c.p);
+    assert_ok(loads_make(&l, shear, 2, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    assert_true(loads_static_balance(&l, &c.p) > 0.3);       /* nothing but moment, not at the farthest from the centre */
+    loads_static_force(&l, &c.p);
+    for (int64_t i = 0; i < c.p.n; i++) {
+        for (int d = 0; d < 2; d++) sum[d] += c.p.f[d][i], size += fabs(c.p.f[d][i]);
+        moment += c.p.X[0][i] * c.p.f[1][i] - c.p.X[1][i] * c.p.f[0][i];
+    }
+    for (int d = 0; d < 2; d++) assert_near(sum[d], 0, 1e-12 * size);
+    assert_near(moment, 0, 1e-12 * size * 12 * CLOUD_SPACING);
+    loads_free(&l);
+    cloud_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks), cmocka_unit_test(test_together),
+                                       cmocka_unit_test(test_traction), cmocka_unit_test(test_relief)};
+    team_make(2);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

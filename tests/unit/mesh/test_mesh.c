@@ -1,0 +1,312 @@
+/* floor 3: the mesh of the reference frame against plain sums over its points: forces are the exact gradient of the energy,
+ * patches carry uniform strain, nothing resists a rotation, momentum of both kinds is kept, converted points take their
+ * share along, and the critical step is that of the mesh. */
+#include "tests/support/mesh_block.h"
+
+#include "coupling/convert.h"
+
+/* f = -dW/du by central differences of the plain energy of the cells round a node. Their error is third derivatives times the
+ * square of the step, and round-off of the energy over the step: 1e-7 of the largest force together. */
+static void gradient_of(enum space space, bool finite, bool cubic)
+{
+    struct block b;
+    block_make(&b, space, true, cubic);
+    shake(&b, 0.15, 5);
+    forces(&b, finite);
+    const real scale = largest_force(&b), step = 1e-4 * CLOUD_SPACING;
+    const real energy = plain_energy(&b, finite);
+    assert_close(mesh_strain(&b.mesh, &b.c.p, b.elastic, finite), energy, 1e-12);
+    for (int64_t I = 0; I < b.mesh.grid.n; I++)
+        for (int d = 0; d < b.c.p.dim; d++) {
+            real *u = &b.mesh.displacement[d][I], W[2] = {0};
+            if (b.mesh.grid.mass[I] == 0) {
+                assert_exact(b.mesh.grid.force[d][I], 0);
+                continue;
+            }
+            for (int side = 0; side < 2; side++) {
+                *u += side ? -2 * step : step;
+                for (int64_t i = 0; i < b.c.p.n; i++) {
+                    bool near = b.mesh.place[i] >= 0;
+                    for (int c = 0, touches = 0; c < 1 << b.c.p.dim && near; c++) {
+                        touches += (b.mesh.place[i] >> b.c.p.dim) + b.mesh.corner[c] == I;
+                        if (c + 1 == 1 << b.c.p.dim) near = touches > 0;
+                    }
+                    if (near) W[side] += point_energy(&b, i, finite);
+                }
+            }
+            *u += step;
+            assert_near(b.mesh.grid.force[d][I], -(W[0] - W[1]) / (2 * step), 1e-7 * scale);
+        }
+    block_free(&b);
+}
+
+static void test_gradient(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++)
+        for (int finite = 0; finite < 2; finite++) gradient_of(spaces[s], finite, false);
+    gradient_of(SPACE_PLANE_STRESS, true, true);         /* constants of a lattice, not isotropic */
+    gradient_of(SPACE_SOLID, true, true);
+}
+
+/* The closed form of whole cells and the stiffness of cut ones are the same sums over points, to round-off. */
+static void test_whole_and_cut(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++)
+        for (int finite = 0; finite < 2; finite++) {
+            struct block b;
+            block_make(&b, spaces[s], false, true);
+            shake(&b, 0.2, 11);
+            forces(&b, finite);
+            real *whole[DIM_MAX];
+            for (int d = 0; d < b.c.p.dim; d++) {
+                whole[d] = NEW("test.whole", b.mesh.grid.n, real);
+                memcpy(whole[d], b.mesh.grid.force[d], sizeof(real) * (size_t)b.mesh.grid.n);
+            }
+            struct partial_stress nothing;       /* the same with every cell cut */
+            partial_of(&nothing, &b.c.p, b.c.material, 0);
+            b.source.partial = &nothing;
+            mesh_follow(&b.mesh, &b.c.p, &b.source, NULL, 0);
+            assert_int_equal(b.mesh.runs, 0);
+            forces(&b, finite);
+            for (int64_t I = 0; I < b.mesh.grid.n; I++)
+                for (int d = 0; d < b.c.p.dim; d++)
+                    assert_near(b.mesh.grid.force[d][I], whole[d][I], 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
+            partial_stress_free(&nothing);
+            for (int d = 0; d < b.c.p.dim; d++) memory_free(whole[d]);
+            block_free(&b);
+        }
+}
+
+/* What a point at small strain gives: C : e less what bonds carry of it, and less the skew part. */
+static void given(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
+{
+    const struct mesh *mesh = &b->mesh;
+    const int dim = b->c.p.dim, n = symmetric_count(dim), place = mesh->place[i] & ((1 << dim) - 1);
+    const struct elastic *m = &b->elastic[b->c.p.material[i]];
+    const bool leaves = partial->index[i] >= 0;
+    real g[9] = {0}, s[SYM_MAX], trace = 0;
+    for (int a = 0; a < dim; a++)
+        for (int k = 0; k < dim; k++)
+            for (int c = 0; c < 1 << dim; c++)
+                g[a * dim + k] += mesh_slope(dim, c, place, k) / mesh->grid.h *
+                                  mesh->displacement[a][(mesh->place[i] >> dim) + mesh->corner[c]];
+    for (int a = 0; a < dim; a++) trace += g[a * dim + a];
+    for (int k = 0; k < n; k++) {
+        int a, d;
+        symmetric_axes(dim, k, &a, &d);
+        s[k] = a == d ? (m->c11 - m->c12) * g[a * dim + a] + m->c12 * trace : m->shear * (g[a * dim + d] + g[d * dim + a]);
+    }
+    for (int k = 0; k < n; k++) {
+        int a, d;
+        symmetric_axes(dim, k, &a, &d);
+        P[a * dim + d] = P[d * dim + a] = s[k] - (leaves ? dot(partial->matrix + (i * n + k) * n, s, n) : 0);
+    }
+}
+
+/* Cut cells that leave any part of their stress to bonds that has an energy, against sums of V P grad N point by point: round-off
+ * of a few hundred terms. What changes after the mesh is made is followed, cell by cell. */
+static void test_partial(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++) {
+        struct block b;
+        struct partial_stress partial;
+        block_make(&b, spaces[s], true, false);
+        const struct particles *p = &b.c.p;
+        const int dim = p->dim, n = symmetric_count(dim);
+        partial_of(&partial, p, b.c.material, 0.2);
+        int32_t changed[2] = {-1, -1};
+        for (int64_t i = 0; i < p->n; i++) {
+            if (i % 3) partial.index[i] = -1;
+            else if (b.mesh.place[i] >= 0) changed[i % 2] = (int32_t)i;
+        }
+        b.source.partial = &partial;
+        mesh_follow(&b.mesh, &b.c.p, &b.source, NULL, 0);
+        for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= -0.5;
+        partial.index[changed[1]] = -1;
+        assert_true(dim > 1 || !mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 2));     /* one cell less is cut */
+        mesh_follow(&b.mesh, &b.c.p, &b.source, changed, 2);
+        for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= 0.7;
+        assert_true(mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 1));
+        shake(&b, 0.2, 23);
+        forces(&b, false);
+        for (int64_t i = 0; i < p->n; i++) {
+            real P[9];
+            if (b.mesh.place[i] < 0) continue;
+            given(&b, &partial, i, P);
+            for (int c = 0; c < 1 << dim; c++)
+                for (int a = 0; a < dim; a++)
+                    for (int k = 0; k < dim; k++)
+                        b.mesh.grid.force[a][(b.mesh.place[i] >> dim) + b.mesh.corner[c]] +=
+                            b.mesh.volume * P[a * dim + k] * mesh_slope(dim, c, b.mesh.place[i] & ((1 << dim) - 1), k) / b.mesh.grid.h;
+        }
+        assert_near(largest_force(&b), 0, 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
+        partial_stress_free(&partial);
+        block_free(&b);
+    }
+}
+
+/* Uniform strain leaves no force inside, whole cells and cut ones: round-off of sums of stresses times faces. Inside are nodes
+ * all of whose neighbours have their full mass. */
+static void test_patch(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++)
+        for (int finite = 0; finite < 2; finite++) {
+            struct block b;
+            block_make(&b, spaces[s], false, false);
+            turn(&b, finite ? 0.7 : 0, 0.01);
+            forces(&b, finite);
+            real full = 0;
+            int inside = 0;
+            for (int64_t I = 0; I < b.mesh.grid.n; I++) full = real_max(full, b.mesh.grid.mass[I]);
+            const real scale = b.elastic[0].c11 * 0.01 * b.mesh.volume / CLOUD_SPACING;
+            assert_true(largest_force(&b) > 0.1 * scale);    /* its edges do feel it */
+            for (int64_t I = 0; I < b.mesh.grid.n; I++) {
+                if (b.mesh.grid.mass[I] < full * (1 - 1e-12)) continue;
+                inside++;
+                for (int d = 0; d < b.c.p.dim; d++) assert_near(b.mesh.grid.force[d][I], 0, 1e-11 * scale);
+            }
+            assert_true(inside > 8);
+            block_free(&b);
+        }
+}
+
+/* A rotation costs nothing at finite strain, and any displacement leaves neither force nor moment on the whole body: 1e-13 of
+ * the sums' terms. Small strain keeps the force, and fails the moment. */
+static void test_momentum(void **state)
+{
+    (void)state;
+    for (unsigned s = 1; s < COUNT_OF(spaces); s++)
+        for (int finite = 0; finite < 2; finite++) {
+            struct block b;
+            block_make(&b, spaces[s], true, true);
+            if (finite) {
+                turn(&b, 2.5, 0);
+                forces(&b, true);
+                assert_near(largest_force(&b), 0, 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
+            }
+            shake(&b, 0.25, 3);
+            forces(&b, finite);
+            real sum[DIM_MAX] = {0}, moment = 0, scale = 0, arms = 0;
+            for (int64_t I = 0; I < b.mesh.grid.n; I++) {
+                real x[2];
+                for (int d = 0; d < b.c.p.dim; d++) sum[d] += b.mesh.grid.force[d][I], scale += fabs(b.mesh.grid.force[d][I]);
+                for (int d = 0; d < 2; d++) x[d] = node_place(&b.mesh, I, d) + b.mesh.displacement[d][I];
+                moment += x[0] * b.mesh.grid.force[1][I] - x[1] * b.mesh.grid.force[0][I];
+                arms += fabs(x[0] * b.mesh.grid.force[1][I]) + fabs(x[1] * b.mesh.grid.force[0][I]);
+            }
+            for (int d = 0; d < b.c.p.dim; d++) assert_near(sum[d], 0, 1e-13 * scale);
+            if (finite) assert_near(moment, 0, 1e-13 * arms);
+            else assert_true(fabs(moment) > 1e-6 * arms);
+            block_free(&b);
+        }
+}
+
+/* Least squares give linear fields back to their nodes, and to the points again: the residual's tolerance times the condition of
+ * the mass matrix. */
+static void test_start(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++) {
+        struct block b;
+        block_make(&b, spaces[s], true, false);
+        struct particles *p = &b.c.p;
+        for (int64_t i = 0; i < p->n; i++)
+            for (int d = 0; d < p->dim; d++) p->v[d][i] = 3 + 1000 * p->X[0][i] - (p->dim > 1 ? 400 * p->X[1][i] : 0);
+        mesh_project(&b.mesh, p, p->v, b.mesh.grid.velocity);
+        for (int64_t I = 0; I < b.mesh.grid.n; I++) {
+            if (b.mesh.grid.mass[I] == 0) continue;
+            const real exact = 3 + 1000 * node_place(&b.mesh, I, 0) - (p->dim > 1 ? 400 * node_place(&b.mesh, I, 1) : 0);
+            assert_near(b.mesh.grid.velocity[0][I], exact, 1e-9 * 20);
+        }
+        block_free(&b);
+    }
+}
+
+/* Converted points take their share of mass and momentum along; what is left is the mesh of the points that stay. */
+static void test_release(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(spaces); s++) {
+        struct block b, fresh;
+        block_make(&b, spaces[s], false, false);
+        block_make(&fresh, spaces[s], true, false);
+        struct particles *p = &b.c.p;
+        uint64_t seed = 9;
+        for (int64_t I = 0; I < b.mesh.grid.n; I++) b.mesh.grid.velocity[0][I] = b.mesh.grid.mass[I] > 0 ? cloud_random(&seed) : 0;
+        real before = 0, after = 0, kinetic = mesh_kinetic(&b.mesh);
+        for (int64_t I = 0; I < b.mesh.grid.n; I++) before += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
+        mesh_points_move(&b.mesh, p);
+        for (int64_t i = 0; i < p->n; i++) p->kind[i] = fresh.c.p.kind[i];
+        kinetic -= mesh_follow(&b.mesh, p, &b.source, NULL, 0);
+        for (int64_t I = 0; I < b.mesh.grid.n; I++) {
+            after += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
+            assert_exact(b.mesh.grid.mass[I], fresh.mesh.grid.mass[I]);
+        }
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->kind[i] == KIND_PD) after += p->mass[i] * p->v[0][i], kinetic -= 0.5 * p->mass[i] * square(p->v[0][i]);
+        assert_close(after, before, 1e-14);
+        assert_close(kinetic, mesh_kinetic(&b.mesh), 1e-13);
+        assert_int_equal(b.mesh.points, fresh.mesh.points);
+        assert_int_equal(b.mesh.runs, fresh.mesh.runs);
+        assert_int_equal(b.mesh.cuts, fresh.mesh.cuts);
+        block_free(&b);
+        block_free(&fresh);
+    }
+}
+
+/* Whole cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a single point in a cell to 1.5 D/c: omega^2 = 16/3
+ * (1 + nu) c^2/h^2. In a bar h/c. */
+static void test_step(void **state)
+{
+    (void)state;
+    struct block b;
+    real density[CLOUD_MATERIALS];
+    block_make(&b, SPACE_PLANE_STRESS, false, false);
+    for (int m = 0; m < CLOUD_MATERIALS; m++) density[m] = b.c.material[m].density;
+    b.source.materials = 1;
+    const real c = b.c.material[0].wave_speed;
+    assert_close(mesh_critical_step(&b.mesh, &b.source, density, true), sqrt(0.75 / (4.0 / 3)) * 2 * CLOUD_SPACING / c, 0.002);
+    block_free(&b);
+    block_make(&b, SPACE_LINE, false, false);
+    b.source.materials = 1;
+    assert_close(mesh_critical_step(&b.mesh, &b.source, density, false), 2 * CLOUD_SPACING / b.c.material[0].wave_speed * sqrt(0.75), 0.002);
+    block_free(&b);
+}
+
+/* What is no lattice of two points a cell is refused by name of the place. */
+static void test_refused(void **state)
+{
+    (void)state;
+    struct block b;
+    block_make(&b, SPACE_PLANE_STRESS, false, false);
+    struct mesh other;
+    struct grid like = {.dim = 2, .h = 2 * CLOUD_SPACING, .anchor = {0.3 * CLOUD_SPACING, 0}};
+    assert_refused(mesh_make(&other, &b.c.p, &like, &b.source), "is not one of two a cell");
+    mesh_free(&other);
+    like = b.mesh.grid, like.n = 0;
+    b.c.p.volume0[7] *= 1.01;
+    assert_refused(mesh_make(&other, &b.c.p, &like, &b.source), "another volume");
+    mesh_free(&other);
+    b.c.p.volume0[7] /= 1.01;
+    b.c.p.body[b.c.p.n - 1] = 1;
+    assert_refused(mesh_make(&other, &b.c.p, &like, &b.source), "shares a node with another body");
+    mesh_free(&other);
+    block_free(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gradient), cmocka_unit_test(test_whole_and_cut), cmocka_unit_test(test_partial),
+        cmocka_unit_test(test_patch),
+        cmocka_unit_test(test_momentum), cmocka_unit_test(test_start),
+        cmocka_unit_test(test_release), cmocka_unit_test(test_step), cmocka_unit_test(test_refused),
+    };
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
+}

@@ -1,0 +1,416 @@
+/* floor 5: tests of output.h: frames, indices, history, checkpoints, and what a full disk or damaged bytes do. */
+#include <errno.h>
+#include <ftw.h>
+#include <libgen.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "engine/engine.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "output/output_hdf5.h"
+
+static const char scene_text[] = "name: toy\nspace: plane stress\n";
+enum { PARTICLES = 1000 };
+
+/* ---- helpers --------------------------------------------------------------------------------------- */
+
+static int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)
+{
+    (void)s, (void)type, (void)walk;
+    return remove(path);
+}
+
+static void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS); }
+
+/* A folder of one test, empty. */
+static void open_fresh(struct output *o, const char *folder, bool compress)
+{
+    remove_tree(folder);
+    assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, compress), OK);
+}
+
+/* A number in [0, 1) that depends on i and k only. */
+static real noise(int64_t i, int k)
+{
+    uint64_t a = (uint64_t)(i * 8 + k + 1) * UINT64_C(0x9E3779B97F4A7C15);
+    return (real)((a ^ a >> 31) * UINT64_C(0xBF58476D1CE4E5B9) >> 11) * 0x1p-53;
+}
+
+/* Particles with something in every field; ids run backwards and have gaps. */
+static void make_particles(struct particles *p, int dim, int64_t n)
+{
+    particles_make(p, dim, n, 0);
+    for (int64_t i = 0; i < n; i++) {
+        for (int d = 0; d < dim; d++) {
+            p->X[d][i] = noise(i, d);
+            p->x[d][i] = p->X[d][i] + 1e-3 * noise(i, 3 + d);
+            p->v[d][i] = noise(i, 6 + d) - 0.5;
+        }
+        for (int k = 0; k < symmetric_count(dim); k++) p->stress[k][i] = 1e6 * noise(i, 9 + k);
+        p->damage[i] = noise(i, 15);
+        p->kind[i] = i % 3 ? KIND_MPM : KIND_PD;
+        p->material[i] = (uint8_t)(i % 5);
+        p->body[i] = (uint8_t)(i % 7);
+        p->id[i] = (int32_t)(2 * (n - 1 - i));
+    }
+}
+
+static void assert_same_files(const char *a, const char *b)
+{
+    char *text_a, *text_b;
+    size_t length_a, length_b;
+    assert_int_equal(file_get(a, &text_a, &length_a), OK);
+    assert_int_equal(file_get(b, &text_b, &length_b), OK);
+    assert_int_equal(length_a, length_b);
+    assert_memory_equal(text_a, text_b, length_a);
+    memory_free(text_a);
+    memory_free(text_b);
+}
+
+static void assert_message(const char *part)
+{
+    if (!strstr(status_message(), part)) fail_msg("message \"%s\" lacks \"%s\"", status_message(), part);
+}
+
+/* ---- frames ---------------------------------------------------------------------------------------- */
+
+static void check_frame(const struct frame *f, const struct particles *p)
+{
+    assert_int_equal(f->n, p->n);
+    assert_int_equal(f->dim, p->dim);
+    for (int64_t k = 0; k < f->n; k++) {
+        int64_t i = p->n - 1 - k;                      /* ids run backwards */
+        assert_int_equal(f->id[k], p->id[i]);
+        for (int d = 0; d < p->dim; d++) {
+            assert_true(f->X[d][k] == (float)p->X[d][i]);
+            assert_true(f->u[d][k] == (float)(p->x[d][i] - p->X[d][i]));
+            assert_true(f->v[d][k] == (float)p->v[d][i]);
+        }
+        for (int c = 0; c < symmetric_count(p->dim); c++) assert_true(f->stress[c][k] == (float)p->stress[c][i]);
+        assert_true(f->damage[k] == (float)p->damage[i]);
+        assert_int_equal(f->kind[k], p->kind[i]);
+        assert_int_equal(f->material[k], p->material[i]);
+        assert_int_equal(f->body[k], p->body[i]);
+    }
+}
+
+static void frames_come_back(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int compress = 0; compress < 2; compress++) {
+            struct output o;
+            struct particles p;
+            struct frame f;
+            open_fresh(&o, "frames", compress);
+            make_particles(&p, dim, PARTICLES);
+            assert_int_equal(output_frame(&o, &p, 0.125, 17, scene_text), OK);
+            assert_int_equal(frame_read(&f, "frames/frames/000000.hdf"), OK);
+            assert_true(f.t == 0.125 && f.step == 17);
+            check_frame(&f, &p);
+            frame_free(&f);
+            particles_free(&p);
+            output_close(&o);
+        }
+}
+
+/* The layout that the reader of VTK 9.1 needs. */
+static void frames_have_vtk_layout(void **state)
+{
+    (void)state;
+    struct output o;
+    struct particles p;
+    struct hdf f;
+    int64_t n = 0, offset[PARTICLES + 1];
+    uint8_t type[PARTICLES];
+    open_fresh(&o, "layout", false);
+    make_particles(&p, 2, PARTICLES);
+    assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+    hdf_open(&f, "layout/frames/000000.hdf");
+    hdf_read_rows(&f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, &n);
+    hdf_read_rows(&f, "/VTKHDF/Offsets", HDF_I64, PARTICLES + 1, offset);
+    hdf_read_rows(&f, "/VTKHDF/Types", HDF_U8, PARTICLES, type);
+    assert_false(f.failed);
+    assert_int_equal(n, PARTICLES);
+    assert_int_equal(offset[PARTICLES], PARTICLES);
+    assert_int_equal(type[PARTICLES - 1], 1);
+    assert_int_equal(hdf_count(&f, "/VTKHDF/Points"), 3 * PARTICLES);
+    assert_int_equal(hdf_count(&f, "/VTKHDF/PointData/stress"), 6 * PARTICLES);
+    hdf_close(&f);
+    particles_free(&p);
+    output_close(&o);
+}
+
+/* Plastic strain is in frames and their index if the particles have it, and only then. */
+static void plastic_strain_where_it_is(void **state)
+{
+    (void)state;
+    for (int yields = 0; yields < 2; yields++) {
+        struct output o;
+        struct particles p;
+        struct hdf f;
+        char *text;
+        size_t length;
+        float strain[2];
+        open_fresh(&o, "plastic", false);
+        particles_make(&p, 2, 2, yields ? WITH_PLASTIC : 0);
+        p.id[0] = 1;
+        if (yields) p.plastic_strain[0] = 0.25, p.plastic_strain[1] = 0.5;
+        assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+        hdf_open(&f, "plastic/frames/000000.hdf");
+        hdf_read_rows(&f, "/VTKHDF/PointData/plastic_strain", HDF_F32, 2, strain);
+        assert_int_equal(f.failed, !yields);
+        if (yields) assert_true(strain[0] == 0.5f && strain[1] == 0.25f);      /* by id */
+        hdf_close(&f);
+        assert_int_equal(file_get("plastic/frames.xdmf", &text, &length), OK);
+        assert_int_equal(strstr(text, "PointData/plastic_strain") != NULL, yields);
+        memory_free(text);
+        particles_free(&p);
+        output_close(&o);
+    }
+}
+
+static void indices_list_all_frames(void **state)
+{
+    (void)state;
+    struct output o;
+    struct particles p;
+    int n;
+    struct listed_frame *list;
+    char *text;
+    size_t length;
+    open_fresh(&o, "indices", false);
+    make_particles(&p, 2, 10);
+    for (int k = 0; k < 40; k++) assert_int_equal(output_frame(&o, &p, k / 7.0, k, scene_text), OK);
+    assert_int_equal(frames_list("indices", &n, &list), OK);
+    assert_int_equal(n, 40);
+    for (int k = 0; k < n; k++) assert_true(list[k].number == k && list[k].time == k / 7.0);   /* 17 digits: the same double */
+    memory_free(list);
+    assert_int_equal(file_get("indices/frames.xdmf", &text, &length), OK);
+    assert_non_null(strstr(text, "frames/000039.hdf:/VTKHDF/PointData/velocity"));
+    memory_free(text);
+    particles_free(&p);
+    output_close(&o);
+    assert_int_equal(frames_list("nowhere", &n, &list), FAILED);
+}
+
+static void same_state_gives_same_bytes(void **state)
+{
+    (void)state;
+    for (int compress = 0; compress < 2; compress++) {
+        struct output a, b;
+        struct particles p;
+        open_fresh(&a, "bytes_a", compress);
+        open_fresh(&b, "bytes_b", compress);
+        make_particles(&p, 3, PARTICLES);
+        assert_int_equal(output_frame(&a, &p, 1, 1, scene_text), OK);
+        usleep(1100000);                               /* a stored time of day has a resolution of 1 s */
+        assert_int_equal(output_frame(&b, &p, 1, 1, scene_text), OK);
+        assert_same_files("bytes_a/frames/000000.hdf", "bytes_b/frames/000000.hdf");
+        particles_free(&p);
+        output_close(&a);
+        output_close(&b);
+    }
+}
+
+static void damaged_frames_are_refused(void **state)
+{
+    (void)state;
+    struct output o;
+    struct particles p;
+    struct frame f;
+    open_fresh(&o, "cut", false);
+    make_particles(&p, 2, PARTICLES);
+    assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+    assert_int_equal(truncate("cut/frames/000000.hdf", 5000), 0);
+    assert_int_equal(frame_read(&f, "cut/frames/000000.hdf"), FAILED);
+    assert_int_equal(frame_read(&f, "cut/scene.yaml"), FAILED);
+    assert_int_equal(frame_read(&f, "cut/frames"), FAILED);
+    particles_free(&p);
+    output_close(&o);
+}
+
+/* ---- folder ---------------------------------------------------------------------------------------- */
+
+static void folders_of_others_are_refused(void **state)
+{
+    (void)state;
+    struct output o;
+    char name[PATH_ROOM + 10];
+    open_fresh(&o, "folder/deep/run", false);
+    output_close(&o);
+    assert_int_equal(output_open(&o, "folder/deep/run", "name: other\n", OUTPUT_FIRST, false), REFUSED);
+    assert_message("folder/deep/run holds the run of another scene");
+    assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml", scene_text, OUTPUT_FIRST, false), REFUSED);
+    assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml/x", scene_text, OUTPUT_FIRST, false), REFUSED);
+    assert_int_equal(output_open(&o, "folder/deep", scene_text, OUTPUT_FIRST, false), REFUSED);
+    assert_message("for instance run");
+    assert_int_equal(output_open(&o, "", scene_text, OUTPUT_FIRST, false), REFUSED);
+    memset(name, 'x', sizeof name - 1);
+    name[sizeof name - 1] = '\0';
+    assert_int_equal(output_open(&o, name, scene_text, OUTPUT_FIRST, false), REFUSED);
+    name[300] = '\0';                                  /* longer than any file system's names */
+    assert_int_equal(output_open(&o, name, scene_text, OUTPUT_FIRST, false), FAILED);
+    assert_message("choose another -o");
+    mkdir("folder/empty", 0777);
+    assert_int_equal(output_open(&o, "folder/empty/", scene_text, OUTPUT_OVERWRITE, false), OK);
+    output_close(&o);
+    assert_true(path_is_file("folder/empty/scene.yaml"));
+}
+
+static void older_run_is_replaced_unless_resumed(void **state)
+{
+    (void)state;
+    struct output o;
+    open_fresh(&o, "again", false);
+    static const char *const made[] = {"frames/000000.hdf", "history.csv", "checkpoint.h5", "checkpoint.previous.h5"};
+    for (size_t k = 0; k < COUNT_OF(made); k++) assert_int_equal(output_text(&o, made[k], "x", 1), OK);
+    assert_int_equal(output_text(&o, "frames/000001.hdf.tmp", "x", 1), OK);
+    assert_int_equal(output_text(&o, "checkpoint.h5.tmp", "x", 1), OK);
+    output_close(&o);
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK);
+    output_close(&o);
+    for (size_t k = 0; k < COUNT_OF(made); k++) assert_true(path_exists(path_join("again", made[k]).text));
+    assert_false(path_exists("again/frames/000001.hdf.tmp"));
+    assert_false(path_exists("again/checkpoint.h5.tmp"));
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_FIRST, false), REFUSED);
+    assert_message("again holds an interrupted run of this scene; go on with --resume, replace it with --overwrite");
+    assert_int_equal(unlink("again/checkpoint.h5") | unlink("again/checkpoint.previous.h5"), 0);
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK);      /* it has but begun */
+    assert_int_equal(output_text(&o, "history.csv", "time\n0\n", 7), OK);
+    output_close(&o);
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), REFUSED);
+    assert_message("holds a run whose checkpoints are gone");
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_OVERWRITE, false), OK);
+    output_close(&o);
+    for (size_t k = 0; k < COUNT_OF(made); k++) assert_false(path_exists(path_join("again", made[k]).text));
+}
+
+static void history_is_cut_back(void **state)
+{
+    (void)state;
+    static const struct column column[] = {{"time", "s"}, {"step", ""}, {"a,b", "J"}};
+    struct output o;
+    char *text;
+    size_t length;
+    open_fresh(&o, "history", false);
+    assert_int_equal(output_history_open(&o, column, 3, false), OK);
+    assert_int_equal(output_history(&o, (real[]){0, 0, -NAN}), OK);
+    const int64_t kept = o.history_bytes;
+    const uint64_t hash = o.history_hash;
+    assert_int_equal(output_history(&o, (real[]){1.5, 1, 2}), OK);
+    assert_int_equal(output_text(&o, "checkpoint.h5", "x", 1), OK);
+    output_close(&o);
+    assert_int_equal(output_open(&o, "history", scene_text, OUTPUT_RESUME, false), OK);
+    o.history_bytes = kept, o.history_hash = hash ^ 1;
+    assert_int_equal(output_history_open(&o, column, 3, true), FAILED);
+    assert_message("is not what it was at the checkpoint");
+    o.history_hash = hash;
+    assert_int_equal(output_history_open(&o, column, 3, true), OK);
+    assert_int_equal(output_history(&o, (real[]){2.5, 1, 2}), OK);
+    assert_int_equal(file_get("history/history.csv", &text, &length), OK);
+    assert_string_equal(text, "time [s],step,a_b [J]\n0,0,nan\n2.5,1,2\n");
+    assert_int_equal(o.history_bytes, length);
+    memory_free(text);
+    output_close(&o);
+    assert_int_equal(output_open(&o, "history", scene_text, OUTPUT_RESUME, false), OK);
+    o.history_bytes = 1000;
+    assert_int_equal(output_history_open(&o, column, 3, true), FAILED);
+    assert_message("shorter than at the checkpoint");
+    output_close(&o);
+}
+
+/* A device that is always full stands in for the file. */
+static void history_on_a_full_disk_fails(void **state)
+{
+    (void)state;
+    static const struct column column = {"time", "s"};
+    struct output o;
+    if (!path_exists("/dev/full")) skip();
+    open_fresh(&o, "history_full", false);
+    assert_int_equal(symlink("/dev/full", "history_full/history.csv"), 0);
+    assert_int_equal(output_history_open(&o, &column, 1, false), FAILED);
+    assert_message("cannot write history_full/history.csv: No space left on device; free space");
+    output_close(&o);
+}
+
+/* ---- the summary ----------------------------------------------------------------------------------- */
+
+static void summary_has_the_figures(void **state)
+{
+    (void)state;
+    struct output o;
+    struct scene s = {.name = "a \"b\"\n", .method = METHOD_ADAPTIVE, .dim = 2, .spacing = 1e-3, .thickness = 1};
+    struct engine *e = NEW("test.engine", 1, struct engine);
+    char *text;
+    size_t length;
+    open_fresh(&o, "summary", false);
+    e->scene = &s, e->out = &o, e->step = 7, e->t = 0.1, e->loop_seconds = 1e-3;
+    e->part.n = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
+    e->particle_steps[KIND_PD] = 1000;
+    e->watch.break_time = NAN;
+    e->conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
+    e->tips = (struct tips){.dim = 2, .n = 1, .spacing = 1e-3};
+    e->tips.tip[0] = (struct tip){.along = {1}, .place = {0, 2e-3}, .growth = 2e-3, .start_time = 0.06,
+                                  .arrest_time = 0.08, .first_time = 0.05, .particles = 2};
+    assert_int_equal(summary_write(e, OK, 2, 1.5), OK);
+    assert_int_equal(file_get("summary/summary.json", &text, &length), OK);
+    static const char *const part[] = {"\"name\": \"a \\\"b\\\"\\u000a\"", "\"status\": \"done\"", "\"steps\": 7",
+                                       "\"time_end\": 0.10000000000000001", "\"length_end\": 0.002",
+                                       "\"pd_share_start\": 0.25", "\"pd_share_end\": 0.75", "\"y\": 2",
+                                       "\"ns_per_particle_step\": 1000", "\"threads\": 2", "\"angle_deg\": 90"};
+    for (size_t k = 0; k < COUNT_OF(part); k++)
+        if (!strstr(text, part[k])) fail_msg("%s lacks %s", text, part[k]);
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "inf"));
+    assert_null(strstr(text, "message"));
+    memory_free(text);
+    remove_tree("summary");                            /* where it cannot be written, the run's own fault stands */
+    assert_int_equal(summary_write(e, status_set(FAILED, "the run's own fault"), 2, 1.5), FAILED);
+    assert_string_equal(status_message(), "the run's own fault");
+    assert_int_equal(summary_write(e, OK, 2, 1.5), FAILED);
+    assert_message("summary was moved, removed or exchanged");
+    memory_free(e);
+    output_close(&o);
+}
+
+static int start(void **state)
+{
+    (void)state;
+    output_start();
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    /* All files of the tests lie beside the program. */
+    struct path folder = {{0}};
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_come_back),
+        cmocka_unit_test(frames_have_vtk_layout),
+        cmocka_unit_test(plastic_strain_where_it_is),
+        cmocka_unit_test(indices_list_all_frames),
+        cmocka_unit_test(same_state_gives_same_bytes),
+        cmocka_unit_test(damaged_frames_are_refused),
+        cmocka_unit_test(folders_of_others_are_refused),
+        cmocka_unit_test(older_run_is_replaced_unless_resumed),
+        cmocka_unit_test(history_is_cut_back),
+        cmocka_unit_test(history_on_a_full_disk_fails),
+        cmocka_unit_test(summary_has_the_figures),
+    };
+    (void)argc;
+    snprintf(folder.text, sizeof folder.text, "%s", argv[0]);
+    if (chdir(dirname(folder.text)) != 0 || (mkdir("test_output.files", 0777) != 0 && errno != EEXIST)) return 1;
+    if (chdir("test_output.files") != 0) return 1;
+    int failed = cmocka_run_group_tests(tests, start, NULL);
+    if (failed == 0 && chdir("..") == 0) remove_tree("test_output.files");
+    return failed;
+}

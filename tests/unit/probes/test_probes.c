@@ -1,0 +1,386 @@
+/* floor 5: tests of probes, on particles, supports and bonds set by hand. */
+#include <unistd.h>
+
+#include "tests/support/bodies.h"
+#include "probes/probes.h"
+
+struct figure_list { int n; struct { char probe[NAME_MAX_LENGTH], quantity[NAME_MAX_LENGTH]; real value; } entry[64]; };
+
+static void figure_keep(void *context, const char *probe, const char *quantity, real value)
+{
+    struct figure_list *l = context;
+    assert_true(l->n < 64);
+    snprintf(l->entry[l->n].probe, NAME_MAX_LENGTH, "%s", probe);
+    snprintf(l->entry[l->n].quantity, NAME_MAX_LENGTH, "%s", quantity);
+    l->entry[l->n++].value = value;
+}
+
+static real figure(const struct figure_list *l, const char *probe, const char *quantity)
+{
+    for (int k = 0; k < l->n; k++)
+        if (strcmp(l->entry[k].probe, probe) == 0 && strcmp(l->entry[k].quantity, quantity) == 0)
+            return l->entry[k].value;
+    return NAN;
+}
+
+static struct observed seen(const struct body *b)
+{
+    return (struct observed){.part = &b->p, .cells = &b->c, .spacing = 1, .thickness = 1};
+}
+
+static struct solid box(real x0, real y0, real x1, real y1)
+{
+    return (struct solid){.kind = SOLID_BOX, .from = {x0, y0}, .to = {x1, y1}};
+}
+
+static int column_named(const struct probes *s, const char *name)
+{
+    for (int k = 0; k < s->columns; k++)
+        if (strcmp(s->column[k].name, name) == 0) return k;
+    fail_msg("no column %s", name);
+    return -1;
+}
+
+static void probes_read_particles_and_regions(void **state)
+{
+    (void)state;
+    struct body b;
+    struct probes s;
+    struct material m = steel(SPACE_PLANE_STRESS);
+    struct figure_list l = {0};
+    body_make(&b, 2, (const int[]){10, 10});
+    struct observed o = seen(&b);
+    o.material = &m;
+    for (int64_t i = 0; i < b.p.n; i++) {
+        b.p.x[0][i] = b.p.X[0][i] * 1.01;
+        b.p.v[1][i] = 2;
+        b.p.stress[2][i] = (real)i;
+    }
+    struct solid left = box(0, 0, 5, 10);
+    struct probe_request request[] = {
+        {.name = "gauge", .kind = PROBE_POINT, .has_at = true, .at = {3.4, 7.6}},
+        {.name = "left", .kind = PROBE_MOMENTUM, .region = {1, &left}},
+        {.name = "all", .kind = PROBE_ENERGY},
+        {.name = "patch", .kind = PROBE_PATCH},
+    };
+    assert_ok(probes_make(&s, request, COUNT_OF(request), &o));
+    probes_sample(&s, &o);
+    int64_t i = particle_at(&b, 3.5, 7.5, 0);
+    assert_near(s.value[column_named(&s, "gauge.displacement_x")], 0.035, ROUND_OFF);
+    assert_near(s.value[column_named(&s, "gauge.velocity_y")], 2, 0);
+    assert_near(s.value[column_named(&s, "gauge.stress_xy")], (real)i, 0);
+    assert_near(s.value[column_named(&s, "left.x")], 0, 0);
+    assert_near(s.value[column_named(&s, "left.y")], 100, 0);
+    assert_near(s.value[column_named(&s, "all.kinetic")], 200, ROUND_OFF);
+    assert_string_equal(s.column[column_named(&s, "left.y")].unit, "kg m/s");
+
+    struct grid grid = {.h = 2};
+    o.grid = &grid, o.strain_stress = 5, o.thickness = 3, o.residual_step0 = 0.6;
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_near(figure(&l, "patch", "residual_max"), 0.6 / (5 * 2 * 3), ROUND_OFF);
+    assert_near(figure(&l, "gauge", "stress_xy"), (real)i, 0);
+    assert_near(figure(&l, "left", "y"), 100, 0);
+    probes_free(&s);
+    body_free(&b);
+}
+
+static void probes_refuse_what_is_not_there(void **state)
+{
+    (void)state;
+    struct body b;
+    struct probes s;
+    body_make(&b, 2, (const int[]){10, 10});
+    struct boundary boundary[] = {{.name = "grip", .kind = BOUNDARY_VELOCITY},
+                                  {.name = "pull", .kind = BOUNDARY_TRACTION}};
+    struct load load[] = {{.boundary = &boundary[0]}, {.boundary = &boundary[1]}};
+    struct loads loads = {.n = 2, .load = load};
+    struct observed o = seen(&b);
+    o.loads = &loads;
+    struct solid outside = box(20, 20, 30, 30);
+    struct { struct probe_request request; const char *says; } bad[] = {
+        {{.name = "p", .kind = PROBE_POINT, .at = {11.6, 5}}, "point (11.6, 5) m lies outside"},
+        {{.name = "p", .kind = PROBE_BREAK, .region = {1, &outside}}, "holds no particle"},
+        {{.name = "p", .kind = PROBE_REACTION, .boundary = "grap"},
+         "no boundary is named \"grap\"; fixed or driven are: \"grip\""},
+        {{.name = "p", .kind = PROBE_REACTION, .boundary = "pull"}, "holds no velocity"},
+        {{.name = "p", .kind = PROBE_LINE, .from = {20, 0}, .to = {20, 9}, .points = 5}, "whole line lies outside"},
+        {{.name = "p", .kind = PROBE_LINE}, "at least one station"},
+    };
+    for (size_t k = 0; k < COUNT_OF(bad); k++) {
+        assert_refused(probes_make(&s, &bad[k].request, 1, &o), bad[k].says);
+        assert_null(s.probe);
+    }
+    body_free(&b);
+}
+
+static void probe_of_a_support(void **state)
+{
+    (void)state;
+    struct body b;
+    struct probes s, again;
+    struct figure_list l = {0};
+    body_make(&b, 2, (const int[]){4, 4});
+    struct boundary grip = {.name = "grip", .kind = BOUNDARY_VELOCITY};
+    struct boundary other = {.name = "other", .kind = BOUNDARY_VELOCITY};
+    struct load load[] = {{.boundary = &grip, .n = 1}, {.boundary = &other, .n = 1, .reaction = {100, 0}}};
+    struct loads loads = {.n = 2, .load = load};
+    struct observed o = seen(&b);
+    o.loads = &loads;
+    struct probe_request request = {.name = "reaction", .kind = PROBE_REACTION, .boundary = "grip"};
+    assert_ok(probes_make(&s, &request, 1, &o));
+    const real force[4][2] = {{3, 4}, {0, -1}, {0, 0}, {-6, 8}};
+    for (int k = 0; k < 4; k++) {
+        load[0].reaction[0] = force[k][0], load[0].reaction[1] = force[k][1];
+        load[0].displacement[1] = -0.25 * k;
+        probes_step(&s, &o);
+    }
+    struct store store = {0};
+    struct archive a = {true, store_exchange, NULL, &store};
+    assert_ok(probes_archive(&s, &a));
+    a.saving = false;
+    assert_ok(probes_make(&again, &request, 1, &o));
+    assert_ok(probes_archive(&again, &a));
+    probes_sample(&again, &o);
+    assert_near(again.value[column_named(&again, "reaction.force_x")], -6, 0);
+    probes_figures(&again, &o, figure_keep, &l);
+    assert_near(figure(&l, "reaction", "force_max"), 10, ROUND_OFF);
+    assert_near(figure(&l, "reaction", "force_rms"), sqrt((25 + 1 + 100) / 4.0), ROUND_OFF);
+    assert_near(figure(&l, "reaction", "displacement"), 0.75, ROUND_OFF);
+    store_free(&store);
+    probes_free(&s);
+    probes_free(&again);
+    body_free(&b);
+}
+
+static void probe_of_a_tip(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    struct probes s;
+    struct figure_list l = {0};
+    notched_make(&b, &t, 4);
+    struct observed o = seen(&b);
+    o.tips = &t;
+    struct probe_request request[] = {{.name = "tip", .kind = PROBE_TIP},
+                                      {.name = "right", .kind = PROBE_TIP, .has_at = true, .at = {30, 10}}};
+    assert_ok(probes_make(&s, request, 2, &o));
+    for (int k = 0; k < 4; k++) hurt(&b, 10.5 + k, 10.5, 0);
+    hurt(&b, 30.5, 5.5, 0), hurt(&b, 31.5, 5.5, 0);
+    tips_sample(&t, &b.p, &b.c, 2);
+    probes_sample(&s, &o);
+    assert_near(s.value[column_named(&s, "tip.growth")], 3.5, ROUND_OFF);
+    assert_near(s.value[column_named(&s, "right.x")], 31.5, ROUND_OFF);
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_near(figure(&l, "tip", "length_end"), 3.5, ROUND_OFF);
+    assert_near(figure(&l, "tip", "start_time"), 2, 0);
+    assert_near(figure(&l, "right", "length_end"), 1, ROUND_OFF);
+    assert_true(isnan(figure(&l, "tip", "speed_max")));  /* one sample has no speed: left out */
+    probes_free(&s);
+    notched_free(&b, &t);
+}
+
+/* ---- probes of breaks, on real bonds ------------------------------------------------------------------------ */
+
+struct bar { struct body b; struct material m; struct bonds bonds; real stretch; };
+
+static void bar_bond(struct bar *bar)
+{
+    bar->m = steel(SPACE_LINE);
+    bar->stretch = 1;
+    struct bond_source source = {.cells = &bar->b.c, .material = &bar->m, .materials = 1, .limit = {&bar->stretch, 1, false}};
+    family_make(&source.family, SPACE_LINE, 1, 3.015, 1);
+    particles_list(&bar->b.p);
+    bonds_make(&bar->bonds, NULL, &bar->b.p, &source);
+}
+
+/* Breaks the bonds of one body that cross x = `plane` and are at least `shortest` long, as the bond kernel would. */
+static void bar_cut(struct bar *bar, real plane, real shortest)
+{
+    struct bonds *b = &bar->bonds;
+    struct particles *p = &bar->b.p;
+    for (int64_t row = 0; row < b->rows; row++) {
+        int32_t i = b->particle[row];
+        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
+            int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+            int32_t j = b->nbr[q];
+            bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);
+            if (b->w[q] == 0 || !across || fabs(p->X[0][i] - p->X[0][j]) < shortest - 0.5) continue;
+            b->w[q] = 0;
+            bonds_changed(b, row, q);
+            b->broken[row]++;
+            p->flag[i] |= FLAG_CUT | FLAG_CRACKED;
+        }
+    }
+}
+
+static struct observed bar_seen(const struct bar *bar, real t)
+{
+    struct observed o = seen(&bar->b);
+    o.bonds = &bar->bonds, o.material = &bar->m, o.t = t;
+    return o;
+}
+
+/* Two bodies side by side (0..6 and 6..30) are apart from the start; the second breaks at 25 with its last bond. */
+static void probe_of_a_spall(void **state)
+{
+    (void)state;
+    struct bar bar;
+    struct probes s;
+    struct figure_list l = {0};
+    body_make(&bar.b, 1, (const int[]){30});
+    struct particles *p = &bar.b.p;
+    for (int64_t i = 0; i < p->n; i++) {
+        p->kind[i] = p->X[0][i] > 15 ? KIND_PD : KIND_MPM;
+        p->body[i] = p->X[0][i] > 6;
+        p->v[0][i] = p->X[0][i] > 25 ? 28 : p->X[0][i] < 6 ? 2 : -0.5;
+    }
+    bar_bond(&bar);
+    struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
+    struct observed o = bar_seen(&bar, 1);
+    assert_ok(probes_make(&s, &request, 1, &o));
+    bar_cut(&bar, 25, 2);
+    probes_step(&s, &o);
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_int_equal(l.n, 0);                            /* its shortest bond still holds */
+    bar_cut(&bar, 25, 1);
+    o.t = 2;
+    probes_step(&s, &o);
+    bar_cut(&bar, 20, 1);
+    o.t = 3;
+    probes_step(&s, &o);
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_near(figure(&l, "spall", "position"), 25, 1e-12);
+    assert_near(figure(&l, "spall", "time"), 2, 0);
+    assert_near(figure(&l, "spall", "speed"), 28, 1e-12);
+    assert_near(figure(&l, "spall", "speed_rest"), -0.5, 1e-12);
+    probes_free(&s);
+    bonds_free(&bar.bonds);
+    body_free(&bar.b);
+}
+
+/* Material points on both sides within a bond's reach still hold a plane together, until they are cut themselves. */
+static void probe_of_a_spall_knows_the_grid(void **state)
+{
+    (void)state;
+    struct bar bar;
+    struct probes s;
+    struct figure_list l = {0};
+    body_make(&bar.b, 1, (const int[]){30});
+    struct particles *p = &bar.b.p;
+    for (int64_t i = 0; i < p->n; i++) p->kind[i] = fabs(p->X[0][i] - 15) < 1 ? KIND_PD : KIND_MPM;
+    bar_bond(&bar);
+    struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
+    struct observed o = bar_seen(&bar, 1);
+    assert_ok(probes_make(&s, &request, 1, &o));
+    bar_cut(&bar, 15, 1);
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->kind[i] == KIND_MPM) p->flag[i] = 0;
+    probes_step(&s, &o);
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_int_equal(l.n, 0);
+    p->flag[particle_at(&bar.b, 13.5, 0, 0)] = FLAG_CUT;
+    probes_step(&s, &o);
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_near(figure(&l, "spall", "position"), 15, 1e-12);
+    probes_free(&s);
+    bonds_free(&bar.bonds);
+    body_free(&bar.b);
+}
+
+static void probe_of_a_break(void **state)
+{
+    (void)state;
+    struct bar bar;
+    struct probes s;
+    struct figure_list l = {0};
+    body_make(&bar.b, 1, (const int[]){30});
+    struct particles *p = &bar.b.p;
+    for (int64_t i = 0; i < p->n; i++) p->kind[i] = KIND_PD;
+    bar_bond(&bar);
+    struct solid right = box(15, 0, 30, 0);
+    struct probe_request request[] = {{.name = "right", .kind = PROBE_BREAK, .region = {1, &right}},
+                                      {.name = "all", .kind = PROBE_BREAK},
+                                      {.name = "energy", .kind = PROBE_ENERGY}};
+    struct observed o = bar_seen(&bar, 1);
+    assert_ok(probes_make(&s, request, 3, &o));
+    bar_cut(&bar, 5, 1);
+    probes_step(&s, &o);
+    memset(p->flag, 0, (size_t)p->n);
+    bar_cut(&bar, 25, 3);                                /* three bonds of length 3: 22.5-25.5, 23.5-26.5, 24.5-27.5 */
+    o.t = 2;
+    probes_step(&s, &o);
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_near(figure(&l, "all", "first_time"), 1, 0);
+    assert_near(figure(&l, "all", "x"), 5, 1e-12);
+    assert_near(figure(&l, "all", "bonds"), 6 + 3, 0);
+    assert_near(figure(&l, "right", "first_time"), 2, 0);
+    assert_near(figure(&l, "right", "x"), 25, 1e-12);
+    assert_near(figure(&l, "right", "bonds"), 3, 0);
+
+    /* energy of the intact bonds under stretch e: 1/2 E e^2 for a whole family, less at ends and cuts */
+    bonds_free(&bar.bonds);
+    bar_bond(&bar);
+    for (int64_t i = 0; i < p->n; i++) p->x[0][i] = p->X[0][i] * 1.001;
+    real half_energy = 0, full = 0.5 * bar.m.young * square(1e-3);
+    for (int64_t i = 0; i < p->n; i++)
+        for (int64_t j = 0; j < p->n; j++)
+            if (i != j && llabs(i - j) <= 3) half_energy += full * (real)llabs(i - j) / 12;   /* 2 (1 + 2 + 3) = 12 */
+    probes_sample(&s, &o);
+    assert_near(s.value[column_named(&s, "energy.strain")], half_energy, 1e-12 * half_energy);
+    probes_free(&s);
+    bonds_free(&bar.bonds);
+    body_free(&bar.b);
+}
+
+struct kept_profile { char name[64], text[4096]; };
+
+static status profile_keep(void *context, const char *name, const char *text, size_t length)
+{
+    struct kept_profile *to = context;
+    if (to->name[0]) return status_set(FAILED, "there is one already");
+    snprintf(to->name, sizeof to->name, "%s", name);
+    assert_true(length == strlen(text) && length < sizeof to->text);
+    strcpy(to->text, text);
+    return OK;
+}
+
+static void profile_of_a_line(void **state)
+{
+    (void)state;
+    struct body b;
+    struct probes s;
+    struct kept_profile kept = {{0}, {0}};
+    body_make(&b, 1, (const int[]){10});
+    for (int64_t i = 0; i < b.p.n; i++) b.p.v[0][i] = (real)i;
+    struct observed o = seen(&b);
+    struct probe_request request = {.name = "a/b", .kind = PROBE_LINE, .from = {0.5}, .to = {12.5}, .points = 5};
+    assert_ok(probes_make(&s, &request, 1, &o));
+    assert_int_equal(probes_profiled(&s), 1);
+    assert_ok(probes_profiles(&s, &o, profile_keep, &kept, 7));
+    assert_string_equal(kept.name, "a_b_000007.csv");
+    assert_string_equal(kept.text, "s [m],x [m],displacement_x [m],velocity_x [m/s],stress_xx [Pa],damage [1]\n"
+                        "0,0.5,0,0,0,0\n3,3.5,0,3,0,0\n6,6.5,0,6,0,0\n9,9.5,0,9,0,0\n");
+    assert_failed(probes_profiles(&s, &o, profile_keep, &kept, 7), "there is one already");
+    struct figure_list l = {0};
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_near(figure(&l, "a/b", "velocity_x_max"), 9, 0);
+    assert_near(figure(&l, "a/b", "velocity_x_min"), 0, 0);
+    probes_free(&s);
+    body_free(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(probes_read_particles_and_regions),
+        cmocka_unit_test(probes_refuse_what_is_not_there),
+        cmocka_unit_test(probe_of_a_support),
+        cmocka_unit_test(probe_of_a_tip),
+        cmocka_unit_test(probe_of_a_spall),
+        cmocka_unit_test(probe_of_a_spall_knows_the_grid),
+        cmocka_unit_test(probe_of_a_break),
+        cmocka_unit_test(profile_of_a_line),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

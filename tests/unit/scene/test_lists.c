@@ -1,0 +1,345 @@
+/* floor 5: tests of lists of particles: CSV and HDF5 files that fill bodies, and what is refused about them. */
+#include "tests/support/near.h"
+
+#include <hdf5.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "tests/support/setting.h"
+
+/* Writes `text` to a file in the test's folder and makes it the list of body 0. */
+static void list_of(struct setting *s, char *name, const char *text)
+{
+    FILE *file = fopen(name, "wb");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    s->body[0].file = name;
+}
+
+static void csv_lists_are_read(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    char name[] = "list.csv";
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+    list_of(&s, name, "\xEF\xBB\xBF# two particles\r\n\r\n body , volume,y,material, x\r\n"
+                      "0,2e-3,1,1,-1.5\r\n#\n0, 1e-3 ,\t0.5,0,2.5e-1");
+    s.body[0].velocity[0] = 4;
+    s.scene.irregularity = 0.5;                  /* shifts lattices, not lists */
+    assert_ok(fill_particles(&p, &s.scene, 0));
+    assert_int_equal(p.n, 2);
+    const real want[2][5] = {{0.25, 0.5, 1e-3, 1, 1}, {-1.5, 1, 2e-3, 4, 0}};    /* x, y, volume, mass, id; by row */
+    for (int i = 0; i < 2; i++) {
+        assert_exact(p.X[0][i], want[i][0]);
+        assert_exact(p.X[1][i], want[i][1]);
+        assert_exact(p.volume0[i], want[i][2]);
+        assert_close(p.mass[i], want[i][3], 1e-15);
+        assert_int_equal(p.id[i], want[i][4]);
+        assert_int_equal(p.material[i], 1 - i == 0);
+        assert_exact(p.v[0][i], 4);
+    }
+    particles_free(&p);
+    remove(name);
+}
+
+/* Two bodies from one file, each with its own rows; without a spacing, that of the mean particle sorts them. */
+static void bodies_share_a_list(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    char name[] = "shared.csv";
+    setting_make(&s, SPACE_LINE, (real[]){1});
+    list_of(&s, name, "x,volume,body\n3,1,1\n1,1,0\n2,1,1\n");
+    s.scene.bodies = 2;
+    s.body[1].file = name, s.body[1].material = 1;
+    s.scene.spacing = 0;
+    assert_ok(fill_particles(&p, &s.scene, 0));
+    for (int i = 0; i < 3; i++) {
+        assert_exact(p.X[0][i], i + 1);
+        assert_int_equal(p.body[i], i > 0);
+        assert_int_equal(p.material[i], i > 0);
+    }
+    particles_free(&p);
+    s.body[1].file = NULL;
+    assert_refused(fill_particles(&p, &s.scene, 0), "shared.csv:2: this file is not that of body 1");
+    remove(name);
+}
+
+static void bad_lists_are_refused(void **state)
+{
+    (void)state;
+    static const struct { const char *text, *message; } c[] = {
+        {"", "bad.csv: empty"},
+        {"# nothing\n\n", "bad.csv: empty"},
+        {"x,y,volume\n", "body plate: holds no particle"},
+        {"x,y,z,volume\n", "bad.csv:1: unknown column 'z'"},
+        {"x,y,mass\n", "bad.csv:1: unknown column 'mass'"},
+        {"x,volume\n", "bad.csv:1: column y is missing"},
+        {"x,y\n", "bad.csv:1: column volume is missing"},
+        {"x,y,x,volume\n", "bad.csv:1: column x is named twice"},
+        {"x,y,volume\n0,0,1\n1,1\n", "bad.csv:3: 2 values; the header names 3"},
+        {"x,y,volume\n0,0,1,5\n", "bad.csv:2: more values than the 3"},
+        {"x,y,volume\n0,0,1,\n", "bad.csv:2: more values than the 3"},
+        {"x,y,volume\n\n0,zero,1\n", "bad.csv:3: y: 'zero' is not a number"},
+        {"x,y,volume\n0,1 mm,1\n", "bad.csv:2: y: '1 mm' is not a number"},
+        {"x,y,volume\n0,,1\n", "bad.csv:2: y: '' is not a number"},
+        {"x,y,volume\n0,nan,1\n", "bad.csv:2: y: nan is not a finite number"},
+        {"x,y,volume\n1e999,0,1\n", "bad.csv:2: x: 1e999 is not a finite number"},
+        {"x,y,volume\n0,0,0\n", "bad.csv:2: volume: 0 must be larger than 0"},
+        {"x,y,volume\n0,0,-1\n", "bad.csv:2: volume: -1 must be larger than 0"},
+        {"x,y,volume,material\n0,0,1,0.5\n", "bad.csv:2: material: 0.5 must be a whole number"},
+        {"x,y,volume,material\n0,0,1,256\n", "bad.csv:2: material: 256 must be a whole number"},
+        {"x,y,volume,material\n0,0,1,2\n", "bad.csv:2: the scene has no material 2"},
+        {"x,y,volume,body\n0,0,1,1\n", "bad.csv:2: this file is not that of body 1"},
+        {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "particles in one place: (0, 0, 0) m"},
+        {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "particles in one place"},
+        {"x,y,volume\n1e10,0,1\n", "beyond 1e7 spacings"},
+        {"x,y,volume\n0,0,1e308\n", "no finite mass"},
+    };
+    struct setting s;
+    struct particles p;
+    char name[] = "bad.csv";
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+    for (size_t k = 0; k < COUNT_OF(c); k++) {
+        list_of(&s, name, c[k].text);
+        assert_refused(fill_particles(&p, &s.scene, 0), c[k].message);
+        assert_null(p.X[0]);
+    }
+    char *text = memory_new("text", 10001, 1);
+    memset(text, '1', 10000);
+    list_of(&s, name, text);
+    assert_refused(fill_particles(&p, &s.scene, 0), "bad.csv:1: not a line of text");
+    memory_free(text);
+    remove(name);
+    assert_refused(fill_particles(&p, &s.scene, 0), "bad.csv: there is no such file");
+    s.body[0].file = "points.txt";
+    assert_refused(fill_particles(&p, &s.scene, 0), "points.txt: a particle list is a .csv or an .h5 file");
+}
+
+static void write_table(hid_t file, const char *name, int rank, const hsize_t *extent, hid_t type, const void *value)
+{
+    hid_t space = H5Screate_simple(rank, extent, NULL);
+    hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
+    H5Dclose(set);
+    H5Sclose(space);
+}
+
+static void hdf5_lists_are_read(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    char name[] = "list.h5";
+    const double X[3][2] = {{0, 0}, {1, 0}, {0, 1}}, volume[3] = {1, 2, 3};
+    const float short_volume[2] = {1, 2};
+    const int material[3] = {1, 0, 1};
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+    list_of(&s, name, "no HDF5");
+    assert_refused(fill_particles(&p, &s.scene, 0), "list.h5: not an HDF5 file");
+    for (int part = 0; part < 4; part++) {
+        hid_t file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        write_table(file, "positions", 2, (hsize_t[]){3, 2}, H5T_NATIVE_DOUBLE, X);
+        if (part == 1) write_table(file, "volumes", 1, (hsize_t[]){2}, H5T_NATIVE_FLOAT, short_volume);
+        if (part >= 2) write_table(file, "volumes", 1, (hsize_t[]){3}, H5T_NATIVE_DOUBLE, volume);
+        if (part == 3) write_table(file, "material", 1, (hsize_t[]){3}, H5T_NATIVE_INT, material);
+        H5Fclose(file);
+        if (part == 0) assert_refused(fill_particles(&p, &s.scene, 0), "list.h5: volumes is not a dataset");
+        if (part == 1) assert_refused(fill_particles(&p, &s.scene, 0), "volumes has 2 x 1 numbers; 3 x 1 are wanted");
+        if (part < 2) continue;
+        assert_ok(fill_particles(&p, &s.scene, 0));
+        for (int i = 0; i < 3; i++) {
+            assert_exact(p.X[0][i], X[i][0]);
+            assert_exact(p.X[1][i], X[i][1]);
+            assert_exact(p.volume[i], volume[i]);
+            assert_int_equal(p.material[i], part == 3 ? material[i] : 0);
+        }
+        particles_free(&p);
+    }
+    s.scene.dim = 1, s.scene.space = SPACE_LINE;
+    assert_refused(fill_particles(&p, &s.scene, 0), "positions has 3 x 2 numbers; 3 x 1 are wanted");
+    remove(name);
+}
+
+/* Positions that are not what they seem: a link out of the file or inside it, numbers in a file beside it or in another dataset, and
+ * far more of them than the file has bytes. */
+static void hdf5_lists_are_whole(void **state)
+{
+    (void)state;
+    enum { OUTSIDE, INSIDE, BESIDE, VIRTUAL, CLAIMED, WAYS };
+    static const char *const said[WAYS] = {"positions is a link", "positions is a link", "positions has its numbers in other files",
+                                            "positions has its numbers in other files", "claims 100000000 entries"};
+    const double X[3][2] = {{0, 0}, {1, 0}, {0, 1}}, volume[3] = {1, 2, 3};
+    const hsize_t rows[] = {3, 2}, many[] = {100000000, 2}, chunk[] = {1000000, 2};
+    struct setting s;
+    struct particles p;
+    char name[] = "whole.h5";
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+    s.body[0].file = name;
+    hid_t file = H5Fcreate("other.h5", H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    write_table(file, "positions", 2, rows, H5T_NATIVE_DOUBLE, X);
+    H5Fclose(file);
+    for (int kind = 0; kind < WAYS; kind++) {
+        hid_t how = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(2, kind == CLAIMED ? many : rows, NULL), set = -1;
+        file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        write_table(file, "volumes", 1, rows, H5T_NATIVE_DOUBLE, volume);
+        if (kind == OUTSIDE) assert_true(H5Lcreate_external("other.h5", "/positions", file, "positions", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+        if (kind == INSIDE) assert_true(H5Lcreate_soft("/volumes", file, "positions", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+        if (kind == BESIDE) assert_true(H5Pset_external(how, "numbers.bin", 0, H5F_UNLIMITED) >= 0);
+        if (kind == VIRTUAL) assert_true(H5Pset_virtual(how, space, "other.h5", "/positions", space) >= 0);
+        if (kind == CLAIMED) assert_true(H5Pset_chunk(how, 2, chunk) >= 0);
+        if (kind >= BESIDE) set = H5Dcreate2(file, "positions", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+        if (set >= 0) H5Dclose(set);
+        H5Sclose(space);
+        H5Pclose(how);
+        H5Fclose(file);
+        assert_refused(fill_particles(&p, &s.scene, 0), said[kind]);
+    }
+    remove(name);
+    remove("other.h5");
+}
+
+/* ---- lists in another unit than the scene ------------------------------------------------------------- */
+
+/* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` places `apart` from each other; the
+ * first `single` places have one particle alone. Volumes fill the space up to the nearest neighbour `times` over, 0: once. */
+struct grains { int side, together, single; real near, apart, times; };
+
+static void write_grains(const char *name, int dim, const struct grains *g)
+{
+    static const char *const head[DIM_MAX + 1] = {"", "x,volume", "x,y,volume", "x,y,z,volume"};
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    fprintf(file, "%s\n", head[dim]);
+    int64_t places = 1;
+    real volume = g->times > 0 ? g->times : 1;
+    for (int d = 0; d < dim; d++) places *= g->side, volume *= g->together > 1 ? g->near : g->apart;
+    for (int64_t k = 0; k < places; k++)
+        for (int m = 0; m < (k < g->single ? 1 : g->together); m++) {
+            int64_t rest = k;
+            for (int d = 0; d < dim; d++, rest /= g->side)
+                fprintf(file, "%.12g,", (real)(rest % g->side) * g->apart + (d == 0 ? m * g->near : 0));
+            fprintf(file, "%.12g\n", volume);
+        }
+    fclose(file);
+}
+
+static void units_of_lists_are_told(void **state)
+{
+    (void)state;
+    enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
+    static const struct { enum space space; int method; real spacing; struct grains g; const char *says; } c[] = {
+        /* metres meant, millimetres written, and the other way round */
+        {SPACE_PLANE_STRESS, PD, 1e-3, {10, 1, 0, 0, 1, 0}, "100 % of its particles have no neighbour within 3.015 "
+         "spacings of 0.001 m: those of the list are 1 m apart; a list in m is expected "
+         "(is it in mm?), or a particles.spacing of about 1 m"},
+        {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1, 0}, "no neighbour within 2 spacings of 0.001 m"},
+        {SPACE_PLANE_STRESS, BOTH, 1e-3, {20, 1, 0, 0, 1, 0}, "about 100 % of its particles have no neighbour within 3.015 spacings"},
+        {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in cm?)"},
+        {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1, 0}, "100 % of its particles"},
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
+         "particles.spacing of about 0.001 m is expected (is it in mm?), or a list in m"},
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart"},
+        {SPACE_SOLID, BOTH, 1, {5, 1, 0, 0, 0.1, 0}, "neighbours of the list are 0.1 m apart"},
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 1e9}, "volumes of its particles are 1e+09 times the space up to their neighbours, which are 1 m "
+         "apart; volumes in m^3 are expected (are they in mm^3?)"},
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1, 1e-3}, "volumes of its particles are 0.001 times the space up to their neighbours, "
+         "which are 1 m apart, times the thickness; volumes in m^3 are expected"},
+        /* what a list may be */
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL},             /* heavy knots of a net */
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1, 0}, NULL},
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3, 0}, NULL},         /* neighbours at the rim of the horizon */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 3, 0}, "no neighbour within 2 spacings"},
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2, 0}, NULL},               /* a graded body's fine part */
+        {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50, 0}, NULL},        /* grains of two, far apart */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 0, 1, 50, 0}, NULL},
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50, 0}, NULL},      /* 60 chips beside 40 such grains: 43 % */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 72, 1, 50, 0}, "56 % of its particles"},
+        {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50, 0}, NULL},                 /* seven mass points */
+        {SPACE_LINE, PD, 1, {8, 1, 0, 0, 50, 0}, "100 % of its particles"},
+    };
+    char name[] = "grains.csv";
+    for (size_t k = 0; k < COUNT_OF(c); k++) {
+        struct setting s;
+        struct particles p;
+        setting_make(&s, c[k].space, (real[]){1, 1, 1});
+        s.scene.method = (enum method)c[k].method, s.scene.spacing = c[k].spacing, s.scene.horizon = 3.015, s.scene.cell = 2;
+        s.body[0].file = name;
+        snprintf(s.body[0].place, sizeof s.body[0].place, "a.yaml:7:3: particles: ");
+        write_grains(name, s.scene.dim, &c[k].g);
+        if (c[k].says) {
+            assert_refused(fill_particles(&p, &s.scene, 0), c[k].says);
+            assert_null(p.X[0]);
+            assert_refused(REFUSED, "a.yaml:7:3: particles: body plate: ");
+        } else {
+            assert_ok(fill_particles(&p, &s.scene, 0));
+            particles_free(&p);
+        }
+    }
+    remove(name);
+}
+
+/* Points strewn through another body meet it on the grid; bonds do not leave their body. */
+static void other_bodies_are_neighbours_of_points(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    char name[] = "strewn.csv";
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){20, 20});
+    s.scene.horizon = 3.015, s.scene.cell = 2, s.scene.bodies = 2;
+    s.body[1].file = name;
+    write_grains(name, 2, &(struct grains){5, 1, 0, 0, 4, 0});
+    assert_ok(fill_particles(&p, &s.scene, 0));
+    particles_free(&p);
+    s.scene.method = METHOD_PD;
+    assert_refused(fill_particles(&p, &s.scene, 0), "strewn.csv: body layer: 100 % of its particles have no neighbour");
+    remove(name);
+}
+
+/* 2e5 particles, each the neighbour of all others: 960 GB. */
+static void bonds_beyond_memory_are_refused(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    char name[] = "dense.csv";
+    if ((real)team_memory() > 9e11) skip();
+    setting_make(&s, SPACE_SOLID, (real[]){1, 1, 1});
+    s.scene.method = METHOD_PD, s.scene.spacing = 1, s.scene.horizon = 30;
+    s.body[0].file = name;
+    write_grains(name, 3, &(struct grains){59, 1, 0, 0, 0.2, 0});
+    assert_refused(fill_particles(&p, &s.scene, 0), "whose bonds need some 1e+03 GB");
+    remove(name);
+}
+
+/* Files of the tests live in a folder of their own. */
+static int enter_folder(void **state)
+{
+    static char folder[] = "/tmp/cleave_fill_XXXXXX";
+    *state = folder;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+static int leave_folder(void **state) { return chdir("/") != 0 || rmdir(*state) != 0; }
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(csv_lists_are_read),
+        cmocka_unit_test(bodies_share_a_list),
+        cmocka_unit_test(bad_lists_are_refused),
+        cmocka_unit_test(hdf5_lists_are_read),
+        cmocka_unit_test(hdf5_lists_are_whole),
+        cmocka_unit_test(units_of_lists_are_told),
+        cmocka_unit_test(other_bodies_are_neighbours_of_points),
+        cmocka_unit_test(bonds_beyond_memory_are_refused),
+    };
+    omp_set_num_threads(2);
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}

@@ -1,0 +1,412 @@
+/* Scenes that must be refused: each is the good scene below with one piece replaced, and the message is exact, line
+ * and column included. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#include "scene/scene.h"
+
+static const char good[] =
+    "name: plate\n"
+    "space: plane stress\n"
+    "thickness: 10 mm\n"
+    "duration: 50 us\n"
+    "method: adaptive\n"
+    "material:\n"
+    "  young: 190 GPa\n"
+    "  poisson: 1/3\n"
+    "  density: 7800 kg/m^3\n"
+    "  energy_release_rate: 69 kJ/m^2\n"
+    "bodies:\n"
+    "  - name: plate\n"
+    "    shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}\n"
+    "particles:\n"
+    "  spacing: 1 mm\n"
+    "  horizon: 3.015\n"
+    "  seed: 7\n"
+    "pd:\n"
+    "  surface: none\n"
+    "mpm: {transfer: flip, shape: gimp}\n"
+    "conversion:\n"
+    "  block: true\n"
+    "cracks:\n"
+    "  - {from: [0, 25 mm], to: [50 mm, 25 mm]}\n"
+    "boundary:\n"
+    "  - name: impact\n"
+    "    region: {box: {from: [-inf, -25 mm], to: [3 mm, 25 mm]}}\n"
+    "    velocity: [22 m/s, free]\n"
+    "    time: {step: {until: 5 us}}\n"
+    "  - {name: pull, traction: [1 MPa, 0], face: x+}\n"
+    "time: {step: auto}\n"
+    "output: {frames: 20}\n"
+    "probes:\n"
+    "  - tip\n"
+    "  - point: {name: a, at: [1 mm, 1 mm]}\n"
+    "  - reaction: {boundary: impact}\n";
+
+/* piece of the good scene, what stands in its place, message after the file's name */
+static const struct { const char *piece, *instead, *message; } cases[] = {
+    {"duration: 50 us", "duraton: 50 us", "4:1: duraton: unknown key; the nearest is duration"},
+    {"  young: 190 GPa\n", "", "6:1: young: missing in material; a stress is expected, as 190 GPa"},
+    {"duration: 50 us\n", "", "1:1: duration: missing; a time is expected, as 20 us"},
+    {"space: plane stress\n", "", "1:1: space: missing; line, plane stress, plane strain or solid is expected"},
+    {"thickness: 10 mm\n", "", "1:1: thickness: missing; a length is expected, as 0.5 mm"},
+    {"  spacing: 1 mm\n", "", "14:1: spacing: missing in particles; a length is expected, as 0.5 mm"},
+    {"190 GPa", "190 mm", "7:3: young: 190 mm is a length; a stress is expected, as 190 GPa"},
+    {"190 GPa", "190 gpa", "7:3: young: 190 gpa has an unknown unit; a stress is expected, as 190 GPa"},
+    {"190 GPa", "190_000",
+     "7:3: young: 190_000 is not a number here: digits cannot be grouped by _; write 1000 or 1e3"},
+    {"190 GPa", "1,9", "7:3: young: 1,9 is not a number here: the decimal sign is a point; write 1.5"},
+    {"190 GPa", "0x1F",
+     "7:3: young: 0x1F is not a number here: hexadecimal, octal and binary are not read; write a decimal number"},
+    {"190 GPa", "1:30", "7:3: young: 1:30 is not a number here: base 60 is not read; write a decimal number"},
+    {"190 GPa", "0777",
+     "7:3: young: 0777 is not a number here: a leading 0 means octal elsewhere; write the decimal number without it"},
+    {"190 GPa", "inf", "7:3: young: inf is not finite; a stress is expected, as 190 GPa"},
+    {"190 GPa", ".nan", "7:3: young: .nan is not a number; a stress is expected, as 190 GPa"},
+    {"190 GPa", "1e999", "7:3: young: 1e999 is not finite; a stress is expected, as 190 GPa"},
+    {"190 GPa", "1/0", "7:3: young: 1/0 divides by 0; a stress is expected, as 190 GPa"},
+    {"190 GPa", "-190 GPa", "7:3: young: -190 GPa is out of range; a stress above 0 is expected, as 190 GPa"},
+    {"190 GPa", "~", "7:3: young: ~ is not a number; a stress is expected, as 190 GPa"},
+    {"190 GPa", "", "7:3: young: no value is not a number; a stress is expected, as 190 GPa"},
+    {"190 GPa", "[1]", "7:3: young: a list is not a number; a stress is expected, as 190 GPa"},
+    {"190 GPa", "many GPa", "7:3: young: many GPa is not a number; a stress is expected, as 190 GPa"},
+    {"190 GPa", "1e-400", "7:3: young: 1e-400 is out of range; a stress above 0 is expected, as 190 GPa"},
+    {"poisson: 1/3", "poisson: 0.3",
+     "8:3: poisson: 0.3 is impossible with bond-based peridynamics in space plane stress; 1/3 is expected"},
+    {"poisson: 1/3", "poisson: 0.5",
+     "8:3: poisson: 0.5 is out of range; a plain number above -1 up to 0.4999 is expected"},
+    {"poisson: 1/3", "critical_stretch: 0.01",
+     "8:3: critical_stretch: given beside energy_release_rate; one of the two fixes the other"},
+    {"poisson: 1/3", "toughness: 60 MPa",
+     "8:3: toughness: given beside energy_release_rate; one of the two fixes the other"},
+    {"poisson: 1/3", "yield_hardening: -1 GPa", "8:3: yield_hardening: -1 GPa is out of range; a stress from 0 on is expected, as 190 GPa"},
+    {"poisson: 1/3", "young: 2 GPa", "8:3: young: given twice, first in line 7; keep one"},
+    {"method: adaptive", "method: fem", "5:1: method: fem is unknown; pd, mpm, adaptive or auto is expected"},
+    {"method: adaptive", "model: lps", "5:1: model: lps is unknown; bond, ospd or mospd is expected"},
+    {"method: adaptive", "solver: newton", "5:1: solver: newton is unknown; explicit, relaxation, cg or static is expected"},
+    {"method: adaptive", "solver: cg", "5:1: solver: cg is for method pd; relaxation is expected with material points"},
+    {"method: adaptive", "solver_tolerance: 0",
+     "5:1: solver_tolerance: 0 is out of range; a plain number from 1e-12 to 0.1 is expected"},
+    {"method: adaptive", "accuracy: 1e-3", "5:1: accuracy: has no meaning without method: auto"},
+    {"method: adaptive", "accuracy_chart: chart.csv", "5:1: accuracy_chart: has no meaning without method: auto"},
+    {"method: adaptive", "solver: static", "5:1: solver: static leaves the choice to method auto; relaxation is expected"},
+    {"method: adaptive", "coupling: glue",
+     "5:1: coupling: glue is unknown; partial stress, handshake, pm, pg, pmg or pgg is expected"},
+    {"method: adaptive", "horizon: 3", "5:1: horizon: does not belong here; it is the key particles.horizon"},
+    {"method: adaptive", "section: 1", "5:1: section: space plane stress has no section; leave it out"},
+    {"method: adaptive", "body: {ball: {centre: [0, 0], radius: 1}}",
+     "11:1: bodies: given beside body; keep one of the two"},
+    {"plane stress", "plain stress",
+     "2:1: space: plain stress is unknown; line, plane stress, plane strain or solid is expected"},
+    {"name: plate\nspace", "name: my plate\nspace",
+     "1:1: name: my plate is no name; letters, digits, _ and - are expected, and no - first"},
+    {"name: plate\nspace", "name: xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx\nspace",
+     "1:1: name: xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx... is too long; at most 63 characters are expected"},
+    {"horizon: 3.015", "horizon: 0.8", "16:3: horizon: 0.8 is smaller than one spacing; 3.015 is usual"},
+    {"horizon: 3.015", "horizon: 12", "16:3: horizon: 12 is out of range; a plain number from 1 to 10.5 is expected"},
+    {"horizon: 3.015", "horizon: yes", "16:3: horizon: yes is not a number; a plain number is expected, as 0.25"},
+    {"spacing: 1 mm", "spacing: 1 nm", "15:3: spacing: 1 nm would make about 2.0e+16 particles; 2e9 is the most"},
+    {"seed: 7", "seed: -1", "17:3: seed: -1 is no seed; a whole number from 0 to 18446744073709551615 is expected"},
+    {"seed: 7", "irregularity: 1.5", "17:3: irregularity: 1.5 is out of range; a plain number from 0 to 1 is expected"},
+    {"block: true", "block: yes", "22:3: block: yes is neither true nor false; write true or false"},
+    {"block: true", "criteria: [bond, damage]", "22:20: criteria[1]: damage is unknown; bond or stress is expected"},
+    {"block: true", "alpha: 0", "22:3: alpha: 0 is out of range; a plain number above 0 up to 1 is expected"},
+    {"transfer: flip, shape: gimp", "transfer: apic, shape: linear",
+     "20:7: transfer: apic with shape linear was measured unstable (strains from velocities that are not "
+     "mapped again); flip, or shape gimp, is expected"},
+    {"transfer: flip", "frame: sideways", "20:7: frame: sideways is unknown; current, reference or auto is expected"},
+    {"transfer: flip", "cell: 0.5", "20:7: cell: 0.5 is out of range; a plain number from 1 to 8 is expected"},
+    {"[0, -100 mm]", "[0, -100 mm, 0]", "13:19: from: has 3 components; 2 are expected in space plane stress"},
+    {"[0, -100 mm]", "0", "13:19: from: 0 is not a list; 2 components are expected in space plane stress"},
+    {"[0, -100 mm]", "[0, -inf]", "13:29: from[1]: -inf is not finite; a length is expected, as 0.5 mm"},
+    {"from: [0, -100 mm]", "from: [0, 100 mm]", "13:13: box: from is not below to in y; from is the lower corner"},
+    {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "cylinder: {radius: 1}",
+     "13:13: cylinder: not in space plane stress; disc or box is expected"},
+    {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "disc: {centre: [0, 0], radius: 0}",
+     "13:36: radius: 0 is out of range; a length above 0 is expected, as 0.5 mm"},
+    {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "half-space: {point: [0, 0], normal: [1, 0]}",
+     "13:13: half-space: a body cannot be infinite; box, ball and cylinder are finite"},
+    {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "subtract: {ball: {centre: [0, 0], radius: 1}}",
+     "13:5: shape: subtracts from nothing; the first solid must be added, for a region perhaps all: true"},
+    {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "add: {add: {all: true}}",
+     "13:19: add: stands inside add or subtract; a solid such as box is expected there"},
+    {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "sphere: {radius: 1}",
+     "13:13: sphere: unknown key; `cleave help solid` lists what is known"},
+    {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "shape: []",
+     "13:5: shape: an empty list; at least one solid is expected"},
+    {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "material: iron",
+     "13:5: material: there is no material iron; the nearest is material"},
+    {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "velocity: [0, 0]",
+     "12:5: shape: missing in bodies; a solid or a list of solids is expected"},
+    {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "particles: grains.txt",
+     "13:5: particles: grains.txt is no particle list; a file name that ends in .csv or .h5 is expected"},
+    {"cracks:\n", "cracks:\n  - {at: 1}\n", "24:6: at: not in space plane stress; a crack there has from and to"},
+    {"from: [0, 25 mm], to", "from: [50 mm, 25 mm], to",
+     "24:5: cracks[0]: has no length; from and to are its two ends"},
+    {"to: [50 mm, 25 mm]", "too: [50 mm, 25 mm]", "24:24: too: unknown key; the nearest is to"},
+    {"[22 m/s, free]", "[free, free]", "28:5: velocity: every component is free; at least one velocity is expected"},
+    {"[22 m/s, free]", "[22 m/s, fre]", "28:24: velocity[1]: fre is not a number; a velocity is expected, as 22 m/s"},
+    {"[22 m/s, free]", "[22 m, free]", "28:16: velocity[0]: 22 m is a length; a velocity is expected, as 22 m/s"},
+    {"[22 m/s, free]", "22 m/s",
+     "28:5: velocity: 22 m/s does not fit space plane stress; a list of 2 is expected, as [22 m/s, free]"},
+    {"velocity: [22 m/s, free]", "fixed: [x, z]",
+     "28:16: fixed[1]: z is no axis of space plane stress; x or y is expected"},
+    {"velocity: [22 m/s, free]\n", "velocity: [22 m/s, free]\n    fixed: all\n",
+     "29:5: fixed: given beside velocity; two conditions are two items of the list"},
+    {"    velocity: [22 m/s, free]\n", "",
+     "26:5: boundary[0]: does nothing; fixed, velocity, traction, body_force or mirror is expected"},
+    {"velocity: [22 m/s, free]", "mirror: {axis: z, at: 0}",
+     "27:5: region: has no meaning with mirror, which always acts on every body; leave it out"},
+    {"until: 5 us", "from: 9 us, until: 5 us",
+     "29:12: step: from is not before until; it begins at from and ends at until"},
+    {"{step: {until: 5 us}}", "sometimes",
+     "29:5: time: sometimes is no function of time; constant, step, pulse, ramp or table is expected"},
+    {"{step: {until: 5 us}}", "{table: [[1 us, 0], [0, 1]]}",
+     "29:32: table[1][0]: 0 does not lie after the time before; times ascend"},
+    {"{step: {until: 5 us}}", "{table: [[1 us, 0]]}", "29:12: table: has 1 items; 2 to 50000 are expected"},
+    {"{step: {until: 5 us}}", "{table: [[1 us, 0], 3]}",
+     "29:31: table[1]: 3 is not a pair; [time, factor] is expected, as [5 us, 1]"},
+    {"pull, traction: [1 MPa, 0], face: x+", "pull, traction: [1 MPa, 0], face: x+, profile: uniform",
+     "30:50: profile: has no meaning without body_force; leave it out"},
+    {"traction: [1 MPa, 0], face: x+", "mirror: {axis: x, at: 0}, profile: {sine: {wavelength: 1}}",
+     "30:44: profile: has no meaning without body_force; leave it out"},
+    {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: wave",
+     "30:38: profile: wave is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected"},
+    {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {}", "30:38: profile: has 0 keys; sine is expected"},
+    {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {sine: {}}",
+     "30:48: wavelength: missing in boundary.profile.sine; a length is expected, as 0.5 mm"},
+    {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {sine: {wavelength: 0}}",
+     "30:55: wavelength: 0 is out of range; a length above 0 is expected, as 0.5 mm"},
+    {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {sine: {wavelength: 1, direction: [0, 0]}}",
+     "30:70: direction: its length is 0 or not finite; the direction in which the force varies is expected"},
+    {", face: x+", "", "30:5: face: missing in boundary; x+, x-, y+, y-, z+ or z- is expected"},
+    {"face: x+", "face: z+", "30:40: face: z+ is no face in space plane stress; x+, x-, y+ or y- is expected"},
+    {"name: pull", "name: impact", "30:5: boundary[1]: impact is the name of another boundary; every one has its own"},
+    {"name: impact\n", "name: impact\n    body: plat\n", "27:5: body: there is no body plat; the nearest is plate"},
+    {"boundary: impact", "boundary: impct", "36:16: boundary: there is no boundary impct; the nearest is impact"},
+    {"  - tip\n", "  - tip\n  - tip\n", "35:5: probes[1]: tip is the name of another probe; give it a name of its own"},
+    {"  - tip\n", "  - sif: {inner: 20 mm, contours: [10 mm, 15 mm]}\n",
+     "34:11: inner: 20 mm is not less than outer, 0.015 m; about half of it is usual"},
+    {"  - tip\n", "  - sif: {direction: [0, 0]}\n",
+     "34:11: direction: has no length; the direction ahead of the tip is expected"},
+    {"  - tip\n", "  - sif: {contours: [2 mm, 1 mm]}\n",
+     "34:28: contours[1]: 1 mm does not lie after the one before; they ascend"},
+    {"probes:\n", "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [1, 1]}}]\nprobes:\n",
+     "33:74: polarisation: lies neither along direction nor across it; particles of a plane wave move in one of the two ways"},
+    {"probes:\n", "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [0, 0]}}]\nprobes:\n",
+     "33:74: polarisation: has no length; direction, or a vector across it, is expected"},
+    {"  - tip\n", "  - exact: step bar\n",
+     "34:5: exact: closed forms are those of a bar; space line is expected"},
+    {"  - tip\n", "  - exact\n",
+     "34:5: form: missing in probes.exact; step bar, plastic bar, pulse or manufactured is expected"},
+    {"  - tip\n", "  - exact: rod\n",
+     "34:5: form: rod is unknown; step bar, plastic bar, pulse or manufactured is expected"},
+    {"frames: 20", "frames: 20, times: [1 us]", "32:22: times: given beside frames; keep one of the two"},
+    {"frames: 20", "times: []", "32:10: times: has 0 items; 1 to 100000 are expected"},
+    {"frames: 20", "times: 5 us", "32:10: times: 5 us is not a list"},
+    {"frames: 20", "times: [2 us, 2 us]", "32:24: times[1]: 2 us does not lie after the one before; they ascend"},
+    {"frames: 20", "times: [0, 2 us]", "32:18: times[0]: 0 is out of range; a time above 0 is expected, as 20 us"},
+    {"  - tip\n", "  - tips\n", "34:5: tips: unknown key; the nearest is tip"},
+    {", at: [1 mm, 1 mm]", "", "35:5: at: missing in probes.point; a list of numbers is expected"},
+    {"step: auto", "step: 0", "31:8: step: 0 is out of range; a time above 0 is expected, as 20 us"},
+    {"step: auto", "step: 1e-30", "31:8: step: 1e-30 would take 5.0e+25 steps; 1e12 is the most"},
+    {"step: auto", "step: always", "31:8: step: always is not a number; a time is expected, as 20 us"},
+    {"step: auto", "safety: 2.5", "31:8: safety: 2.5 is out of range; a plain number above 0 up to 2 is expected"},
+    {"frames: 20", "frames: 1.5", "32:10: frames: 1.5 is not a whole number; digits alone are expected, as 20"},
+    {"frames: 20", "frames: 100001",
+     "32:10: frames: 100001 is out of range; a whole number from 0 to 100000 is expected"},
+    {"frames: 20", "frames: 99999999999999999999",
+     "32:10: frames: 99999999999999999999 is out of range; a whole number from 0 to 100000 is expected"},
+    {"frames: 20", "compress: on", "32:10: compress: on is neither true nor false; write true or false"},
+    {"output: {frames: 20}", "output: 20", "32:1: output: 20 is not a mapping of keys to values"},
+    {"name: plate\nspace", "name: &p plate\nspace",
+     "1:7: an anchor (&) is not allowed in a scene; write the value out where it is used"},
+    {"name: plate\nspace", "name: *p\nspace", "1:7: an alias (*) is not allowed in a scene; write the value out"},
+    {"name: plate\nspace", "name: !!str plate\nspace",
+     "1:7: a tag (!) is not allowed in a scene; the key says what its value is"},
+    {"name: plate\nspace", "<<: {a: 1}\nspace", "1:1: merge keys (<<) are not allowed in a scene; write the keys out"},
+    {"name: plate\nspace", "? [a]\n: 1\nspace", "1:3: a key must be a single word, not a list or mapping"},
+    {"name: plate\nspace", "name: \"a\\0b\"\nspace", "1:7: holds a NUL character; leave it out"},
+    {"name: plate\nspace", "name: \"a\\nb\"\nspace",
+     "1:1: name: a?b is no name; letters, digits, _ and - are expected, and no - first"},
+    {"  young", "\tyoung",
+     "7:1: not YAML: found character that cannot start any token; spaces (not tabs) indent, a key ends in "
+     "`: `, brackets close"},
+    {"to: [50 mm, 25 mm]}", "to: [50 mm, 25 mm}",
+     "24:41: not YAML: did not find expected ',' or ']'; spaces (not tabs) indent, a key ends in `: `, brackets close"},
+    {"name: plate\nspace", "name: [[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]\nspace",
+     "1:22: nested deeper than 16 levels; no key of a scene is"},
+    {"  - reaction: {boundary: impact}\n", "---\nname: b\n",
+     "36:1: a second document (---) begins; a file holds one scene"},
+    {"name: plate\nspace", "name: pla\377""te\nspace",
+     "1:10: not YAML: invalid leading UTF-8 octet; spaces (not tabs) indent, a key ends in `: `, brackets close"},
+};
+
+/* The good scene with the one occurrence of `piece` replaced; NUL bytes survive as in `instead_length`. */
+static char *replaced(const char *piece, const char *instead, size_t instead_length, size_t *length)
+{
+    const char *at = strstr(good, piece);
+    if (!at || strstr(at + 1, piece)) fail_msg("not exactly once in the scene: %s", piece);
+    size_t before = (size_t)(at - good), rest = strlen(at + strlen(piece));
+    char *text = test_malloc(before + instead_length + rest + 1);
+    memcpy(text, good, before);
+    memcpy(text + before, instead, instead_length);
+    memcpy(text + before + instead_length, at + strlen(piece), rest + 1);
+    *length = before + instead_length + rest;
+    return text;
+}
+
+static void check_refused(const char *text, size_t length, const char *message)
+{
+    struct scene s;
+    char expected[1024];
+    snprintf(expected, sizeof expected, "bad.yaml:%s", message);
+    if (scene_read_text(&s, text, length, "bad.yaml", NULL, 0) != REFUSED) fail_msg("not refused: %s", message);
+    assert_string_equal(status_message(), expected);
+}
+
+static void test_good(void **state)
+{
+    (void)state;
+    struct scene s;
+    if (scene_read_text(&s, good, strlen(good), "good.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    scene_free(&s);
+}
+
+static void test_cases(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        size_t length;
+        char *text = replaced(cases[k].piece, cases[k].instead, strlen(cases[k].instead), &length);
+        check_refused(text, length, cases[k].message);
+        test_free(text);
+    }
+}
+
+static void test_bytes(void **state)
+{
+    (void)state;
+    size_t length;
+    char *text = replaced("name: plate\nspace", "name: pla\0te\nspace", 18, &length);
+    check_refused(text, length, "1:10: holds a NUL byte; a scene is UTF-8 text");
+    test_free(text);
+    check_refused("", 0, "1:1: empty; a scene begins with keys such as space and duration");
+    check_refused("# nothing\n", 10, "1:1: empty; a scene begins with keys such as space and duration");
+    check_refused("- a\n", 4, "1:1: a list is not a mapping of keys to values, as a scene is");
+    char *many = test_malloc(4000000);   /* five events come before the first item */
+    memcpy(many, "a: [", 4);
+    for (int k = 0; k < 1000000; k++) memcpy(many + 4 + 2 * k, "1,", 2);
+    check_refused(many, 2000004, "1:1999995: more than 1000000 YAML events; long data belong into a particle list");
+    test_free(many);
+}
+
+static void test_overrides(void **state)
+{
+    (void)state;
+    static const struct { struct scene_override o; const char *message; } wrong[] = {
+        {{"material.yuong", "70e9"}, "-s material.yuong=70e9: yuong: unknown key; the nearest is young"},
+        {{"material.young", "70 kg"},
+         "-s material.young=70 kg: young: 70 kg is not a stress; a stress is expected, as 190 GPa"},
+        {{"material.young", "[1]"},
+         "-s material.young=[1]: young: a list is not a number; a stress is expected, as 190 GPa"},
+        {{"materials[0].young", "70e9"},
+         "-s materials[0].young=70e9: materials: is no list in this scene; [0] has no meaning"},
+        {{"body", "{}"}, "-s body={}: body: given beside bodies; keep one of the two"},
+        {{"materiel.young", "1"}, "-s materiel.young=1: materiel: unknown key; the nearest is material"},
+        {{"material", "steel"}, "-s material=steel: material: steel is not a mapping of keys to values"},
+        {{"boundary.velocity", "[1, 0]"},
+         "-s boundary.velocity=[1, 0]: boundary: has 2 items; velocity is the name of none; they go by number (the first is 0) "
+         "or by name (impact, pull)"},
+        {{"boundary.2.velocity", "[1, 0]"},
+         "-s boundary.2.velocity=[1, 0]: boundary: has 2 items; 2 is behind the last; they go by number (the first is 0) "
+         "or by name (impact, pull)"},
+        {{"boundary.0.velocity.2", "1"},
+         "-s boundary.0.velocity.2=1: velocity: has 2 items; 2 is behind the last; they go by number (the first is 0)"},
+        {{"boundary.0.velocity", "[0, 20 kg]"},
+         "-s boundary.0.velocity=[0, 20 kg]: velocity[1]: 20 kg is not a velocity; a velocity is expected, as 22 m/s"},
+        {{"material.0.young", "1"}, "-s material.0.young=1: material: is no list in this scene; 0 has no meaning"},
+        {{"growth.0.speed", "1"}, "-s growth.0.speed=1: growth: is no list in this scene; 0 has no meaning"},
+        {{"probes.a.att", "[0, 0]"}, "-s probes.a.att=[0, 0]: att: unknown key; the nearest is at"},
+        {{"boundary[2].velocity", "[1, 0]"},
+         "-s boundary[2].velocity=[1, 0]: boundary: has 2 items; [2] is behind the last (the first is [0])"},
+        {{"boundary[0].velocity", "[0, 20 kg]"},
+         "-s boundary[0].velocity=[0, 20 kg]: velocity[1]: 20 kg is not a velocity; a velocity is expected, as 22 m/s"},
+        {{"boundary[0].velocity[1]", "fre"},
+         "-s boundary[0].velocity[1]=fre: velocity[1]: fre is not a number; a velocity is expected, as 22 m/s"},
+        {{"duration.x", "1"},
+         "-s duration.x=1: x: duration holds 50 us, not keys; `cleave help` shows the path of every key"},
+        {{"duration[0]", "1"}, "-s duration[0]=1: duration: is no list in this scene; [0] has no meaning"},
+        {{"material..young", "1"},
+         "-s material..young=1: material..young: not a path of keys; material.young or boundary.0.velocity is one"},
+        {{"", "1"}, "-s =1: no key; material.young=70e9 is an override"},
+        {{"boundary[0][0].velocity", "2"}, "-s boundary[0][0].velocity=2: boundary[0]: is no list in this scene; [0] has no meaning"},
+        {{"[0]", "1"}, "-s [0]=1: is no list in this scene; [0] has no meaning"},
+        {{"particles.irregularity", ""},
+         "-s particles.irregularity=: irregularity: is not in the scene; an empty value takes a key away"},
+        {{"particles.horizon", "0.8"},
+         "-s particles.horizon=0.8: horizon: 0.8 is smaller than one spacing; 3.015 is usual"},
+        {{"probes[1].point.att", "[0, 0]"}, "-s probes[1].point.att=[0, 0]: att: unknown key; the nearest is at"},
+        {{"method", "[pd"},
+         "-s method=[pd: not YAML: did not find expected ',' or ']'; spaces (not tabs) indent, a key "
+         "ends in `: `, brackets close"},
+        {{"method", "a: b: c"},
+         "-s method=a: b: c: not YAML: mapping values are not allowed in this context; spaces (not tabs) "
+         "indent, a key ends in `: `, brackets close"},
+        {{"method", "*a"}, "-s method=*a: an alias (*) is not allowed in a scene; write the value out"},
+        {{"material.poisson", "0.3"},
+         "-s material.poisson=0.3: poisson: 0.3 is impossible with bond-based peridynamics in space "
+         "plane stress; 1/3 is expected"},
+        {{"duration", ""}, "x:1:1: duration: missing; a time is expected, as 20 us"},
+    };
+    for (size_t k = 0; k < COUNT_OF(wrong); k++) {
+        struct scene s;
+        if (scene_read_text(&s, good, strlen(good), "x", &wrong[k].o, 1) != REFUSED)
+            fail_msg("not refused: %s", wrong[k].message);
+        assert_string_equal(status_message(), wrong[k].message);
+    }
+}
+
+static void test_files(void **state)
+{
+    (void)state;
+    struct scene s;
+    assert_int_equal(scene_read(&s, "no/such.yaml", NULL, 0), REFUSED);
+    assert_string_equal(status_message(), "no/such.yaml: No such file or directory; a scene file is expected");
+    assert_int_equal(scene_read(&s, "/", NULL, 0), REFUSED);
+    assert_string_equal(status_message(), "/: Is a directory; a scene file is expected");
+    char folder[] = "/tmp/scene_XXXXXX", path[64], list[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/a.yaml", folder);
+    snprintf(list, sizeof list, "%s/grains.csv", folder);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(good, out);
+    fclose(out);
+    static const struct scene_override o[] = {{"bodies[0].shape", ""}, {"bodies[0].particles", "grains.csv"}};
+    assert_int_equal(scene_read(&s, path, o, 2), REFUSED);
+    assert_string_equal(status_message(), "-s bodies[0].particles=grains.csv: particles: grains.csv cannot be read; "
+                                          "a particle list in the scene's folder is expected");
+    out = fopen(list, "w");
+    assert_non_null(out);
+    fclose(out);
+    assert_int_equal(scene_read(&s, path, o, 2), OK);
+    assert_string_equal(s.body->file, list);
+    scene_free(&s);
+    unlink(list), unlink(path), rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_good),      cmocka_unit_test(test_cases), cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_overrides), cmocka_unit_test(test_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
