@@ -36,7 +36,7 @@ TESTS    := $(sort $(shell find tests -name 'test_*.c'))
 OBJECTS  := $(SOURCES:%.c=$(BUILD)/%.o) $(foreach set,$(SETS),$(KERNELS:%.c=$(BUILD)/%.$(set).o))
 ENGINE   := $(filter-out $(BUILD)/src/app/main.o,$(OBJECTS))
 PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
-SCRIPTS  := $(sort $(shell find tests -name 'test_*.sh'))
+SCRIPTS  := tests/house.sh $(sort $(shell find tests -name 'test_*.sh'))
 LONG     := $(sort $(shell find tests -name 'long_*.sh'))
 
 .PHONY: all run test test-long fuzz bench install packages packages-tests clean
@@ -55,7 +55,7 @@ $(BUILD)/%.o: %.c Makefile
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(rest) $(LIBFLAGS) -MMD -MP -c -o $@ $<
 
 # The chart that `method: auto` chooses from, as strings of C.
-$(BUILD)/chart_text.h: src/auto/chart.csv Makefile
+$(BUILD)/chart_text.h: src/auto/cost_accuracy.csv Makefile
 	@mkdir -p $(@D)
 	@awk '{gsub(/"/, "\\\""); printf "\"%s\\n\"\n", $$0}' $< > $@
 $(BUILD)/src/auto/chart.o: $(BUILD)/chart_text.h

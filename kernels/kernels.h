@@ -1,13 +1,13 @@
-/* floor 2: the contract of the hot loops: what each reads, writes and costs. Every kernel has one body, many
+/* The contract of the hot loops: what each reads, writes and costs. Every kernel has one body, many
  * instances (variants.h), and a plain twin in tests/support/reference.h. Kernels cannot fail and know no files, scenes,
  * memory or clocks. */
-#ifndef CLEAVE_KERNELS_H
-#define CLEAVE_KERNELS_H
+#ifndef CLEAVE_KERNELS_KERNELS
+#define CLEAVE_KERNELS_KERNELS
 
 #include "bonds/bonds.h"
 #include "data/grid.h"
 #include "kernels/simd/kernel.h"
-#include "mesh/mesh.h"
+#include "data/mesh.h"
 #include "data/particles.h"
 #include "data/transfer_order.h"
 
@@ -21,7 +21,7 @@ enum pd_model {
     PD_MODELS
 };
 
-/* Constants of a material as the stress update wants them, and its conversion trigger. */
+/* Constants of a material for the stress update, and its conversion trigger. */
 struct elastic {
     real c11, c12, shear;                /* [Pa]                                                     */
     real trigger;                        /* sigma_1 that marks a point for conversion; INFINITY [Pa] */
@@ -30,17 +30,18 @@ struct elastic {
     enum space space;
 };
 
-/* Partial stress (src/coupling/partial_stress.c): the share of its stress that a material point leaves to the crossing
- * bonds: sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. A point at the end of state-based bonds gives P Q local
- * besides, P Q what its bonds tell it (particles.end_pull) over its volume. */
+/* Partial stress (src/coupling/partial_stress.c): the share of its stress that a material point leaves to the
+ * crossing bonds: sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. A point at the end of
+ * state-based bonds gives P Q local besides, P Q what its bonds tell it (particles.end_pull) over its volume. */
 struct partial_stress {
     int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does   */
     real *matrix;                        /* [entries][symmetric^2], row major                         */
-    real *local;                         /* [entries][symmetric] mean strain by strain of what its own bonds do not see, 0 of
-                                            points without bonds; NULL: bonds know nothing of families [1] */
+    /* [entries][symmetric] mean strain by strain of what its own bonds do not see, 0 of points without bonds; NULL:
+     * bonds know nothing of families [1] */
+    real *local;
     bool gives_all;                      /* hand-shake: M and local are 0                             */
     int64_t entries, room;
-    int32_t *touched;                    /* particles whose entry was made anew; whoever follows them sets touches = 0 */
+    int32_t *touched;                   /* particles whose entry was made anew; the reader sets touches = 0           */
     int64_t touches, touched_room;
     struct partial_table *table;         /* src/coupling/partial_table.c                                       */
 };
@@ -50,7 +51,8 @@ static inline bool partial_end(const struct partial_stress *partial, int64_t i, 
 {
     if (!partial->local || partial->index[i] < 0) return false;
     bool any = partial->gives_all;
-    for (int k = 0; k < symmetric_count(dim) && !any; k++) any = partial->local[partial->index[i] * symmetric_count(dim) + k] != 0;
+    for (int k = 0; k < symmetric_count(dim) && !any; k++)
+        any = partial->local[partial->index[i] * symmetric_count(dim) + k] != 0;
     return any;
 }
 
@@ -62,7 +64,7 @@ struct transfer_data {
     real half_width;                     /* l_p of uGIMP: half the particle's reference edge  [m]     */
     real dt;                             /* [s]                                                       */
     real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
-    bool bare;                           /* carried peridynamic particles: no stress to give, none to update */
+    bool momentum_only;                           /* carried peridynamic particles: no stress to give, none to update */
     const uint8_t *bonded;               /* [n] not 0: bonds meet this material point; NULL: they meet none  */
 };
 
@@ -70,43 +72,51 @@ struct transfer_data {
 struct pd_motion {
     real dt;                             /* [s]                                                       */
     real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
-    real fastest;                        /* whoever is faster, or no number, is out of hand   [m/s]   */
-    const uint8_t *loaded;               /* [n] not 0: waits for what loads give; NULL: nobody does   */
-    bool wild;                           /* somebody is out of hand                                   */
+    real fastest; /* a particle that is faster, or whose speed is not finite, has diverged [m/s] */
+    const uint8_t *loaded;               /* [n] not 0: waits for the loads; NULL: no particle does    */
+    bool diverged;                           /* a particle has diverged                                */
 };
 
-/* Force of all intact bonds on the particle of every row that is awake (rest.h; overwrites f there), then breaks what is
- * stretched beyond its limit. A bond acts with half its force in the step in which it breaks: a leap-frog kick stands half
- * before and half after that instant, so the energy of breaking is second order in the time step (all or nothing of it is
- * first order). Sets FLAG_CUT (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. Moves
- * 4 bytes per bond from memory on a lattice, 12 where weights differ, 16 or 24 elsewhere (bond_slot.h); positions come from
- * cache. Returns the directed bonds broken. With `motion` peridynamic particles that are awake, that the grid does not move
- * and that are not `loaded` move in the same sweep (sweep.h). */
-typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit, struct pd_motion *motion);
+/* Force of all intact bonds on the particle of every active row (active_set.h; overwrites f there), then breaks
+ * bonds that are stretched beyond their limit. A bond acts with half its force in the step in which it breaks: a
+ * leap-frog kick stands half before and half after that instant, so the energy of breaking is second order in the
+ * time step (first order with the whole force or none). Sets FLAG_CUT (and FLAG_CRACKED where neither end is
+ * driven), damage, broken counts and fracture energy. Reads 4 bytes per bond from memory on a lattice, 12 where
+ * weights differ, 16 or 24 elsewhere (bond_column.h); positions come from cache. Returns the directed bonds broken.
+ * With `motion` active peridynamic particles that the grid does not move and that are not `loaded` move in the same
+ * sweep (sweep.h). */
+typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                              struct pd_motion *motion);
 
-/* The same by the sweep of a model, where some bonds lead to images in clamped planes (bonds.h), whose sources and rows have to be
- * `loaded`: what such bonds do to their images is brought back to the sources (clamp_force.c). The only way to forces of bonds. */
-KERNEL(int64_t, bond_forces, (bond_force_fn *sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
-                              struct pd_motion *motion));
+/* The same by the sweep of a model, where some bonds lead to images in clamped planes (bonds.h), whose sources and
+ * rows have to be `loaded`: what such bonds do to their images is brought back to the sources (clamp_force.c). The
+ * only way to forces of bonds. */
+KERNEL(int64_t, bond_forces,
+       (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
+        struct pd_motion *motion));
 
-/* What particles know of their families, into b->state: the first half of a state-based force. Whoever breaks bonds of rows
- * just made calls it before, if bond_break_asks. Material points at the end of bonds are told what it means to their cells
- * (particles.end_pull, end_moment). */
-typedef void state_know_fn(struct bonds *b, struct particles *p);
+/* Dilatation, spring and rotation of the families, into b->state: the first half of a state-based force. To be
+ * called before bonds of new rows break (bond_break_asks). Material points at the end of bonds receive the reaction
+ * on their cells (particles.end_pull, end_moment). */
+typedef void state_precompute_fn(struct bonds *b, struct particles *p);
 
-/* The rule of breaking, applied to one group, or to all: bonds made for particles that were material points until then
- * may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds broken. */
-KERNEL(int64_t, bond_break_group, (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group));
+/* The rule of breaking, applied to one row block, or to all: bonds made for particles that were material points
+ * until then may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds
+ * broken. */
+KERNEL(int64_t, bond_break_row_block,
+       (struct bonds * b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 KERNEL(int64_t, bond_break_all, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
-/* Might it break a bond of a material point whose energy is in what families know? Peridynamic rows tell theirs by themselves. */
+/* Might it break a bond of a material point whose energy is in what families know? Peridynamic rows tell theirs by
+ * themselves. */
 KERNEL(bool, bond_break_asks, (const struct bonds *b, const struct particles *p, const struct bond_limit *limit));
 
-/* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as fracture:
- * a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the next positions.
- * The other entry of the bond has to fade alike. */
+/* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as
+ * fracture: a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the
+ * next positions. The other entry of the bond has to fade alike. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Elastic energy of a row of a state-based model by its present weights and places, whatever the last sweep left [J]. */
+/* Elastic energy of a row of a state-based model by its present weights and places, whatever the last sweep left
+ * [J]. */
 KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row));
 
 /* Half the elastic energy of every row's intact bonds, added up in fixed blocks [J]. */
@@ -119,13 +129,13 @@ KERNEL(real, bond_plastic_work, (const struct bonds *b));
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
-/* v += dt_velocity f/m, x += dt v of those of the n listed particles that are peridynamic and that the grid does not move; in
- * ascending order from a 32-byte boundary on. Returns whether one of them is out of hand. */
+/* v += dt_velocity f/m, x += dt v of those of the n listed particles that are peridynamic and that the grid does not
+ * move; in ascending order from a 32-byte boundary on. Returns whether one of them is diverged. */
 typedef bool pd_move_fn(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *motion);
 
-/* Whether one of the n listed particles, in ascending order from a 32-byte boundary on, is faster than `limit` [m/s] or has a
- * place or velocity that is no finite number. */
-KERNEL(bool, particles_out_of_hand, (const struct particles *p, const int32_t *list, int64_t n, real limit));
+/* Whether one of the n listed particles, in ascending order from a 32-byte boundary on, is faster than `limit` [m/s]
+ * or has a place or velocity that is no finite number. */
+KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list, int64_t n, real limit));
 
 /* First map: mass, momentum, and force -V sigma_given . grad N + N f (Zeng et al. 2022, eqs. 33-38). */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
@@ -158,52 +168,54 @@ KERNEL_TABLE(bond_stress_fn, bond_stress_table, [PD_MODELS]);
 KERNEL_TABLE(bond_force_fn, state_force_table, [PD_MODELS]);
 KERNEL_TABLE(bond_energy_fn, state_energy_table, [PD_MODELS]);
 KERNEL_TABLE(bond_stress_fn, state_stress_table, [PD_MODELS]);
-KERNEL_TABLE(state_know_fn, state_know_table, [PD_MODELS]);
+KERNEL_TABLE(state_precompute_fn, state_precompute_table, [PD_MODELS]);
 KERNEL_TABLE(pd_move_fn, pd_move_table, );
 KERNEL_TABLE(p2g_fn, p2g_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(remap_fn, remap_table, [SHAPES]);
 KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_fn, spread_table, [SHAPES]);
 
-KERNEL(void, kernels_choose, (struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer));
+KERNEL(void, kernels_choose,
+       (struct kernels * k, int dim, enum pd_model model, enum shape shape, enum transfer transfer));
 
-/* ---- nodal updates between the maps, any dimension ------------------------------------------------- */
+/* ---- nodal updates between the maps, any dimension --------------------------------------------------------------- */
 
 KERNEL(void, grid_clear, (struct grid *g));      /* mass, momentum, force = 0 */
 
-/* Step 3: velocity = (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready for
- * the second map. At walls the velocity is prescribed and the change is that of the prescribed motion. Nodes
- * lighter than `smallest_mass` [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what the
- * walls gave to impulse [N s] and work [J]; with APIC, where particles take the nodal velocity itself, that includes the
- * momentum they replaced. */
-KERNEL(void, grid_move, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
-                         real *work));
+/* Step 3: velocity = (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready
+ * for the second map. At walls the velocity is prescribed and the change is that of the prescribed motion. Nodes
+ * lighter than `smallest_mass` [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what
+ * the walls gave to impulse [N s] and work [J]; with APIC, where particles take the nodal velocity itself, that
+ * includes the momentum they replaced. */
+KERNEL(void, grid_move,
+       (struct grid * g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
+        real *work));
 
 /* Step 6: momentum of the second map becomes its velocity, in place; walls prescribe. */
 KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 
-/* ---- the mesh of the reference frame (mesh.h), any dimension ---------------------------------------------- */
+/* ---- the mesh of the reference frame (mesh.h), any dimension ----------------------------------------------------- */
 
 /* f = 0. */
 KERNEL(void, mesh_clear, (struct mesh *mesh));
 
-/* Adds the internal forces of its cells that are awake (rest.h) to its nodes; runs whose points may be past their trigger are marked `stressed`.
- * `finite`: strain of Biot in axes that turn with the cell, else the symmetric gradient (mesh_law.h). Of the particles only what
- * bonds told the points at their ends is read. */
+/* Adds the internal forces of the active cells (active_set.h) to the nodes; runs whose points may be past their
+ * trigger are marked `stressed`. `finite`: Biot strain in axes that rotate with the cell, else the symmetric
+ * gradient (mesh_law.h). Of the particles only the reactions of bonds on the points at their ends are read. */
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
-/* v += dt_velocity f/m, u += dt v of the nodes that are awake, u to the multiples that mesh->rounding leaves; walls prescribe their velocity, and what they gave joins impulse [N s] and
- * work [J]. f becomes m dv/dt_velocity of each node. Returns the largest component of a velocity, infinite where one is no
- * number [m/s]. */
+/* v += dt_velocity f/m, u += dt v of the active nodes, u rounded to multiples of mesh->rounding; walls prescribe
+ * their velocity, and their reaction adds to impulse [N s] and work [J]. f becomes m dv/dt_velocity of each node.
+ * Returns the largest component of a velocity, infinite where one is not finite [m/s]. */
 KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work));
 
 /* Position and velocity of all its points; of those that mesh->see names; of those among the n listed particles. */
 KERNEL(void, mesh_points_move, (const struct mesh *mesh, struct particles *p));
-KERNEL(void, mesh_seen_move, (const struct mesh *mesh, struct particles *p));
+KERNEL(void, mesh_exposed_move, (const struct mesh *mesh, struct particles *p));
 KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n));
 /* Adds the forces f of the points that mesh->see names to the nodes; serial. */
-KERNEL(void, mesh_seen_force, (struct mesh *mesh, const struct particles *p));
-/* Cauchy stress and volume of all its points, for whoever looks. */
+KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p));
+/* Cauchy stress and volume of all points of the mesh. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 /* FLAG_STRESSED for points past their trigger, in the cut cells and runs that mesh_force marked. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
@@ -213,7 +225,7 @@ KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
 /* Elastic energy of the cells, with their part in that of the families of points at the ends of bonds [J]. */
 KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
-/* What cells tell the points at the ends of state-based bonds: particles.end_strain, end_turn. */
-KERNEL(void, mesh_ends_know, (const struct mesh *mesh, struct particles *p, bool finite));
+/* What cells tell the points at the ends of state-based bonds: particles.end_strain, end_rotation. */
+KERNEL(void, mesh_ends_update, (const struct mesh *mesh, struct particles *p, bool finite));
 
 #endif

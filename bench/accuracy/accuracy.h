@@ -1,18 +1,20 @@
-/* floor 5: what the parts of `cleave bench accuracy` share: error against loop time of every method on problems with known
- * solutions.
+/* What the parts of `cleave bench accuracy` share: error against loop time of every method on problems with
+ * known solutions.
  *
  *   a METHOD is a row of a table: a name and the scene keys that make it
- *   a PROBLEM is a row of a table: its cases, which methods and resolutions apply, a function that writes the scene of a
+ *   a PROBLEM is a row of a table: its cases, which methods and resolutions apply, a function that writes the scene of
+ *   a
  *     point and one that measures the error of the finished run
  *   a POINT is one run: problem, case, method, resolution, horizon, share of the critical time step
  *
- * To add a problem: write its two functions in a file of its own, and a line in accuracy_problem[] (accuracy_plan.c). */
-#ifndef CLEAVE_ACCURACY_H
-#define CLEAVE_ACCURACY_H
+ * To add a problem: write its two functions in a file of its own, and a line in accuracy_problem[]
+ * (accuracy_plan.c). */
+#ifndef CLEAVE_BENCH_ACCURACY
+#define CLEAVE_BENCH_ACCURACY
 
 #include "bench/common/bench.h"
 
-/* ---- methods (accuracy_methods.c) ------------------------------------------------------------------------ */
+/* ---- methods (accuracy_methods.c) -------------------------------------------------------------------------------- */
 
 /* Kinds of methods; a problem says which apply (bits). */
 enum accuracy_family {
@@ -40,9 +42,15 @@ struct accuracy_method {
 extern const struct accuracy_method accuracy_method[];
 extern const int accuracy_methods;
 
-/* ---- problems (accuracy_plan.c) ----------------------------------------------------------------------- */
+/* ---- problems (accuracy_plan.c) ---------------------------------------------------------------------------------- */
 
-enum { ACCURACY_CASES = 6, ACCURACY_RESOLUTIONS = 6, ACCURACY_VARIATIONS = 3, ACCURACY_PARTS = 3, ACCURACY_REMARKS = 5 };
+enum {
+    ACCURACY_CASES = 6,
+    ACCURACY_RESOLUTIONS = 6,
+    ACCURACY_VARIATIONS = 3,
+    ACCURACY_PARTS = 3,
+    ACCURACY_REMARKS = 5
+};
 
 struct accuracy_problem;
 
@@ -73,8 +81,8 @@ struct accuracy_problem {
     int dim;                     /* of its space: how work grows with resolution             */
     int resolution[ACCURACY_RESOLUTIONS];        /* ascending; 0 ends                        */
     int quick_resolutions;       /* the first few                                            */
-    double horizon[ACCURACY_VARIATIONS];         /* of pure peridynamics beside 3.015: the first at every resolution, others
-                                                    at one; 0 ends                           */
+    /* of pure peridynamics beside 3.015: the first at every resolution, others at one; 0 ends */
+    double horizon[ACCURACY_VARIATIONS];
     double step[ACCURACY_VARIATIONS];            /* beside 0.8, at that one; 0 ends          */
     bool steps;                  /* the first of them at every resolution, and with --quick   */
     int varied;                  /* 1 + its place; 0: the second                             */
@@ -110,7 +118,7 @@ const char *accuracy_solver(const struct accuracy_point *p);
 /* Helps for `measure`: a figure of a probe (NAN: none), in memory. */
 double accuracy_figure(const struct engine *e, const char *probe, const char *quantity);
 
-/* ---- results ------------------------------------------------------------------------------------------------ */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 struct accuracy_result {
     bool known;                  /* measured, now or before                                  */
@@ -140,11 +148,11 @@ status accuracy_store_read(struct accuracy_plan *plan);
 status accuracy_store_append(const struct accuracy_entry *entry);
 status accuracy_store_write(const struct accuracy_plan *plan);
 
-/* bench_accuracy.c: one run on `team` + 1 threads: least time so far; the error where r is not yet known. A run that the program
- * stops as unstable is a result, too. With `choice` it is a scene of method auto. */
+/* bench_accuracy.c: one run on `team` + 1 threads: least time so far; the error where r is not yet known. A run that
+ * the program stops as unstable is a result, too. With `choice` it is a scene of method auto. */
 void accuracy_result_clear(struct accuracy_result *r);
-status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team, struct accuracy_result *r,
-                          struct scene_choice *choice);
+status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team,
+                          struct accuracy_result *r, struct scene_choice *choice);
 #define ACCURACY_AUTO BENCH_FOLDER "/accuracy_auto.csv"
 /* accuracy_auto.c: `cleave bench accuracy=auto`: method auto on every case of the chart and on other problems. */
 status accuracy_auto(struct accuracy_plan *plan, bool quick);
@@ -155,7 +163,7 @@ extern const int accuracy_others;
 /* accuracy_chart.c: results/bench/chart.csv, from which `method: auto` chooses. */
 status accuracy_chart_write(const struct accuracy_plan *plan);
 
-/* ---- accuracy_front.c: what a cloud of points says ------------------------------------------------------------- */
+/* ---- accuracy_front.c: what a cloud of points says --------------------------------------------------------------- */
 
 /* Time [s] and error [1] of a point; either not finite: it does not count. */
 struct accuracy_dot { double time, error; };
@@ -166,7 +174,7 @@ int accuracy_front(const struct accuracy_dot *dot, int n, int *front);
 /* The point of least time with at most this error; -1: none. */
 int accuracy_cheapest(const struct accuracy_dot *dot, int n, double error);
 
-/* ---- accuracy_draw.c, accuracy_page.c ----------------------------------------------------------------------------- */
+/* ---- accuracy_draw.c, accuracy_page.c ---------------------------------------------------------------------------- */
 
 /* `pd bond 100`, with `h` the horizon and `dt` the share of the critical step where they are not the usual ones. */
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size);

@@ -1,5 +1,6 @@
-/* floor 5: `cleave bench accuracy=auto`: `method: auto` on every case of the chart, beside the cheapest run of the chart
- * that is as accurate, both timed here in turn; and on problems that are not in it. results/bench/accuracy_auto.csv. */
+/* `cleave bench accuracy=auto`: `method: auto` on every case of the chart, beside the cheapest run of the
+ * chart that is as accurate, both timed here in turn; and on problems that are not in it.
+ * results/bench/accuracy_auto.csv. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +13,7 @@ static const double asked[] = {0.05, 0.01, 0.003};
 enum { TURNS_LEAST = 3, TURNS_MOST = 30 };
 #define TURNS_SECONDS 1.5                /* all in all: short runs are repeated for their time */
 
-/* ---- scenes ------------------------------------------------------------------------------------------------------- */
+/* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
 static void take_away(struct accuracy_scene *s, const char *key)
 {
@@ -54,7 +55,8 @@ static void make_auto(const struct accuracy_plan *plan, const struct accuracy_po
 }
 
 /* The cheapest run of the chart in this case that is accurate enough. */
-static const struct accuracy_entry *best_of(const struct accuracy_plan *plan, const struct accuracy_point *p, double accuracy)
+static const struct accuracy_entry *best_of(const struct accuracy_plan *plan, const struct accuracy_point *p,
+                                            double accuracy)
 {
     const struct accuracy_entry *best = NULL;
     for (int k = 0; k < plan->n; k++) {
@@ -65,7 +67,7 @@ static const struct accuracy_entry *best_of(const struct accuracy_plan *plan, co
     return best;
 }
 
-/* ---- one line --------------------------------------------------------------------------------------------------------- */
+/* ---- one line ---------------------------------------------------------------------------------------------------- */
 
 struct trial {
     const struct accuracy_point *point;
@@ -129,13 +131,14 @@ static void put_trial(struct bench_table *table, const struct trial *t)
     bench_text(table, p->problem->name), bench_text(table, p->problem->cases[p->at]);
     bench_text(table, t->refused ? "refused" : t->choice.picked);
     const double time = t->automatic.seconds[0];
-    const double figures[] = {t->choice.horizon, t->choice.resolution, t->accuracy, t->choice.error, t->automatic.error, time,
+    const double figures[] = {t->choice.horizon,  t->choice.resolution,     t->accuracy,
+                              t->choice.error,    t->automatic.error,       time,
                               t->best.seconds[0], time / t->best.seconds[0]};
     for (size_t k = 0; k < COUNT_OF(figures); k++) bench_number(table, t->refused && k != 2 ? NAN : figures[k]);
     bench_text(table, t->refused ? "-" : t->best_label[0] ? t->best_label : "-");
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------------ */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
 struct tally { int asked, refused, missed, slow, timed; };
 
@@ -154,7 +157,8 @@ static status try_problem(const struct accuracy_plan *plan, const struct accurac
             sum->asked++, sum->refused += t.refused;
             if (t.refused) continue;
             sum->missed += !(t.automatic.error <= t.accuracy);
-            sum->timed += t.best.known, sum->slow += t.best.known && t.automatic.seconds[0] > RATIO_ASKED * t.best.seconds[0];
+            sum->timed += t.best.known,
+                sum->slow += t.best.known && t.automatic.seconds[0] > RATIO_ASKED * t.best.seconds[0];
         }
     return OK;
 }
@@ -174,14 +178,17 @@ status accuracy_auto(struct accuracy_plan *plan, bool quick)
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_store_read(plan));
     if (any_known(plan)) TRY(accuracy_chart_write(plan));
-    bench_table_make(&table, "", "problem,case,picked,horizon,resolution,asked,expected,measured,seconds,best_seconds,ratio,"
-                                 "best");
+    bench_table_make(&table, "",
+                     "problem,case,picked,horizon,resolution,asked,expected,measured,seconds,best_seconds,ratio,"
+                     "best");
     status s = try_all(plan, quick, &table, &sum);
     team_make(0);
     if (s == OK) s = bench_write("accuracy_auto", &table, 1);
     bench_table_free(&table);
     if (s == OK) s = accuracy_page(plan);
-    printf("  %d asked, %d refused; of the others %d missed; of %d beside the chart's best %d took more than %.2g times its "
-           "time\n", sum.asked, sum.refused, sum.missed, sum.timed, sum.slow, RATIO_ASKED);
+    printf("  %d asked, %d refused; of the others %d missed; of %d beside the chart's best %d took more than %.2g "
+           "times its "
+           "time\n",
+           sum.asked, sum.refused, sum.missed, sum.timed, sum.slow, RATIO_ASKED);
     return s;
 }

@@ -1,4 +1,5 @@
-/* floor 5: problem 1 of the speed-accuracy chart: an elastic bar, a step and a smooth pulse, beside d'Alembert's solution. */
+/* Problem 1 of the speed-accuracy chart: an elastic bar, a step and a smooth pulse, beside d'Alembert's
+ * solution. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,8 +17,8 @@ static const char step_text[] =
     "boundary: [{name: wall, mirror: {axis: x, at: 0}}, {name: pull, traction: [1 Pa], face: x+}]\n"
     "probes: [exact: step bar]\n";
 
-/* A Gaussian pulse four radii = 0.4 m wide runs 0.4 m, clear of both ends, through the middle where methods meet. Strains
- * of 1e-7. As inputs/bar_smooth.yaml. */
+/* A Gaussian pulse four radii = 0.4 m wide runs 0.4 m, clear of both ends, through the middle where methods meet.
+ * Strains of 1e-7. As inputs/bar_smooth.yaml. */
 static const char pulse_text[] =
     "space: line\nduration: 4 ms\nmaterial: {young: 1e4, density: 1, critical_stretch: inf}\n"
     "body: {box: {from: [0], to: [1.6]}}\nparticles: {spacing: 0.01}\n"
@@ -25,7 +26,7 @@ static const char pulse_text[] =
     "initial: [{pulse: {at: [0.6], direction: [1], width: 0.4, velocity: 1e-5}}]\n"
     "probes: [exact: pulse]\n";
 
-static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     snprintf(s->text, sizeof s->text, "%s", p->at == STEP ? step_text : pulse_text);
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
@@ -36,7 +37,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0.5 * M_PI) / 1.6); }
 
 /* Stress and velocity carry the same energy. A front is of no order in the mean square: there the mean counts. */
-static status measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_bar_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
 {
     const double impedance = 100;                /* rho c [Pa s/m] */
     if (p->at == STEP) {
@@ -52,7 +53,7 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
 }
 
 /* A line has one shell of bonds for each distance: isotropic weights change nothing. */
-static bool applies(const struct accuracy_point *p) { return !strstr(p->method->name, "isotropic"); }
+static bool accuracy_bar_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "isotropic"); }
 
 const struct accuracy_problem accuracy_bar = {
     .name = "bar",
@@ -68,17 +69,18 @@ const struct accuracy_problem accuracy_bar = {
     .horizon = {2.015, 5.015, 8.015},
     .step = {0.4, 0.2},
     .varied = 3,
-    .remark = {"A front is of order 0.45 to 0.6 in the mean, whatever the method: 1600 particles reach 1.1 %.",
-               "Stress of linear shapes, GIMP and the reference frame is of first order, one strain a cell; that of bonds "
-               "and B-splines is of second, as all velocities are.",
-               "FLIP takes velocities to the grid and back in every step, which slows waves by 0.09 (k h)^2 beside the "
-               "grid's own 0.04: three times APIC's error in velocity, six times that of the reference frame.",
-               "Bonds calibrated by vmpd are 2 % soft at a horizon of 3.015 and 4 % at 2.015: the pulse stops at 4.3 and "
-               "8.4 %.",
-               "Bars are too short for two threads: their times are those of one."},
+    .remark =
+        {"A front is of order 0.45 to 0.6 in the mean, whatever the method: 1600 particles reach 1.1 %.",
+         "Stress of linear shapes, GIMP and the reference frame is of first order, one strain a cell; that of bonds "
+         "and B-splines is of second, as all velocities are.",
+         "FLIP takes velocities to the grid and back in every step, which slows waves by 0.09 (k h)^2 beside the "
+         "grid's own 0.04: three times APIC's error in velocity, six times that of the reference frame.",
+         "Bonds calibrated by vmpd are 2 % soft at a horizon of 3.015 and 4 % at 2.015: the pulse stops at 4.3 and "
+         "8.4 %.",
+         "Bars are too short for two threads: their times are those of one."},
     .seconds = 15,
     .quick_seconds = 3,
-    .scene = make_scene,
-    .measure = measure,
-    .applies = applies,
+    .scene = accuracy_bar_make_scene,
+    .measure = accuracy_bar_measure,
+    .applies = accuracy_bar_applies,
 };

@@ -1,24 +1,24 @@
-/* floor 5: results/bench/chart.csv: what `method: auto` chooses from (src/auto/chart.h), made of what is known of the chart.
- * Kept are lines, all resolutions of a method at one horizon and step, of which a point lies on the front of its family in
- * some case: a scene may rule out all families but one. */
+/* Results/bench/chart.csv: what `method: auto` chooses from (src/auto/cost_accuracy.h), made of what is
+ * known of the chart. Kept are lines, all resolutions of a method at one horizon and step, of which a point lies on
+ * the front of its family in some case: a scene may rule out all families but one. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "accuracy.h"
-#include "src/auto/chart.h"
+#include "src/auto/cost_accuracy.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 
-/* ---- which lines ------------------------------------------------------------------------------------------------ */
+/* ---- which lines ------------------------------------------------------------------------------------------------- */
 
 static bool is_usable(const struct accuracy_entry *e)
 {
     return e->result.known && e->result.stable && isfinite(e->result.error) && isfinite(e->result.seconds[0]);
 }
 
-static bool same_line(const struct accuracy_point *a, const struct accuracy_point *b)
+static bool accuracy_chart_same_line(const struct accuracy_point *a, const struct accuracy_point *b)
 {
     return a->problem == b->problem && a->method == b->method && a->horizon == b->horizon && a->step == b->step;
 }
@@ -26,13 +26,15 @@ static bool same_line(const struct accuracy_point *a, const struct accuracy_poin
 #define WORST 0.2                        /* nobody asks for more: fronts of a line that is worse do not count */
 
 /* Marks what is on the front of one family in one case. */
-static void mark_front(const struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int family, bool *kept)
+static void mark_front(const struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int family,
+                       bool *kept)
 {
     struct accuracy_dot *dot = NEW("bench.chart", plan->n, struct accuracy_dot);
     int *of = NEW("bench.chart", plan->n, int), *front = NEW("bench.chart", plan->n, int), n = 0;
     for (int k = 0; k < plan->n; k++) {
         const struct accuracy_entry *e = &plan->entry[k];
-        if (e->point.problem != q || e->point.at != at || !((int)e->point.method->family & family) || !is_usable(e)) continue;
+        if (e->point.problem != q || e->point.at != at || !((int)e->point.method->family & family) || !is_usable(e))
+            continue;
         dot[n] = (struct accuracy_dot){e->result.seconds[0], e->result.error};
         of[n++] = k;
     }
@@ -50,15 +52,15 @@ static bool *kept_points(const struct accuracy_plan *plan)
                 mark_front(plan, accuracy_problem[k], at, family, marked);
     for (int k = 0; k < plan->n; k++)
         for (int j = 0; j < plan->n && !kept[k]; j++)
-            kept[k] = marked[j] && same_line(&plan->entry[k].point, &plan->entry[j].point);
+            kept[k] = marked[j] && accuracy_chart_same_line(&plan->entry[k].point, &plan->entry[j].point);
     memory_free(marked);
     return kept;
 }
 
-/* ---- lines of the file ---------------------------------------------------------------------------------------------- */
+/* ---- lines of the file ------------------------------------------------------------------------------------------- */
 
 /* Keys that have columns of their own or say nothing of the method. */
-static bool is_apart(const char *key)
+static bool accuracy_chart_is_apart(const char *key)
 {
     return strncmp(key, "particles.", 10) == 0 || strncmp(key, "time.", 5) == 0 || strncmp(key, "output.", 7) == 0;
 }
@@ -69,7 +71,7 @@ static void put_keys(FILE *to, const struct accuracy_point *p)
     const char *between = "";
     accuracy_scene_make(p, &s);
     for (int k = 0; k < s.set.n; k++) {
-        bool again = is_apart(s.set.at[k].key);
+        bool again = accuracy_chart_is_apart(s.set.at[k].key);
         for (int j = k + 1; j < s.set.n; j++) again |= strcmp(s.set.at[j].key, s.set.at[k].key) == 0;
         if (again) continue;
         fprintf(to, "%s%s=%s", between, s.set.at[k].key, s.set.value[k]);

@@ -1,11 +1,12 @@
-/* floor 5: problem 5 of the speed-accuracy chart: stress-intensity factors of an edge crack and of an inclined one, at rest.
- * As inputs/edge_crack_k1.yaml and inputs/inclined_crack.yaml. Solvers as with the hole (accuracy_hole.c). Material points
- * alone know cracks only as gaps, here of one cell, and an inclined one does not follow the lattice. In the current frame
- * they do not apply: beside a gap of two cells relaxation (gimp, apic) was not at rest after 200,000 steps, and cubic splines
- * reach across it (K_I 64 % low).
+/* Problem 5 of the speed-accuracy chart: stress-intensity factors of an edge crack and of an inclined one,
+ * at rest. As inputs/edge_crack_k1.yaml and inputs/inclined_crack.yaml. Solvers as with the hole (accuracy_hole.c).
+ * Material points alone know cracks only as gaps, here of one cell, and an inclined one does not follow the lattice.
+ * In the current frame they do not apply: beside a gap of two cells relaxation (gimp, apic) was not at rest after
+ * 200,000 steps, and cubic splines reach across it (K_I 64 % low).
  *
- * In the reference frame the load grows over 200 transits: the slowest motion of the edge crack's halves takes about 13, and a
- * body lags behind a load that grows by sin^2 by a share of (period/duration)^2/8 (over 30 transits 2.5 % were measured). */
+ * In the reference frame the load grows over 200 transits: the slowest motion of the edge crack's halves takes about
+ * 13, and a body lags behind a load that grows by sin^2 by a share of (period/duration)^2/8 (over 30 transits 2.5 %
+ * were measured). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,8 +15,8 @@
 
 enum { EDGE, INCLINED };
 
-/* Over sigma (pi a)^0.5. Edge crack: a/W = 0.5, H = W, by boundary collocation: 3.0070, 3.0084, 3.0087 with 60, 90, 130 terms,
- * 3.009 as in handbooks. Inclined: 45 degrees, as inputs/inclined_crack.yaml. */
+/* Over sigma (pi a)^0.5. Edge crack: a/W = 0.5, H = W, by boundary collocation: 3.0070, 3.0084, 3.0087 with 60, 90,
+ * 130 terms, 3.009 as in handbooks. Inclined: 45 degrees, as inputs/inclined_crack.yaml. */
 static const double exact[2][2] = {{3.009, 0}, {0.6612, 0.5674}}, length[2] = {5e-3, 3e-3};
 static const double pull = 1e6;
 
@@ -45,7 +46,7 @@ static void put_inclined(FILE *to, const char *time)
             "boundary: [{traction: [1 MPa, 0], face: x+%s}, {traction: [-1 MPa, 0], face: x-%s}]\n", time, time);
 }
 
-static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const bool waits = accuracy_is_reference(p);
     const double duration = 200 * (p->at == EDGE ? 10e-3 : 20e-3) / sqrt(200e9 * 9 / 8 / 7850);
@@ -64,7 +65,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 }
 
 /* Shares of the size of both factors. */
-static status measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_cracks_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
 {
     static const char *const factor[2] = {"K_I", "K_II"};
     const double size = pull * sqrt(M_PI * length[p->at]), *wanted = exact[p->at];
@@ -74,11 +75,12 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
     return OK;
 }
 
-static bool applies(const struct accuracy_point *p)
+static bool accuracy_cracks_applies(const struct accuracy_point *p)
 {
     const bool inclined = p->at == INCLINED;
     if (p->method->family & ACCURACY_MPM && inclined) return false;
-    if (p->method->family & ACCURACY_BONDS && p->horizon == 1.5) return false;   /* bonds to eight neighbours: not isotropic */
+    /* bonds to eight neighbours: not isotropic */
+    if (p->method->family & ACCURACY_BONDS && p->horizon == 1.5) return false;
     if (p->resolution > (inclined ? 200 : 400)) return false;
     if (p->method->family & (ACCURACY_PD | ACCURACY_REFERENCE)) return true;
     if (accuracy_is_reference(p)) return p->resolution <= (inclined ? 64 : 100);
@@ -98,15 +100,16 @@ const struct accuracy_problem accuracy_cracks = {
     .quick_resolutions = 2,
     .horizon = {1.5, 2.015, 5.015},
     .varied = 3,
-    .remark = {"The tip is known to no better than a cell: in the reference frame, linear cells of two spacings, K_I "
-               "of a gap is 4.6, 2.2 and 1.5 % high at 32, 64 and 100 particles.",
-               "mospd: 0.8, 0.2 % of K_I at 32 and 64 particles, but K_II of the inclined crack 7.5 and 4.6 % high; a "
-               "horizon of 1.5 with local families cures that (2.9 and 1.4 %).",
-               "Bodies coupled by partial stress or hand-shake in the current frame were not at rest after 8,000 steps of "
-               "relaxation with 64 and 100 particles round the edge crack: shown as unstable. pgg holds the crack together."},
+    .remark =
+        {"The tip is known to no better than a cell: in the reference frame, linear cells of two spacings, K_I "
+         "of a gap is 4.6, 2.2 and 1.5 % high at 32, 64 and 100 particles.",
+         "mospd: 0.8, 0.2 % of K_I at 32 and 64 particles, but K_II of the inclined crack 7.5 and 4.6 % high; a "
+         "horizon of 1.5 with local families cures that (2.9 and 1.4 %).",
+         "Bodies coupled by partial stress or hand-shake in the current frame were not at rest after 8,000 steps of "
+         "relaxation with 64 and 100 particles round the edge crack: shown as unstable. pgg holds the crack together."},
     .seconds = 500,
     .quick_seconds = 40,
-    .scene = make_scene,
-    .measure = measure,
-    .applies = applies,
+    .scene = accuracy_cracks_make_scene,
+    .measure = accuracy_cracks_measure,
+    .applies = accuracy_cracks_applies,
 };

@@ -1,7 +1,8 @@
-/* floor 5: pictures of the speed-accuracy chart: a panel for each case of a problem, and one page with all problems.
+/* Pictures of the speed-accuracy chart: a panel for each case of a problem, and one page with all problems.
  *
- * A point is a run: its time on one thread, a thin line to that on two. Lines join the resolutions of a method; small marks
- * are other horizons and steps; a cross at the upper edge is a run that was unstable. The broad grey line is the front. */
+ * A point is a run: its time on one thread, a thin line to that on two. Lines join the resolutions of a method;
+ * small marks are other horizons and steps; a cross at the upper edge is a run that was unstable. The broad grey
+ * line is the front. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +11,7 @@
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 
-/* ---- points ------------------------------------------------------------------------------------------------- */
+/* ---- points ------------------------------------------------------------------------------------------------------ */
 
 static bool is_usual(const struct accuracy_point *p)
 {
@@ -69,7 +70,7 @@ int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_proble
     return n;
 }
 
-/* ---- one panel ------------------------------------------------------------------------------------------------ */
+/* ---- one panel --------------------------------------------------------------------------------------------------- */
 
 struct panel {
     int n, front_n, *front, number;
@@ -93,8 +94,8 @@ static void panel_range(struct panel *q)
     q->latest *= 1.5, q->soonest *= pow(q->soonest / q->latest, 0.52);
 }
 
-static void panel_make(struct panel *q, const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at,
-                       int part)
+static void panel_make(struct panel *q, const struct accuracy_plan *plan, const struct accuracy_problem *problem,
+                       int at, int part)
 {
     q->dot = NEW("bench.dot", plan->n, struct accuracy_dot), q->front = NEW("bench.front", plan->n, int);
     q->of = NEW("bench.of", plan->n, const struct accuracy_entry *);
@@ -157,7 +158,7 @@ static bool has_method(const struct panel *q, int m)
     return false;
 }
 
-static void plot_panel(FILE *to, const struct panel *q)
+static void accuracy_draw_panel(FILE *to, const struct panel *q)
 {
     fprintf(to, "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"
             "plot $p%d_front using 1:2 with lines lw 9 lc rgb '#dddddd' notitle", q->soonest, q->latest, 100 * q->least,
@@ -170,9 +171,11 @@ static void plot_panel(FILE *to, const struct panel *q)
                 ", $p%d_%d_0 using 1:3 with linespoints lw 1 pt %d ps 0.9 lc rgb '%s' notitle"
                 ", $p%d_%d_1 using 1:3 with points pt %d ps 0.45 lc rgb '%s' notitle"
                 ", $p%d_%d_2 using 1:3 with points pt 2 ps 1.2 lw 1.6 lc rgb '%s' notitle",
-                q->number, m, q->number, m, a->mark, a->colour, q->number, m, a->mark, a->colour, q->number, m, a->colour);
+                q->number, m, q->number, m, a->mark, a->colour, q->number, m, a->mark, a->colour, q->number, m,
+                a->colour);
     }
-    fprintf(to, ", $p%d_front using 1:2:3 with labels right offset -0.6,-0.5 font ',8' textcolor rgb '#222222' notitle\n",
+    fprintf(to,
+            ", $p%d_front using 1:2:3 with labels right offset -0.6,-0.5 font ',8' textcolor rgb '#222222' notitle\n",
             q->number);
 }
 
@@ -180,9 +183,12 @@ static void plot_panel(FILE *to, const struct panel *q)
 static void plot_key(FILE *to, const struct panel *panel, int panels, double left)
 {
     fprintf(to,
-            "unset logscale\nunset border\nunset tics\nset title ''\nset xlabel ''\nset ylabel ''\nset grid noxtics noytics\n"
-            "set lmargin at screen %g\nset rmargin at screen 0.995\nset tmargin at screen 0.96\nset bmargin at screen 0.04\n"
-            "set key at screen %g,0.95 left top vertical maxrows 40 Left reverse samplen 1.6 spacing 1 font ',9.5'\nset xrange [0:1]\n"
+            "unset logscale\nunset border\nunset tics\nset title ''\nset xlabel ''\nset ylabel ''\nset grid noxtics "
+            "noytics\n"
+            "set lmargin at screen %g\nset rmargin at screen 0.995\nset tmargin at screen 0.96\nset bmargin at screen "
+            "0.04\n"
+            "set key at screen %g,0.95 left top vertical maxrows 40 Left reverse samplen 1.6 spacing 1 font "
+            "',9.5'\nset xrange [0:1]\n"
             "set yrange [0:1]\nplot ",
             left, left);
     for (int m = 0; m < accuracy_methods; m++) {
@@ -193,12 +199,13 @@ static void plot_key(FILE *to, const struct panel *panel, int panels, double lef
                 accuracy_method[m].colour, accuracy_method[m].name);
     }
     fputs("NaN with lines lw 9 lc rgb '#dddddd' title 'front', NaN with points pt 7 ps 0.45 lc rgb '#777777' title "
-          "'other horizon or step', NaN with points pt 2 ps 1.2 lw 1.6 lc rgb '#777777' title 'unstable', NaN with lines lw "
+          "'other horizon or step', NaN with points pt 2 ps 1.2 lw 1.6 lc rgb '#777777' title 'unstable', NaN with "
+          "lines lw "
           "0.6 lc rgb '#999999' title 'to two threads'\n",
           to);
 }
 
-/* ---- a page of panels --------------------------------------------------------------------------------------------- */
+/* ---- a page of panels -------------------------------------------------------------------------------------------- */
 
 enum { COLUMNS = 3, PANELS_MAX = 16, KEY_PIXELS = 290, PANEL_WIDTH = 540, PANEL_HEIGHT = 480 };
 
@@ -240,17 +247,22 @@ static void draw_page(FILE *to, const void *context)
     const double width = (double)p->columns * PANEL_WIDTH / page_width(p) / p->columns, height = 1.0 / p->rows;
     for (int k = 0; k < p->panels; k++) put_sets(to, &p->panel[k]), put_front(to, &p->panel[k]);
     fputs("set multiplot\nset logscale xy\nset format x '%.0s %cs'\nunset key\n"
-          "set ytics ('0.001 %%' 0.001, '0.002 %%' 0.002, '0.005 %%' 0.005, '0.01 %%' 0.01, '0.02 %%' 0.02, '0.05 %%' 0.05, "
-          "'0.1 %%' 0.1, '0.2 %%' 0.2, '0.5 %%' 0.5, '1 %%' 1, '2 %%' 2, '5 %%' 5, '10 %%' 10, '20 %%' 20, '50 %%' 50, '100 %%' 100, "
-          "'200 %%' 200, '500 %%' 500)\nset xlabel 'loop time on one thread'\n", to);
+          "set ytics ('0.001 %%' 0.001, '0.002 %%' 0.002, '0.005 %%' 0.005, '0.01 %%' 0.01, '0.02 %%' 0.02, '0.05 %%' "
+          "0.05, "
+          "'0.1 %%' 0.1, '0.2 %%' 0.2, '0.5 %%' 0.5, '1 %%' 1, '2 %%' 2, '5 %%' 5, '10 %%' 10, '20 %%' 20, '50 %%' 50, "
+          "'100 %%' 100, "
+          "'200 %%' 200, '500 %%' 500)\nset xlabel 'loop time on one thread'\n",
+          to);
     for (int k = 0; k < p->panels; k++) {
         const double left = k % p->columns * width, above = 1 - k / p->columns * height;
-        fprintf(to, "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n",
-                left + 0.19 * width, left + 0.97 * width, above - 0.1 * height, above - 0.86 * height);
+        fprintf(
+            to,
+            "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n",
+            left + 0.19 * width, left + 0.97 * width, above - 0.1 * height, above - 0.86 * height);
         fputs("set title ", to);
         gnuplot_quote(to, p->title[k]);
         fprintf(to, "\nset ylabel '%s' offset 0.8,0\n", k % p->columns ? "" : "error");
-        plot_panel(to, &p->panel[k]);
+        accuracy_draw_panel(to, &p->panel[k]);
     }
     plot_key(to, p->panel, p->panels, p->columns * width + 0.01);
     fputs("unset multiplot\n", to);
@@ -268,7 +280,8 @@ status accuracy_draw(const struct accuracy_plan *plan)
     for (int k = 0; k < accuracy_problems; k++) {
         struct page one = {0};
         char name[64];
-        for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++) add_panel(&one, plan, accuracy_problem[k], at, -1);
+        for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++)
+            add_panel(&one, plan, accuracy_problem[k], at, -1);
         for (int part = 0; part < ACCURACY_PARTS && accuracy_problem[k]->draws_parts; part++)
             if (accuracy_problem[k]->part[part]) add_panel(&one, plan, accuracy_problem[k], -1, part);
         snprintf(name, sizeof name, "accuracy_%s", accuracy_problem[k]->name);

@@ -1,5 +1,6 @@
-/* floor 5: problem 8 of the speed-accuracy chart: the plates of inputs/kalthoff_winkler.yaml and inputs/plate_crack.yaml: path,
- * start and speed of their cracks beside peridynamics at a quarter of the scenes' spacing (accuracy_reference.h). */
+/* Problem 8 of the speed-accuracy chart: the plates of inputs/kalthoff_winkler.yaml and
+ * inputs/plate_crack.yaml: path, start and speed of their cracks beside peridynamics at a quarter of the scenes'
+ * spacing (accuracy_reference.h). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,29 +10,31 @@
 
 enum { KALTHOFF, PULLED };
 
-/* Growth at which a crack has started, and to which its speed counts at the most; of its path, rings round the end of the pre-crack. */
+/* Growth at which a crack has started, and to which its speed counts at the most; of its path, rings round the end
+ * of the pre-crack. */
 static const struct { double start, until, ring[FRACTURE_RINGS], width; } watched[2] = {
     [KALTHOFF] = {5e-3, 20e-3, {7.5e-3, 12.5e-3, 17.5e-3, 22.5e-3}, 2.5e-3},
     [PULLED] = {1e-3, 3e-3, {1.5e-3, 2e-3, 2.5e-3, 3e-3}, 0.5e-3}};
 enum { SAMPLES = 200 };
 
-/* ---- scenes ---------------------------------------------------------------------------------------------------- */
+/* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
 /* Both plates are `resolution` particles high or wide by 100 and 50 mm; three layers, or as thick as in the files, are
  * driven. Edges, notches and ends of cracks lie between particles. */
-static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double h = (p->at == KALTHOFF ? 100.0 : 50.0) / p->resolution;
     if (p->at == KALTHOFF) {
         const double layer = fmax(3, 3 * h);
-        snprintf(s->text, sizeof s->text,
-                 "space: plane stress\nthickness: 10 mm\nduration: 50 us\n"
-                 "material: {young: 190 GPa, poisson: 1/3, density: 7800 kg/m^3, energy_release_rate: 69 kJ/m^2}\n"
-                 "body: [{box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}, {add: {box: {from: [-%g mm, -25 mm], to: [0, "
-                 "25 mm]}}}]\nparticles: {spacing: 1 mm}\n"
-                 "cracks: [{from: [-%g mm, -25 mm], to: [50 mm, -25 mm]}, {from: [-%g mm, 25 mm], to: [50 mm, 25 mm]}]\n"
-                 "boundary: [{velocity: [22 m/s, free], region: {box: {from: [-%g mm, -25 mm], to: [0, 25 mm]}}}]\n",
-                 layer, layer + 1, layer + 1, layer);
+        snprintf(
+            s->text, sizeof s->text,
+            "space: plane stress\nthickness: 10 mm\nduration: 50 us\n"
+            "material: {young: 190 GPa, poisson: 1/3, density: 7800 kg/m^3, energy_release_rate: 69 kJ/m^2}\n"
+            "body: [{box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}, {add: {box: {from: [-%g mm, -25 mm], to: [0, "
+            "25 mm]}}}]\nparticles: {spacing: 1 mm}\n"
+            "cracks: [{from: [-%g mm, -25 mm], to: [50 mm, -25 mm]}, {from: [-%g mm, 25 mm], to: [50 mm, 25 mm]}]\n"
+            "boundary: [{velocity: [22 m/s, free], region: {box: {from: [-%g mm, -25 mm], to: [0, 25 mm]}}}]\n",
+            layer, layer + 1, layer + 1, layer);
     } else {
         const double edge = 25 + fmax(1.5, 3 * h);
         snprintf(s->text, sizeof s->text,
@@ -39,10 +42,13 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
                  "material: {young: 192 GPa, poisson: 1/3, density: 8000 kg/m^3, energy_release_rate: 82907 J/m^2}\n"
                  "body: {box: {from: [-25 mm, -%g mm], to: [25 mm, %g mm]}}\nparticles: {spacing: 0.5 mm}\n"
                  "cracks: [{from: [-5 mm, 0], to: [5 mm, 0]}]\nboundary:\n"
-                 "  - {velocity: [free, 18 m/s], region: {box: {from: [-25 mm, 25 mm], to: [25 mm, 100 mm]}}, time: {step: {until: "
+                 "  - {velocity: [free, 18 m/s], region: {box: {from: [-25 mm, 25 mm], to: [25 mm, 100 mm]}}, time: "
+                 "{step: {until: "
                  "4.5 us}}}\n"
-                 "  - {velocity: [free, -18 m/s], region: {box: {from: [-25 mm, -100 mm], to: [25 mm, -25 mm]}}, time: {step: "
-                 "{until: 4.5 us}}}\n", edge, edge);
+                 "  - {velocity: [free, -18 m/s], region: {box: {from: [-25 mm, -100 mm], to: [25 mm, -25 mm]}}, time: "
+                 "{step: "
+                 "{until: 4.5 us}}}\n",
+                 edge, edge);
     }
     bench_override(&s->set, "particles.spacing", "%d/%d mm", p->at == KALTHOFF ? 100 : 50, p->resolution);
     if (p->at == KALTHOFF) bench_override(&s->set, "pd.influence", "one");
@@ -71,7 +77,8 @@ static double time_of(const struct tips *t, double length)
     return NAN;
 }
 
-/* Angle, away from the middle of the plate, of the damaged particles of both cracks about a ring round their start [rad]. */
+/* Angle, away from the middle of the plate, of the damaged particles of both cracks about a ring round their start
+ * [rad]. */
 static double angle_at(const struct engine *e, double radius, double width)
 {
     const struct tips *t = &e->tips;
@@ -105,24 +112,24 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
 /* A crack that does not come so far is off by all there is. */
-static double off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
+static double accuracy_fracture_off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
 
 /* Path: how far it lies beside the other, over the distance from its start, and its length. */
-static status measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_fracture_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
 {
     const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
     double beside2 = 0;
     for (int r = 0; r < FRACTURE_RINGS; r++)
         beside2 += (isfinite(f.angle[r]) ? pow(f.angle[r] - wanted->angle[r], 2) : 1) / FRACTURE_RINGS;
-    part[0] = sqrt(beside2 + pow(off(f.length, wanted->length), 2));
-    part[1] = off(f.start, wanted->start);
-    part[2] = off(f.speed, wanted->speed);
+    part[0] = sqrt(beside2 + pow(accuracy_fracture_off(f.length, wanted->length), 2));
+    part[1] = accuracy_fracture_off(f.start, wanted->start);
+    part[2] = accuracy_fracture_off(f.speed, wanted->speed);
     *error = sqrt((part[0] * part[0] + part[1] * part[1] + part[2] * part[2]) / 3);
     return OK;
 }
 
 /* What is not on its way to the reference, or takes longest, stays coarse. */
-static bool applies(const struct accuracy_point *p)
+static bool accuracy_fracture_applies(const struct accuracy_point *p)
 {
     if (p->resolution <= 100) return true;
     if (p->resolution > 200 && p->method->family & ACCURACY_ADAPTIVE && !accuracy_is_reference(p)) return false;
@@ -132,7 +139,8 @@ static bool applies(const struct accuracy_point *p)
 const struct accuracy_problem accuracy_fracture = {
     .name = "fracture",
     .title = "plates that crack",
-    .error = "path (offset over distance, and length), start and speed beside bonds at 1/4 of the scene's spacing, root mean "
+    .error = "path (offset over distance, and length), start and speed beside bonds at 1/4 of the scene's spacing, "
+             "root mean "
              "square of the three",
     .part = {"path", "start", "speed"},
     .cases = {"Kalthoff", "pulled plate"},
@@ -145,22 +153,26 @@ const struct accuracy_problem accuracy_fracture = {
     .steps = true,
     .varied = 3,
     .samples = SAMPLES,
-    .remark = {"The reference is known to 2.5 and 2.7 %: by so much it differs from one at 1/8 of the spacing. Its own "
-               "start, speed, length and path at 1, 1/2, 1/4, 1/8 are in bench/accuracy/accuracy_reference.h.",
-               "What counts most is the step: at 0.8 of the critical one cracks are 11 to 23 % off with 100, 200 and 300 "
-               "particles, at 0.4 bonds come to 10.3, 7.3, 3.6 % (Kalthoff) and 10.1, 8.8, 2.9 %.",
-               "Adaptive runs in the reference frame are on the front of Kalthoff's plate: 7.6 % in 0.08 s where bonds have 9.0 % after "
-               "0.26 s, 4.0 % in 0.6 s where bonds have 3.6 % after 3.1 s; in the pulled plate 2.7 % in 0.03 s. In the current "
-               "frame they take three to five times the time of bonds. Bonds with 60 particles in the pulled plate (2.8 %) are "
-               "luck: 56, 58, 62, 64, 70 give 10, 13, 7, 12, 11 %.",
-               "Couplings pm, pg, pmg and pgg do not crack: the grid moves both faces with one velocity field.",
-               "mospd cracks at half the speed of bonds in Kalthoff's plate (570 m/s, 14 mm): its critical stretch is "
-               "another law, of no error of the method's."},
+    .remark =
+        {"The reference is known to 2.5 and 2.7 %: by so much it differs from one at 1/8 of the spacing. Its own "
+         "start, speed, length and path at 1, 1/2, 1/4, 1/8 are in bench/accuracy/accuracy_reference.h.",
+         "What counts most is the step: at 0.8 of the critical one cracks are 11 to 23 % off with 100, 200 and 300 "
+         "particles, at 0.4 bonds come to 10.3, 7.3, 3.6 % (Kalthoff) and 10.1, 8.8, 2.9 %.",
+         "Adaptive runs in the reference frame are on the front of Kalthoff's plate: 7.6 % in 0.08 s where bonds have "
+         "9.0 % after "
+         "0.26 s, 4.0 % in 0.6 s where bonds have 3.6 % after 3.1 s; in the pulled plate 2.7 % in 0.03 s. In the "
+         "current "
+         "frame they take three to five times the time of bonds. Bonds with 60 particles in the pulled plate (2.8 %) "
+         "are "
+         "luck: 56, 58, 62, 64, 70 give 10, 13, 7, 12, 11 %.",
+         "Couplings pm, pg, pmg and pgg do not crack: the grid moves both faces with one velocity field.",
+         "mospd cracks at half the speed of bonds in Kalthoff's plate (570 m/s, 14 mm): its critical stretch is "
+         "another law, of no error of the method's."},
     .seconds = 300,
     .quick_seconds = 60,
-    .scene = make_scene,
-    .measure = measure,
-    .applies = applies,
+    .scene = accuracy_fracture_make_scene,
+    .measure = accuracy_fracture_measure,
+    .applies = accuracy_fracture_applies,
 };
 
 /* ---- the reference ----------------------------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* floor 5: the Pareto front of a cloud of points, and the cheapest one that is good enough. */
+/* The Pareto front of a cloud of points, and the cheapest one that is good enough. */
 #include <math.h>
 
 #include "accuracy.h"
@@ -14,7 +14,8 @@ static bool on_front(const struct accuracy_dot *dot, int n, int k)
 {
     if (!counts(&dot[k])) return false;
     for (int j = 0; j < n; j++)
-        if (beats(&dot[j], &dot[k]) || (j < k && dot[j].time == dot[k].time && dot[j].error == dot[k].error)) return false;
+        if (beats(&dot[j], &dot[k]) || (j < k && dot[j].time == dot[k].time && dot[j].error == dot[k].error))
+            return false;
     return true;
 }
 

@@ -1,9 +1,10 @@
-/* floor 5: problem 4 of the speed-accuracy chart: a square plate with a circular hole, pulled at two edges, at rest. Its exact
- * field is a series: complex potentials whose coefficients boundary collocation found (Muskhelishvili 1953).
+/* Problem 4 of the speed-accuracy chart: a square plate with a circular hole, pulled at two edges, at rest.
+ * Its exact field is a series: complex potentials whose coefficients boundary collocation found (Muskhelishvili
+ * 1953).
  *
- * Peridynamics takes conjugate gradients, material points of the current frame relaxation (apic: with flip they creep). There
- * is no static solver for the reference frame: there the load grows by sin^2 over 30 transits of the plate, whose motion is
- * then 0.1 % of its displacement. */
+ * Peridynamics takes conjugate gradients, material points of the current frame relaxation (apic: with flip they
+ * creep). There is no static solver for the reference frame: there the load grows by sin^2 over 30 transits of the
+ * plate, whose motion is then 0.1 % of its displacement. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +17,7 @@ static const double young = 1e9, poisson = 1.0 / 3, pull = 1e4;      /* [Pa] [1]
 static const double ring[2] = {1.5, 3};                              /* where the field is compared [hole radii] */
 static const double rim = 1.25;                                      /* the strain at the hole's ends: from 1 to this */
 
-/* ---- the exact field ------------------------------------------------------------------------------------------- */
+/* ---- the exact field --------------------------------------------------------------------------------------------- */
 
 /* phi = sum a_k (z/R_k)^k, psi = sum b_k (z/R_k)^k over odd k from -23 to 23, R_k = 1, the hole's radius, for k < 0 and
  * 5 sqrt 2 for k > 0, for a pull of 1 along y on a plate from -5 to 5. Tractions on hole and edges are met to 4e-5; the
@@ -33,7 +34,8 @@ static const double potential[POWERS][2] = {
     {-0.0033372314, -0.00298985703},  {0.000620108693, -0.00403252779},  {-0.000282598929, 0.00225840748},
 };
 
-/* 2 G (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi', syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'). */
+/* 2 G (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi', syy - sxx + 2 i sxy = 2 (conj(z)
+ * phi'' + psi'). */
 void accuracy_hole_exact(const double X[2], double u[2], double stress[3])
 {
     const double kappa = (3 - poisson) / (1 + poisson), shear = young / (2 * (1 + poisson));
@@ -49,34 +51,36 @@ void accuracy_hole_exact(const double X[2], double u[2], double stress[3])
     }
     const double complex move = kappa * phi - z * conj(slope) - conj(psi), part = 2 * (conj(z) * bend + psi_slope);
     u[0] = pull * creal(move) / (2 * shear), u[1] = pull * cimag(move) / (2 * shear);
-    stress[0] = 0.5 * pull * (4 * creal(slope) - creal(part)), stress[1] = 0.5 * pull * (4 * creal(slope) + creal(part));
+    stress[0] = 0.5 * pull * (4 * creal(slope) - creal(part)),
+    stress[1] = 0.5 * pull * (4 * creal(slope) + creal(part));
     stress[2] = 0.5 * pull * cimag(part);
 }
 
-/* ---- the scene ------------------------------------------------------------------------------------------------- */
+/* ---- the scene --------------------------------------------------------------------------------------------------- */
 
 static const char plate[] =
     "space: plane stress\nthickness: 1\nmaterial: {young: 1e9, poisson: 1/3, density: 1, critical_stretch: inf}\n"
     "body: [{box: {from: [-5, -5], to: [5, 5]}}, {subtract: {disc: {centre: [0, 0], radius: 1}}}]\n"
     "particles: {spacing: 0.1}\npd: {region: {disc: {centre: [0, 0], radius: 2}}}\nconversion: {criteria: none}\n";
 
-static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+static void accuracy_hole_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double transit = 10 / sqrt(young / (1 - poisson * poisson)), duration = 30 * transit;
     const bool waits = accuracy_is_reference(p);
     char time[64] = "";
     if (waits) snprintf(time, sizeof time, ", time: {pulse: {until: %.9g}}", 2 * duration);
     snprintf(s->text, sizeof s->text,
-             "%sduration: %.9g\nsolver_steps: 8000\nboundary: [{traction: [0, 1e4], face: y+%s}, {traction: [0, -1e4], face: y-%s}]\n",
+             "%sduration: %.9g\nsolver_steps: 8000\nboundary: [{traction: [0, 1e4], face: y+%s}, {traction: [0, -1e4], "
+             "face: y-%s}]\n",
              plate, waits ? duration : 1, time, time);
     bench_override(&s->set, "solver", "%s", accuracy_solver(p));
     bench_override(&s->set, "particles.spacing", "10/%d", p->resolution);
 }
 
-/* ---- errors ---------------------------------------------------------------------------------------------------- */
+/* ---- errors ------------------------------------------------------------------------------------------------------ */
 
 /* Displacements in the ring, and at the hole's ends the mean strain across the axis, of which u_y/y is a difference. */
-static status measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_hole_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
 {
     const struct particles *q = &e->part;
     const double h = 10.0 / p->resolution;
@@ -97,7 +101,7 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
 }
 
 /* Where the whole chart would take minutes a point: relaxation. */
-static bool applies(const struct accuracy_point *p)
+static bool accuracy_hole_applies(const struct accuracy_point *p)
 {
     if (accuracy_is_reference(p)) return true;
     if (p->method->family & ACCURACY_PD) return (p->horizon > 2 || p->method->family & ACCURACY_STATES);
@@ -107,7 +111,8 @@ static bool applies(const struct accuracy_point *p)
 const struct accuracy_problem accuracy_hole = {
     .name = "hole",
     .title = "plate with a hole, at rest",
-    .error = "displacements from 1.5 to 3 radii, and the mean strain within a quarter radius of the hole's ends, over those of "
+    .error = "displacements from 1.5 to 3 radii, and the mean strain within a quarter radius of the hole's ends, over "
+             "those of "
              "a series solution: root mean square of both",
     .part = {"field", "concentration"},
     .cases = {"pulled"},
@@ -118,16 +123,20 @@ const struct accuracy_problem accuracy_hole = {
     .quick_resolutions = 2,
     .horizon = {1.5, 2.015, 5.015},
     .varied = 3,
-    .remark = {"The hole is a staircase: which particles are in it makes 2 to 3 % at 40 and 80 particles, whatever the method, and "
-               "0.7 % at 160 with material points. The reference frame comes there in 0.1 s.",
-               "Bonds and states are soft at the hole's edge: the strain there is 16 % too large at 80 particles, 9 % at 160, 6 % at "
-               "320; material points have no such edge.",
-               "The field of bonds stays 2.3 % off, as their lattice is stiffer along its axes; with isotropic weights it comes to "
-               "0.3 % at 320.",
-               "Coupled bodies have the soft edge, too: at 40 particles, with a horizon of 3/4 of the hole's radius, 15 %."},
+    .remark =
+        {"The hole is a staircase: which particles are in it makes 2 to 3 % at 40 and 80 particles, whatever the "
+         "method, and "
+         "0.7 % at 160 with material points. The reference frame comes there in 0.1 s.",
+         "Bonds and states are soft at the hole's edge: the strain there is 16 % too large at 80 particles, 9 % at "
+         "160, 6 % at "
+         "320; material points have no such edge.",
+         "The field of bonds stays 2.3 % off, as their lattice is stiffer along its axes; with isotropic weights it "
+         "comes to "
+         "0.3 % at 320.",
+         "Coupled bodies have the soft edge, too: at 40 particles, with a horizon of 3/4 of the hole's radius, 15 %."},
     .seconds = 400,
     .quick_seconds = 20,
-    .scene = make_scene,
-    .measure = measure,
-    .applies = applies,
+    .scene = accuracy_hole_make_scene,
+    .measure = accuracy_hole_measure,
+    .applies = accuracy_hole_applies,
 };

@@ -1,4 +1,4 @@
-/* floor 5: problem 3 of the speed-accuracy chart: a square and a cube between mirrors, driven along a known motion. */
+/* Problem 3 of the speed-accuracy chart: a square and a cube between mirrors, driven along a known motion. */
 #include <math.h>
 #include <stdio.h>
 
@@ -11,17 +11,18 @@
 static const struct manufactured square_motion = {.dim = 2, .share = {1, -0.5}, MOTION};
 static const struct manufactured cube_motion = {.dim = 3, .share = {1, -0.5, 0.75}, MOTION};
 
-static const struct manufactured *motion_of(const struct accuracy_point *p)
+static const struct manufactured *accuracy_manufactured_motion_of(const struct accuracy_point *p)
 {
     return p->problem->dim == 2 ? &square_motion : &cube_motion;
 }
 
 /* The run ends at 0.4 T, where displacement, velocity and strain are all large. */
-static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+static void accuracy_manufactured_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
-    static const char plane[] = "space: plane stress\nthickness: 1\nmaterial: {young: 80000/9, density: 1, critical_stretch: inf}\n"
-                                "body: {box: {from: [0, 0], to: [1, 1]}}\n"
-                                "pd: {region: {half-space: {point: [0.5, 0], normal: [-1, 0]}}}\n";
+    static const char plane[] =
+        "space: plane stress\nthickness: 1\nmaterial: {young: 80000/9, density: 1, critical_stretch: inf}\n"
+        "body: {box: {from: [0, 0], to: [1, 1]}}\n"
+        "pd: {region: {half-space: {point: [0.5, 0], normal: [-1, 0]}}}\n";
     static const char solid[] = "space: solid\nmaterial: {young: 25000/3, density: 1, critical_stretch: inf}\n"
                                 "body: {box: {from: [0, 0, 0], to: [1, 1, 1]}}\n"
                                 "pd: {region: {half-space: {point: [0.5, 0, 0], normal: [-1, 0, 0]}}}\n";
@@ -33,13 +34,14 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
     for (int axis = 0; axis < dim; axis++)
         for (int at = 0; at < 2; at++)
             fprintf(to, "  - {name: %c%d, mirror: {axis: %c, at: %d}}\n", 'x' + axis, at, 'x' + axis, at);
-    manufactured_boundaries(to, motion_of(p));
+    manufactured_boundaries(to, accuracy_manufactured_motion_of(p));
     fclose(to);
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
 }
 
 /* Stress by the stiffness of the material; shear components count twice in the sum over the tensor. */
-static void add_stress(const struct particles *p, int64_t i, const real *stiffness, const real *strain, double *off, double *all)
+static void add_stress(const struct particles *p, int64_t i, const real *stiffness, const real *strain, double *off,
+                       double *all)
 {
     const int count = symmetric_count(p->dim);
     for (int s = 0; s < count; s++) {
@@ -48,9 +50,10 @@ static void add_stress(const struct particles *p, int64_t i, const real *stiffne
     }
 }
 
-static status measure(const struct accuracy_point *q, struct engine *e, double *error, double *part)
+static status accuracy_manufactured_measure(const struct accuracy_point *q, struct engine *e, double *error,
+                                            double *part)
 {
-    const struct manufactured *m = motion_of(q);
+    const struct manufactured *m = accuracy_manufactured_motion_of(q);
     const struct particles *p = &e->part;
     const struct observed seen = engine_observed(e);
     real stiffness[SYM_MAX * SYM_MAX];
@@ -60,9 +63,11 @@ static status measure(const struct accuracy_point *q, struct engine *e, double *
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];
         for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
-        const struct manufactured_values now = manufactured_at(m, X, seen.t), then = manufactured_at(m, X, seen.t_velocity);
+        const struct manufactured_values now = manufactured_at(m, X, seen.t),
+                                         then = manufactured_at(m, X, seen.t_velocity);
         add_stress(p, i, stiffness, now.strain, &off[0], &all[0]);
-        for (int d = 0; d < p->dim; d++) off[1] += square(p->v[d][i] - then.velocity[d]), all[1] += square(then.velocity[d]);
+        for (int d = 0; d < p->dim; d++)
+            off[1] += square(p->v[d][i] - then.velocity[d]), all[1] += square(then.velocity[d]);
     }
     for (int k = 0; k < 2; k++) part[k] = sqrt(off[k] / all[k]);
     *error = sqrt(0.5 * (square(part[0]) + square(part[1])));
@@ -71,8 +76,9 @@ static status measure(const struct accuracy_point *q, struct engine *e, double *
 
 #define COMMON                                                                                                         \
     .error = "stress and velocity over those of the motion, root mean square over all particles",                      \
-    .part = {"stress", "velocity"}, .families = ACCURACY_PD | ACCURACY_MPM | ACCURACY_COUPLED, .scene = make_scene,    \
-    .measure = measure
+    .part = {"stress", "velocity"}, .families = ACCURACY_PD | ACCURACY_MPM | ACCURACY_COUPLED,                         \
+    .scene = accuracy_manufactured_make_scene,                                                                         \
+    .measure = accuracy_manufactured_measure
 
 const struct accuracy_problem accuracy_square = {
     .name = "square",
@@ -85,10 +91,11 @@ const struct accuracy_problem accuracy_square = {
     .horizon = {2.015, 4.015},
     .step = {0.4},
     .varied = 3,
-    .remark = {"Bonds of uniform weights and ospd stop at 2.7 %, the lattice's anisotropy, and at 27 % with a horizon of "
-               "2.015; with isotropic weights, and mospd, they are of second order and best at the short horizon.",
-               "Stress of linear shapes, GIMP and the reference frame is of first order (1.2 % of 192 particles), "
-               "velocities are of second (0.02 to 0.03 %)."},
+    .remark =
+        {"Bonds of uniform weights and ospd stop at 2.7 %, the lattice's anisotropy, and at 27 % with a horizon of "
+         "2.015; with isotropic weights, and mospd, they are of second order and best at the short horizon.",
+         "Stress of linear shapes, GIMP and the reference frame is of first order (1.2 % of 192 particles), "
+         "velocities are of second (0.02 to 0.03 %)."},
     .seconds = 60,
     .quick_seconds = 6,
     COMMON,
@@ -105,9 +112,10 @@ const struct accuracy_problem accuracy_cube = {
     .horizon = {2.015, 4.015},
     .step = {0.4},
     .varied = 3,
-    .remark = {"Bonds of uniform weights and ospd stop at 7 to 8 %, the lattice's anisotropy (C11 - 5.7 %); with isotropic "
-               "weights, and mospd, they are of second order and best at the short horizon.",
-               "vmpd with a horizon of 2.015 is 33 % off: its calibration is that of a continuum."},
+    .remark =
+        {"Bonds of uniform weights and ospd stop at 7 to 8 %, the lattice's anisotropy (C11 - 5.7 %); with isotropic "
+         "weights, and mospd, they are of second order and best at the short horizon.",
+         "vmpd with a horizon of 2.015 is 33 % off: its calibration is that of a continuum."},
     .seconds = 150,
     .quick_seconds = 15,
     COMMON,

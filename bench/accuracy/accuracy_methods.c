@@ -1,4 +1,4 @@
-/* floor 5: the methods of `cleave bench accuracy`: names, and the scene keys that make them. */
+/* The methods of `cleave bench accuracy`: names, and the scene keys that make them. */
 #include <string.h>
 
 #include "accuracy.h"
@@ -11,8 +11,8 @@
 #define REFERENCE {"mpm.frame", "reference"}
 #define ISOTROPIC {"pd.weights", "isotropic"}
 
-/* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled, dark red,
- * violet and teal adaptive. */
+/* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled, dark
+ * red, violet and teal adaptive. */
 const struct accuracy_method accuracy_method[] = {
     {"pd bond", ACCURACY_BONDS, true, "#0072b2", 7, {{"method", "pd"}}},
     {"pd bond isotropic", ACCURACY_BONDS, false, "#0072b2", 6, PD(ISOTROPIC)},
@@ -30,7 +30,12 @@ const struct accuracy_method accuracy_method[] = {
     {"mpm reference small", ACCURACY_REFERENCE, false, "#111111", 6, MPM(REFERENCE, {"mpm.strain", "small"})},
     {"coupled partial stress", ACCURACY_COUPLED, true, "#cc79a7", 7, COUPLED("partial stress")},
     {"coupled reference", ACCURACY_COUPLED, true, "#7b3294", 5, {{"method", "adaptive"}, REFERENCE}},
-    {"coupled reference isotropic", ACCURACY_COUPLED, true, "#7b3294", 4, {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
+    {"coupled reference isotropic",
+     ACCURACY_COUPLED,
+     true,
+     "#7b3294",
+     4,
+     {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
     {"coupled handshake", ACCURACY_COUPLED, false, "#cc79a7", 6, COUPLED("handshake")},
     {"coupled pm", ACCURACY_COUPLED, false, "#9970ab", 9, COUPLED("pm")},
     {"coupled pg", ACCURACY_COUPLED, false, "#9970ab", 8, COUPLED("pg")},
@@ -38,7 +43,12 @@ const struct accuracy_method accuracy_method[] = {
     {"coupled pgg", ACCURACY_COUPLED, false, "#9970ab", 10, COUPLED("pgg")},
     {"adaptive partial stress", ACCURACY_ADAPTIVE, true, "#c51b7d", 13, COUPLED("partial stress")},
     {"adaptive reference", ACCURACY_ADAPTIVE, true, "#40004b", 13, {{"method", "adaptive"}, REFERENCE}},
-    {"adaptive reference isotropic", ACCURACY_ADAPTIVE, true, "#40004b", 12, {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
+    {"adaptive reference isotropic",
+     ACCURACY_ADAPTIVE,
+     true,
+     "#40004b",
+     12,
+     {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
     {"adaptive handshake", ACCURACY_ADAPTIVE, false, "#c51b7d", 12, COUPLED("handshake")},
     {"adaptive pm", ACCURACY_ADAPTIVE, false, "#35978f", 9, COUPLED("pm")},
     {"adaptive pg", ACCURACY_ADAPTIVE, false, "#35978f", 8, COUPLED("pg")},

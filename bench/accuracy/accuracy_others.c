@@ -1,5 +1,5 @@
-/* floor 5: problems with known solutions that are not in the chart: other sizes, materials, angles, times and dimensions
- * than its own. `method: auto` has to reach on them what it is asked for. */
+/* Problems with known solutions that are not in the chart: other sizes, materials, angles, times and
+ * dimensions than its own. `method: auto` has to reach on them what it is asked for. */
 #include <math.h>
 #include <stdio.h>
 
@@ -12,10 +12,11 @@
 static void pulse_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     (void)p;
-    snprintf(s->text, sizeof s->text,
-             "space: line\nduration: 0.0990605 ms\nmaterial: {young: 200 GPa, density: 7850 kg/m^3, critical_stretch: inf}\n"
-             "body: {box: {from: [-1], to: [2]}}\nparticles: {spacing: 0.01}\n"
-             "initial: [{pulse: {at: [0.2], direction: [1], width: 0.25, velocity: 1 mm/s}}]\nprobes: [exact: pulse]\n");
+    snprintf(
+        s->text, sizeof s->text,
+        "space: line\nduration: 0.0990605 ms\nmaterial: {young: 200 GPa, density: 7850 kg/m^3, critical_stretch: inf}\n"
+        "body: {box: {from: [-1], to: [2]}}\nparticles: {spacing: 0.01}\n"
+        "initial: [{pulse: {at: [0.2], direction: [1], width: 0.25, velocity: 1 mm/s}}]\nprobes: [exact: pulse]\n");
 }
 
 static status pulse_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
@@ -32,11 +33,12 @@ static status pulse_measure(const struct accuracy_point *p, struct engine *e, do
 static void step_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     (void)p;
-    snprintf(s->text, sizeof s->text,
-             "space: line\nduration: 29.4594 us\nmaterial: {young: 70 GPa, density: 2700 kg/m^3, critical_stretch: inf}\n"
-             "body: {box: {from: [0], to: [0.3]}}\nparticles: {spacing: 0.01}\n"
-             "boundary: [{name: wall, mirror: {axis: x, at: 0}}, {name: pull, traction: [1 kPa], face: x+}]\n"
-             "probes: [exact: step bar]\n");
+    snprintf(
+        s->text, sizeof s->text,
+        "space: line\nduration: 29.4594 us\nmaterial: {young: 70 GPa, density: 2700 kg/m^3, critical_stretch: inf}\n"
+        "body: {box: {from: [0], to: [0.3]}}\nparticles: {spacing: 0.01}\n"
+        "boundary: [{name: wall, mirror: {axis: x, at: 0}}, {name: pull, traction: [1 kPa], face: x+}]\n"
+        "probes: [exact: step bar]\n");
 }
 
 static status step_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
@@ -52,10 +54,11 @@ static status step_measure(const struct accuracy_point *p, struct engine *e, dou
 static void spall_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     (void)p;
-    snprintf(s->text, sizeof s->text,
-             "space: line\nduration: 0.23 ms\nmaterial: {young: 70 GPa, density: 2700 kg/m^3, critical_stretch: 1.5515e-3}\n"
-             "body: {box: {from: [0], to: [1]}}\nparticles: {spacing: 0.01}\n"
-             "initial: [{velocity: [-20], region: {box: {from: [0.9], to: [1]}}}]\nprobes: [spall]\n");
+    snprintf(
+        s->text, sizeof s->text,
+        "space: line\nduration: 0.23 ms\nmaterial: {young: 70 GPa, density: 2700 kg/m^3, critical_stretch: 1.5515e-3}\n"
+        "body: {box: {from: [0], to: [1]}}\nparticles: {spacing: 0.01}\n"
+        "initial: [{velocity: [-20], region: {box: {from: [0.9], to: [1]}}}]\nprobes: [spall]\n");
 }
 
 static status spall_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
@@ -67,7 +70,7 @@ static status spall_measure(const struct accuracy_point *p, struct engine *e, do
     return OK;
 }
 
-/* ---- plane ------------------------------------------------------------------------------------------------------------ */
+/* ---- plane ------------------------------------------------------------------------------------------------------- */
 
 /* As the chart's but for their angles, and two for Poisson's ratio. */
 static void wave_scene(const struct accuracy_point *p, struct accuracy_scene *s)
@@ -112,7 +115,8 @@ static void hole_scene(const struct accuracy_point *p, struct accuracy_scene *s)
              "space: plane stress\nthickness: 1 mm\nduration: 1\n"
              "material: {young: 70 GPa, poisson: 1/3, density: 2700 kg/m^3, critical_stretch: inf}\n"
              "particles: {spacing: 0.1 mm}\n"
-             "body: [{box: {from: [-20 mm, -20 mm], to: [20 mm, 20 mm]}}, {subtract: {disc: {centre: [0, 0], radius: 4 mm}}}]\n"
+             "body: [{box: {from: [-20 mm, -20 mm], to: [20 mm, 20 mm]}}, {subtract: {disc: {centre: [0, 0], radius: 4 "
+             "mm}}}]\n"
              "boundary: [{traction: [0, 1 MPa], face: y+}, {traction: [0, -1 MPa], face: y-}]\n");
     bench_override(&s->set, "solver", "static");
 }
@@ -129,13 +133,14 @@ static status hole_measure(const struct accuracy_point *p, struct engine *e, dou
         double u[2], stress[3];
         if (r < 1.5 || r > 3) continue;
         accuracy_hole_exact(X, u, stress);
-        for (int d = 0; d < 2; d++) off2 += pow(q->x[d][i] - q->X[d][i] - scale * u[d], 2), size2 += pow(scale * u[d], 2);
+        for (int d = 0; d < 2; d++)
+            off2 += pow(q->x[d][i] - q->X[d][i] - scale * u[d], 2), size2 += pow(scale * u[d], 2);
     }
     *error = part[0] = sqrt(off2 / size2);
     return OK;
 }
 
-/* ---- solid -------------------------------------------------------------------------------------------------------------- */
+/* ---- solid ------------------------------------------------------------------------------------------------------- */
 
 /* A pressure wave 0.4 m wide along a column between mirrors, as far as it is wide. */
 static const struct wave_pulse column_pulse = {
@@ -169,11 +174,16 @@ static status column_measure(const struct accuracy_point *p, struct engine *e, d
     return OK;
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------------ */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
-#define OTHER(name_, title_, dim_, what, ...)                                                                               \
-    static const struct accuracy_problem other_##what = {.name = name_, .title = title_, .cases = {__VA_ARGS__}, .dim = dim_, \
-                                                         .scene = what##_scene, .measure = what##_measure, .resolution = {100}}
+#define OTHER(name_, title_, dim_, what, ...)                                                                          \
+    static const struct accuracy_problem other_##what = {.name = name_,                                                \
+                                                         .title = title_,                                              \
+                                                         .cases = {__VA_ARGS__},                                       \
+                                                         .dim = dim_,                                                  \
+                                                         .scene = what##_scene,                                        \
+                                                         .measure = what##_measure,                                    \
+                                                         .resolution = {100}}
 OTHER("pulse", "steel bar, another width, twice as far", 1, pulse, "steel");
 OTHER("step", "aluminium bar, another length, half a transit", 1, step, "aluminium");
 OTHER("spall2", "aluminium bar that spalls, another impactor", 1, spall, "aluminium");

@@ -1,4 +1,4 @@
-/* floor 5: the overview page of the speed-accuracy chart: the cheapest way to 5 %, 1 % and 0.3 % of every problem. */
+/* The overview page of the speed-accuracy chart: the cheapest way to 5 %, 1 % and 0.3 % of every problem. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 
 static const double wanted[] = {0.05, 0.01, 0.003};
 
-/* ---- the table ------------------------------------------------------------------------------------------------ */
+/* ---- the table --------------------------------------------------------------------------------------------------- */
 
 /* One cell: method, resolution, time, and error reached; a dash where nothing reaches it. */
 static void put_cheapest(FILE *to, const struct accuracy_dot *dot, const struct accuracy_entry *const *of, int n,
@@ -40,7 +40,7 @@ static void put_row(FILE *to, const struct accuracy_plan *plan, const struct acc
     memory_free(of);
 }
 
-static void put_table(FILE *to, const struct accuracy_plan *plan)
+static void accuracy_page_put_table(FILE *to, const struct accuracy_plan *plan)
 {
     fputs("| problem | case |", to);
     for (size_t k = 0; k < COUNT_OF(wanted); k++) fprintf(to, " %g %% |", 100 * wanted[k]);
@@ -80,8 +80,10 @@ static void put_auto(FILE *to)
     char *text = NULL;
     size_t length;
     if (!path_is_file(ACCURACY_AUTO) || file_get(ACCURACY_AUTO, &text, &length) != OK) return;
-    fputs("\n## What `method: auto` makes of it\n\nTimes are of one thread; the ratio is to the best run of the chart that is "
-          "as accurate, timed in turn.\n\n", to);
+    fputs("\n## What `method: auto` makes of it\n\nTimes are of one thread; the ratio is to the best run of the chart "
+          "that is "
+          "as accurate, timed in turn.\n\n",
+          to);
     int line = 0;
     for (char *row = strtok(text, "\n"); row; row = strtok(NULL, "\n"), line++) {
         int columns = 0;
@@ -105,7 +107,7 @@ static void put_page(FILE *to, const struct accuracy_plan *plan)
             "# Speed against accuracy\n\n%s, %d cores; cleave %s. Times are those of the step loop on one thread.\n\n"
             "![All problems](accuracy.png)\n\n## The cheapest way to an error\n\n",
             plan->machine.model, plan->machine.cores, CLEAVE_VERSION);
-    put_table(to, plan);
+    accuracy_page_put_table(to, plan);
     put_unstable(to, plan);
     put_auto(to);
     fputs("\n## The problems\n", to);
@@ -129,7 +131,7 @@ status accuracy_page(const struct accuracy_plan *plan)
     status s = file_put(BENCH_FOLDER "/accuracy.md", text, length);
     free(text);
     puts("\n  the cheapest way to an error: method and resolution, loop time on one thread, error reached\n");
-    put_table(stdout, plan);
+    accuracy_page_put_table(stdout, plan);
     puts("");
     return s;
 }

@@ -1,7 +1,8 @@
-/* floor 5: every point of the speed-accuracy chart: which there are, and the scene of each. */
+/* Every point of the speed-accuracy chart: which there are, and the scene of each. */
 #include <stdio.h>
 #include <string.h>
 
+#include "auto/scene_read.h"
 #include "accuracy.h"
 #include "base/memory.h"
 
@@ -17,7 +18,7 @@ int accuracy_cases(const struct accuracy_problem *problem)
     return n;
 }
 
-/* ---- scenes -------------------------------------------------------------------------------------------------- */
+/* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
 void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s)
 {
@@ -54,7 +55,7 @@ static status read_settings(struct accuracy_entry *entry, const char *machine)
     return OK;
 }
 
-/* ---- points --------------------------------------------------------------------------------------------------- */
+/* ---- points ------------------------------------------------------------------------------------------------------ */
 
 static status add_point(struct accuracy_plan *plan, struct accuracy_point p, bool quick)
 {

@@ -1,13 +1,14 @@
-/* floor 5: problem 7 of the speed-accuracy chart: a bar spalls behind a plane impact: when and where it breaks. As
- * inputs/bar_spall.yaml, in one piece: bodies of bonds alone do not meet others, and in the exact solution nothing pulls at
- * the joint.
+/* Problem 7 of the speed-accuracy chart: a bar spalls behind a plane impact: when and where it breaks. As
+ * inputs/bar_spall.yaml, in one piece: bodies of bonds alone do not meet others, and in the exact solution nothing
+ * pulls at the joint.
  *
- * 0.2 m strike 1 m at v; the pulse of 0.4 m and rho c v/2 = 100 mPa turns to tension at the free end. Its head, reflected, and its
- * own tail meet at 0.2 m after 1.2 transits = 12 ms: there, and from then on, the tension is above the strength of 79 mPa.
+ * 0.2 m strike 1 m at v; the pulse of 0.4 m and rho c v/2 = 100 mPa turns to tension at the free end. Its head,
+ * reflected, and its own tail meet at 0.2 m after 1.2 transits = 12 ms: there, and from then on, the tension is
+ * above the strength of 79 mPa.
  *
- * Adaptive runs convert at half the strength (conversion.alpha): at 0.95 of it, the default, particles convert in the middle of
- * the steep front, when some of their bonds are already beyond their limit and others not yet, and the bar comes apart late: at
- * 800 particles a metre 12.29 ms in place of 12.10 (bonds alone 12.12), at 0.7 of it 12.41. */
+ * Adaptive runs convert at half the strength (conversion.alpha): at 0.95 of it, the default, particles convert in
+ * the middle of the steep front, when some of their bonds are already beyond their limit and others not yet, and the
+ * bar comes apart late: at 800 particles a metre 12.29 ms in place of 12.10 (bonds alone 12.12), at 0.7 of it 12.41. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,7 +22,7 @@ static const char text[] =
     "body: {box: {from: [0], to: [1.2]}}\nparticles: {spacing: 0.01}\n"
     "initial: [{velocity: [-2e-3], region: {box: {from: [1], to: [1.2]}}}]\nprobes: [spall]\n";
 
-static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+static void accuracy_spall_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const bool adaptive = p->method->family & ACCURACY_ADAPTIVE;
     snprintf(s->text, sizeof s->text, "%s%s", text,
@@ -31,7 +32,7 @@ static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 }
 
 /* A bar that does not break is off by all there is. */
-static status measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_spall_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
 {
     (void)p;
     part[0] = accuracy_figure(e, "spall", "time") / time_exact - 1;
@@ -40,7 +41,7 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
     return OK;
 }
 
-static bool applies(const struct accuracy_point *p) { return !strstr(p->method->name, "isotropic"); }
+static bool accuracy_spall_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "isotropic"); }
 
 const struct accuracy_problem accuracy_spall = {
     .name = "spall",
@@ -65,7 +66,7 @@ const struct accuracy_problem accuracy_spall = {
                "at 1 %."},
     .seconds = 60,
     .quick_seconds = 3,
-    .scene = make_scene,
-    .measure = measure,
-    .applies = applies,
+    .scene = accuracy_spall_make_scene,
+    .measure = accuracy_spall_measure,
+    .applies = accuracy_spall_applies,
 };

@@ -1,4 +1,4 @@
-/* floor 5: results/bench/accuracy.csv: what was measured before, and what is added point by point. */
+/* Results/bench/accuracy.csv: what was measured before, and what is added point by point. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,9 +10,9 @@
 #include "output/output_files.h"
 
 #define STORE BENCH_FOLDER "/accuracy.csv"
-#define HEADER                                                                                                       \
-    "problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,particles,steps,"  \
-    "stable,version,settings"
+#define HEADER                                                                                                         \
+    "problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,particles,"   \
+    "steps,stable,version,settings"
 
 /* What says which point a line is of: the columns before the figures. */
 static void put_key(const struct accuracy_point *p, char *text, size_t size)
@@ -21,7 +21,7 @@ static void put_key(const struct accuracy_point *p, char *text, size_t size)
              p->resolution, p->horizon, p->step);
 }
 
-/* ---- reading ------------------------------------------------------------------------------------------------ */
+/* ---- reading ----------------------------------------------------------------------------------------------------- */
 
 /* The next column of a line: a number, NAN where it is empty. */
 static double next_number(const char **at)
@@ -55,9 +55,9 @@ static void take_line(struct accuracy_result *r, const char *line, size_t key)
     r->stable = next_number(&at) > 0;
 }
 
-/* ---- writing ------------------------------------------------------------------------------------------------- */
+/* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-static void put_number(FILE *to, double value)
+static void accuracy_store_put_number(FILE *to, double value)
 {
     if (isfinite(value)) fprintf(to, "%.9g", value);
     fputc(',', to);
@@ -69,10 +69,10 @@ static void put_line(FILE *to, const struct accuracy_entry *entry)
     char key[256];
     put_key(&entry->point, key, sizeof key);
     fputs(key, to);
-    put_number(to, r->error);
-    for (int k = 0; k < ACCURACY_PARTS; k++) put_number(to, r->part[k]);
-    for (int k = 0; k < 2; k++) put_number(to, r->seconds[k]);
-    put_number(to, r->particles), put_number(to, r->steps);
+    accuracy_store_put_number(to, r->error);
+    for (int k = 0; k < ACCURACY_PARTS; k++) accuracy_store_put_number(to, r->part[k]);
+    for (int k = 0; k < 2; k++) accuracy_store_put_number(to, r->seconds[k]);
+    accuracy_store_put_number(to, r->particles), accuracy_store_put_number(to, r->steps);
     fprintf(to, "%d,%s,%s\n", r->stable, CLEAVE_VERSION, r->settings);
 }
 
@@ -94,8 +94,8 @@ static void fill_points(struct bench_table *t, const struct accuracy_plan *plan)
         const struct accuracy_point *p = &plan->entry[k].point;
         const struct accuracy_result *r = &plan->entry[k].result;
         if (!r->known) continue;
-        const double figures[] = {r->error, r->part[0], r->part[1], r->part[2], r->seconds[0], r->seconds[1], r->particles, r->steps,
-                                  r->stable};
+        const double figures[] = {r->error,      r->part[0],   r->part[1], r->part[2], r->seconds[0],
+                                  r->seconds[1], r->particles, r->steps,   r->stable};
         bench_text(t, p->problem->name), bench_text(t, p->problem->cases[p->at]), bench_text(t, p->method->name);
         bench_number(t, p->resolution), bench_number(t, p->horizon), bench_number(t, p->step);
         for (size_t c = 0; c < COUNT_OF(figures); c++) bench_number(t, figures[c]);

@@ -1,6 +1,6 @@
-/* floor 5: problem 6 of the speed-accuracy chart: plane waves load a semi-infinite crack suddenly, at rest and running at 1000 m/s
- * (Freund 1990). As inputs/semi_infinite_crack.yaml, with the Poisson's ratio that bonds have. Material points alone know the
- * crack only as a gap, and only at rest. */
+/* Problem 6 of the speed-accuracy chart: plane waves load a semi-infinite crack suddenly, at rest and
+ * running at 1000 m/s (Freund 1990). As inputs/semi_infinite_crack.yaml, with the Poisson's ratio that bonds have.
+ * Material points alone know the crack only as a gap, and only at rest. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,8 @@
 
 enum { REST, MOVING };
 
-static const double speed = 1000, stress = 2e6, way = 20e-3; /* [m/s]; on the crack's plane [Pa]; of the waves to it [m] */
+/* [m/s]; on the crack's plane [Pa]; of the waves to it [m] */
+static const double speed = 1000, stress = 2e6, way = 20e-3;
 enum { INSTANTS = 6 };
 static const double instant[INSTANTS] = {5.5e-6, 6.2e-6, 6.9e-6, 7.6e-6, 8.3e-6, 9e-6};      /* [s] */
 
@@ -22,26 +23,29 @@ static const char text[] =
     "boundary: [{mirror: {axis: x, at: 0}}, {mirror: {axis: x, at: 60 mm}}, {traction: [0, 1 MPa], face: y+}, "
     "{traction: [0, -1 MPa], face: y-}]\n";
 
-static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double h = 20.0 / p->resolution, half = accuracy_is_reference(p) ? h : 2 * h;
     char crack[512];
     if (p->method->family & ACCURACY_MPM)
         snprintf(crack, sizeof crack,
-                 "body: [{box: {from: [0, -20 mm], to: [60 mm, 20 mm]}}, {subtract: {box: {from: [-1 mm, %.9g mm], to: [30 mm, "
-                 "%.9g mm]}}}]\nmpm: {origin: [0, %.9g mm]}\nprobes: [sif: {at: [30 mm, 0], direction: [1, 0], contours: [8 mm]}]\n",
+                 "body: [{box: {from: [0, -20 mm], to: [60 mm, 20 mm]}}, {subtract: {box: {from: [-1 mm, %.9g mm], to: "
+                 "[30 mm, "
+                 "%.9g mm]}}}]\nmpm: {origin: [0, %.9g mm]}\nprobes: [sif: {at: [30 mm, 0], direction: [1, 0], "
+                 "contours: [8 mm]}]\n",
                  -half, half, -half);
     else
-        snprintf(crack, sizeof crack,
-                 "body: {box: {from: [0, -20 mm], to: [60 mm, 20 mm]}}\ncracks: [{from: [-1 mm, 0], to: [30 mm, 0]}]\n%s"
-                 "probes: [sif: {contours: [8 mm]}]\n",
-                 p->at == MOVING ? "growth: [{at: [30 mm, 0], direction: [1, 0], speed: 1000 m/s, start: 4.4 us}]\n" : "");
+        snprintf(
+            crack, sizeof crack,
+            "body: {box: {from: [0, -20 mm], to: [60 mm, 20 mm]}}\ncracks: [{from: [-1 mm, 0], to: [30 mm, 0]}]\n%s"
+            "probes: [sif: {contours: [8 mm]}]\n",
+            p->at == MOVING ? "growth: [{at: [30 mm, 0], direction: [1, 0], speed: 1000 m/s, start: 4.4 us}]\n" : "");
     snprintf(s->text, sizeof s->text, "%s%s", text, crack);
     bench_override(&s->set, "particles.spacing", "20/%d mm", p->resolution);
 }
 
 /* In pieces: the last step of each is a sample. */
-static status run(const struct accuracy_point *p, struct engine *e)
+static status accuracy_sudden_run(const struct accuracy_point *p, struct engine *e)
 {
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
     const double slower = p->at == MOVING ? crack_speed_factor(&m, SPEED_EXACT, speed) : 1;
@@ -56,7 +60,7 @@ static status run(const struct accuracy_point *p, struct engine *e)
 }
 
 /* The mean, and what is left about it. */
-static status measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_sudden_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
 {
     (void)p, (void)e;
     double mean = 0, square = 0;
@@ -67,7 +71,7 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
     return OK;
 }
 
-static bool applies(const struct accuracy_point *p)
+static bool accuracy_sudden_applies(const struct accuracy_point *p)
 {
     if (p->at == MOVING && p->method->family & ACCURACY_MPM) return false;
     if (p->method->family & ACCURACY_POINTS && p->resolution < 40) return false;     /* the ring would meet the gap */
@@ -92,11 +96,12 @@ const struct accuracy_problem accuracy_sudden = {
                "bonds reach 0.6 %: their faces are soft.",
                "B-splines reach across the gap (4 to 13 %, worse the finer); couplings pm, pg, pmg and pgg hold the "
                "crack together, as peridynamic particles move on one velocity field (24 %).",
-               "A crack that runs wants half the step: 3.9 % of bonds with 40 particles become 1.8 % at 0.4 of the critical one."},
+               "A crack that runs wants half the step: 3.9 % of bonds with 40 particles become 1.8 % at 0.4 of the "
+               "critical one."},
     .seconds = 200,
     .quick_seconds = 20,
-    .scene = make_scene,
-    .run = run,
-    .measure = measure,
-    .applies = applies,
+    .scene = accuracy_sudden_make_scene,
+    .run = accuracy_sudden_run,
+    .measure = accuracy_sudden_measure,
+    .applies = accuracy_sudden_applies,
 };

@@ -1,5 +1,6 @@
-/* floor 5: problem 2 of the speed-accuracy chart: plane P and S waves across a square, at three angles to the lattice. The
- * waves are endless in their planes; what comes from the edges has not reached the disc where they are compared. */
+/* Problem 2 of the speed-accuracy chart: plane P and S waves across a square, at three angles to the
+ * lattice. The waves are endless in their planes; what comes from the edges has not reached the disc where they are
+ * compared. */
 #include <math.h>
 #include <stdio.h>
 
@@ -35,18 +36,19 @@ static struct wave_pulse pulse_of(const struct accuracy_point *p)
     return w;
 }
 
-static void make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
+static void accuracy_wave_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const struct wave_pulse w = pulse_of(p);
-    snprintf(s->text, sizeof s->text,
-             "%sinitial: [{pulse: {at: [%.15g, %.15g], direction: [%.15g, %.15g], polarisation: [%.15g, %.15g], width: %g, "
-             "velocity: %g}}]\n",
-             text, w.at[0], w.at[1], w.direction[0], w.direction[1], w.polarisation[0], w.polarisation[1], w.width,
-             w.velocity);
+    snprintf(
+        s->text, sizeof s->text,
+        "%sinitial: [{pulse: {at: [%.15g, %.15g], direction: [%.15g, %.15g], polarisation: [%.15g, %.15g], width: %g, "
+        "velocity: %g}}]\n",
+        text, w.at[0], w.at[1], w.direction[0], w.direction[1], w.polarisation[0], w.polarisation[1], w.width,
+        w.velocity);
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
 }
 
-/* ---- errors --------------------------------------------------------------------------------------------------- */
+/* ---- errors ------------------------------------------------------------------------------------------------------ */
 
 /* The exact wave beside that of the particles in the window: sums for a wave that has come `ahead` farther. */
 struct match { double exact2, product, off2; };
@@ -96,7 +98,7 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
 }
 
 /* A shift by `phase` radii makes an error of |phase|, root mean square, as an amplitude off by as much does. */
-static status measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_wave_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);
     const struct observed seen = engine_observed(e);
@@ -113,8 +115,9 @@ static status measure(const struct accuracy_point *p, struct engine *e, double *
 const struct accuracy_problem accuracy_wave = {
     .name = "wave",
     .title = "plane waves, nu = 1/3",
-    .error = "velocity over that of the wave, root mean square over a disc; split into the phase, in Gaussian radii ahead, "
-             "and the amplitude in excess",
+    .error =
+        "velocity over that of the wave, root mean square over a disc; split into the phase, in Gaussian radii ahead, "
+        "and the amplitude in excess",
     .part = {"phase", "amplitude"},
     .draws_parts = true,
     .cases = {"P 0 deg", "P 22.5 deg", "P 45 deg", "S 0 deg", "S 22.5 deg", "S 45 deg"},
@@ -125,15 +128,17 @@ const struct accuracy_problem accuracy_wave = {
     .quick_resolutions = 2,
     .horizon = {2.015, 4.015},
     .step = {0.4},
-    .remark = {"Bonds of uniform weights and ospd run at their lattice's speeds: P waves along it are 0.5 % fast (a phase of "
-               "1.9 % here), S waves 1.9 % slow (4.4 %); with a horizon of 2.015 6 and 20 %. Isotropic weights, and mospd, are of second order.",
-               "vmpd is slow by 1.6 % (P, 0 deg) to 9 % (S, 0 deg), whatever the resolution.",
-               "FLIP takes velocities to the grid and back in every step, which slows waves by 0.09 (k h)^2 beside the "
-               "grid's own 0.04: five times the error of the reference frame, three times that of APIC. B-splines are wider "
-               "and slow them more.",
-               "Errors are those of the phase but for APIC, which also damps."},
+    .remark =
+        {"Bonds of uniform weights and ospd run at their lattice's speeds: P waves along it are 0.5 % fast (a phase of "
+         "1.9 % here), S waves 1.9 % slow (4.4 %); with a horizon of 2.015 6 and 20 %. Isotropic weights, and mospd, "
+         "are of second order.",
+         "vmpd is slow by 1.6 % (P, 0 deg) to 9 % (S, 0 deg), whatever the resolution.",
+         "FLIP takes velocities to the grid and back in every step, which slows waves by 0.09 (k h)^2 beside the "
+         "grid's own 0.04: five times the error of the reference frame, three times that of APIC. B-splines are wider "
+         "and slow them more.",
+         "Errors are those of the phase but for APIC, which also damps."},
     .seconds = 600,
     .quick_seconds = 20,
-    .scene = make_scene,
-    .measure = measure,
+    .scene = accuracy_wave_make_scene,
+    .measure = accuracy_wave_measure,
 };

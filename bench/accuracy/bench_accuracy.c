@@ -1,5 +1,5 @@
-/* floor 5: `cleave bench accuracy`: error against loop time of every method on problems with known solutions. Runs what is
- * not known yet of the chart, point by point, then writes tables, charts and the overview page. */
+/* `cleave bench accuracy`: error against loop time of every method on problems with known solutions. Runs
+ * what is not known yet of the chart, point by point, then writes tables, charts and the overview page. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "accuracy.h"
 #include "base/memory.h"
 
-/* ---- figures of a run ------------------------------------------------------------------------------------------ */
+/* ---- figures of a run -------------------------------------------------------------------------------------------- */
 
 double accuracy_figure(const struct engine *e, const char *probe, const char *quantity)
 {
@@ -17,7 +17,7 @@ double accuracy_figure(const struct engine *e, const char *probe, const char *qu
     return figure.value;
 }
 
-/* ---- one point -------------------------------------------------------------------------------------------------- */
+/* ---- one point --------------------------------------------------------------------------------------------------- */
 
 enum { RUNS_MOST = 3 };
 #define RUNS_SECONDS 0.3                 /* short runs are repeated for their time: at most this long */
@@ -35,8 +35,8 @@ void accuracy_result_clear(struct accuracy_result *r)
     *r = (struct accuracy_result){.error = NAN, .part = {NAN, NAN, NAN}, .seconds = {INFINITY, INFINITY}};
 }
 
-status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team, struct accuracy_result *r,
-                          struct scene_choice *choice)
+status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team,
+                          struct accuracy_result *r, struct scene_choice *choice)
 {
     struct engine e;
     struct scene s;
@@ -56,7 +56,7 @@ status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene 
     return ran == FAILED ? OK : ran;
 }
 
-static status run_once(struct accuracy_entry *entry, int team)
+static status accuracy_run_once(struct accuracy_entry *entry, int team)
 {
     struct accuracy_scene from;
     accuracy_scene_make(&entry->point, &from);
@@ -74,17 +74,17 @@ static status run_point(struct accuracy_entry *entry)
     double spent = 0;
     for (int run = 0; run < RUNS_MOST && spent < RUNS_SECONDS; run++)
         for (int team = 0; team < (entry->point.problem->dim > 1 ? 2 : 1); team++) {
-            TRY(run_once(entry, team));
+            TRY(accuracy_run_once(entry, team));
             spent += r->seconds[team];
         }
     if (!isfinite(r->error)) r->stable = false;
     return accuracy_store_append(entry);
 }
 
-/* ---- all points --------------------------------------------------------------------------------------------------- */
+/* ---- all points -------------------------------------------------------------------------------------------------- */
 
-/* Work of a point beside others of its problem, about in seconds: 100 ns a particle and step, more with long horizons; its
- * set-up; repetitions. */
+/* Work of a point beside others of its problem, about in seconds: 100 ns a particle and step, more with long
+ * horizons; its set-up; repetitions. */
 static double work_of(const struct accuracy_point *p)
 {
     const int dim = p->problem->dim;
@@ -96,7 +96,7 @@ static double work_of(const struct accuracy_point *p)
 enum { PROBLEMS_MAX = 16 };
 struct progress { double spent[PROBLEMS_MAX], done[PROBLEMS_MAX], asked[PROBLEMS_MAX]; };
 
-static int number_of(const struct accuracy_problem *q)
+static int accuracy_number_of(const struct accuracy_problem *q)
 {
     int k = 0;
     while (accuracy_problem[k] != q) k++;
@@ -135,19 +135,19 @@ static bool is_asked(const struct accuracy_entry *entry, const char *only, bool 
            (!only || strcmp(only, entry->point.problem->name) == 0);
 }
 
-static status run_all(struct accuracy_plan *plan, const char *only, bool quick)
+static status accuracy_run_all(struct accuracy_plan *plan, const char *only, bool quick)
 {
     struct progress g = {0};
     int asked = 0;
     assert(accuracy_problems <= PROBLEMS_MAX);
     for (int k = 0; k < plan->n; k++) {
         if (!is_asked(&plan->entry[k], only, quick)) continue;
-        g.asked[number_of(plan->entry[k].point.problem)] += work_of(&plan->entry[k].point), asked++;
+        g.asked[accuracy_number_of(plan->entry[k].point.problem)] += work_of(&plan->entry[k].point), asked++;
     }
     printf("  %d points, %d of them to be run; error, loop time on one thread and on two\n", plan->n, asked);
     for (int k = 0; k < plan->n; k++) {
         if (!is_asked(&plan->entry[k], only, quick)) continue;
-        const int problem = number_of(plan->entry[k].point.problem);
+        const int problem = accuracy_number_of(plan->entry[k].point.problem);
         const double before = team_clock();
         TRY(run_point(&plan->entry[k]));
         g.spent[problem] += team_clock() - before, g.done[problem] += work_of(&plan->entry[k].point);
@@ -164,11 +164,11 @@ static status write_known(struct accuracy_plan *plan)
     return accuracy_chart_write(plan);
 }
 
-static status measure_all(struct accuracy_plan *plan, const char *only, bool quick)
+static status accuracy_measure_all(struct accuracy_plan *plan, const char *only, bool quick)
 {
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_store_read(plan));
-    TRY(run_all(plan, only, quick));
+    TRY(accuracy_run_all(plan, only, quick));
     team_make(0);
     TRY(accuracy_store_write(plan));
     TRY(accuracy_chart_write(plan));
@@ -188,10 +188,13 @@ status bench_accuracy_of(const char *only, bool quick)
     struct accuracy_plan plan = {0};
     const bool chart = only && strcmp(only, "chart") == 0, automatic = only && strcmp(only, "auto") == 0;
     if (only && strcmp(only, "reference") == 0) return accuracy_reference(quick);
-    if (only && !chart && !automatic && !is_problem(only)) return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
+    if (only && !chart && !automatic && !is_problem(only))
+        return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
     printf("accuracy\n");
     bench_print_machine(team_make(0));
-    status s = automatic ? accuracy_auto(&plan, quick) : chart ? write_known(&plan) : measure_all(&plan, only, quick);
+    status s = automatic ? accuracy_auto(&plan, quick)
+               : chart   ? write_known(&plan)
+                         : accuracy_measure_all(&plan, only, quick);
     accuracy_plan_free(&plan);
     return s;
 }

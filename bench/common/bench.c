@@ -1,9 +1,8 @@
-/* floor 5: `cleave bench`: which benches there are and which were asked for. */
+/* `cleave bench`: which benches there are and which were asked for. */
 #include <stdio.h>
 #include <string.h>
 
 #include "bench.h"
-#include "src/app/commands.h"
 
 struct bench {
     const char *name;
@@ -13,24 +12,35 @@ struct bench {
 /* In the order in which they run: kernels first, while the process is still small. */
 static const struct bench benches[] = {
     {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
-    {"factors", bench_factors}, {"threads", bench_threads},       {"scale", bench_scale},
+    {"sif", bench_sif}, {"threads", bench_threads},       {"scale", bench_scale},
     {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability},
-    {"scatter", bench_scatter}};
+    {"sensitivity", bench_sensitivity}};
 enum { BENCHES = COUNT_OF(benches) };
 
-/* `accuracy=NAME`: that problem alone, or another thing that bench_accuracy_of knows; `stability=lasting`, or a part of a case's name:
- * its long map alone. */
+/* Names of earlier versions. */
+static const struct { const char *old, *name; } renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
+
+/* `accuracy=NAME`: that problem alone, or another thing that bench_accuracy_of knows; `stability=lasting`, or a part
+ * of a case's name: its long map alone. */
 static const char accuracy_of[] = "accuracy=", stability_of[] = "stability=";
 
-static status mark(const char *word, bool *asked)
+static status bench_mark(const char *word, bool *asked)
 {
+    for (size_t k = 0; k < COUNT_OF(renamed); k++)
+        if (!strcmp(word, renamed[k].old)) {
+            fprintf(stderr, "cleave bench %s is now cleave bench %s\n", word, renamed[k].name);
+            word = renamed[k].name;
+        }
     for (int k = 0; k < BENCHES; k++)
         if (!strcmp(word, benches[k].name)) {
             asked[k] = true;
             return OK;
         }
-    return status_set(REFUSED, "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [factors] [threads] "
-                               "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability[=lasting|=CASE]] [scatter] [--quick]", word);
+    return status_set(
+        REFUSED,
+        "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
+        "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability[=lasting|=CASE]] [sensitivity] [--quick]",
+        word);
 }
 
 status command_bench(int argc, char **argv)
@@ -44,7 +54,7 @@ status command_bench(int argc, char **argv)
         }
         if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of))) only = argv[k] + strlen(accuracy_of);
         else if (!strncmp(argv[k], stability_of, strlen(stability_of))) lasting = argv[k] + strlen(stability_of);
-        else TRY(mark(argv[k], asked));
+        else TRY(bench_mark(argv[k], asked));
         any = true;
     }
     for (int k = 0; k < BENCHES; k++)

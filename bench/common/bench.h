@@ -1,14 +1,17 @@
-/* floor 5: what the benches share: tables that become csv and json, the machine's own limits, and engines made for
+/* What the benches share: tables that become csv and json, the machine's own limits, and engines made for
  * timing. */
-#ifndef CLEAVE_BENCH_H
-#define CLEAVE_BENCH_H
+#ifndef CLEAVE_BENCH_BENCH
+#define CLEAVE_BENCH_BENCH
 
 #include "engine/engine.h"
-#include "kernels/microbench/probe.h"
+#include "kernels/microbench/microbench.h"
+
+/* `cleave bench`: words after `cleave`, its own name first. */
+status command_bench(int argc, char **argv);
 
 #define BENCH_FOLDER "results/bench"
 
-/* ---- bench_output.c: tables --------------------------------------------------------------------------- */
+/* ---- bench_output.c: tables -------------------------------------------------------------------------------------- */
 
 /* A text, or a number where `text` is empty. */
 struct bench_cell {
@@ -25,7 +28,8 @@ struct bench_table {
 };
 
 void bench_table_make(struct bench_table *t, const char *name, const char *header);
-/* Fill cell after cell, row after row. In files commas and quotation marks of a text become semicolons. A number that is not finite is left out of the files. */
+/* Fill cell after cell, row after row. In files commas and quotation marks of a text become semicolons. A number
+ * that is not finite is left out of the files. */
 void bench_text(struct bench_table *t, const char *text);
 void bench_number(struct bench_table *t, double number);
 void bench_table_free(struct bench_table *t);
@@ -39,7 +43,7 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
 /* One line about the processor, and one under it about the program. */
 void bench_print_machine(int threads);
 
-/* ---- bench_scene.c: engines made for timing ------------------------------------------------------------- */
+/* ---- bench_scene.c: engines made for timing ---------------------------------------------------------------------- */
 
 /* Reads a scene (`text` NULL: the file `path`) with overrides and makes its engine, without output. The scene must stay
  * where it is. */
@@ -88,7 +92,7 @@ static inline double bench_random(uint64_t *seed)
     return (double)(*seed >> 11) * 0x1p-52 - 1;
 }
 
-/* ---- bench_blocks.c: blocks of any size ------------------------------------------------------------------ */
+/* ---- bench_blocks.c: blocks of any size -------------------------------------------------------------------------- */
 
 /* A method on a square or a cube. */
 struct bench_block {
@@ -102,12 +106,12 @@ extern const struct bench_block bench_blocks[BENCH_BLOCKS];
 status bench_block_make(struct engine *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
                         int frames, struct output *out);
 
-/* ---- the benches ---------------------------------------------------------------------------------------- */
+/* ---- the benches ------------------------------------------------------------------------------------------------- */
 
 /* Every kernel instance beside the machine's limits, and the speed floor; few repetitions with `quick`. */
 status bench_kernels(bool quick);
 
-/* bench_floor.c: what is asked of inputs/kalthoff_winkler.yaml at a spacing of 0.5 mm, beside the probes. */
+/* bench_targets.c: what is asked of inputs/kalthoff_winkler.yaml at a spacing of 0.5 mm, beside the probes. */
 enum { FLOOR_THREADS = 2 };
 struct floor_figure {
     const char *name, *unit;
@@ -131,13 +135,13 @@ void bench_floor_table(const struct floor *f, struct bench_table *t);
 status bench_coupling(bool quick);
 
 /* bench_accuracy.c: error against loop time of every method on problems with known solutions; goes on where it was
- * broken off. Of one problem alone: NULL or its name; `chart`: writes what method auto chooses from, `auto`: tries method auto,
- * `reference`: finds the cracks of accuracy_reference.h anew. */
+ * broken off. Of one problem alone: NULL or its name; `chart`: writes what method auto chooses from, `auto`: tries
+ * method auto, `reference`: finds the cracks of accuracy_reference.h anew. */
 status bench_accuracy(bool quick);
 status bench_accuracy_of(const char *only, bool quick);
 
-/* bench_factors.c: stress-intensity factors at rest and in motion beside closed forms and published tables. */
-status bench_factors(bool quick);
+/* bench_sif.c: stress-intensity factors at rest and in motion beside closed forms and published tables. */
+status bench_sif(bool quick);
 
 /* bench_threads.c: strong and weak scaling on 1 ... all cores. */
 status bench_threads(bool quick);
@@ -148,8 +152,8 @@ status bench_scale(bool quick);
 /* bench_peers.c: a block and a plate by this program and by LAMMPS, where `lmp` is installed. */
 status bench_peers(bool quick);
 
-/* bench_stability.c: the critical time step observed beside the predicted one, for every method; scenes in which methods fail,
- * with their thresholds and cures. */
+/* bench_stability.c: the critical time step observed beside the predicted one, for every method; scenes in which
+ * methods fail, with their thresholds and cures. */
 status bench_stability(bool quick);
 /* Of its long map alone: all of it (`lasting`), or, on the screen only, the cases in whose name this is. */
 status bench_stability_of(const char *only, bool quick);
@@ -157,7 +161,7 @@ status bench_stability_of(const char *only, bool quick);
 /* bench_efficiency.c: the paper's Table 1 beside ours; one repetition with `quick`. */
 status bench_efficiency(bool quick);
 
-/* bench_scatter.c: how far the ends of cracks lie apart when nothing but the time step differs. */
-status bench_scatter(bool quick);
+/* bench_sensitivity.c: how far the ends of cracks lie apart when nothing but the time step differs. */
+status bench_sensitivity(bool quick);
 
 #endif

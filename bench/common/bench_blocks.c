@@ -1,8 +1,9 @@
-/* floor 5: blocks of any size for timing: squares and cubes that move everywhere and break nowhere. */
+/* Blocks of any size for timing: squares and cubes that move everywhere and break nowhere. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "auto/scene_read.h"
 #include "bench.h"
 
 const struct bench_block bench_blocks[BENCH_BLOCKS] = {
@@ -42,16 +43,21 @@ static int64_t edge_of_block(const struct bench_block *b, double particles)
 static void block_text(FILE *to, const struct bench_block *b, double particles, int64_t steps, int frames)
 {
     const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)edge_of_block(b, particles), rate = 1 / edge;
-    fprintf(to, "name: block\nspace: %s\n%s", b->dim == 2 ? "plane stress" : "solid", b->dim == 2 ? "thickness: 1 mm\n" : "");
+    fprintf(to, "name: block\nspace: %s\n%s", b->dim == 2 ? "plane stress" : "solid",
+            b->dim == 2 ? "thickness: 1 mm\n" : "");
     fprintf(to, "method: %s\nduration: %.9g\ntime: {step: %.9g}\n", b->method, (double)steps * step, step);
     fprintf(to, "material: {young: 72e9, density: 2440, critical_stretch: 0.1}\nparticles: {spacing: %.9g}\n", spacing);
     fprintf(to, "mpm: {frame: %s}\noutput: {frames: %d, samples: 1}\n", b->frame, frames);
     if (b->dim == 2)
-        fprintf(to, "body: {box: {from: [0, 0], to: [%.9g, %.9g]}}\ninitial: [{velocity_gradient: [[%.9g, 0], [0, %.9g]]}]\n",
-                edge, edge, rate, rate);
+        fprintf(
+            to,
+            "body: {box: {from: [0, 0], to: [%.9g, %.9g]}}\ninitial: [{velocity_gradient: [[%.9g, 0], [0, %.9g]]}]\n",
+            edge, edge, rate, rate);
     else
-        fprintf(to, "body: {box: {from: [0, 0, 0], to: [%.9g, %.9g, %.9g]}}\n"
-                "initial: [{velocity_gradient: [[%.9g, 0, 0], [0, %.9g, 0], [0, 0, %.9g]]}]\n", edge, edge, edge, rate, rate, rate);
+        fprintf(to,
+                "body: {box: {from: [0, 0, 0], to: [%.9g, %.9g, %.9g]}}\n"
+                "initial: [{velocity_gradient: [[%.9g, 0, 0], [0, %.9g, 0], [0, 0, %.9g]]}]\n",
+                edge, edge, edge, rate, rate, rate);
     block_parts(to, b, edge);
 }
 

@@ -1,4 +1,4 @@
-/* floor 5: tables of figures as csv and json, and their picture. */
+/* Tables of figures as csv and json, and their picture. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -9,9 +9,9 @@
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 #include "output/output_files.h"
-#include "engine/simd.h"
+#include "simd/simd.h"
 
-/* ---- tables ---------------------------------------------------------------------------------------------- */
+/* ---- tables ------------------------------------------------------------------------------------------------------ */
 
 void bench_table_make(struct bench_table *t, const char *name, const char *header)
 {
@@ -43,10 +43,10 @@ void bench_table_free(struct bench_table *t)
     *t = (struct bench_table){0};
 }
 
-/* ---- files ------------------------------------------------------------------------------------------------- */
+/* ---- files ------------------------------------------------------------------------------------------------------- */
 
 /* Without what would end a cell. */
-static void put_text(FILE *to, const char *text)
+static void output_put_text(FILE *to, const char *text)
 {
     for (; *text; text++) fputc(*text == ',' || *text == '"' ? ';' : *text, to);
 }
@@ -57,7 +57,7 @@ static void put_csv(FILE *to, const struct bench_table *t)
     for (int64_t k = 0; k < t->cells; k++) {
         const struct bench_cell *c = &t->cell[k];
         if (c->text[0])
-            put_text(to, c->text);
+            output_put_text(to, c->text);
         else if (isfinite(c->number))
             fprintf(to, "%.9g", c->number);
         fputc((k + 1) % t->columns ? ',' : '\n', to);
@@ -65,7 +65,7 @@ static void put_csv(FILE *to, const struct bench_table *t)
 }
 
 /* Column k of the header. */
-static void column_name(const struct bench_table *t, int64_t k, char *name, size_t size)
+static void output_column_name(const struct bench_table *t, int64_t k, char *name, size_t size)
 {
     const char *from = t->header;
     while (k-- > 0) from = strchr(from, ',') + 1;
@@ -77,14 +77,14 @@ static void put_rows(FILE *to, const struct bench_table *t)
     char name[NAME_MAX_LENGTH];
     for (int64_t k = 0; k < t->cells; k++) {
         const struct bench_cell *c = &t->cell[k];
-        column_name(t, k % t->columns, name, sizeof name);
+        output_column_name(t, k % t->columns, name, sizeof name);
         if (k % t->columns == 0)
             fprintf(to, "%s\n    {", k ? "}," : "");
         else
             fputs(", ", to);
         if (c->text[0]) {
             fprintf(to, "\"%s\": \"", name);
-            put_text(to, c->text);
+            output_put_text(to, c->text);
             fputc('"', to);
         } else if (isfinite(c->number))
             fprintf(to, "\"%s\": %.9g", name, c->number);
@@ -143,7 +143,7 @@ status bench_write(const char *name, const struct bench_table *table, int tables
     return write_file(path, name, table, tables);
 }
 
-/* ---- pictures ---------------------------------------------------------------------------------------------- */
+/* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
 status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context)
@@ -170,7 +170,7 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
 void bench_print_machine(int threads)
 {
     struct machine m = team_machine();
-    printf("  %s, %d cores, %lld kB L2, %lld MB L3; cleave %s, kernels %s, %d thread%s unless said otherwise\n", m.model,
-           m.cores, (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION, simd_in_use()->name,
-           threads, threads > 1 ? "s" : "");
+    printf("  %s, %d cores, %lld kB L2, %lld MB L3; cleave %s, kernels %s, %d thread%s unless said otherwise\n",
+           m.model, m.cores, (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION,
+           simd_in_use()->name, threads, threads > 1 ? "s" : "");
 }

@@ -1,4 +1,4 @@
-/* floor 5: engines made for timing: from a file or a text, without output, in pieces; and runs as processes. */
+/* Engines made for timing: from a file or a text, without output, in pieces; and runs as processes. */
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "auto/scene_read.h"
 #include "bench.h"
 #include "base/memory.h"
 #include "output/output_files.h"
@@ -59,7 +60,7 @@ status bench_engine_run(struct engine *e, int64_t until, struct laps *spent)
     return ran;
 }
 
-/* ---- figures of a run ------------------------------------------------------------------------------------ */
+/* ---- figures of a run -------------------------------------------------------------------------------------------- */
 
 void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
 {
@@ -105,7 +106,7 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
     return ran;
 }
 
-/* ---- a process of its own ------------------------------------------------------------------------------- */
+/* ---- a process of its own ---------------------------------------------------------------------------------------- */
 
 /* fork() would copy a team of threads of which only one goes on: the child is started from the program's file. */
 static status spawn(char **argv, pid_t *child)

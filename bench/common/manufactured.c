@@ -1,4 +1,4 @@
-/* floor 5: a motion that is known because its body force is chosen so. */
+/* A motion that is known because its body force is chosen so. */
 #include "manufactured.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static real mode(const struct manufactured *m, const real *X, int a, int slope)
 }
 
 /* Factors of the mode of component a in the body force: what is steady and what goes with sin^2(pi t/T) [N/m^3]. */
-static void forces(const struct manufactured *m, int a, real *steady, real *beat)
+static void manufactured_forces(const struct manufactured *m, int a, real *steady, real *beat)
 {
     const real k = 2 * M_PI / m->length, inertia = m->density * m->share[a] * square(M_PI / m->period);
     real sum = 0;
@@ -34,7 +34,7 @@ struct manufactured_values manufactured_at(const struct manufactured *m, const r
     for (int a = 0; a < m->dim; a++) {
         const real shape = m->amplitude * m->share[a] * mode(m, X, a, -1);
         real steady, beat;
-        forces(m, a, &steady, &beat);
+        manufactured_forces(m, a, &steady, &beat);
         v.displacement[a] = shape * grown, v.velocity[a] = shape * rate;
         v.force[a] = (steady + beat * grown) * mode(m, X, a, -1);
     }
@@ -55,7 +55,7 @@ static void put_wave(FILE *to, const struct manufactured *m, const int *sign, bo
     fputs("  - {body_force: [", to);
     for (int a = 0; a < m->dim; a++) {
         real part[2];
-        forces(m, a, &part[0], &part[1]);
+        manufactured_forces(m, a, &part[0], &part[1]);
         fprintf(to, "%s%.15g", a ? ", " : "", sign[a] * part[beats] / waves);
     }
     fprintf(to, "], profile: {sine: {wavelength: %.15g, direction: [", m->length / sqrt(m->dim));

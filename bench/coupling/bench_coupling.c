@@ -1,4 +1,4 @@
-/* floor 5: `cleave bench coupling`: what an interface of material points and bonds does to waves and to uniform strain.
+/* `cleave bench coupling`: what an interface of material points and bonds does to waves and to uniform strain.
  * Here the bar: couplings and widths of the pulse, places of the interface in its cell, cells and transfers. */
 #include <math.h>
 #include <string.h>
@@ -22,12 +22,12 @@ void coupling_way_override(struct bench_overrides *o, int way)
     if (coupling_way[way].damping) bench_override(o, "rim_damping", "%s", coupling_way[way].damping);
 }
 
-/* ---- runs of the bar ------------------------------------------------------------------------------------- */
+/* ---- runs of the bar --------------------------------------------------------------------------------------------- */
 
 static const double spacing = 1; /* of the bar's particles, as its file has it [mm] */
 static const double interface = 512; /* [mm] */
 
-static status bar_measure(struct bar_run *r)
+static status coupling_bar_measure(struct bar_run *r)
 {
     struct bench_overrides o = {0};
     struct bench_figure f[] = {{.probe = "pulse", .quantity = "reflected"},
@@ -47,7 +47,7 @@ static status bar_measure(struct bar_run *r)
 static status bar_add(struct bar_table *t, struct bar_run r)
 {
     assert(t->n < BAR_RUNS_MAX);
-    TRY(bar_measure(&r));
+    TRY(coupling_bar_measure(&r));
     t->run[t->n++] = r;
     return OK;
 }
@@ -93,7 +93,7 @@ static status measure_variants(struct bar_table *t, bool quick)
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------ */
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
 
 enum { REFLECTED, TRANSMITTED, ENERGY, SHARES };
 
@@ -152,7 +152,7 @@ static void print_variants(const struct bar_table *t)
     fflush(stdout);
 }
 
-/* ---- files --------------------------------------------------------------------------------------------------- */
+/* ---- files ------------------------------------------------------------------------------------------------------- */
 
 static void fill_result(struct bench_table *rows, const struct pulse_result *r)
 {
@@ -180,7 +180,7 @@ static void fill_bars(struct bench_table *rows, const struct bar_table *t, const
     }
 }
 
-static status write_tables(const struct coupling_figures *all)
+static status coupling_write_tables(const struct coupling_figures *all)
 {
     struct bench_table table[5];
     fill_bars(&table[0], &all->pulses, "");
@@ -193,9 +193,9 @@ static status write_tables(const struct coupling_figures *all)
     return s;
 }
 
-/* ---- all ----------------------------------------------------------------------------------------------------- */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
-static status measure_all(struct coupling_figures *all, bool quick)
+static status coupling_measure_all(struct coupling_figures *all, bool quick)
 {
     if (!bench_scene_exists(COUPLING_BAR) || !bench_scene_exists(COUPLING_PLATE))
         return status_set(REFUSED, "bench coupling: its scenes are not here; start it where the folder inputs is");
@@ -211,7 +211,7 @@ static status measure_all(struct coupling_figures *all, bool quick)
     team_make(0);
     TRY(plane_measure(&all->plane, quick));
     plane_print(&all->plane);
-    TRY(write_tables(all));
+    TRY(coupling_write_tables(all));
     TRY(coupling_pulse_picture());
     return bench_draw("coupling", 1400, 1000, coupling_draw, all);
 }
@@ -221,7 +221,7 @@ status bench_coupling(bool quick)
     struct coupling_figures *all = NEW("bench.coupling", 1, struct coupling_figures);
     printf("coupling\n");
     bench_print_machine(team_make(0));
-    status s = measure_all(all, quick);
+    status s = coupling_measure_all(all, quick);
     memory_free(all);
     return s;
 }

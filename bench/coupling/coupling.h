@@ -1,6 +1,6 @@
-/* floor 5: what the parts of `cleave bench coupling` share. */
-#ifndef CLEAVE_BENCH_COUPLING_H
-#define CLEAVE_BENCH_COUPLING_H
+/* What the parts of `cleave bench coupling` share. */
+#ifndef CLEAVE_BENCH_COUPLING
+#define CLEAVE_BENCH_COUPLING
 
 #include "bench/common/bench.h"
 
@@ -11,7 +11,7 @@
 enum { WAY_DAMPED, WAY_UNDAMPED, WAY_HANDSHAKE, WAY_PM, WAY_PG, WAY_PMG, WAY_PGG, WAYS };
 struct coupling_way {
     const char *name, *coupling;
-    const char *damping; /* value of rim_damping; NULL: the default      */
+    const char *damping; /* value of interface_damping; NULL: the default      */
 };
 extern const struct coupling_way coupling_way[WAYS];
 void coupling_way_override(struct bench_overrides *o, int way);
@@ -21,7 +21,7 @@ struct pulse_result {
     double reflected, transmitted, energy_change;
 };
 
-/* ---- bench_coupling.c: the bar ------------------------------------------------------------------------- */
+/* ---- bench_coupling.c: the bar ----------------------------------------------------------------------------------- */
 
 /* One run of the bar. */
 struct bar_run {
@@ -39,7 +39,7 @@ struct bar_table {
     struct bar_run run[BAR_RUNS_MAX];
 };
 
-/* ---- coupling_patch.c: uniform strain across an interface ------------------------------------------------ */
+/* ---- coupling_patch.c: uniform strain across an interface -------------------------------------------------------- */
 
 /* Largest nodal force over stress times cell face: with the interface (its corners, its centre) on a node, and over
  * positions of the grid. */
@@ -58,7 +58,7 @@ status patch_measure(struct patch_table *t, bool quick);
 void patch_print(const struct patch_table *t);
 void patch_fill(const struct patch_table *t, struct bench_table *rows);
 
-/* ---- coupling_plane.c: a plane wave meets a flat and an oblique interface -------------------------------------- */
+/* ---- coupling_plane.c: a plane wave meets a flat and an oblique interface ---------------------------------------- */
 
 struct plane_row {
     const char *interface, *weights, *transfer;
@@ -77,7 +77,7 @@ status plane_measure(struct plane_table *t, bool quick);
 void plane_print(const struct plane_table *t);
 void plane_fill(const struct plane_table *t, struct bench_table *rows);
 
-/* ---- coupling_draw.c: pictures ------------------------------------------------------------------------------ */
+/* ---- coupling_draw.c: pictures ----------------------------------------------------------------------------------- */
 
 struct coupling_figures {
     struct bar_table pulses, places, variants;

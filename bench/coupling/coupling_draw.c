@@ -1,11 +1,12 @@
-/* floor 5: the picture of the coupling bench: the bar, the plane wave, the place of the interface in its cell, patch. */
+/* The picture of the coupling bench: the bar, the plane wave, the place of the interface in its cell,
+ * patch. */
 #include <math.h>
 #include <string.h>
 
 #include "coupling.h"
 #include "plot/gnuplot.h"
 
-/* ---- house-keeping ----------------------------------------------------------------------------------------- */
+/* ---- house-keeping ----------------------------------------------------------------------------------------------- */
 
 static const char *const way_style[WAYS] = {
     [WAY_DAMPED] = "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'",
@@ -22,7 +23,7 @@ static const char *const way_title[WAYS] = {
 };
 
 /* One of four panels, its key on the right. */
-static void set_panel(FILE *to, int column, int row, const char *title)
+static void coupling_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.055 + 0.5 * column, above = 0.945 - 0.5 * row;
     fprintf(to,
@@ -39,7 +40,7 @@ static void set_logarithmic(FILE *to)
           to);
 }
 
-/* ---- the bar ------------------------------------------------------------------------------------------------- */
+/* ---- the bar ----------------------------------------------------------------------------------------------------- */
 
 static void draw_pulses(FILE *to, const struct bar_table *t)
 {
@@ -49,7 +50,7 @@ static void draw_pulses(FILE *to, const struct bar_table *t)
             if (t->run[k].way == way) fprintf(to, "%g %.6g\n", t->run[k].width, 100 * t->run[k].result.reflected);
         fputs("EOD\n", to);
     }
-    set_panel(to, 0, 0, "a pulse in a bar, six couplings");
+    coupling_draw_set_panel(to, 0, 0, "a pulse in a bar, six couplings");
     set_logarithmic(to);
     fputs("plot ", to);
     for (int way = WAYS - 1; way >= 0; way--) /* the default on top, first in the key */
@@ -59,7 +60,7 @@ static void draw_pulses(FILE *to, const struct bar_table *t)
     fputc('\n', to);
 }
 
-/* ---- the plane wave ------------------------------------------------------------------------------------------ */
+/* ---- the plane wave ---------------------------------------------------------------------------------------------- */
 
 static const struct series {
     int way;
@@ -92,7 +93,7 @@ static void draw_plane(FILE *to, const struct plane_table *t)
             }
         fputs("EOD\n", to);
     }
-    set_panel(to, 1, 0, "a plane pulse in a plate: what comes back as a wave");
+    coupling_draw_set_panel(to, 1, 0, "a plane pulse in a plate: what comes back as a wave");
     set_logarithmic(to);
     fputs("set xrange [14:73]\nplot ", to);
     for (int k = 0, n = 0; k < SERIES; k++)
@@ -102,7 +103,7 @@ static void draw_plane(FILE *to, const struct plane_table *t)
     fputs("\nunset logscale\nset xlabel ''\nset ytics auto\nset xtics auto scale 0\n", to);
 }
 
-/* ---- bars ------------------------------------------------------------------------------------------------------ */
+/* ---- bars -------------------------------------------------------------------------------------------------------- */
 
 /* Bar `member` of `members` of a group at place `group`: filled up to `largest`, a line at `on_node`. */
 static void put_bar(FILE *to, int group, int member, int members, double on_node, double largest)
@@ -148,7 +149,7 @@ static void draw_places(FILE *to, const struct bar_table *t)
         }
         fputs("EOD\n", to);
     }
-    set_panel(to, 0, 1, "the interface anywhere in its cell: largest reflection");
+    coupling_draw_set_panel(to, 0, 1, "the interface anywhere in its cell: largest reflection");
     fprintf(to,
             "set xrange [-0.6:%g]\nset yrange [0:*]\nset xlabel 'width of the pulse [spacings]'\n"
             "set ylabel 'reflected share of the amplitude [%%]'\n",
@@ -179,7 +180,7 @@ static void draw_patch(FILE *to, const struct patch_table *t)
         }
         fputs("EOD\n", to);
     }
-    set_panel(to, 1, 1, "uniform strain in a plate: largest force on a node");
+    coupling_draw_set_panel(to, 1, 1, "uniform strain in a plate: largest force on a node");
     fputs("set xrange [-0.6:3.6]\nset xtics ('flat' 0, '45 degrees' 1, 'circle' 2, 'square' 3)\n"
           "set xlabel 'interface'\nset ylabel 'force over stress x cell face [%]'\n",
           to);

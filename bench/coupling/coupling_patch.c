@@ -1,12 +1,12 @@
-/* floor 5: uniform strain across an interface must leave every node at rest: the largest nodal force of the first step
+/* Uniform strain across an interface must leave every node at rest: the largest nodal force of the first step
  * over stress times cell face, for interfaces of several shapes, loads and positions of the grid. */
 #include <math.h>
 #include <string.h>
 
 #include "coupling.h"
 
-/* Every node and every peridynamic particle far from the edges is looked at. Strain: bonds stretch by finite geometry, so
- * nothing below 1e-6 is told from zero. */
+/* Every node and every peridynamic particle far from the edges is looked at. Strain: bonds stretch by finite
+ * geometry, so nothing below 1e-6 is told from zero. */
 static const char line_text[] = "space: line\n"
                                 "duration: 1 us\n"
                                 "material: {young: 1e4, density: 1}\n"
@@ -112,9 +112,9 @@ status patch_measure(struct patch_table *t, bool quick)
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------ */
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
 
-static bool same_line(const struct patch_row *a, const struct patch_row *b)
+static bool coupling_patch_same_line(const struct patch_row *a, const struct patch_row *b)
 {
     return !strcmp(a->shape, b->shape) && !strcmp(a->coupling, b->coupling) && !strcmp(a->weights, b->weights) &&
            a->cell == b->cell;
@@ -123,13 +123,14 @@ static bool same_line(const struct patch_row *a, const struct patch_row *b)
 /* One line for all loads. */
 void patch_print(const struct patch_table *t)
 {
-    printf("\n  uniform strain: largest nodal force over stress x cell face, with the interface on a node > and largest "
-           "over positions of the grid\n  %-16s %4s  %-15s %-10s",
-           "interface", "cell", "coupling", "weights");
+    printf(
+        "\n  uniform strain: largest nodal force over stress x cell face, with the interface on a node > and largest "
+        "over positions of the grid\n  %-16s %4s  %-15s %-10s",
+        "interface", "cell", "coupling", "weights");
     for (size_t l = 0; l < COUNT_OF(load); l++) printf("   %-16s", load[l].name);
     for (int k = 0; k < t->n; k++) {
         const struct patch_row *r = &t->row[k];
-        if (k == 0 || !same_line(r, r - 1))
+        if (k == 0 || !coupling_patch_same_line(r, r - 1))
             printf("\n  %-16s %2d D  %-15s %-10s", r->shape, r->cell, r->coupling, r->weights);
         printf("  %7.4f > %6.4f", r->on_node, r->largest);
     }

@@ -1,4 +1,4 @@
-/* floor 5: a plane longitudinal pulse between rollers meets an interface of material points and bonds, flat or at 45
+/* A plane longitudinal pulse between rollers meets an interface of material points and bonds, flat or at 45
  * degrees. An oblique interface throws what it reflects sideways: the incident pulse and the reflected one, both plane,
  * sweep along it together, and rollers would return the reflected one: the run ends before they reach the lower one. */
 #include <math.h>
@@ -20,14 +20,15 @@ struct strip {
 static const char *const interface_name[] = {"flat", "45 degrees"};
 enum { FLAT, OBLIQUE, INTERFACES };
 
-/* Flat: the bar's distances, so that figures compare. Oblique: as tall as the reflected wave needs to become plane (at 32
- * spacings heights of 3 to 6 widths change `wave` by a seventh at most); half a spacing keeps the plane off the
- * particles. */
+/* Flat: the bar's distances, so that figures compare. Oblique: as tall as the reflected wave needs to become plane
+ * (at 32 spacings heights of 3 to 6 widths change `wave` by a seventh at most); half a spacing keeps the plane off
+ * the particles. */
 static struct strip strip_of(int interface, double width)
 {
     if (interface == FLAT) return (struct strip){1024, 4, 256, 512, {1, 0}, 512, 0.2};
     const double diagonal = sqrt(0.5), height = 64 + 2 * width, at = 3 * width + height + 0.5;
-    return (struct strip){at - 0.5 + 1.5 * width, height, 1.5 * width, at, {diagonal, diagonal}, at - 2.75 * width, 0.4};
+    return (struct strip){at - 0.5 + 1.5 * width, height, 1.5 * width, at, {diagonal, diagonal},
+                          at - 2.75 * width,      0.4};
 }
 
 /* One run; row.way < 0: material points alone. */
@@ -52,7 +53,7 @@ static status strip_make(struct engine *e, struct scene *scene, const struct str
     return bench_engine_make(e, scene, COUPLING_PLATE, NULL, bench_overrides_ready(&o), o.n);
 }
 
-/* ---- the run without interface ---------------------------------------------------------------------------- */
+/* ---- the run without interface ----------------------------------------------------------------------------------- */
 
 struct plain {
     real *v[2], energy_change;
@@ -80,7 +81,7 @@ static void plain_free(struct plain *b)
     for (int d = 0; d < 2; d++) memory_free(b->v[d]);
 }
 
-/* ---- what the interface did ----------------------------------------------------------------------------------- */
+/* ---- what the interface did -------------------------------------------------------------------------------------- */
 
 /* Distance of particle i beyond the interface [spacings]. */
 static double beyond(const struct strip *s, const struct particles *p, int64_t i)
@@ -108,7 +109,8 @@ static double largest_block(const struct strip *s, const struct particles *p, co
 }
 
 /* Close to the interface only where the pulse has passed: where it is, the sides differ by what each makes of it. */
-static void compare(struct plane_row *r, const struct strip *s, const struct engine *e, const struct plain *b)
+static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct engine *e,
+                                   const struct plain *b)
 {
     const struct particles *p = &e->part;
     const double incident = e->scene->initial[0].pulse.velocity;
@@ -132,7 +134,7 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
     struct scene scene;
     TRY(strip_make(&e, &scene, s, r));
     status ran = engine_run(&e);
-    if (ran == OK) compare(r, s, &e, b);
+    if (ran == OK) coupling_plane_compare(r, s, &e, b);
     bench_engine_free(&e, &scene);
     return ran;
 }
@@ -169,7 +171,7 @@ status plane_measure(struct plane_table *t, bool quick)
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------ */
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
 
 /* One line for both weights, which stand one after the other. */
 static void print_pair(const struct plane_row *r)
@@ -182,12 +184,13 @@ static void print_pair(const struct plane_row *r)
 
 void plane_print(const struct plane_table *t)
 {
-    printf("\n  a plane pulse between rollers, bonds with uniform and with isotropic weights: what came back as a wave\n"
-           "  (means over %d x %d D, %d D and more from the interface) and on any particle; what went on, energy "
-           "(isotropic)\n"
-           "  %-11s %6s %5s  %-24s %10s %10s %10s %10s %10s %10s\n",
-           BLOCK, BLOCK, AWAY, "interface", "width", "", "coupling", "wave: unif", "isotropic", "any: unif",
-           "isotropic", "went on", "energy");
+    printf(
+        "\n  a plane pulse between rollers, bonds with uniform and with isotropic weights: what came back as a wave\n"
+        "  (means over %d x %d D, %d D and more from the interface) and on any particle; what went on, energy "
+        "(isotropic)\n"
+        "  %-11s %6s %5s  %-24s %10s %10s %10s %10s %10s %10s\n",
+        BLOCK, BLOCK, AWAY, "interface", "width", "", "coupling", "wave: unif", "isotropic", "any: unif", "isotropic",
+        "went on", "energy");
     for (int k = 0; k < t->n; k += WEIGHTS) print_pair(&t->row[k]);
     fflush(stdout);
 }

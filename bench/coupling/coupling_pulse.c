@@ -1,4 +1,4 @@
-/* floor 5: the picture of a pulse that crosses the interface of a bar: velocity along the bar at three times, and what
+/* The picture of a pulse that crosses the interface of a bar: velocity along the bar at three times, and what
  * came back, magnified, for two couplings. */
 #include <math.h>
 
@@ -21,7 +21,7 @@ struct pulse_picture {
     struct snapshot shot[COLUMNS][TIMES];
 };
 
-static status bar_make(struct engine *e, struct scene *s, int way)
+static status pulse_bar_make(struct engine *e, struct scene *s, int way)
 {
     struct bench_overrides o = {0};
     if (way >= 0)
@@ -34,7 +34,7 @@ static status bar_make(struct engine *e, struct scene *s, int way)
 }
 
 /* Particles of both bars are numbered alike. */
-static void take(struct snapshot *shot, const struct particles *p, const struct particles *plain)
+static void coupling_pulse_take(struct snapshot *shot, const struct particles *p, const struct particles *plain)
 {
     shot->x = NEW("bench.snapshot", p->n, double);
     shot->v = NEW("bench.snapshot", p->n, double);
@@ -50,8 +50,8 @@ static status column_run(struct pulse_picture *picture, int column)
 {
     struct engine e[2]; /* coupled; material points alone */
     struct scene s[2];
-    TRY(bar_make(&e[0], &s[0], column_way[column]));
-    status ran = bar_make(&e[1], &s[1], -1);
+    TRY(pulse_bar_make(&e[0], &s[0], column_way[column]));
+    status ran = pulse_bar_make(&e[1], &s[1], -1);
     if (ran != OK) {
         bench_engine_free(&e[0], &s[0]);
         return ran;
@@ -60,13 +60,13 @@ static status column_run(struct pulse_picture *picture, int column)
     for (int k = 0; k < TIMES && ran == OK; k++) {
         const int64_t until = llround(1e-3 * time_ms[k] / e[0].dt);
         for (int b = 0; b < 2 && ran == OK; b++) ran = bench_engine_run(&e[b], until, NULL);
-        if (ran == OK) take(&picture->shot[column][k], &e[0].part, &e[1].part);
+        if (ran == OK) coupling_pulse_take(&picture->shot[column][k], &e[0].part, &e[1].part);
     }
     for (int b = 0; b < 2; b++) bench_engine_free(&e[b], &s[b]);
     return ran;
 }
 
-/* ---- drawing --------------------------------------------------------------------------------------------------- */
+/* ---- drawing ----------------------------------------------------------------------------------------------------- */
 
 static void put_shot(FILE *to, const struct pulse_picture *picture, int column, int k)
 {
@@ -78,14 +78,15 @@ static void put_shot(FILE *to, const struct pulse_picture *picture, int column, 
     fputs("EOD\n", to);
 }
 
-static void draw_panel(FILE *to, int column, int k)
+static void coupling_pulse_draw_panel(FILE *to, int column, int k)
 {
     const double left = 0.065 + 0.48 * column, above = 0.87 - 0.265 * k;
-    fprintf(to,
-            "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n"
-            "set xlabel '%s'\nset format x '%s'\nset ylabel '%s'\nset label 1 '%.2f ms: %s' at graph 0.02, graph 0.91\n",
-            left, left + 0.435, above, above - 0.235, k == TIMES - 1 ? "place along the bar [mm]" : "",
-            k == TIMES - 1 ? "%g" : "", column ? "" : "velocity [mm/s]", time_ms[k], time_name[k]);
+    fprintf(
+        to,
+        "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n"
+        "set xlabel '%s'\nset format x '%s'\nset ylabel '%s'\nset label 1 '%.2f ms: %s' at graph 0.02, graph 0.91\n",
+        left, left + 0.435, above, above - 0.235, k == TIMES - 1 ? "place along the bar [mm]" : "",
+        k == TIMES - 1 ? "%g" : "", column ? "" : "velocity [mm/s]", time_ms[k], time_name[k]);
     fprintf(to, "set label 2 '%s' at graph 0.5, graph 1.1 center font ',16'\n",
             k == 0 ? coupling_way[column_way[column]].name : "");
     fprintf(to, "set label 3 'material points' at graph 0.48, graph 0.06 right tc rgb '#777777'\n"
@@ -97,7 +98,7 @@ static void draw_panel(FILE *to, int column, int k)
             column || k ? "" : "what came back, 20 times");
 }
 
-static void draw(FILE *to, const void *context)
+static void coupling_pulse_draw(FILE *to, const void *context)
 {
     const struct pulse_picture *picture = context;
     for (int column = 0; column < COLUMNS; column++)
@@ -109,11 +110,11 @@ static void draw(FILE *to, const void *context)
             "set key at screen 0.52,0.975 center top horizontal maxrows 1\n",
             from_mm, to_mm, interface_mm, to_mm, interface_mm, interface_mm);
     for (int column = 0; column < COLUMNS; column++)
-        for (int k = 0; k < TIMES; k++) draw_panel(to, column, k);
+        for (int k = 0; k < TIMES; k++) coupling_pulse_draw_panel(to, column, k);
     fputs("unset multiplot\n", to);
 }
 
-static status write_table(const struct pulse_picture *picture)
+static status coupling_pulse_write_table(const struct pulse_picture *picture)
 {
     struct bench_table rows;
     bench_table_make(&rows, "", "coupling,time,x,velocity,difference");
@@ -137,8 +138,8 @@ status coupling_pulse_picture(void)
     struct pulse_picture picture = {0};
     status s = OK;
     for (int column = 0; column < COLUMNS && s == OK; column++) s = column_run(&picture, column);
-    if (s == OK) s = write_table(&picture);
-    if (s == OK) s = bench_draw("coupling_pulse", 1200, 760, draw, &picture);
+    if (s == OK) s = coupling_pulse_write_table(&picture);
+    if (s == OK) s = bench_draw("coupling_pulse", 1200, 760, coupling_pulse_draw, &picture);
     for (int column = 0; column < COLUMNS; column++)
         for (int k = 0; k < TIMES; k++) {
             memory_free(picture.shot[column][k].x);

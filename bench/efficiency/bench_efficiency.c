@@ -1,22 +1,29 @@
-/* floor 5: `cleave bench efficiency`: full peridynamics against the adaptive run, same spacing, same time step, beside
+/* `cleave bench efficiency`: full peridynamics against the adaptive run, same spacing, same time step, beside
  * Table 1 of Zeng et al. 2022, of bonds: t_r = 1 - t_adaptive / t_PD; and of state-based models, whose bonds cost more.
  * Levers are what an adaptive run may save by. All ways take turns; medians of the loop's time. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "auto/scene_read.h"
 #include "efficiency.h"
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 
 enum { BARS = 3 };     /* ways that have a colour */
-enum { CASES = EFFICIENCY_CASES, REPETITIONS = 3, SAMPLES = EFFICIENCY_SAMPLES, SHOWN = WAY_FRAME /* whose shares are drawn */ };
+enum {
+    CASES = EFFICIENCY_CASES,
+    REPETITIONS = 3,
+    SAMPLES = EFFICIENCY_SAMPLES,
+    SHOWN = WAY_FRAME /* whose shares are drawn */
+};
 
 /* One run of one method. Figures of the fracture are the same in every repetition. */
 struct run {
     double seconds[REPETITIONS];
     double stepping[REPETITIONS]; /* of them without samples: the step's own work */
-    double steady[REPETITIONS];   /* of them without conversion: what kernels alone take, as if rows and cut cells came for nothing */
+    /* of them without conversion: what kernels alone take, as if rows and cut cells came for nothing */
+    double steady[REPETITIONS];
     struct crack_ends ends;
     double time[SAMPLES + 1], share[SAMPLES + 1];
 };
@@ -28,7 +35,7 @@ struct result {
     struct run run[WAYS];
     double t[WAYS], t_r[WAYS];                                                    /* [s] [1] */
     double t_r_stepping[WAYS];                                                    /* the same of the steps alone [1] */
-    double t_r_bound[WAYS];                                                       /* the same if conversion were free [1] */
+    double t_r_bound[WAYS];                                                   /* the same if conversion were free [1] */
     double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS];    /* [m] [degree] [s] */
     double angle[WAYS];                                                           /* of the longest crack [degree] */
 };
@@ -43,11 +50,12 @@ static status make(struct engine *e, struct scene *s, const struct result *x, in
     return efficiency_make(e, s, x->scene, way, x->dt);
 }
 
-/* ---- one run ---------------------------------------------------------------------------------------------- */
+/* ---- one run ----------------------------------------------------------------------------------------------------- */
 
 static double pd_share(const struct engine *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
 
-/* The loop in SAMPLES pieces: the share is noted at the end of each. Not timed: a loop that ends brings everything up to date. */
+/* The loop in SAMPLES pieces: the share is noted at the end of each. Not timed: a loop that ends brings everything
+ * up to date. */
 static status run_pieces(struct run *r, struct engine *e)
 {
     r->share[0] = pd_share(e);
@@ -58,7 +66,7 @@ static status run_pieces(struct run *r, struct engine *e)
     return OK;
 }
 
-static status run_once(struct result *x, int way, int repetition)
+static status efficiency_run_once(struct result *x, int way, int repetition)
 {
     struct scene s;
     struct engine e;
@@ -85,7 +93,7 @@ static status run_shares(struct result *x, int way)
     return ran;
 }
 
-/* ---- figures of a scene ----------------------------------------------------------------------------------- */
+/* ---- figures of a scene ------------------------------------------------------------------------------------------ */
 
 /* The longest crack of full peridynamics and its partner of an adaptive run. */
 static void compare_tips(struct result *x, int way, int dim)
@@ -111,39 +119,43 @@ static status scene_measure(struct result *x, int repetitions)
     TRY(efficiency_step(x->scene, &x->dt));
     for (int r = 0; r < repetitions; r++)
         for (int k = 0; k < WAYS; k++)          /* none is always first */
-            if (efficiency_is_run(x->scene, (r + k) % WAYS)) TRY(run_once(x, (r + k) % WAYS, r));
+            if (efficiency_is_run(x->scene, (r + k) % WAYS)) TRY(efficiency_run_once(x, (r + k) % WAYS, r));
     x->t[0] = median_of(x->run[0].seconds, repetitions);
     for (int way = 1; way < WAYS; way++) {
         if (!efficiency_is_run(x->scene, way)) continue;
         TRY(run_shares(x, way));
         x->t[way] = median_of(x->run[way].seconds, repetitions);
         x->t_r[way] = 1 - x->t[way] / x->t[0];
-        x->t_r_stepping[way] = 1 - median_of(x->run[way].stepping, repetitions) / median_of(x->run[0].stepping, repetitions);
+        x->t_r_stepping[way] =
+            1 - median_of(x->run[way].stepping, repetitions) / median_of(x->run[0].stepping, repetitions);
         x->t_r_bound[way] = 1 - median_of(x->run[way].steady, repetitions) / x->t[0];
         compare_tips(x, way, dim);
     }
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------ */
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
 
-static void print_header(int repetitions)
+static void efficiency_print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
-    printf("  %-30s %-6s %-6s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s\n", "", "model", "levers", "particles",
-           "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips", "angles", "starts", "PD share");
+    printf("  %-30s %-6s %-6s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s\n", "", "model", "levers",
+           "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips", "angles",
+           "starts", "PD share");
 }
 
 static void print_way(const struct result *x, int way)
 {
     char paper[16] = "-", title[48];
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
-    printf("  %-30s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7.3f %7s %5.2f mm", efficiency_title(x->scene, title, sizeof title),
-           x->scene->model, efficiency_way[way].levers, (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way],
-           x->t_r_stepping[way], x->t_r_bound[way], paper, 1e3 * x->tip_distance[way]);
-    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[way], 1e6 * x->run[0].ends.start,
-           1e6 * x->run[way].ends.start, 100 * x->run[way].share[0], 100 * x->run[way].share[SAMPLES]);
+    printf("  %-30s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7.3f %7s %5.2f mm",
+           efficiency_title(x->scene, title, sizeof title), x->scene->model, efficiency_way[way].levers,
+           (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way], x->t_r_stepping[way],
+           x->t_r_bound[way], paper, 1e3 * x->tip_distance[way]);
+    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[way],
+           1e6 * x->run[0].ends.start, 1e6 * x->run[way].ends.start, 100 * x->run[way].share[0],
+           100 * x->run[way].share[SAMPLES]);
     fflush(stdout);
 }
 
@@ -165,8 +177,9 @@ static void print_marks(const struct efficiency *all)
             printf("    %-20s at %4.0f us  %5.2f %%   paper %4.1f %%\n", all->result[k].scene->name, 1e6 * a->time,
                    100 * share_at(&all->result[k].run[SHOWN], a->time), 100 * a->share);
         }
-    printf("  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples;\n"
-           "  bound: if rows, partial stress and cut cells of a conversion came for nothing, what kernels alone allow\n");
+    printf(
+        "  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples;\n"
+        "  bound: if rows, partial stress and cut cells of a conversion came for nothing, what kernels alone allow\n");
 }
 
 /* Rows of one adaptive run in the tables of figures, shares and runs. */
@@ -174,15 +187,16 @@ static void add_way(struct bench_table *table, const struct result *x, int way)
 {
     const double main[] = {x->t[way],           x->t[0], x->t_r[way], x->tip_distance[way], x->angle_difference[way],
                            x->start_difference[way]};
-    const double run[] = {(double)x->particles, (double)x->steps,  x->dt,       x->scene->paper_t_r,
-                          x->run[0].ends.start,      x->run[way].ends.start, x->angle[0], x->angle[way], x->t_r_stepping[way],
-                          x->t_r_bound[way]};
+    const double run[] = {(double)x->particles, (double)x->steps,       x->dt,       x->scene->paper_t_r,
+                          x->run[0].ends.start, x->run[way].ends.start, x->angle[0], x->angle[way],
+                          x->t_r_stepping[way], x->t_r_bound[way]};
     char title[48];
     efficiency_title(x->scene, title, sizeof title);
     bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
     for (size_t c = 0; c < COUNT_OF(main); c++) bench_number(&table[0], main[c]);
     bench_text(&table[0], efficiency_way[way].levers);
-    bench_text(&table[2], title), bench_text(&table[2], x->scene->model), bench_text(&table[2], efficiency_way[way].levers);
+    bench_text(&table[2], title), bench_text(&table[2], x->scene->model),
+        bench_text(&table[2], efficiency_way[way].levers);
     for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[2], run[c]);
     for (int k = 0; k <= SAMPLES; k++) {
         bench_text(&table[1], title), bench_text(&table[1], x->scene->model);
@@ -191,7 +205,7 @@ static void add_way(struct bench_table *table, const struct result *x, int way)
     }
 }
 
-static status write_tables(const struct efficiency *all)
+static status efficiency_write_tables(const struct efficiency *all)
 {
     struct bench_table table[3];
     bench_table_make(&table[0], "",
@@ -208,7 +222,7 @@ static status write_tables(const struct efficiency *all)
     return s;
 }
 
-/* ---- picture ------------------------------------------------------------------------------------------------- */
+/* ---- picture ----------------------------------------------------------------------------------------------------- */
 
 /* Bars as wide as a shelf: losses far below -1 would hide the rest. */
 #define T_R_LEAST -1.0
@@ -226,22 +240,24 @@ static void draw_bars(FILE *to, const struct efficiency *all)
         if (isfinite(x->scene->paper_t_r)) fprintf(to, " %.6g\n", x->scene->paper_t_r);
         else fputs(" NaN\n", to);
     }
-    fprintf(to,
-            "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.60\nset tmargin at "
-            "screen 0.93\n"
-            "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step (bars end at "
-            "-1)'\n"
-            "set style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\nset boxwidth "
-            "0.9\n"
-            "set xtics scale 0 font ',6'\n"
-            "set ylabel 't_r'\nset yrange [-1.25:1.4]\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at graph 0.995,0.985 "
-            "right top horizontal maxrows 1 font ',9'\n"
-            "plot ");
+    fprintf(
+        to,
+        "EOD\nset lmargin at screen 0.09\nset rmargin at screen 0.97\nset bmargin at screen 0.60\nset tmargin at "
+        "screen 0.93\n"
+        "set title 'time saved by the adaptive run: 1 - t(adaptive)/t(PD), same spacing, same step (bars end at "
+        "-1)'\n"
+        "set style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\nset boxwidth "
+        "0.9\n"
+        "set xtics scale 0 font ',6'\n"
+        "set ylabel 't_r'\nset yrange [-1.25:1.4]\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at graph 0.995,0.985 "
+        "right top horizontal maxrows 1 font ',9'\n"
+        "plot ");
     for (int way = 1, bar = 0; way < WAYS; way++) {
         if (!efficiency_way[way].colour) continue;
         bar++;
         fprintf(to,
-                "$bars using %d%s lc rgb '%s' title 'levers: %s', '' using ($0%+.2f):%d:(sprintf('%%.2f', $%d)) with labels "
+                "$bars using %d%s lc rgb '%s' title 'levers: %s', '' using ($0%+.2f):%d:(sprintf('%%.2f', $%d)) with "
+                "labels "
                 "font ',6' offset 0, 0.6 notitle, ",
                 2 * bar, bar == 1 ? ":xtic(1)" : "", efficiency_way[way].colour, efficiency_way[way].levers,
                 ((double)bar - 1 - 0.5 * BARS) / (BARS + 2), 2 * bar, 2 * bar + 1);
@@ -264,7 +280,8 @@ static void draw_share(FILE *to, const struct efficiency *all, int panel)
     const double width = 0.88 / panels(all), left = 0.09 + panel * width;
     const int marks = x->scene->marks;
     fprintf(to, "$share%d << EOD\n", panel);
-    for (int k = 0; k <= SAMPLES; k++) fprintf(to, "%.6g %.6g\n", 1e6 * x->run[SHOWN].time[k], 100 * x->run[SHOWN].share[k]);
+    for (int k = 0; k <= SAMPLES; k++)
+        fprintf(to, "%.6g %.6g\n", 1e6 * x->run[SHOWN].time[k], 100 * x->run[SHOWN].share[k]);
     fprintf(to, "EOD\n$mark%d << EOD\n", panel);
     for (int k = 0; k < marks; k++)
         fprintf(to, "%.6g %.6g\n", 1e6 * x->scene->mark[k].time, 100 * x->scene->mark[k].share);
@@ -278,7 +295,7 @@ static void draw_share(FILE *to, const struct efficiency *all, int panel)
     fputs("\nset ylabel ''\n", to);
 }
 
-static void draw(FILE *to, const void *context)
+static void efficiency_draw(FILE *to, const void *context)
 {
     const struct efficiency *all = context;
     fputs("set multiplot\n", to);
@@ -291,12 +308,12 @@ static void draw(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------------- */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
-static status measure_all(struct efficiency *all, bool quick)
+static status efficiency_measure_all(struct efficiency *all, bool quick)
 {
     const int repetitions = quick ? 1 : REPETITIONS;
-    print_header(repetitions);
+    efficiency_print_header(repetitions);
     for (int k = 0; k < CASES; k++) {
         if (!bench_scene_exists(efficiency_case[k].path) || (quick && !efficiency_case[k].quick)) continue;
         struct result *x = &all->result[all->n];
@@ -309,8 +326,8 @@ static status measure_all(struct efficiency *all, bool quick)
     if (all->n == 0)
         return status_set(REFUSED, "bench efficiency: none of its scenes is here; start it where the folder inputs is");
     print_marks(all);
-    TRY(write_tables(all));
-    return bench_draw("efficiency", 1200, 820, draw, all);
+    TRY(efficiency_write_tables(all));
+    return bench_draw("efficiency", 1200, 820, efficiency_draw, all);
 }
 
 status bench_efficiency(bool quick)
@@ -318,7 +335,7 @@ status bench_efficiency(bool quick)
     struct efficiency all = {.result = NEW("bench.efficiency", CASES, struct result)};
     printf("efficiency\n");
     bench_print_machine(team_make(0));
-    status s = measure_all(&all, quick);
+    status s = efficiency_measure_all(&all, quick);
     memory_free(all.result);
     return s;
 }

@@ -1,6 +1,6 @@
-/* floor 5: the scenes of `cleave bench efficiency`, which `cleave bench scatter` runs at other time steps. */
-#ifndef CLEAVE_EFFICIENCY_H
-#define CLEAVE_EFFICIENCY_H
+/* The scenes of `cleave bench efficiency`, which `cleave bench sensitivity` runs at other time steps. */
+#ifndef CLEAVE_BENCH_EFFICIENCY
+#define CLEAVE_BENCH_EFFICIENCY
 
 #include "bench/common/bench.h"
 

@@ -1,12 +1,13 @@
-/* floor 5: scenes that are run by full peridynamics and adaptively, and where their cracks end. */
+/* Scenes that are run by full peridynamics and adaptively, and where their cracks end. */
 #include "efficiency.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Kalthoff's cracks start with those of peridynamics (1 % instead of 12 % later; in space within 3 % instead of 5 to 8, but for
- * mospd at 2 mm: 5) if three horizons round the notches' ends, in space one, are peridynamic from the start. */
+/* Kalthoff's cracks start with those of peridynamics (1 % instead of 12 % later; in space within 3 % instead of 5 to
+ * 8, but for mospd at 2 mm: 5) if three horizons round the notches' ends, in space one, are peridynamic from the
+ * start. */
 #define PLATE_CRACK "plate_crack", "inputs/plate_crack.yaml"
 #define PLATE_HOLE "plate_hole", "inputs/plate_hole.yaml"
 #define KALTHOFF "kalthoff_winkler", "inputs/kalthoff_winkler.yaml"
@@ -54,7 +55,8 @@ status efficiency_make(struct engine *e, struct scene *s, const struct scene_cas
     snprintf(samples, sizeof samples, "%d", EFFICIENCY_SAMPLES);
     if (way > 0) override[n++] = (struct scene_override){"conversion.return", w->back};
     if (way > 0) override[n++] = (struct scene_override){"conversion.tips", c->tips};
-    if (strstr(c->path, "plate_hole")) override[n++] = (struct scene_override){"mpm.origin", ""}; /* chosen for another surface */
+    /* chosen for another surface */
+    if (strstr(c->path, "plate_hole")) override[n++] = (struct scene_override){"mpm.origin", ""};
     if (c->spacing) override[n++] = (struct scene_override){"particles.spacing", c->spacing};
     if (dt > 0) override[n++] = (struct scene_override){"time.step", step};
     return bench_engine_make(e, s, c->path, NULL, override, n);
@@ -89,7 +91,7 @@ void efficiency_tic(FILE *to, const struct scene_case *scene)
     fprintf(to, "\\n%s\\n%s\"", scene->model, scene->spacing ? scene->spacing : "");
 }
 
-/* ---- cracks --------------------------------------------------------------------------------------------------- */
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 void crack_ends_keep(struct crack_ends *c, const struct engine *e)
 {
@@ -97,7 +99,7 @@ void crack_ends_keep(struct crack_ends *c, const struct engine *e)
     memcpy(c->tip, e->tips.tip, sizeof c->tip);
     c->tips = e->tips.n;
     c->longest = longest ? (int)(longest - e->tips.tip) : -1;
-    c->start = e->watch.break_time;
+    c->start = e->diagnostics.break_time;
 }
 
 double place_distance(const real *a, const real *b)

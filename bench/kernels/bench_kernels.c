@@ -1,4 +1,4 @@
-/* floor 5: `cleave bench kernels`: every kernel instance beside the machine's own limits, in one thread. Probes and
+/* `cleave bench kernels`: every kernel instance beside the machine's own limits, in one thread. Probes and
  * kernels take turns; the fastest repetition counts. */
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,7 @@
         {BOND_STRESS, D, .model = PD_##M, .variant = #M},
 #define DIM_JOBS(D)                                                                                                    \
     {PD_MOVE, D, .variant = "-"}, {GRID_CLEAR, D, .variant = "-"}, {GRID_MOVE, D, .variant = "-"},                     \
-        {GRID_REMAPPED, D, .variant = "-"}, {MESH_CLEAR, D, .variant = "-"}, {MESH_MOVE, D, .variant = "-"},               \
+        {GRID_REMAPPED, D, .variant = "-"}, {MESH_CLEAR, D, .variant = "-"}, {MESH_MOVE, D, .variant = "-"},           \
         {MESH_FORCE, D, .variant = "SMALL"}, {MESH_FORCE, D, .variant = "FINITE", .finite = true},
 #define SHAPE_JOBS(D, S)                                                                                               \
     {REMAP, D, .shape = SHAPE_##S, .variant = #S " FLIP"}, {SPREAD, D, .shape = SHAPE_##S, .variant = #S},
@@ -21,14 +21,14 @@
         {G2P, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},
 #define TRANSFER_JOBS(D, S) TRANSFER_VARIANTS(TRANSFER_JOB, D, S)
 
-static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS)
-                                          SHAPE_VARIANTS(TRANSFER_JOBS)};
+static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS)
+                                          SHAPE_VARIANTS(SHAPE_JOBS) SHAPE_VARIANTS(TRANSFER_JOBS)};
 
-/* ---- ground -------------------------------------------------------------------------------------------- */
+/* ---- ground ------------------------------------------------------------------------------------------------------ */
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
-static status body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model, const char *mpm,
-                        bool yields)
+static status kernels_body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model,
+                                const char *mpm, bool yields)
 {
     static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
                                                    "solid"};
@@ -36,13 +36,13 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
     static const char *const poisson[DIM_MAX + 1] = {NULL, "", "poisson: 1/3, ", "poisson: 1/4, "};
     static const char *const corner[DIM_MAX + 1] = {NULL, "[0]", "[0, 0]", "[0, 0, 0]"};
     char text[1024];
-    snprintf(
-        text, sizeof text,
-        "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmodel: %s\nmaterial: {name: steel, young: 190 GPa, %sdensity: 7800%s}\n"
-        "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
-        "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {rest: false}\n",
-        space[dim], method, model, poisson[dim],
-        yields ? ", yield_stress: 1 GPa" : "", corner[dim], size[dim], mpm);
+    snprintf(text, sizeof text,
+             "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmodel: %s\nmaterial: {name: steel, young: 190 GPa, "
+             "%sdensity: 7800%s}\n"
+             "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
+             "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {rest: false}\n",
+             space[dim], method, model, poisson[dim], yields ? ", yield_stress: 1 GPa" : "", corner[dim], size[dim],
+             mpm);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < e->part.n; i++) {
@@ -55,11 +55,11 @@ static status body_make(struct engine *e, struct scene *s, int dim, const char *
 static status ground_make(struct ground *g, int dim)
 {
     static const char points_of[] = "shape: cpgimp, transfer: apic", mesh[] = "frame: reference";
-    TRY(body_make(&g->engine[BONDS], &g->scene[BONDS], dim, "pd", "bond", points_of, false));
-    TRY(body_make(&g->engine[YIELDING], &g->scene[YIELDING], dim, "pd", "bond", points_of, true));
-    TRY(body_make(&g->engine[POINTS], &g->scene[POINTS], dim, "mpm", "bond", points_of, false));
-    if (dim > 1) TRY(body_make(&g->engine[STATES], &g->scene[STATES], dim, "pd", "mospd", points_of, false));
-    TRY(body_make(&g->engine[MESH], &g->scene[MESH], dim, "mpm", "bond", mesh, false));
+    TRY(kernels_body_make(&g->engine[BONDS], &g->scene[BONDS], dim, "pd", "bond", points_of, false));
+    TRY(kernels_body_make(&g->engine[YIELDING], &g->scene[YIELDING], dim, "pd", "bond", points_of, true));
+    TRY(kernels_body_make(&g->engine[POINTS], &g->scene[POINTS], dim, "mpm", "bond", points_of, false));
+    if (dim > 1) TRY(kernels_body_make(&g->engine[STATES], &g->scene[STATES], dim, "pd", "mospd", points_of, false));
+    TRY(kernels_body_make(&g->engine[MESH], &g->scene[MESH], dim, "mpm", "bond", mesh, false));
     struct engine *points = &g->engine[POINTS];
     points->transfer.dt = points->transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
     g->list = NEW("bench.list", points->part.n, int32_t);
@@ -77,7 +77,7 @@ static void ground_free(struct ground *g)
     memory_free(g->field);
 }
 
-/* ---- timing -------------------------------------------------------------------------------------------- */
+/* ---- timing ------------------------------------------------------------------------------------------------------ */
 
 static struct engine *bonds_of(const struct job *j, struct ground *g)
 {
@@ -149,39 +149,39 @@ static void job_time(struct job *j, struct ground *g)
 
 static void time_all(struct kernel_bench *b, int repetitions)
 {
-    struct stencil_probe *stencil[DIM_MAX + 1];
+    struct stencil_probe *cell_stencil[DIM_MAX + 1];
     struct triad_probe *triad = triad_probe_make();
     struct point_probe *points = point_probe_make();
-    b->limits = (struct limits){.stencil = {INFINITY, INFINITY, INFINITY, INFINITY}, .points = INFINITY};
-    for (int d = 1; d <= DIM_MAX; d++) stencil[d] = stencil_probe_make(d);
+    b->limits = (struct limits){.cell_stencil = {INFINITY, INFINITY, INFINITY, INFINITY}, .points = INFINITY};
+    for (int d = 1; d <= DIM_MAX; d++) cell_stencil[d] = stencil_probe_make(d);
     for (int r = 0; r < repetitions; r++) {
         for (int k = 0; k < 3; k++) {
             for (int d = 1; d <= DIM_MAX; d++)
-                b->limits.stencil[d] = fmin(b->limits.stencil[d], stencil_probe_run(stencil[d]));
+                b->limits.cell_stencil[d] = fmin(b->limits.cell_stencil[d], stencil_probe_run(cell_stencil[d]));
             b->limits.points = fmin(b->limits.points, point_probe_run(points));
         }
         b->limits.triad = fmax(b->limits.triad, triad_probe_run(triad));
         for (int k = 0; k < b->jobs; k++) job_time(&b->job[k], &b->ground[b->job[k].dim]);
         for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].grid);
     }
-    for (int d = 1; d <= DIM_MAX; d++) stencil_probe_free(stencil[d]);
+    for (int d = 1; d <= DIM_MAX; d++) stencil_probe_free(cell_stencil[d]);
     triad_probe_free(triad);
     point_probe_free(points);
 }
 
-/* ---- bytes --------------------------------------------------------------------------------------------- */
+/* ---- bytes ------------------------------------------------------------------------------------------------------- */
 
-/* Bytes of a slot as the kernels read it (bond_slot.h), in the mean; patterns stay in cache. */
-static double slot_bytes(const struct bonds *b)
+/* Bytes of a slot as the kernels read it (bond_column.h), in the mean; patterns stay in cache. */
+static double column_bytes(const struct bonds *b)
 {
     double sum = 0;
-    for (int64_t g = 0; g < b->groups; g++)
-        for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g] && !b->pattern[g]; slot++) {
-            const struct bond_slot *c = &b->common[slot];
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        for (int64_t column = b->column[g]; column < b->column[g] + b->column_count[g] && !b->stencil[g]; column++) {
+            const struct bond_column *c = &b->common[column];
             sum += sizeof *c + (c->alike ? 0 : LANES * sizeof *b->w);
             if (!c->lattice) sum += LANES * (sizeof *b->inverse_length + (c->first < 0 ? sizeof *b->nbr : 0));
         }
-    return sum / (double)b->slots;
+    return sum / (double)b->columns;
 }
 
 /* Bytes that a kernel must move a particle, counted from the arrays it reads and writes once; nodes shared among the
@@ -193,8 +193,8 @@ static double job_bytes(const struct job *j, struct ground *g)
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
     const double node = r * (double)e->grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
     /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
-    const double slots = (double)pd->bonds.slots / (double)pd->part.n;
-    const double bond = slots * (slot_bytes(&pd->bonds) * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +
+    const double columns = (double)pd->bonds.columns / (double)pd->part.n;
+    const double bond = columns * (column_bytes(&pd->bonds) * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +
                                  (j->model == PD_BOND_PLASTIC ? 36 * LANES : 0)),
                  apic = j->transfer == TRANSFER_APIC;
     switch (j->kind) {
@@ -238,13 +238,13 @@ static void find_limits(struct kernel_bench *b)
         struct ground *g = &b->ground[j->dim];
         j->bytes = job_bytes(j, g);
         j->limit = j->bytes / b->limits.triad;
-        if (on_bonds(j)) j->limit = fmax(j->limit, job_bonds(j, g) * b->limits.stencil[j->dim]);
+        if (on_bonds(j)) j->limit = fmax(j->limit, job_bonds(j, g) * b->limits.cell_stencil[j->dim]);
     }
 }
 
-/* ---- all ----------------------------------------------------------------------------------------------- */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
-static status run(struct kernel_bench *b, bool quick)
+static status kernels_run(struct kernel_bench *b, bool quick)
 {
     TRY(bench_floor_memory(&b->floor));
     team_make(1);
@@ -266,7 +266,7 @@ status bench_kernels(bool quick)
     memcpy(b->job, all_jobs, sizeof all_jobs);
     for (int k = 0; k < b->jobs; k++) b->job[k].seconds = INFINITY;
     printf("kernels\n");
-    status s = run(b, quick);
+    status s = kernels_run(b, quick);
     for (int d = 1; d <= DIM_MAX; d++) ground_free(&b->ground[d]);
     bench_table_free(&b->floor.laps);
     memory_free(b->job);

@@ -1,6 +1,6 @@
-/* floor 5: `cleave bench scale`: time and memory per particle from 1e4 particles to 1e7 (2D) and 1e6 (3D), set-up in units
- * of full peridynamic steps, and what output every 100 steps costs. Sizes that the machine does not hold are left out and
- * named. */
+/* `cleave bench scale`: time and memory per particle from 1e4 particles to 1e7 (2D) and 1e6 (3D), set-up in
+ * units of full peridynamic steps, and what output every 100 steps costs. Sizes that the machine does not hold are
+ * left out and named. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -28,9 +28,10 @@ struct size_result {
 
 struct scale_bench { struct size_result at[BENCH_BLOCKS][SIZES]; };
 
-/* ---- memory ---------------------------------------------------------------------------------------------- */
+/* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* Lets the process's high-water mark start again from what it holds now, and returns that; NAN where the system cannot. */
+/* Lets the process's high-water mark start again from what it holds now, and returns that; NAN where the system
+ * cannot. */
 static double memory_from_here(void)
 {
 #ifdef __GLIBC__
@@ -49,10 +50,10 @@ static bool machine_holds(const struct bench_block *block, double particles)
     return each * particles < 0.7 * (double)team_memory();
 }
 
-/* ---- output ---------------------------------------------------------------------------------------------- */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Frames of a run that writes one every FRAME_EVERY steps; what they hold up the loop is its lap of output. The first makes room
- * for the copy that the others write over. */
+/* Frames of a run that writes one every FRAME_EVERY steps; what they hold up the loop is its lap of output. The
+ * first makes room for the copy that the others write over. */
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;
@@ -78,7 +79,7 @@ static status time_frames(struct size_result *r, const struct bench_block *block
 
 static double output_share(const struct size_result *r) { return r->frame / (FRAME_EVERY * r->step); }
 
-/* ---- one size -------------------------------------------------------------------------------------------- */
+/* ---- one size ---------------------------------------------------------------------------------------------------- */
 
 static status time_size(struct size_result *r, const struct bench_block *block, double particles)
 {
@@ -101,7 +102,7 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
     return ran;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------ */
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
 
 /* Full peridynamics of the same size is the unit of set-up. */
 static double setup_steps(const struct scale_bench *b, int way, int size)
@@ -123,7 +124,8 @@ static void print_size(const struct scale_bench *b, int way, int size)
 
 static void print_spread(const struct scale_bench *b)
 {
-    printf("\n  largest over smallest from 1e4 on (asked %.2f), set-up (asked %.0f steps of pd), output every %d steps (asked %.0f %%)\n",
+    printf("\n  largest over smallest from 1e4 on (asked %.2f), set-up (asked %.0f steps of pd), output every %d steps "
+           "(asked %.0f %%)\n",
            SPREAD_ASKED, SETUP_ASKED, FRAME_EVERY, 100 * OUTPUT_ASKED);
     for (int way = 0; way < BENCH_BLOCKS; way++) {
         double time[2] = {INFINITY, 0}, bytes[2] = {INFINITY, 0}, setup = 0, output = NAN;
@@ -137,12 +139,13 @@ static void print_spread(const struct scale_bench *b)
             if (isfinite(r->frame)) output = output_share(r);
         }
         if (time[1] > 0)
-            printf("    %-20s %dD  time %.2f  memory %.2f  set-up of the largest %.1f  output %.1f %%\n", bench_blocks[way].name,
-                   bench_blocks[way].dim, time[1] / time[0], bytes[1] / bytes[0], setup, 100 * output);
+            printf("    %-20s %dD  time %.2f  memory %.2f  set-up of the largest %.1f  output %.1f %%\n",
+                   bench_blocks[way].name, bench_blocks[way].dim, time[1] / time[0], bytes[1] / bytes[0], setup,
+                   100 * output);
     }
 }
 
-static status write_table(const struct scale_bench *b)
+static status scale_write_table(const struct scale_bench *b)
 {
     struct bench_table t;
     bench_table_make(&t, "", "method,dim,particles,directed_bonds,step_seconds,ns_per_particle_step,bytes_per_particle,"
@@ -151,8 +154,16 @@ static status write_table(const struct scale_bench *b)
         for (int k = 0; k < SIZES; k++) {
             const struct size_result *r = &b->at[way][k];
             if (!r->known) continue;
-            const double row[] = {bench_blocks[way].dim, r->particles, r->bonds, r->step, 1e9 * r->step / r->particles,
-                                  r->bytes, r->setup, setup_steps(b, way, k), r->frame, isfinite(r->frame) ? r->frame_bytes : NAN,
+            const double row[] = {bench_blocks[way].dim,
+                                  r->particles,
+                                  r->bonds,
+                                  r->step,
+                                  1e9 * r->step / r->particles,
+                                  r->bytes,
+                                  r->setup,
+                                  setup_steps(b, way, k),
+                                  r->frame,
+                                  isfinite(r->frame) ? r->frame_bytes : NAN,
                                   output_share(r)};
             bench_text(&t, bench_blocks[way].name);
             for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t, row[c]);
@@ -162,7 +173,7 @@ static status write_table(const struct scale_bench *b)
     return s;
 }
 
-static void draw_panel(FILE *to, int dim, bool memory)
+static void scale_draw_panel(FILE *to, int dim, bool memory)
 {
     int colour = 0;
     fprintf(to, "set title '%s, %dD'\nset ylabel '%s'\nplot ", memory ? "memory" : "time", dim,
@@ -174,7 +185,7 @@ static void draw_panel(FILE *to, int dim, bool memory)
     fputc('\n', to);
 }
 
-static void draw(FILE *to, const void *context)
+static void scale_draw(FILE *to, const void *context)
 {
     const struct scale_bench *b = context;
     for (int way = 0; way < BENCH_BLOCKS; way++) {
@@ -185,14 +196,16 @@ static void draw(FILE *to, const void *context)
         }
         fputs("EOD\n", to);
     }
-    fputs("set multiplot layout 2,2\nset logscale xy\nset xrange [5e3:2e7]\nset format x '1e%T'\nset xlabel 'particles'\n"
-          "set key top right font ',8'\nset offsets graph 0, 0, graph 0.6, graph 0.2\n", to);
+    fputs(
+        "set multiplot layout 2,2\nset logscale xy\nset xrange [5e3:2e7]\nset format x '1e%T'\nset xlabel 'particles'\n"
+        "set key top right font ',8'\nset offsets graph 0, 0, graph 0.6, graph 0.2\n",
+        to);
     for (int dim = 2; dim <= 3; dim++)
-        for (int memory = 0; memory < 2; memory++) draw_panel(to, dim, memory);
+        for (int memory = 0; memory < 2; memory++) scale_draw_panel(to, dim, memory);
     fputs("unset multiplot\n", to);
 }
 
-/* ---- all ----------------------------------------------------------------------------------------------------- */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
 static status measure_way(struct scale_bench *b, int way, int sizes, bool quick)
 {
@@ -201,8 +214,8 @@ static status measure_way(struct scale_bench *b, int way, int sizes, bool quick)
         const double particles = quick ? size_of[k] / 4 : size_of[k];
         if (block->dim == 3 && k > 2) continue;
         if (!machine_holds(block, particles)) {
-            printf("  %-20s %dD %9.3g  more than this machine's %.0f GB should be asked to hold: left out\n", block->name,
-                   block->dim, particles, 1e-9 * (double)team_memory());
+            printf("  %-20s %dD %9.3g  more than this machine's %.0f GB should be asked to hold: left out\n",
+                   block->name, block->dim, particles, 1e-9 * (double)team_memory());
             continue;
         }
         struct size_result *r = &b->at[way][k];
@@ -213,13 +226,14 @@ static status measure_way(struct scale_bench *b, int way, int sizes, bool quick)
     return OK;
 }
 
-static status measure(struct scale_bench *b, bool quick)
+static status scale_measure(struct scale_bench *b, bool quick)
 {
-    printf("  %-20s    %9s %10s %10s %12s %10s %11s\n", "", "particles", "ns/step", "bytes", "set-up/step", "frame [ms]", "of 100 steps");
+    printf("  %-20s    %9s %10s %10s %12s %10s %11s\n", "", "particles", "ns/step", "bytes", "set-up/step",
+           "frame [ms]", "of 100 steps");
     for (int way = 0; way < BENCH_BLOCKS; way++) TRY(measure_way(b, way, quick ? 2 : SIZES, quick));
     print_spread(b);
-    TRY(write_table(b));
-    return bench_draw("scale", 1200, 900, draw, b);
+    TRY(scale_write_table(b));
+    return bench_draw("scale", 1200, 900, scale_draw, b);
 }
 
 status bench_scale(bool quick)
@@ -227,7 +241,7 @@ status bench_scale(bool quick)
     struct scale_bench *b = NEW("bench.scale", 1, struct scale_bench);
     printf("scale\n");
     bench_print_machine(team_make(0));
-    status s = measure(b, quick);
+    status s = scale_measure(b, quick);
     memory_free(b);
     return s;
 }

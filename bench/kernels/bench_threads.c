@@ -1,6 +1,6 @@
-/* floor 5: `cleave bench threads`: strong scaling (one block on more and more threads) and weak scaling (a block for each
- * thread), beside what the memory gives that many threads. Every team makes the engine that it runs, so that pages lie
- * where they are used; teams take turns, the fastest repetition counts. */
+/* `cleave bench threads`: strong scaling (one block on more and more threads) and weak scaling (a block for
+ * each thread), beside what the memory gives that many threads. Every team makes the engine that it runs, so that
+ * pages lie where they are used; teams take turns, the fastest repetition counts. */
 #include <math.h>
 #include <stdio.h>
 
@@ -57,7 +57,7 @@ static status time_block(struct threads_bench *b, int way, int scaling, int t, d
     return ran;
 }
 
-static status time_way(struct threads_bench *b, int way, bool quick)
+static status threads_time_way(struct threads_bench *b, int way, bool quick)
 {
     const double whole = quick ? 4e4 : 1e6, each = quick ? 2e4 : 2.5e5;
     for (int r = 0; r < (quick ? 1 : 2); r++)
@@ -67,7 +67,8 @@ static status time_way(struct threads_bench *b, int way, bool quick)
         }
     for (int c = 0; c < SCALINGS; c++) {
         printf("  %-20s %-7s", bench_blocks[way].name, scaling_name[c]);
-        for (int t = 0; t < b->teams; t++) printf("  %9.3f ms %5.2f", 1e3 * b->step[way][c][t], efficiency(b, way, c, t));
+        for (int t = 0; t < b->teams; t++)
+            printf("  %9.3f ms %5.2f", 1e3 * b->step[way][c][t], efficiency(b, way, c, t));
         putchar('\n');
     }
     fflush(stdout);
@@ -90,7 +91,7 @@ static void time_memory(struct threads_bench *b)
 
 static bool is_way(int way) { return bench_blocks[way].dim == DIM_OF_WAYS; }
 
-static status write_tables(const struct threads_bench *b)
+static status threads_write_tables(const struct threads_bench *b)
 {
     struct bench_table table[2];
     bench_table_make(&table[0], "", "method,scaling,threads,particles,step_seconds,ns_per_particle_step,efficiency");
@@ -112,7 +113,7 @@ static status write_tables(const struct threads_bench *b)
     return s;
 }
 
-static void draw(FILE *to, const void *context)
+static void threads_draw(FILE *to, const void *context)
 {
     const struct threads_bench *b = context;
     for (int c = 0; c < SCALINGS; c++) {
@@ -141,17 +142,18 @@ static void draw(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-static status measure(struct threads_bench *b, bool quick)
+static status threads_measure(struct threads_bench *b, bool quick)
 {
     printf("  time of a step and efficiency, 2D, on");
     for (int t = 0; t < b->teams; t++) printf(" %d", b->team[t]);
-    printf(" threads; strong: %s particles, weak: %s for each thread\n", quick ? "4e4" : "1e6", quick ? "2e4" : "2.5e5");
+    printf(" threads; strong: %s particles, weak: %s for each thread\n", quick ? "4e4" : "1e6",
+           quick ? "2e4" : "2.5e5");
     time_memory(b);
     for (int way = 0; way < BENCH_BLOCKS; way++)
-        if (is_way(way)) TRY(time_way(b, way, quick));
+        if (is_way(way)) TRY(threads_time_way(b, way, quick));
     team_make(0);
-    TRY(write_tables(b));
-    return bench_draw("threads", 1200, 500, draw, b);
+    TRY(threads_write_tables(b));
+    return bench_draw("threads", 1200, 500, threads_draw, b);
 }
 
 status bench_threads(bool quick)
@@ -164,7 +166,7 @@ status bench_threads(bool quick)
     const int most = team_make(0);
     bench_print_machine(most);
     choose_teams(b, most);
-    status s = measure(b, quick);
+    status s = threads_measure(b, quick);
     memory_free(b);
     return s;
 }

@@ -1,6 +1,6 @@
-/* floor 5: what the parts of `cleave bench kernels` share. */
-#ifndef CLEAVE_BENCH_KERNEL_BENCH_H
-#define CLEAVE_BENCH_KERNEL_BENCH_H
+/* What the parts of `cleave bench kernels` share. */
+#ifndef CLEAVE_BENCH_KERNEL_BENCH
+#define CLEAVE_BENCH_KERNEL_BENCH
 
 #include <math.h>
 
@@ -47,7 +47,7 @@ struct ground {
 };
 
 struct limits {
-    double stencil[DIM_MAX + 1], triad, points;
+    double cell_stencil[DIM_MAX + 1], triad, points;
 }; /* [s/bond], [B/s], [s/point] */
 
 struct kernel_bench {

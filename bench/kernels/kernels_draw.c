@@ -1,4 +1,4 @@
-/* floor 5: what `cleave bench kernels` says: lines, tables and a picture. */
+/* What `cleave bench kernels` says: lines, tables and a picture. */
 #include <ctype.h>
 #include <math.h>
 
@@ -10,13 +10,14 @@ static const char *const job_name[JOB_KINDS] = {"bond_force", "bond_energy", "bo
                                                 "grid_clear", "grid_move",   "grid_remapped",
                                                 "mesh_clear", "mesh_force",  "mesh_move"};
 
-/* ---- what is said -------------------------------------------------------------------------------------- */
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
 
 static void print_limits(const struct limits *l)
 {
     printf("  limits of this machine, one thread\n");
     for (int d = 1; d <= DIM_MAX; d++)
-        printf("    lattice stencil of the bond law, %dD      %8.3f ns per directed bond\n", d, 1e9 * l->stencil[d]);
+        printf("    lattice stencil of the bond law, %dD      %8.3f ns per directed bond\n", d,
+               1e9 * l->cell_stencil[d]);
     printf("    STREAM triad                             %8.1f GB/s\n", 1e-9 * l->triad);
     printf("    plain cell-sorted MPM, 2D linear FLIP    %8.1f ns per particle and step\n\n", 1e9 * l->points);
 }
@@ -55,12 +56,12 @@ static void fill_tables(const struct kernel_bench *b, struct bench_table *rows, 
     bench_table_make(limits, "limits",
                      "stencil_1d_seconds_per_bond,stencil_2d_seconds_per_bond,stencil_3d_seconds_per_bond,triad_bytes_"
                      "per_second,points_seconds_per_particle");
-    for (int d = 1; d <= DIM_MAX; d++) bench_number(limits, b->limits.stencil[d]);
+    for (int d = 1; d <= DIM_MAX; d++) bench_number(limits, b->limits.cell_stencil[d]);
     bench_number(limits, b->limits.triad);
     bench_number(limits, b->limits.points);
 }
 
-static status write_tables(const struct kernel_bench *b)
+static status kernels_draw_write_tables(const struct kernel_bench *b)
 {
     struct bench_table table[4];
     fill_tables(b, &table[0], &table[1]);
@@ -71,10 +72,10 @@ static status write_tables(const struct kernel_bench *b)
     return s;
 }
 
-/* ---- picture ------------------------------------------------------------------------------------------- */
+/* ---- picture ----------------------------------------------------------------------------------------------------- */
 
 /* The first word in small letters, and what else is given, quoted. */
-static void put_label(FILE *to, const char *variant, const char *more)
+static void kernels_draw_put_label(FILE *to, const char *variant, const char *more)
 {
     fputc('"', to);
     for (; *variant && *variant != ' '; variant++) fputc(*variant == '_' ? ' ' : tolower(*variant), to);
@@ -90,7 +91,10 @@ static void send_data(FILE *to, const struct kernel_bench *b)
             const struct job *j = &b->job[k];
             if (j->dim != d || !on_bonds(j)) continue;
             const double bonds = job_bonds(j, &b->ground[d]) * (double)job_particles(j, &b->ground[d]);
-            put_label(to, j->variant, j->kind == BOND_FORCE ? " force" : j->kind == BOND_ENERGY ? " energy" : " stress");
+            kernels_draw_put_label(to, j->variant,
+                                   j->kind == BOND_FORCE    ? " force"
+                                   : j->kind == BOND_ENERGY ? " energy"
+                                                            : " stress");
             fprintf(to, " %.6g\n", 1e9 * j->seconds / bonds);
         }
         fprintf(to, "EOD\n$p%d << EOD\n", d);
@@ -99,7 +103,7 @@ static void send_data(FILE *to, const struct kernel_bench *b)
                 const struct job *j = &b->job[k];
                 if (j->dim != d || (int)j->shape != shape || (j->kind != P2G && j->kind != G2P && j->kind != REMAP))
                     continue;
-                if (j->kind == REMAP) put_label(to, j->variant, "");
+                if (j->kind == REMAP) kernels_draw_put_label(to, j->variant, "");
                 fprintf(to, " %.6g", 1e9 * j->seconds / (double)job_particles(j, &b->ground[d]));
             }
             fputc('\n', to);
@@ -108,7 +112,7 @@ static void send_data(FILE *to, const struct kernel_bench *b)
     }
 }
 
-static void set_panel(FILE *to, double left, double right, double below, double above)
+static void kernels_draw_set_panel(FILE *to, double left, double right, double below, double above)
 {
     fprintf(to,
             "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n",
@@ -128,7 +132,7 @@ static void draw_floor(FILE *to, const struct floor *f)
         fprintf(to, "\"%s\" %.4g %d %.3g\n", a->name, fmin(shown, most), f->figures - k, shown);
     }
     fputs("EOD\n", to);
-    set_panel(to, 0.36, 0.97, 0.05, 0.26);
+    kernels_draw_set_panel(to, 0.36, 0.97, 0.05, 0.26);
     fprintf(to,
             "set title 'speed floor: measured over asked (1 or less is met)'\nset xrange [0:%g]\nset yrange "
             "[0.4:%d.6]\nset xtics auto norotate\nset grid noy\n"
@@ -138,7 +142,7 @@ static void draw_floor(FILE *to, const struct floor *f)
             1.12 * most, f->figures, curve_colour[0], 1.11 * most);
 }
 
-static void draw(FILE *to, const void *context)
+static void kernels_draw_picture(FILE *to, const void *context)
 {
     static const char *const transfer[] = {"re-map", "p2g FLIP", "g2p FLIP", "p2g APIC", "g2p APIC"};
     const struct kernel_bench *b = context;
@@ -148,17 +152,18 @@ static void draw(FILE *to, const void *context)
           to);
     for (int d = 1; d <= DIM_MAX; d++) {
         const double left = 0.07 + 0.315 * (d - 1);
-        set_panel(to, left, left + 0.27, 0.78, 0.95);
+        kernels_draw_set_panel(to, left, left + 0.27, 0.78, 0.95);
         fprintf(to,
                 "set title '%dD: ns per bond'\nset arrow 1 from graph 0, first %.6g to graph 1, first %.6g nohead dt "
                 "(6,4) lw 1.4 lc rgb '%s'\n"
-                "set xtics rotate by -60 font ',9'\nset key inside left top\nplot $b%d using 2:xtic(1) lc rgb '%s' notitle, NaN with lines dt (6,4) lw "
+                "set xtics rotate by -60 font ',9'\nset key inside left top\nplot $b%d using 2:xtic(1) lc rgb '%s' "
+                "notitle, NaN with lines dt (6,4) lw "
                 "1.4 lc rgb '%s' title '%s'\n",
-                d, 1e9 * b->limits.stencil[d], 1e9 * b->limits.stencil[d], curve_colour[1], d, curve_colour[0],
-                curve_colour[1], d == 1 ? "stencil limit" : "");
+                d, 1e9 * b->limits.cell_stencil[d], 1e9 * b->limits.cell_stencil[d], curve_colour[1], d,
+                curve_colour[0], curve_colour[1], d == 1 ? "stencil limit" : "");
         fprintf(to, "unset arrow 1\nset xtics rotate by -25 font ',12'\n%s\n",
                 d == 1 ? "set key at screen 0.5,0.67 center top vertical maxrows 2" : "unset key");
-        set_panel(to, left, left + 0.27, 0.40, 0.59);
+        kernels_draw_set_panel(to, left, left + 0.27, 0.40, 0.59);
         fprintf(to, "set title '%dD: ns per particle'\nplot ", d);
         for (int k = 0; k < 5; k++)
             fprintf(to, "%s$p%d using %d:xtic(1) lc rgb '%s' title '%s'", k ? ", " : "", d, k + 2, curve_colour[k],
@@ -177,6 +182,6 @@ void kernels_print(const struct kernel_bench *b)
 
 status kernels_write(const struct kernel_bench *b)
 {
-    TRY(write_tables(b));
-    return bench_draw("kernels", 1200, 1100, draw, b);
+    TRY(kernels_draw_write_tables(b));
+    return bench_draw("kernels", 1200, 1100, kernels_draw_picture, b);
 }

@@ -1,10 +1,11 @@
-/* floor 5: `cleave bench peers`: a plate and a block by this program and by LAMMPS (peri/pmb, peri/lps), particle by
- * particle, in turn on one core. Both read the same positions, volumes and velocities; the micro-modulus is this program's.
+/* `cleave bench peers`: a plate and a block by this program and by LAMMPS (peri/pmb, peri/lps), particle by
+ * particle, in turn on one core. Both read the same positions, volumes and velocities; the micro-modulus is this
+ * program's.
  *
- * LAMMPS weighs neighbours near the horizon by a ramp (here `cut-ramp`), influence 1/r for LPS. LPS with K_L = 4 k2/9,
- * G_L = 8 G/15 on a planar family is the law of two dimensions. Bonds are taken from the neighbour list of the first
- * `run 0`: pairs that are excluded there, one type for each particle that a crack touches, never become bonds. A second
- * `run 0` lets LPS know its strains before anything moves. */
+ * LAMMPS weighs neighbours near the horizon by a ramp (here `cut-ramp`), influence 1/r for LPS. LPS with K_L = 4
+ * k2/9, G_L = 8 G/15 on a planar family is the law of two dimensions. Bonds are taken from the neighbour list of the
+ * first `run 0`: pairs that are excluded there, one type for each particle that a crack touches, never become bonds.
+ * A second `run 0` lets LPS know its strains before anything moves. */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -26,7 +27,8 @@ extern char **environ;
 enum { STEPS = 200, ROUNDS = 3 };
 #define FOLDER BENCH_FOLDER "/run-peers"
 #define SPACING 5e-4
-/* The usual reach; one that leaves a single shell of neighbours, those at sqrt(8) spacings, on the ramp; and nearest neighbours. */
+/* The usual reach; one that leaves a single shell of neighbours, those at sqrt(8) spacings, on the ramp; and nearest
+ * neighbours. */
 #define REACH_USUAL 3.015
 #define REACH_EXACT 2.95342712474619
 #define REACH_NEAREST 1.375
@@ -57,7 +59,8 @@ struct peer_result {
     bool known;
     double particles, bonds, cut;                /* directed bonds; bonds cut beforehand */
     double own, peer;                            /* [s] of a step */
-    double difference, damage, damage_peer;      /* largest |u - u_LAMMPS| over largest |u|; sums of the share of broken bonds */
+    /* largest |u - u_LAMMPS| over largest |u|; sums of the share of broken bonds */
+    double difference, damage, damage_peer;
 };
 
 struct solution { double *place[DIM_MAX], *damage; };   /* by id */
@@ -77,30 +80,33 @@ static bool peer_installed(void)
     return false;
 }
 
-/* ---- the scene ------------------------------------------------------------------------------------------- */
+/* ---- the scene --------------------------------------------------------------------------------------------------- */
 
 /* Pulled in x, turned a little so that no direction is special; nothing comes close enough to touch. */
 static void scene_text(FILE *to, const struct peer_case *c, int edge)
 {
     const double half = 0.5 * edge * SPACING, rate = c->breaking ? 3000 : 300, step = c->dim == 2 ? 4e-8 : 2e-8;
-    fprintf(to, "name: peer\nspace: %s\n%sduration: %.17g\nmethod: pd\ntime: {step: %.17g}\n", c->dim == 2 ? "plane stress" : "solid",
-            c->dim == 2 ? "thickness: 1 mm\n" : "", STEPS * step, step);
+    fprintf(to, "name: peer\nspace: %s\n%sduration: %.17g\nmethod: pd\ntime: {step: %.17g}\n",
+            c->dim == 2 ? "plane stress" : "solid", c->dim == 2 ? "thickness: 1 mm\n" : "", STEPS * step, step);
     if (is_lps(c)) fputs("model: ospd\n", to);
     fprintf(to, "material: {young: 192e9, %sdensity: 8000, critical_stretch: %g}\n", is_lps(c) ? "poisson: 0.3, " : "",
             c->breaking ? 0.02 : 10.0);
     fprintf(to, "particles: {spacing: %.17g, horizon: %.17g}\n", SPACING, c->reach);
-    fputs("pd: {volume: cut-ramp, calibration: lattice, surface: none, last_force: whole}\noutput: {frames: 0, samples: 1}\n", to);
+    fputs("pd: {volume: cut-ramp, calibration: lattice, surface: none, last_force: whole}\noutput: {frames: 0, "
+          "samples: 1}\n",
+          to);
     if (c->dim == 2)
         fprintf(to, "body: {box: {from: [%.17g, %.17g], to: [%.17g, %.17g]}}\n"
                 "initial: [{velocity_gradient: [[%g, %g], [%g, %g]]}]\n", -half, -half, half, half, rate, 0.3 * rate,
                 0.1 * rate, 0.8 * rate);
     else
-        fprintf(to, "body: {box: {from: [%.17g, %.17g, %.17g], to: [%.17g, %.17g, %.17g]}}\n"
-                "initial: [{velocity_gradient: [[%g, %g, 0], [0, %g, %g], [%g, 0, %g]]}]\n", -half, -half, -half, half, half,
-                half, rate, 0.3 * rate, 0.8 * rate, 0.2 * rate, 0.1 * rate, rate);
+        fprintf(to,
+                "body: {box: {from: [%.17g, %.17g, %.17g], to: [%.17g, %.17g, %.17g]}}\n"
+                "initial: [{velocity_gradient: [[%g, %g, 0], [0, %g, %g], [%g, 0, %g]]}]\n",
+                -half, -half, -half, half, half, half, rate, 0.3 * rate, 0.8 * rate, 0.2 * rate, 0.1 * rate, rate);
     if (c->cracked)     /* ends chosen so that no bond passes through them */
-        fprintf(to, "cracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n", -0.1123 * edge * SPACING, -0.0312 * edge * SPACING,
-                0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
+        fprintf(to, "cracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n", -0.1123 * edge * SPACING,
+                -0.0312 * edge * SPACING, 0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
 }
 
 static status peer_engine(struct engine *e, struct scene *s, const struct peer_case *c, int edge)
@@ -113,7 +119,7 @@ static status peer_engine(struct engine *e, struct scene *s, const struct peer_c
     return bench_engine_make(e, s, "peer", text, NULL, 0);
 }
 
-/* ---- the input of LAMMPS ---------------------------------------------------------------------------------- */
+/* ---- the input of LAMMPS ----------------------------------------------------------------------------------------- */
 
 /* Bonds that the cracks cut: calls for each pair once. */
 static int64_t cut_pairs(const struct engine *e, int *type, int *types, FILE *exclude)
@@ -194,7 +200,8 @@ static status write_input(const struct engine *e, const struct peer_case *c, int
     char *exclude = NULL;
     size_t length = 0;
     int types = 1, *type = NEW("peers.type", e->part.n, int);
-    FILE *lines = open_memstream(&exclude, &length), *data = create("particles.data", &s), *script = create("in.lammps", &s);
+    FILE *lines = open_memstream(&exclude, &length), *data = create("particles.data", &s),
+         *script = create("in.lammps", &s);
     if (s == OK && lines) {
         r->cut = (double)cut_pairs(e, type, &types, lines);
         fflush(lines);
@@ -209,7 +216,7 @@ static status write_input(const struct engine *e, const struct peer_case *c, int
     return s;
 }
 
-/* ---- both runs --------------------------------------------------------------------------------------------- */
+/* ---- both runs --------------------------------------------------------------------------------------------------- */
 
 static status spawn_peer(void)
 {
@@ -260,10 +267,13 @@ static status peer_solution(struct solution *s, int64_t n)
         read++;
     }
     if (f) fclose(f);
-    return read == n ? OK : status_set(FAILED, "bench peers: lmp has left %lld particles of %lld", (long long)read, (long long)n);
+    return read == n
+               ? OK
+               : status_set(FAILED, "bench peers: lmp has left %lld particles of %lld", (long long)read, (long long)n);
 }
 
-static void compare(struct peer_result *r, const struct engine *e, const struct solution *peer, const real *damage_start)
+static void peers_compare(struct peer_result *r, const struct engine *e, const struct solution *peer,
+                          const real *damage_start)
 {
     const struct particles *p = &e->part;
     double largest = 0, worst = 0;
@@ -302,8 +312,9 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     if (ran == OK) ran = peer_solution(peer, e.part.n);
     if (ran == OK) {
         r->own = fmin(r->own, e.loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
-        e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit, NULL);     /* there the last places have broken bonds already */
-        compare(r, &e, peer, damage);
+        /* there the last places have broken bonds already */
+        e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit, NULL);
+        peers_compare(r, &e, peer, damage);
         r->known = true;
     }
     for (int d = 0; d < DIM_MAX; d++) memory_free(peer->place[d]);
@@ -313,7 +324,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     return ran;
 }
 
-/* ---- what is said -------------------------------------------------------------------------------------------- */
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
 
 static void print_result(const struct peer_case *c, const struct peer_result *r)
 {
@@ -326,17 +337,27 @@ static void print_result(const struct peer_case *c, const struct peer_result *r)
     fflush(stdout);
 }
 
-static status write_table(const struct peer_result *result)
+static status peers_write_table(const struct peer_result *result)
 {
     struct bench_table t;
-    bench_table_make(&t, "", "case,law,dim,reach,particles,directed_bonds,bonds_cut,ns_per_bond_step,ns_per_bond_step_lammps,"
-                             "time_ratio,difference,damage,damage_lammps");
+    bench_table_make(&t, "",
+                     "case,law,dim,reach,particles,directed_bonds,bonds_cut,ns_per_bond_step,ns_per_bond_step_lammps,"
+                     "time_ratio,difference,damage,damage_lammps");
     for (int k = 0; k < CASES; k++) {
         const struct peer_result *r = &result[k];
         if (!r->known) continue;
         const double timed = cases[k].timed ? 1 : NAN;
-        const double row[] = {cases[k].dim, cases[k].reach, r->particles, r->bonds, r->cut, timed * 1e9 * r->own / r->bonds,
-                              timed * 1e9 * r->peer / r->bonds, timed * r->peer / r->own, r->difference, r->damage, r->damage_peer};
+        const double row[] = {cases[k].dim,
+                              cases[k].reach,
+                              r->particles,
+                              r->bonds,
+                              r->cut,
+                              timed * 1e9 * r->own / r->bonds,
+                              timed * 1e9 * r->peer / r->bonds,
+                              timed * r->peer / r->own,
+                              r->difference,
+                              r->damage,
+                              r->damage_peer};
         bench_text(&t, cases[k].name), bench_text(&t, cases[k].law);
         for (size_t i = 0; i < COUNT_OF(row); i++) bench_number(&t, row[i]);
     }
@@ -345,7 +366,7 @@ static status write_table(const struct peer_result *result)
     return s;
 }
 
-static void draw(FILE *to, const void *context)
+static void peers_draw(FILE *to, const void *context)
 {
     const struct peer_result *result = context;
     fputs("$t << EOD\n", to);
@@ -353,22 +374,25 @@ static void draw(FILE *to, const void *context)
         if (cases[k].timed && result[k].known)
             fprintf(to, "\"%s\\n%s\" %.6g %.6g\n", cases[k].name, cases[k].law, 1e9 * result[k].own / result[k].bonds,
                     1e9 * result[k].peer / result[k].bonds);
-    fprintf(to, "EOD\nset title 'one core, no bond breaks'\nset ylabel 'ns per directed bond and step'\nset logscale y\n"
-            "set style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\nset boxwidth 0.9\n"
-            "set xtics scale 0\nset yrange [0.1:200]\nset key top left\n"
-            "plot $t using 2:xtic(1) lc rgb '%s' title 'here', '' using 3 lc rgb '%s' title 'LAMMPS', "
-            "'' using ($0-0.17):2:(sprintf('%%.2f', $2)) with labels offset 0, 0.7 notitle, "
-            "'' using ($0+0.17):3:(sprintf('%%.1f', $3)) with labels offset 0, 0.7 notitle\n", curve_colour[0], curve_colour[4]);
+    fprintf(
+        to,
+        "EOD\nset title 'one core, no bond breaks'\nset ylabel 'ns per directed bond and step'\nset logscale y\n"
+        "set style data histograms\nset style histogram clustered gap 1\nset style fill solid 0.85\nset boxwidth 0.9\n"
+        "set xtics scale 0\nset yrange [0.1:200]\nset key top left\n"
+        "plot $t using 2:xtic(1) lc rgb '%s' title 'here', '' using 3 lc rgb '%s' title 'LAMMPS', "
+        "'' using ($0-0.17):2:(sprintf('%%.2f', $2)) with labels offset 0, 0.7 notitle, "
+        "'' using ($0+0.17):3:(sprintf('%%.1f', $3)) with labels offset 0, 0.7 notitle\n",
+        curve_colour[0], curve_colour[4]);
 }
 
-static status measure(struct peer_result *result, bool quick)
+static status peers_measure(struct peer_result *result, bool quick)
 {
     struct bench_child folder = {0};
     TRY(bench_folder_make());
     strcpy(folder.folder, FOLDER);
     status s = mkdir(FOLDER, 0777) == 0 || errno == EEXIST ? OK : file_fault(FOLDER, errno);
-    printf("  %-15s %s %8s %9s %10s %6s %8s %8s %7s   %8s\n", "", "law", "reach", "particles", "bonds", "cut", "ns/bond",
-           "LAMMPS", "ratio", "|u - u_L|");
+    printf("  %-15s %s %8s %9s %10s %6s %8s %8s %7s   %8s\n", "", "law", "reach", "particles", "bonds", "cut",
+           "ns/bond", "LAMMPS", "ratio", "|u - u_L|");
     for (int k = 0; k < CASES && s == OK; k++) {
         const struct peer_case *c = &cases[k];
         result[k].own = result[k].peer = INFINITY;
@@ -380,10 +404,11 @@ static status measure(struct peer_result *result, bool quick)
     }
     bench_child_free(&folder);
     TRY(s);
-    printf("  bonds break by pd.last_force: whole, as they do there; there families keep the weight (lps) that they had whole, and parts that\n"
+    printf("  bonds break by pd.last_force: whole, as they do there; there families keep the weight (lps) that they "
+           "had whole, and parts that\n"
            "  meet push each other, so lps differs once bonds break, and pmb once faces have come together\n");
-    TRY(write_table(result));
-    return bench_draw("peers", 800, 500, draw, result);
+    TRY(peers_write_table(result));
+    return bench_draw("peers", 800, 500, peers_draw, result);
 }
 
 status bench_peers(bool quick)
@@ -395,7 +420,7 @@ status bench_peers(bool quick)
     }
     struct peer_result *result = NEW("bench.peers", CASES, struct peer_result);
     bench_print_machine(team_make(1));
-    status s = measure(result, quick);
+    status s = peers_measure(result, quick);
     team_make(0);
     memory_free(result);
     return s;

@@ -1,12 +1,13 @@
-/* floor 5: `cleave bench stability`: the critical time step observed beside the predicted one, for every method; then the scenes
- * in which methods fail (stability_scenes.c), and what becomes of energy in 1e5 steps (lasting.c). */
+/* `cleave bench stability`: the critical time step observed beside the predicted one, for every method;
+ * then the scenes in which methods fail (stability_scenes.c), and what becomes of energy in 1e5 steps
+ * (energy_drift.c). */
 #include <math.h>
 #include <string.h>
 
-#include "lasting.h"
+#include "energy_drift.h"
 #include "base/memory.h"
 
-/* ---- measuring ------------------------------------------------------------------------------------------------- */
+/* ---- measuring --------------------------------------------------------------------------------------------------- */
 
 enum { STEPS_OF_LINEAR = 1500 };         /* points on nodes grow slowly, by round-off */
 
@@ -18,7 +19,7 @@ static bool outside(const struct stability_row *r)
     return !(share >= STABILITY_LEAST && share <= STABILITY_MOST);
 }
 
-static void print_row(const struct stability_row *r)
+static void stability_print_row(const struct stability_row *r)
 {
     static const char *const run[] = {"", "stays", "grows"};
     const struct stability_limits *l = &r->l;
@@ -26,8 +27,8 @@ static void print_row(const struct stability_row *r)
         printf("  %-66s refused: %s\n", r->label, r->refusal);
         return;
     }
-    printf("  %-66s %7.3f %7.3f %7.2f%s", r->label, l->observed / l->unit, l->critical / l->unit, l->automatic / l->observed,
-           outside(r) ? " !" : "  ");
+    printf("  %-66s %7.3f %7.3f %7.2f%s", r->label, l->observed / l->unit, l->critical / l->unit,
+           l->automatic / l->observed, outside(r) ? " !" : "  ");
     if (l->largest > 1.02 * l->observed) printf("  to %.3f by place", l->largest / l->unit);
     if (r->c.quoted_low > 0) printf("  sheet %.3g", r->c.quoted_low);
     if (r->c.quoted_high > 0) printf(" - %.3g", r->c.quoted_high);
@@ -38,7 +39,7 @@ static void print_row(const struct stability_row *r)
     fflush(stdout);
 }
 
-static status measure(void *context, const struct stability_case *c)
+static status stability_measure(void *context, const struct stability_case *c)
 {
     struct measuring *m = context;
     assert(m->map->n < STABILITY_ROWS_MAX);
@@ -53,17 +54,18 @@ static status measure(void *context, const struct stability_case *c)
     const status s = stability_observe(c, slow ? STEPS_OF_LINEAR : m->steps, m->long_steps, &r->l);
     if (s != OK && s != REFUSED) return s;
     if (s == REFUSED) {
-        const char *why = strstr(status_message(), "was measured unstable") ? "strains are not mapped again: the limit tends to 0"
-                                                                              : status_message();
+        const char *why = strstr(status_message(), "was measured unstable")
+                              ? "strains are not mapped again: the limit tends to 0"
+                              : status_message();
         snprintf(r->refusal, sizeof r->refusal, "%s", why);
     }
-    print_row(r);
+    stability_print_row(r);
     return OK;
 }
 
-/* ---- files -------------------------------------------------------------------------------------------------------- */
+/* ---- files ------------------------------------------------------------------------------------------------------- */
 
-static void put_table(struct bench_table *t, const struct stability_map *map)
+static void stability_put_table(struct bench_table *t, const struct stability_map *map)
 {
     static const char *const run[] = {"", "stays", "grows"};
     for (int k = 0; k < map->n; k++) {
@@ -109,8 +111,10 @@ static void print_verdict(const struct stability_map *map)
         out += outside(r);
         least = fmin(least, r->l.automatic / r->l.observed), most = fmax(most, r->l.automatic / r->l.observed);
     }
-    printf("\n  the automatic step is %.2f to %.2f of the observed limit in %d cases (asked: %.2f to %.2f; %d outside), %d are "
-           "refused\n", least, most, map->n - refused, STABILITY_LEAST, STABILITY_MOST, out, refused);
+    printf("\n  the automatic step is %.2f to %.2f of the observed limit in %d cases (asked: %.2f to %.2f; %d "
+           "outside), %d are "
+           "refused\n",
+           least, most, map->n - refused, STABILITY_LEAST, STABILITY_MOST, out, refused);
 }
 
 status bench_stability(bool quick)
@@ -119,23 +123,26 @@ status bench_stability(bool quick)
     struct measuring m = {map, quick ? 300 : 1500, quick ? 0 : 10000};
     struct bench_table t[3] = {0};
     map->n = 0;
-    printf("stability: growth of the largest mode in %d steps%s\n", m.steps, quick ? "" : ", runs of 1e4 steps beside the limit");
+    printf("stability: growth of the largest mode in %d steps%s\n", m.steps,
+           quick ? "" : ", runs of 1e4 steps beside the limit");
     bench_print_machine(1);
-    bench_table_make(&t[0], "",
-                     "group,case,dimension,method,model,coupling,shape,transfer,points_per_cell,horizon,unit,observed,"
-                     "observed_at_offset,observed_largest,predicted,automatic,automatic_over_observed,sheet_low,sheet_high,"
-                     "silling_askari_over_observed,gershgorin_over_observed,run_automatic,run_below,run_above,verdict");
-    status s = stability_cases(quick, measure, &m);
+    bench_table_make(
+        &t[0], "",
+        "group,case,dimension,method,model,coupling,shape,transfer,points_per_cell,horizon,unit,observed,"
+        "observed_at_offset,observed_largest,predicted,automatic,automatic_over_observed,sheet_low,sheet_high,"
+        "silling_askari_over_observed,gershgorin_over_observed,run_automatic,run_below,run_above,verdict");
+    status s = stability_cases(quick, stability_measure, &m);
     if (s == OK) {
         print_verdict(map);
-        put_table(&t[0], map);
+        stability_put_table(&t[0], map);
         s = stability_scenes(&t[1]);
     }
     if (s == OK) s = lasting_map(&t[2], NULL, quick);
     if (s == OK) {
         s = bench_write("stability", t, 3);
         if (!quick)
-            puts("  a run of APIC that stays above the limit: growth moves points at an edge to where the limit is another");
+            puts("  a run of APIC that stays above the limit: growth moves points at an edge to where the limit is "
+                 "another");
     }
     if (s == OK) s = bench_draw("stability", 1800, 1150, stability_draw, map);
     if (s == OK) s = stability_scenes_draw(&t[1]);

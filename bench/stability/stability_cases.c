@@ -1,20 +1,20 @@
-/* floor 5: which methods, dimensions, shape functions, points a cell, horizons and couplings the map shows. */
+/* Which methods, dimensions, shape functions, points a cell, horizons and couplings the map shows. */
 #include <string.h>
 
 #include "stability.h"
 
-const char *const stability_group_name[STABILITY_GROUPS] = {
+const char *const stability_group_name[STABILITY_GROUP] = {
     [GROUP_PD] = "peridynamics", [GROUP_SHEET] = "as published", [GROUP_POINTS] = "material points",
     [GROUP_COUPLED] = "coupled", [GROUP_REFERENCE] = "reference frame"};
 
 struct taker { bool quick; stability_take *take; void *context; };
 
-static status give(const struct taker *t, struct stability_case c) { return t->take(t->context, &c); }
+static status stability_cases_give(const struct taker *t, struct stability_case c) { return t->take(t->context, &c); }
 
 static const char *const model[] = {"bond", "ospd", "mospd"};
 static const char *const transfer[] = {"flip", "apic"};
 
-/* ---- peridynamics ---------------------------------------------------------------------------------------------- */
+/* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
 static status horizons(const struct taker *t)
 {
@@ -22,8 +22,9 @@ static status horizons(const struct taker *t)
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int m = 0; m < (dim == 1 ? 1 : 3); m++)
             for (int h = 0; h < (dim == 3 ? t->quick ? 1 : 5 : t->quick && m > 0 ? 3 : 7); h++)
-                TRY(give(t, (struct stability_case){.group = GROUP_PD, .dim = dim, .method = "pd", .model = model[m],
-                                                    .horizon = horizon[h]}));
+                TRY(stability_cases_give(
+                    t, (struct stability_case){
+                           .group = GROUP_PD, .dim = dim, .method = "pd", .model = model[m], .horizon = horizon[h]}));
     return OK;
 }
 
@@ -45,13 +46,13 @@ static status variants(const struct taker *t)
                 if ((c.model && m == 0) || (c.calibration && m > 0) || (c.weights && m > 0)) continue;
                 c.group = GROUP_PD, c.dim = dim, c.method = "pd", c.model = model[m];
                 if (dim == 3) c.space = NULL, c.horizon = 2.015;
-                TRY(give(t, c));
+                TRY(stability_cases_give(t, c));
             }
     return OK;
 }
 
 /* What the sheets quote: whole neighbours of large lattices, moduli of the continuum, no correction of surfaces. */
-static status published(const struct taker *t)
+static status stability_cases_published(const struct taker *t)
 {
     static const struct stability_case row[] = {
         {.dim = 1, .model = "bond", .calibration = "continuum", .edge = 96, .quoted_low = 1.85},
@@ -66,12 +67,12 @@ static status published(const struct taker *t)
         struct stability_case c = row[k];
         if (t->quick && c.dim == 3) c.edge = 9;
         c.group = GROUP_SHEET, c.method = "pd", c.surface = "none", c.horizon = 3.015;
-        TRY(give(t, c));
+        TRY(stability_cases_give(t, c));
     }
     return OK;
 }
 
-/* ---- material points -------------------------------------------------------------------------------------------- */
+/* ---- material points --------------------------------------------------------------------------------------------- */
 
 /* The sheet's table of the linearised step in one dimension. */
 static void quote(struct stability_case *c)
@@ -87,8 +88,8 @@ static void quote(struct stability_case *c)
             c->quoted_low = sheet[k].low[(int)c->cell - 1], c->quoted_high = sheet[k].high[(int)c->cell - 1];
 }
 
-/* Offsets that a body meets: in eighths or, of three and six points, twelfths of a cell, so that points come to stand on
- * nodes, where linear shapes are worst. */
+/* Offsets that a body meets: in eighths or, of three and six points, twelfths of a cell, so that points come to
+ * stand on nodes, where linear shapes are worst. */
 static int offsets_of(const struct taker *t, double cell, int dim)
 {
     const bool thirds = cell == 3 || cell == 1.5 || cell == 6;
@@ -96,7 +97,7 @@ static int offsets_of(const struct taker *t, double cell, int dim)
     return thirds ? 12 : 8;
 }
 
-static status points(const struct taker *t)
+static status stability_cases_points(const struct taker *t)
 {
     static const char *const shape[] = {"linear", "gimp", "cpgimp", "quadratic", "cubic"};
     static const double cell[] = {2, 1, 3, 4, 1.5, 6};
@@ -109,17 +110,23 @@ static status points(const struct taker *t)
                                                .transfer = transfer[a], .cell = cell[n]};
                     c.offsets = dim == 3 && cell[n] < 3 ? 4 : offsets_of(t, cell[n], dim);
                     quote(&c);
-                    TRY(give(t, c));
+                    TRY(stability_cases_give(t, c));
                 }
                 if (dim != 2 || k == 2) continue;
-                TRY(give(t, (struct stability_case){.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = shape[k],
-                                                    .transfer = transfer[a], .cell = 2, .space = "plane strain",
-                                                    .poisson = 0.49, .offsets = 4}));
+                TRY(stability_cases_give(t, (struct stability_case){.group = GROUP_POINTS,
+                                                                    .dim = 2,
+                                                                    .method = "mpm",
+                                                                    .shape = shape[k],
+                                                                    .transfer = transfer[a],
+                                                                    .cell = 2,
+                                                                    .space = "plane strain",
+                                                                    .poisson = 0.49,
+                                                                    .offsets = 4}));
             }
     return OK;
 }
 
-/* ---- both ---------------------------------------------------------------------------------------------------------- */
+/* ---- both -------------------------------------------------------------------------------------------------------- */
 
 static status coupled(const struct taker *t)
 {
@@ -129,27 +136,52 @@ static status coupled(const struct taker *t)
             for (int w = 0; w < 6; w++)
                 for (double cell = 2; cell >= 1; cell--) {
                     if (t->quick && (cell == 1 || (dim == 2 && w > 1 && w < 4))) continue;
-                    TRY(give(t, (struct stability_case){.group = GROUP_COUPLED, .dim = dim, .method = "adaptive",
-                                                        .coupling = way[w], .transfer = transfer[a], .cell = cell,
-                                                        .shape = w == 2 || w == 4 ? "linear" : "gimp",
-                                                        .horizon = dim == 3 ? 2.015 : 0, .edge = dim == 3 ? 12 : 0,
-                                                        .offsets = dim == 3 ? 2 : 4}));
+                    TRY(stability_cases_give(t, (struct stability_case){.group = GROUP_COUPLED,
+                                                                        .dim = dim,
+                                                                        .method = "adaptive",
+                                                                        .coupling = way[w],
+                                                                        .transfer = transfer[a],
+                                                                        .cell = cell,
+                                                                        .shape = w == 2 || w == 4 ? "linear" : "gimp",
+                                                                        .horizon = dim == 3 ? 2.015 : 0,
+                                                                        .edge = dim == 3 ? 12 : 0,
+                                                                        .offsets = dim == 3 ? 2 : 4}));
                 }
     for (int m = 1; m < 3; m++)
-        TRY(give(t, (struct stability_case){.group = GROUP_COUPLED, .dim = 2, .method = "adaptive", .model = model[m],
-                                            .coupling = way[0], .transfer = "flip", .offsets = t->quick ? 1 : 4}));
+        TRY(stability_cases_give(t, (struct stability_case){.group = GROUP_COUPLED,
+                                                            .dim = 2,
+                                                            .method = "adaptive",
+                                                            .model = model[m],
+                                                            .coupling = way[0],
+                                                            .transfer = "flip",
+                                                            .offsets = t->quick ? 1 : 4}));
     for (int m = 0; m < 3; m++)
-        TRY(give(t, (struct stability_case){.group = GROUP_COUPLED, .dim = 2, .method = "adaptive", .model = model[m],
-                                            .coupling = way[0], .transfer = "flip", .irregularity = 0.5,
-                                            .note = "irregular 0.5"}));
-    TRY(give(t, (struct stability_case){.group = GROUP_COUPLED, .dim = 2, .method = "adaptive", .coupling = way[0],
-                                        .transfer = "flip", .heavier = 8, .note = "two materials 8:1"}));
-    return give(t, (struct stability_case){.group = GROUP_COUPLED, .dim = 2, .method = "adaptive", .coupling = way[0],
-                                           .transfer = "flip", .surface = "volume", .note = "surface correction"});
+        TRY(stability_cases_give(t, (struct stability_case){.group = GROUP_COUPLED,
+                                                            .dim = 2,
+                                                            .method = "adaptive",
+                                                            .model = model[m],
+                                                            .coupling = way[0],
+                                                            .transfer = "flip",
+                                                            .irregularity = 0.5,
+                                                            .note = "irregular 0.5"}));
+    TRY(stability_cases_give(t, (struct stability_case){.group = GROUP_COUPLED,
+                                                        .dim = 2,
+                                                        .method = "adaptive",
+                                                        .coupling = way[0],
+                                                        .transfer = "flip",
+                                                        .heavier = 8,
+                                                        .note = "two materials 8:1"}));
+    return stability_cases_give(t, (struct stability_case){.group = GROUP_COUPLED,
+                                                           .dim = 2,
+                                                           .method = "adaptive",
+                                                           .coupling = way[0],
+                                                           .transfer = "flip",
+                                                           .surface = "volume",
+                                                           .note = "surface correction"});
 }
 
 /* Borders inside cells, and what conversion may leave: material points and peridynamic particles here and there. */
-static status reference(const struct taker *t)
+static status stability_cases_reference(const struct taker *t)
 {
     static const struct stability_case row[] = {
         {.method = "mpm", .note = "nodes on the border"},
@@ -166,7 +198,7 @@ static status reference(const struct taker *t)
             
             c.group = GROUP_REFERENCE, c.dim = dim, c.frame = "reference";
             if (dim == 3 && k > 3) c.edge = 10;
-            TRY(give(t, c));
+            TRY(stability_cases_give(t, c));
         }
     return OK;
 }
@@ -174,10 +206,10 @@ static status reference(const struct taker *t)
 status stability_cases(bool quick, stability_take *take, void *context)
 {
     const struct taker t = {quick, take, context};
-    TRY(published(&t));
+    TRY(stability_cases_published(&t));
     TRY(horizons(&t));
     TRY(variants(&t));
-    TRY(points(&t));
+    TRY(stability_cases_points(&t));
     TRY(coupled(&t));
-    return reference(&t);
+    return stability_cases_reference(&t);
 }

@@ -1,4 +1,5 @@
-/* floor 5: the picture of the stability map: limits over horizon and points a cell, and every case as a share of its limit. */
+/* The picture of the stability map: limits over horizon and points a cell, and every case as a share of its
+ * limit. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +7,7 @@
 #include "stability.h"
 
 /* One of four panels, its key on the right. */
-static void set_panel(FILE *to, int column, int row, const char *title)
+static void stability_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.052 + 0.5 * column, above = 0.95 - 0.5 * row;
     fprintf(to,
@@ -15,7 +16,7 @@ static void set_panel(FILE *to, int column, int row, const char *title)
             left, left + 0.3, above, above - 0.38, left + 0.305, above, title);
 }
 
-/* ---- over the horizon ------------------------------------------------------------------------------------------- */
+/* ---- over the horizon -------------------------------------------------------------------------------------------- */
 
 static const struct { const char *model; int dim; const char *title; } law[] = {
     {"bond", 1, "bonds, bar"}, {"bond", 2, "bonds, plate"}, {"bond", 3, "bonds, solid"},
@@ -37,7 +38,7 @@ static void draw_horizons(FILE *to, const struct stability_map *map)
                         map->row[r].l.critical / map->row[r].l.unit, map->row[r].l.automatic / map->row[r].l.unit);
         fputs("EOD\n", to);
     }
-    set_panel(to, 0, 0, "peridynamics: where runs begin to grow, and the automatic step");
+    stability_draw_set_panel(to, 0, 0, "peridynamics: where runs begin to grow, and the automatic step");
     fputs("set xrange [0.8:6.3]\nset yrange [0:*]\nset xlabel 'horizon [spacings]'\n"
           "set ylabel 'time step [spacing/wave speed]'\nplot ", to);
     for (int k = 0; k < LAWS; k++)
@@ -48,12 +49,13 @@ static void draw_horizons(FILE *to, const struct stability_map *map)
           "NaN with points pt 2 ps 0.9 lc rgb '#333333' title 'automatic step'\n", to);
 }
 
-/* ---- over points a cell ----------------------------------------------------------------------------------------- */
+/* ---- over points a cell ------------------------------------------------------------------------------------------ */
 
 static const char *const shape[] = {"linear", "gimp", "cpgimp", "quadratic", "cubic"};
 enum { SHAPES_DRAWN = COUNT_OF(shape) };
 
-static void draw_points(FILE *to, const struct stability_map *map, const char *transfer, int column, int row, const char *title)
+static void draw_points(FILE *to, const struct stability_map *map, const char *transfer, int column, int row,
+                        const char *title)
 {
     for (int k = 0; k < SHAPES_DRAWN; k++) {
         fprintf(to, "$%s%d << EOD\nNaN NaN NaN NaN NaN\n", transfer, k);
@@ -66,7 +68,7 @@ static void draw_points(FILE *to, const struct stability_map *map, const char *t
         }
         fputs("EOD\n", to);
     }
-    set_panel(to, column, row, title);
+    stability_draw_set_panel(to, column, row, title);
     fputs("set xrange [0.5:6.5]\nset yrange [0:*]\nset xtics 1\nset xlabel 'points a cell and direction'\n"
           "set ylabel 'time step [cell/wave speed]'\nplot ", to);
     for (int k = 0; k < SHAPES_DRAWN; k++)
@@ -74,17 +76,19 @@ static void draw_points(FILE *to, const struct stability_map *map, const char *t
                     "$%s%d using 1:2 with points pt 7 ps 0.9 lc rgb '%s' notitle, "
                     "$%s%d using 1:5 with points pt 2 ps 0.9 lw 1.8 lc rgb '%s' notitle, ",
                 transfer, k, curve_colour[k], shape[k], transfer, k, curve_colour[k], transfer, k, curve_colour[k]);
-    fputs("NaN with lines lw 6 lc rgb '#333333' title 'limit by place', NaN with points pt 7 ps 0.9 lc rgb '#333333' title "
-          "'  its least', NaN with points pt 2 ps 0.9 lc rgb '#333333' title 'automatic step'\n", to);
+    fputs("NaN with lines lw 6 lc rgb '#333333' title 'limit by place', NaN with points pt 7 ps 0.9 lc rgb '#333333' "
+          "title "
+          "'  its least', NaN with points pt 2 ps 0.9 lc rgb '#333333' title 'automatic step'\n",
+          to);
 }
 
-/* ---- every case --------------------------------------------------------------------------------------------------- */
+/* ---- every case -------------------------------------------------------------------------------------------------- */
 
 static void draw_shares(FILE *to, const struct stability_map *map)
 {
     int at = 0;
-    set_panel(to, 1, 1, "every case: steps as shares of its observed limit");
-    for (int g = 0; g < STABILITY_GROUPS; g++) {
+    stability_draw_set_panel(to, 1, 1, "every case: steps as shares of its observed limit");
+    for (int g = 0; g < STABILITY_GROUP; g++) {
         fprintf(to, "$group%d << EOD\nNaN NaN NaN\n", g);
         for (int k = 0; k < map->n; k++) {
             const struct stability_row *r = &map->row[k];
@@ -94,17 +98,22 @@ static void draw_shares(FILE *to, const struct stability_map *map)
         fputs("EOD\n", to);
         at += 2;
     }
-    fprintf(to, "set xrange [0:%d]\nset yrange [0:1.2]\nunset xtics\nset xlabel 'cases'\nset ylabel 'share of the observed limit'\n"
-                "set object 1 rectangle from 0,%g to %d,%g fc rgb '#e8f3ea' fs solid noborder behind\n"
-                "set object 2 rectangle from 0,1 to %d,1.2 fc rgb '#f9e4dc' fs solid noborder behind\nplot ",
+    fprintf(to,
+            "set xrange [0:%d]\nset yrange [0:1.2]\nunset xtics\nset xlabel 'cases'\nset ylabel 'share of the observed "
+            "limit'\n"
+            "set object 1 rectangle from 0,%g to %d,%g fc rgb '#e8f3ea' fs solid noborder behind\n"
+            "set object 2 rectangle from 0,1 to %d,1.2 fc rgb '#f9e4dc' fs solid noborder behind\nplot ",
             at, STABILITY_LEAST, at, STABILITY_MOST, at);
-    for (int g = 0; g < STABILITY_GROUPS; g++)
+    for (int g = 0; g < STABILITY_GROUP; g++)
         fprintf(to, "$group%d using 1:3 with points pt 6 ps 0.6 lc rgb '%s' notitle, "
                     "$group%d using 1:2 with points pt 7 ps 0.8 lc rgb '%s' title '%s', ",
                 g, curve_colour[g], g, curve_colour[g], stability_group_name[g]);
-    fputs("NaN with points pt 7 ps 0.8 lc rgb '#333333' title 'automatic step', NaN with points pt 6 ps 0.6 lc rgb '#333333' title "
-          "'critical estimate', NaN with lines lw 8 lc rgb '#d5ead9' title 'asked: 0.60 - 0.95', NaN with lines lw 8 lc rgb '#f3cfc0' "
-          "title 'grows'\n", to);
+    fputs("NaN with points pt 7 ps 0.8 lc rgb '#333333' title 'automatic step', NaN with points pt 6 ps 0.6 lc rgb "
+          "'#333333' title "
+          "'critical estimate', NaN with lines lw 8 lc rgb '#d5ead9' title 'asked: 0.60 - 0.95', NaN with lines lw 8 "
+          "lc rgb '#f3cfc0' "
+          "title 'grows'\n",
+          to);
 }
 
 void stability_draw(FILE *to, const void *context)

@@ -1,8 +1,9 @@
-/* floor 5: the observed critical step: growth of the largest mode under the engine's own step, and real runs beside it.
+/* The observed critical step: growth of the largest mode under the engine's own step, and real runs beside
+ * it.
  *
- * The step is applied to a body at rest with velocities of 1e-8 c at random: that is the linearised step applied to a vector
- * that has a part in every mode. Below the limit the velocities stay as large as they are, but for modes that do not grow
- * or grow with the number of steps; a hair above it they grow by a factor each step. */
+ * The step is applied to a body at rest with velocities of 1e-8 c at random: that is the linearised step applied to
+ * a vector that has a part in every mode. Below the limit the velocities stay as large as they are, but for modes
+ * that do not grow or grow with the number of steps; a hair above it they grow by a factor each step. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,10 +16,10 @@
 #define GROWN 1e3                        /* of velocities: more than modes that grow with the number of steps reach */
 #define WITHIN 0.004                     /* of the limit                                               */
 
-/* ---- a shaken body ------------------------------------------------------------------------------------------- */
+/* ---- a shaken body ----------------------------------------------------------------------------------------------- */
 
 /* Velocities at random, without the mean that would carry the body away, and then one that does. */
-static void shake(struct engine *e, double speed, double drift)
+static void stability_limit_shake(struct engine *e, double speed, double drift)
 {
     struct particles *p = &e->part;
     struct grid *g = &e->mesh.grid;
@@ -36,11 +37,11 @@ static void shake(struct engine *e, double speed, double drift)
 /* Kinetic energy in motion against the drift. */
 static double motion(const struct engine *e, double drift)
 {
-    return watch_kinetic(&e->part) + mesh_kinetic(&e->mesh) - 0.5 * e->mass * e->part.dim * drift * drift;
+    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->mesh) - 0.5 * e->mass * e->part.dim * drift * drift;
 }
 
 /* Long enough that its only sample is the first step. */
-static status block_make(struct engine *e, struct scene *s, const struct stability_case *c, double dt)
+static status limit_block_make(struct engine *e, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};
     char text[4096];
@@ -56,9 +57,9 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
 {
     struct engine e;
     struct scene s;
-    TRY(block_make(&e, &s, c, dt));
+    TRY(limit_block_make(&e, &s, c, dt));
     const double drift = how.drift * e.wave_speed;
-    shake(&e, how.speed * e.wave_speed, drift);
+    stability_limit_shake(&e, how.speed * e.wave_speed, drift);
     const double first = motion(&e, drift);
     *stays = bench_engine_run(&e, 1, NULL) == OK;    /* makes the record of the first sample */
     while (*stays && e.step < how.steps) {
@@ -69,7 +70,7 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
     return OK;
 }
 
-/* ---- limits ---------------------------------------------------------------------------------------------------- */
+/* ---- limits ------------------------------------------------------------------------------------------------------ */
 
 /* Between steps at which it stays bounded and does not, from the one called critical. */
 static status limit_of(const struct stability_case *c, double critical, int steps, double *limit)
@@ -97,12 +98,9 @@ static double silling_step(const struct engine *e)
     const struct bonds *b = &e->bonds;
     double most = 0;
     for (int64_t r = 0; r < b->rows; r++) {
-        const int64_t g = r / LANES;
         double sum = 0;
-        for (int64_t k = 0; k < b->slot_count[g]; k++) {
-            const int64_t q = bond_index(b, g, k, (int)(r % LANES));
-            sum += b->stiffness * b->w[q] * b->inverse_length[q];
-        }
+        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);)
+            sum += b->stiffness * it.bond.w * it.bond.inverse_length;
         most = fmax(most, sum / e->part.mass[b->particle[r]]);
     }
     return sqrt(2 / most);
@@ -112,7 +110,7 @@ static status predict(const struct stability_case *c, struct stability_limits *t
 {
     struct engine e;
     struct scene s;
-    TRY(block_make(&e, &s, c, 0));
+    TRY(limit_block_make(&e, &s, c, 0));
     to->critical = e.dt_critical, to->automatic = s.safety * e.dt_critical;
     to->unit = (c->group == GROUP_POINTS ? e.grid.h : s.spacing) / e.wave_speed;
     to->gershgorin = to->silling = NAN;
@@ -130,8 +128,8 @@ static status real_run(const struct stability_case *c, double dt, double drift, 
     return OK;
 }
 
-/* With APIC limits are least where the body ends a little beyond a node, on this or that side: nearer still the node beyond it follows
- * others (grid_move.c). */
+/* With APIC limits are least where the body ends a little beyond a node, on this or that side: nearer still the node
+ * beyond it follows others (grid_move.c). */
 #define BEYOND 0.01                      /* cells */
 
 status stability_observe(const struct stability_case *given, int steps, int long_steps, struct stability_limits *to)

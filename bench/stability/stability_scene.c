@@ -1,4 +1,4 @@
-/* floor 5: scenes of the stability bench: free blocks of 1 mm lattice that nothing loads, breaks or converts. */
+/* Scenes of the stability bench: free blocks of 1 mm lattice that nothing loads, breaks or converts. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,9 +10,9 @@ static const char *space_of(const struct stability_case *c)
     return c->space ? c->space : space[c->dim];
 }
 
-static bool is(const char *word, const char *other) { return word && !strcmp(word, other); }
+static bool stability_scene_is(const char *word, const char *other) { return word && !strcmp(word, other); }
 
-/* ---- pieces of text ---------------------------------------------------------------------------------------- */
+/* ---- pieces of text ---------------------------------------------------------------------------------------------- */
 
 /* A mapping in one line: entries as they come, none without any. */
 struct mapping { FILE *to; const char *name; int entries; };
@@ -23,14 +23,14 @@ static void entry(struct mapping *m)
     else fputs(", ", m->to);
 }
 
-static void put_text(struct mapping *m, const char *key, const char *value)
+static void stability_scene_put_text(struct mapping *m, const char *key, const char *value)
 {
     if (!value) return;
     entry(m);
     fprintf(m->to, "%s: %s", key, value);
 }
 
-static void put_number(struct mapping *m, const char *key, double value)
+static void stability_scene_put_number(struct mapping *m, const char *key, double value)
 {
     if (value == 0) return;
     entry(m);
@@ -42,23 +42,23 @@ static void mapping_end(struct mapping *m)
     if (m->entries > 0) fputs("}\n", m->to);
 }
 
-static void put_point(FILE *to, int dim, double first, double rest)
+static void stability_scene_put_point(FILE *to, int dim, double first, double rest)
 {
     fprintf(to, "[%.9g", first);
     for (int d = 1; d < dim; d++) fprintf(to, ", %.9g", rest);
     fputc(']', to);
 }
 
-static void put_box(FILE *to, int dim, double from, double until, double edge)
+static void stability_scene_put_box(FILE *to, int dim, double from, double until, double edge)
 {
     fputs("{box: {from: ", to);
-    put_point(to, dim, from, 0);
+    stability_scene_put_point(to, dim, from, 0);
     fputs(", to: ", to);
-    put_point(to, dim, until, edge);
+    stability_scene_put_point(to, dim, until, edge);
     fputs("}}", to);
 }
 
-/* ---- the scene ------------------------------------------------------------------------------------------------ */
+/* ---- the scene --------------------------------------------------------------------------------------------------- */
 
 #define SPACING 1e-3
 
@@ -77,15 +77,17 @@ static void put_bodies(FILE *to, const struct stability_case *c, double edge)
     if (c->poisson != 0) snprintf(poisson, sizeof poisson, ", poisson: %.9g", c->poisson);
     if (c->heavier == 0) {
         fprintf(to, "material: {young: 72e9, density: 2440%s}\nbody: ", poisson);
-        put_box(to, c->dim, 0, edge, edge);
+        stability_scene_put_box(to, c->dim, 0, edge, edge);
         fputc('\n', to);
         return;
     }
-    fprintf(to, "materials:\n  - {name: first, young: 72e9, density: 2440%s}\n  - {name: second, young: 72e9, density: %.9g%s}\n",
+    fprintf(to,
+            "materials:\n  - {name: first, young: 72e9, density: 2440%s}\n  - {name: second, young: 72e9, density: "
+            "%.9g%s}\n",
             poisson, 2440 * c->heavier, poisson);
     for (int half = 0; half < 2; half++) {
         fprintf(to, "%s  - {material: %s, shape: ", half ? "" : "bodies:\n", half ? "second" : "first");
-        put_box(to, c->dim, half ? edge / 2 : 0, half ? edge : edge / 2, edge);
+        stability_scene_put_box(to, c->dim, half ? edge / 2 : 0, half ? edge : edge / 2, edge);
         fputs("}\n", to);
     }
 }
@@ -93,7 +95,8 @@ static void put_bodies(FILE *to, const struct stability_case *c, double edge)
 /* Balls of one to some particles, at odd places of the block. */
 static void put_balls(FILE *to, const struct stability_case *c, double edge, const char *before, const char *after)
 {
-    static const double place[][DIM_MAX] = {{0.5, 0.5, 0.5}, {0.19, 0.27, 0.71}, {0.81, 0.33, 0.2}, {0.3, 0.85, 0.4}, {0.7, 0.72, 0.83}};
+    static const double place[][DIM_MAX] = {
+        {0.5, 0.5, 0.5}, {0.19, 0.27, 0.71}, {0.81, 0.33, 0.2}, {0.3, 0.85, 0.4}, {0.7, 0.72, 0.83}};
     static const double radius[] = {0.55, 1.05, 1.45, 0.75, 2.05};
     for (size_t k = 0; k < COUNT_OF(radius); k++) {
         fprintf(to, "%s%s{ball: {centre: [", k > 0 ? ", " : "", before);
@@ -110,7 +113,7 @@ static void put_shares(FILE *to, const struct stability_case *c, double edge, co
 {
     for (int end = 0; end < 2; end++) {
         fputs(end ? ", to: " : "{box: {from: ", to);
-        put_point(to, c->dim, share[0][end] * edge, share[1][end] * edge);
+        stability_scene_put_point(to, c->dim, share[0][end] * edge, share[1][end] * edge);
     }
     fputs("}}", to);
 }
@@ -122,7 +125,7 @@ static void put_region(FILE *to, const struct stability_case *c, double edge)
                                          [NOTCH] = {{0.25, 0.75}, {0, 0.75}}};
     if (c->region == DISC) {
         fputs("{ball: {centre: ", to);
-        put_point(to, c->dim, 0.5 * edge, 0.5 * edge);
+        stability_scene_put_point(to, c->dim, 0.5 * edge, 0.5 * edge);
         fprintf(to, ", radius: %.9g}}", 0.27 * edge);
         return;
     }
@@ -132,14 +135,14 @@ static void put_region(FILE *to, const struct stability_case *c, double edge)
     }
     fputc('[', to);
     if (c->region == ISLANDS) {
-        put_box(to, c->dim, 0, edge, edge);
+        stability_scene_put_box(to, c->dim, 0, edge, edge);
         fputs(", ", to);
     }
     put_balls(to, c, edge, c->region == ISLANDS ? "{subtract: " : "", c->region == ISLANDS ? "}" : "");
     fputc(']', to);
 }
 
-/* ---- supports --------------------------------------------------------------------------------------------------- */
+/* ---- supports ---------------------------------------------------------------------------------------------------- */
 
 static void put_support(FILE *to, const struct stability_case *c, double edge)
 {
@@ -156,8 +159,10 @@ static void put_support(FILE *to, const struct stability_case *c, double edge)
         return;
     }
     if (c->support == FIXED) fputs("  - {fixed: all, region: ", to);
-    else fprintf(to, "  - {velocity: [0.2%s], time: {pulse: {from: 0, until: 50 us}}, region: ", &", free, free"[6 * (DIM_MAX - c->dim)]);
-    put_box(to, c->dim, edge - 2 * SPACING, edge, edge);
+    else
+        fprintf(to, "  - {velocity: [0.2%s], time: {pulse: {from: 0, until: 50 us}}, region: ",
+                &", free, free"[6 * (DIM_MAX - c->dim)]);
+    stability_scene_put_box(to, c->dim, edge - 2 * SPACING, edge, edge);
     fputs("}\n", to);
 }
 
@@ -175,50 +180,52 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
     if (c->coupling) fprintf(to, "coupling: %s\n", c->coupling);
     put_bodies(to, c, edge);
     struct mapping particles = {to, "particles", 0}, mpm = {to, "mpm", 0}, pd = {to, "pd", 0};
-    put_number(&particles, "spacing", SPACING);
-    put_number(&particles, "horizon", c->horizon);
-    put_number(&particles, "irregularity", c->irregularity);
+    stability_scene_put_number(&particles, "spacing", SPACING);
+    stability_scene_put_number(&particles, "horizon", c->horizon);
+    stability_scene_put_number(&particles, "irregularity", c->irregularity);
     mapping_end(&particles);
-    put_number(&mpm, "cell", cell);
-    put_text(&mpm, "shape", c->shape);
-    put_text(&mpm, "transfer", c->transfer);
-    put_text(&mpm, "frame", c->frame ? c->frame : "current");
-    put_text(&mpm, "strain", c->strain);
-    put_text(&mpm, "constants", c->constants);
+    stability_scene_put_number(&mpm, "cell", cell);
+    stability_scene_put_text(&mpm, "shape", c->shape);
+    stability_scene_put_text(&mpm, "transfer", c->transfer);
+    stability_scene_put_text(&mpm, "frame", c->frame ? c->frame : "current");
+    stability_scene_put_text(&mpm, "strain", c->strain);
+    stability_scene_put_text(&mpm, "constants", c->constants);
     if (c->offset != 0) {
         entry(&mpm);
         fputs("origin: ", to);
-        put_point(to, c->dim, origin, origin);
+        stability_scene_put_point(to, c->dim, origin, origin);
     }
     mapping_end(&mpm);
-    put_text(&pd, "surface", c->surface);
-    put_text(&pd, "weights", c->weights);
-    put_text(&pd, "normalisation", c->normalisation);
-    put_text(&pd, "calibration", c->calibration);
-    if (is(c->method, "adaptive")) {
+    stability_scene_put_text(&pd, "surface", c->surface);
+    stability_scene_put_text(&pd, "weights", c->weights);
+    stability_scene_put_text(&pd, "normalisation", c->normalisation);
+    stability_scene_put_text(&pd, "calibration", c->calibration);
+    if (stability_scene_is(c->method, "adaptive")) {
         entry(&pd);
         fputs("region: ", to);
         put_region(to, c, edge);
     }
     mapping_end(&pd);
-    if (is(c->method, "adaptive")) fputs("conversion: {criteria: none}\n", to);
-    if (c->region == NOTCH) fprintf(to, "cracks: [{from: [%.9g, 0], to: [%.9g, %.9g]}]\n", edge / 2, edge / 2, edge / 2);
+    if (stability_scene_is(c->method, "adaptive")) fputs("conversion: {criteria: none}\n", to);
+    if (c->region == NOTCH)
+        fprintf(to, "cracks: [{from: [%.9g, 0], to: [%.9g, %.9g]}]\n", edge / 2, edge / 2, edge / 2);
     put_support(to, c, edge);
     fputs("output: {frames: 0, samples: 1}\n", to);
     fclose(to);
 }
 
-/* ---- its name -------------------------------------------------------------------------------------------------- */
+/* ---- its name ---------------------------------------------------------------------------------------------------- */
 
 void stability_label(const struct stability_case *c, char *text, size_t size)
 {
     FILE *to = fmemopen(text, size, "w");
     fputs(space_of(c), to);
-    if (is(c->method, "pd")) fprintf(to, " %s, horizon %g", c->model ? c->model : "bond", c->horizon > 0 ? c->horizon : 3.015);
-    else if (is(c->frame, "reference")) fprintf(to, " %s", c->method);
-    else if (is(c->method, "adaptive"))
-        fprintf(to, " %s%s%s, %s %s", c->coupling, c->model ? ", " : "", c->model ? c->model : "", c->shape ? c->shape : "gimp",
-                c->transfer);
+    if (stability_scene_is(c->method, "pd"))
+        fprintf(to, " %s, horizon %g", c->model ? c->model : "bond", c->horizon > 0 ? c->horizon : 3.015);
+    else if (stability_scene_is(c->frame, "reference")) fprintf(to, " %s", c->method);
+    else if (stability_scene_is(c->method, "adaptive"))
+        fprintf(to, " %s%s%s, %s %s", c->coupling, c->model ? ", " : "", c->model ? c->model : "",
+                c->shape ? c->shape : "gimp", c->transfer);
     else fprintf(to, " %s %s", c->shape, c->transfer);
     if (c->group == GROUP_POINTS || c->group == GROUP_COUPLED) fprintf(to, ", %g a cell", c->cell > 0 ? c->cell : 2);
     if (c->poisson != 0) fprintf(to, ", nu %g", c->poisson);

@@ -1,21 +1,21 @@
-/* floor 5: the second half of `cleave bench stability`: scenes in which methods fail, what they show beside their thresholds,
- * and what cures them. */
+/* The second half of `cleave bench stability`: scenes in which methods fail, what they show beside their
+ * thresholds, and what cures them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "failing.h"
+#include "limits.h"
 #include "plot/gnuplot.h"
 #include "stability.h"
 
-/* ---- measuring -------------------------------------------------------------------------------------------------- */
+/* ---- measuring --------------------------------------------------------------------------------------------------- */
 
 /* Columns of the table, in the order of its header. */
 enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, CURE, COLUMNS };
 static const char header[] = "scene,method,quantity,threshold,measured,verdict,cure";
 
 /* A line for each figure: what a method fails at has the cure, what it holds has none. */
-static status take(struct bench_table *t, const struct failing_scene *s, const struct failing_row *r)
+static status stability_scenes_take(struct bench_table *t, const struct failing_scene *s, const struct failing_row *r)
 {
     double figure[FAILING_FIGURES];
     char label[128];
@@ -30,10 +30,10 @@ static status take(struct bench_table *t, const struct failing_scene *s, const s
         bench_number(t, s->figure[k].threshold);
         bench_number(t, figure[k]);
         bench_text(t, holds ? "holds" : "fails");
-        bench_text(t, holds ? "-" : r->cure ? r->cure : "none yet");
+        bench_text(t, holds ? "-" : r->remedy ? r->remedy : "none yet");
         printf(" %10.3g%s", figure[k], holds ? "  " : " !");
     }
-    printf("%s%s\n", r->cure ? "  cure: " : "", r->cure ? r->cure : "");
+    printf("%s%s\n", r->remedy ? "  cure: " : "", r->remedy ? r->remedy : "");
     fflush(stdout);
     return OK;
 }
@@ -47,32 +47,45 @@ status stability_scenes(struct bench_table *t)
         for (int f = 0; f < failing_figures(s); f++)
             printf("%s %s, at most %.3g", f ? ";" : "", s->figure[f].quantity, s->figure[f].threshold);
         putchar('\n');
-        for (int r = 0; r < s->rows; r++) TRY(take(t, s, &s->row[r]));
+        for (int r = 0; r < s->rows; r++) TRY(stability_scenes_take(t, s, &s->row[r]));
     }
     return OK;
 }
 
-/* ---- the picture ------------------------------------------------------------------------------------------------ */
+/* ---- the picture ------------------------------------------------------------------------------------------------- */
 
 #define LEAST 1e-4                       /* of the threshold; what is less is drawn there */
 #define MOST 1e4
 enum { LINE_HEIGHT = 19, WIDTH = 1900 };
 
-static const struct bench_cell *cell_of(const struct bench_table *t, int64_t row, int k) { return &t->cell[row * COLUMNS + k]; }
-static const char *text_of(const struct bench_table *t, int64_t row, int k) { return cell_of(t, row, k)->text; }
-static double number_of(const struct bench_table *t, int64_t row, int k) { return cell_of(t, row, k)->number; }
-static int64_t rows_of(const struct bench_table *t) { return t->cells / COLUMNS; }
-static bool fails(const struct bench_table *t, int64_t row) { return !strcmp(text_of(t, row, VERDICT), "fails"); }
+static const struct bench_cell *stability_scenes_cell_of(const struct bench_table *t, int64_t row, int k)
+{
+    return &t->cell[row * COLUMNS + k];
+}
+static const char *stability_scenes_text_of(const struct bench_table *t, int64_t row, int k)
+{
+    return stability_scenes_cell_of(t, row, k)->text;
+}
+static double stability_scenes_number_of(const struct bench_table *t, int64_t row, int k)
+{
+    return stability_scenes_cell_of(t, row, k)->number;
+}
+static int64_t stability_scenes_rows_of(const struct bench_table *t) { return t->cells / COLUMNS; }
+static bool fails(const struct bench_table *t, int64_t row)
+{
+    return !strcmp(stability_scenes_text_of(t, row, VERDICT), "fails");
+}
 
 /* A scene begins with this row. */
 static bool begins(const struct bench_table *t, int64_t row)
 {
-    return row == 0 || strcmp(text_of(t, row, SCENE), text_of(t, row - 1, SCENE));
+    return row == 0 || strcmp(stability_scenes_text_of(t, row, SCENE), stability_scenes_text_of(t, row - 1, SCENE));
 }
 
 static double share(const struct bench_table *t, int64_t row)
 {
-    const double threshold = number_of(t, row, THRESHOLD), measured = number_of(t, row, MEASURED);
+    const double threshold = stability_scenes_number_of(t, row, THRESHOLD),
+                 measured = stability_scenes_number_of(t, row, MEASURED);
     if (!(measured <= threshold)) return threshold > 0 ? fmin(MOST, measured / threshold) : MOST;
     return threshold > 0 ? fmax(LEAST, measured / threshold) : LEAST;
 }
@@ -81,11 +94,11 @@ static double share(const struct bench_table *t, int64_t row)
 static int lines_of(const struct bench_table *t)
 {
     int n = 0;
-    for (int64_t r = 0; r < rows_of(t); r++) n += begins(t, r) + fails(t, r);
+    for (int64_t r = 0; r < stability_scenes_rows_of(t); r++) n += begins(t, r) + fails(t, r);
     return n;
 }
 
-static void put_label(FILE *to, const char *text, double x, int line, const char *style)
+static void stability_scenes_put_label(FILE *to, const char *text, double x, int line, const char *style)
 {
     fputs("set label ", to);
     gnuplot_quote(to, text);
@@ -96,11 +109,13 @@ static void put_label(FILE *to, const char *text, double x, int line, const char
 static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int line)
 {
     char text[256];
-    snprintf(text, sizeof text, "%s: %s", text_of(t, r, METHOD), text_of(t, r, QUANTITY));
-    put_label(to, text, 0.335, line, "right textcolor rgb '#8a3b12'");
-    snprintf(text, sizeof text, "%.3g, at most %.3g", number_of(t, r, MEASURED), number_of(t, r, THRESHOLD));
-    put_label(to, text, 0.60, line, "left textcolor rgb '#333333'");
-    put_label(to, text_of(t, r, CURE), 0.745, line, "left textcolor rgb '#1b6b3a'");
+    snprintf(text, sizeof text, "%s: %s", stability_scenes_text_of(t, r, METHOD),
+             stability_scenes_text_of(t, r, QUANTITY));
+    stability_scenes_put_label(to, text, 0.335, line, "right textcolor rgb '#8a3b12'");
+    snprintf(text, sizeof text, "%.3g, at most %.3g", stability_scenes_number_of(t, r, MEASURED),
+             stability_scenes_number_of(t, r, THRESHOLD));
+    stability_scenes_put_label(to, text, 0.60, line, "left textcolor rgb '#333333'");
+    stability_scenes_put_label(to, stability_scenes_text_of(t, r, CURE), 0.745, line, "left textcolor rgb '#1b6b3a'");
 }
 
 /* How many figures of the scene hold, on its line. */
@@ -108,10 +123,11 @@ static void put_scene(FILE *to, const struct bench_table *t, int64_t r, int line
 {
     char text[128];
     int holding = 0, all = 0;
-    for (int64_t k = r; k < rows_of(t) && (k == r || !begins(t, k)); k++) all++, holding += !fails(t, k);
-    put_label(to, text_of(t, r, SCENE), 0.012, line, "left textcolor rgb '#000000'");
+    for (int64_t k = r; k < stability_scenes_rows_of(t) && (k == r || !begins(t, k)); k++)
+        all++, holding += !fails(t, k);
+    stability_scenes_put_label(to, stability_scenes_text_of(t, r, SCENE), 0.012, line, "left textcolor rgb '#000000'");
     snprintf(text, sizeof text, "%d of %d figures hold", holding, all);
-    put_label(to, text, 0.60, line, "left textcolor rgb '#777777'");
+    stability_scenes_put_label(to, text, 0.60, line, "left textcolor rgb '#777777'");
 }
 
 static void put_points(FILE *to, const struct bench_table *t)
@@ -119,7 +135,7 @@ static void put_points(FILE *to, const struct bench_table *t)
     for (int failing = 0; failing < 2; failing++) {
         int line = -1, scene = 0;
         fprintf(to, "$points%d << EOD\nNaN NaN\n", failing);
-        for (int64_t r = 0; r < rows_of(t); r++) {
+        for (int64_t r = 0; r < stability_scenes_rows_of(t); r++) {
             if (begins(t, r)) scene = ++line;
             if (fails(t, r)) line++;
             if (fails(t, r) == (failing == 1)) fprintf(to, "%.5g %d\n", share(t, r), failing ? -line : -scene);
@@ -128,29 +144,31 @@ static void put_points(FILE *to, const struct bench_table *t)
     }
 }
 
-static void draw(FILE *to, const void *table)
+static void stability_scenes_picture(FILE *to, const void *table)
 {
     const struct bench_table *t = table;
     int line = -1;
-    for (int64_t r = 0; r < rows_of(t); r++) {
+    for (int64_t r = 0; r < stability_scenes_rows_of(t); r++) {
         if (begins(t, r)) put_scene(to, t, r, ++line);
         if (fails(t, r)) put_failure(to, t, r, ++line);
     }
     put_points(to, t);
-    fprintf(to, "set title 'scenes in which methods fail: figures over their thresholds, and what cures them'\n"
-                "set lmargin at screen 0.345\nset rmargin at screen 0.59\nset tmargin at screen %g\nset bmargin at screen %g\n"
-                "set logscale x\nset xrange [%g:%g]\nset yrange [%g:0.8]\nunset ytics\nset format x '1e%%T'\n"
-                "set xtics (\"0\" %g, \"0.001\" 0.001, \"0.01\" 0.01, "
-                "\"0.1\" 0.1, \"1\" 1, \"10\" 10, \"100\" 100, \"1000\" 1000)\n"
-                "set xlabel 'measured/threshold'\nunset key\nset grid x\n"
-                "set object 1 rectangle from %g, graph 0 to 1, graph 1 fc rgb '#e8f3ea' fs solid noborder behind\n"
-                "set object 2 rectangle from 1, graph 0 to %g, graph 1 fc rgb '#f9e4dc' fs solid noborder behind\n"
-                "plot $points0 using 1:2 with points pt 7 ps 0.8 lc rgb '#1b6b3a', "
-                "$points1 using 1:2 with points pt 7 ps 1 lc rgb '#c0392b'\n",
-            1 - 2.0 / (line + 7), 4.0 / (line + 7), 0.7 * LEAST, 1.5 * MOST, -line - 0.8, LEAST, 0.7 * LEAST, 1.5 * MOST);
+    fprintf(
+        to,
+        "set title 'scenes in which methods fail: figures over their thresholds, and what cures them'\n"
+        "set lmargin at screen 0.345\nset rmargin at screen 0.59\nset tmargin at screen %g\nset bmargin at screen %g\n"
+        "set logscale x\nset xrange [%g:%g]\nset yrange [%g:0.8]\nunset ytics\nset format x '1e%%T'\n"
+        "set xtics (\"0\" %g, \"0.001\" 0.001, \"0.01\" 0.01, "
+        "\"0.1\" 0.1, \"1\" 1, \"10\" 10, \"100\" 100, \"1000\" 1000)\n"
+        "set xlabel 'measured/threshold'\nunset key\nset grid x\n"
+        "set object 1 rectangle from %g, graph 0 to 1, graph 1 fc rgb '#e8f3ea' fs solid noborder behind\n"
+        "set object 2 rectangle from 1, graph 0 to %g, graph 1 fc rgb '#f9e4dc' fs solid noborder behind\n"
+        "plot $points0 using 1:2 with points pt 7 ps 0.8 lc rgb '#1b6b3a', "
+        "$points1 using 1:2 with points pt 7 ps 1 lc rgb '#c0392b'\n",
+        1 - 2.0 / (line + 7), 4.0 / (line + 7), 0.7 * LEAST, 1.5 * MOST, -line - 0.8, LEAST, 0.7 * LEAST, 1.5 * MOST);
 }
 
 status stability_scenes_draw(const struct bench_table *t)
 {
-    return bench_draw("stability_scenes", WIDTH, (lines_of(t) + 6) * LINE_HEIGHT, draw, t);
+    return bench_draw("stability_scenes", WIDTH, (lines_of(t) + 6) * LINE_HEIGHT, stability_scenes_picture, t);
 }

@@ -1,7 +1,7 @@
-/* floor 0: state that must survive a restart, described once for both directions. A module lists its state in one
+/* State that must survive a restart, described once for both directions. A module lists its state in one
  * function `x_archive(x, a)`; the same function saves and restores. checkpoint.c gives the archive its file. */
-#ifndef CLEAVE_ARCHIVE_H
-#define CLEAVE_ARCHIVE_H
+#ifndef CLEAVE_ARCHIVE
+#define CLEAVE_ARCHIVE
 
 #include "base.h"
 

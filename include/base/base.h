@@ -1,12 +1,12 @@
-/* floor 0: number types, status, and the conventions every file shares.
+/* Number types, status, and the conventions every file shares.
  *
  * Units: SI everywhere inside the program (m, kg, s, Pa, J); units of the scene are converted when it is read.
  * Components: arrays of components are `real *x[DIM_MAX]`; only the first `dim` are allocated and used.
  * Symmetric tensors keep dim (dim + 1) / 2 components in the order
  *     1D: xx      2D: xx yy xy      3D: xx yy zz xy yz zx
  * with tensor (not engineering) shear where a strain is meant. */
-#ifndef CLEAVE_BASE_H
-#define CLEAVE_BASE_H
+#ifndef CLEAVE_BASE
+#define CLEAVE_BASE
 
 #include <assert.h>
 #include <stdbool.h>
@@ -21,8 +21,8 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
-/* A vector of entries of the vectors a and b, by their numbers: those of b count on from those of a. MASK: the type of vectors of
- * as many whole numbers. */
+/* A vector of entries of the vectors a and b, by their numbers: those of b count on from those of a. MASK: the type
+ * of vectors of as many whole numbers. */
 #ifdef __clang__
 #define VECTOR_PICK(MASK, a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
@@ -46,9 +46,11 @@ typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *status_message(void);
 
-/* Makes text from outside (names of files, columns, scenes) harmless to a terminal: `?` in place of every control character. */
+/* Makes text from outside (names of files, columns, scenes) harmless to a terminal: `?` in place of every control
+ * character. */
 void text_harmless(char *text);
-/* A name to print, harmless, and cut if it is very long: `shown_name(folder).text`, good until the end of the statement. */
+/* A name to print, harmless, and cut if it is very long: `shown_name(folder).text`, good until the end of the
+ * statement. */
 struct shown_name { char text[512]; };
 struct shown_name shown_name(const char *name);
 
@@ -62,8 +64,8 @@ double median_of(double *value, int64_t n);
         if (try_status_ != OK) return try_status_; \
     } while (0)
 
-/* A loop of independent rounds by the team, or by the calling thread alone where they are so few that calling a team, even of
- * one, takes longer (0.3 to 0.5 us). */
+/* A loop of independent rounds by the team, or by the calling thread alone where they are so few that calling a
+ * team, even of one, takes longer (0.3 to 0.5 us). */
 #define TEAM_LOOP(MANY, LOOP)                           \
     do {                                                \
         if (MANY) {                                     \

@@ -1,15 +1,15 @@
-/* floor 0: the largest eigenvalue of a symmetric operator, which is known by what it does to vectors. */
-#ifndef CLEAVE_EIGENVALUE_H
-#define CLEAVE_EIGENVALUE_H
+/* The largest eigenvalue of a symmetric operator, which is known by what it does to vectors. */
+#ifndef CLEAVE_EIGENVALUE
+#define CLEAVE_EIGENVALUE
 
 #include "base.h"
 
 /* y = A x of vectors of n numbers. */
 typedef void operator_fn(void *context, const real *x, real *y);
 
-/* By Lanczos' iteration (Golub & Van Loan, ch. 10) from a vector that is the same on every machine: from below, until eight
- * iterations add less than a thousandth, exact after n of them. A bounded spectrum without gaps takes 20 to 40 iterations,
- * where powers take three times as many. 0 if A is 0 or n is. */
+/* By Lanczos' iteration (Golub & Van Loan, ch. 10) from a vector that is the same on every machine: from below,
+ * until eight iterations add less than a thousandth, exact after n of them. A bounded spectrum without gaps takes 20
+ * to 40 iterations, where powers take three times as many. 0 if A is 0 or n is. */
 real largest_eigenvalue(int64_t n, operator_fn *apply, void *context);
 
 #endif

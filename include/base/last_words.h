@@ -1,6 +1,7 @@
-/* floor 0: last words of a process that a library ends: for want of memory, or over a damaged file. Every other crash stays what it is. */
-#ifndef CLEAVE_LAST_WORDS_H
-#define CLEAVE_LAST_WORDS_H
+/* The message of a process that a library ends, for want of memory or over a damaged file. Other crashes end as
+ * usual. */
+#ifndef CLEAVE_LAST_WORDS
+#define CLEAVE_LAST_WORDS
 
 /* From now on such an end leaves a line on standard error, and exit status 1. */
 void last_words_start(void);

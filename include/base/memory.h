@@ -1,7 +1,7 @@
-/* floor 0: labelled, 64-byte aligned, zeroed arrays. Out of memory is answered here, once: one line that
+/* Labelled, 64-byte aligned, zeroed arrays. Out of memory is answered here, once: one line that
  * names the label, the size and the memory used so far, and exit status 1. */
-#ifndef CLEAVE_MEMORY_H
-#define CLEAVE_MEMORY_H
+#ifndef CLEAVE_MEMORY
+#define CLEAVE_MEMORY
 
 #include "base.h"
 
@@ -22,8 +22,8 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
 /* Frees; NULL is allowed. */
 void memory_free(void *pointer);
 
-/* Arrays that are freed may wait for others of about their size. For runs, which make the same arrays anew when particles
- * convert; set-up needs the memory that this takes. */
+/* Arrays that are freed may wait for others of about their size. For runs, which make the same arrays anew when
+ * particles convert; set-up needs the memory that this takes. */
 void memory_reuse(bool reuse);
 
 /* High-water mark of the process as the operating system knows it [byte]. */

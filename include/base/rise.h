@@ -1,10 +1,11 @@
-/* floor 3: how fast something grows that ought not to: a few of its values, and from them how long its last tenfold rise took.
+/* How fast something grows that ought not to: a few of its values, and from them how long its last tenfold
+ * rise took.
  *
- * A mode of a leap-frog step dt above its limit dt_c is multiplied by -r in every step, r + 1/r = 4 (dt/dt_c)^2 - 2: its square
- * grows tenfold in RISE_STEPS steps where dt is 1.7e-5 of dt_c above that, and faster beyond. What takes longer is no step too
- * long. */
-#ifndef CLEAVE_RISE_H
-#define CLEAVE_RISE_H
+ * A mode of a leap-frog step dt above its limit dt_c is multiplied by -r in every step, r + 1/r = 4 (dt/dt_c)^2 - 2:
+ * its square grows tenfold in RISE_STEPS steps where dt is 1.7e-5 of dt_c above that, and faster beyond. What takes
+ * longer is no step too long. */
+#ifndef CLEAVE_RISE
+#define CLEAVE_RISE
 
 #include "base.h"
 
@@ -21,9 +22,9 @@ enum rise_pace { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
 void rise_note(struct rise *r, int64_t step, real value);
 
-/* Pace of the last tenfold rise, to `value` > 0 at `step`, and about how long it took [steps]; INFINITY: longer than is known.
- * FAST: within RISE_STEPS, as far as that can be told between two values, where growth is taken for exponential. SLOW: a value of
- * more than a tenth is older than that, or one of a good part of a tenth by more than that. */
+/* Rate of the last tenfold rise, to `value` > 0 at `step`, and about how long it took [steps]; INFINITY: longer than
+ * the record. FAST: within RISE_STEPS, where growth between two records is taken for exponential. SLOW: a value
+ * above a tenth of `value` is older than that, or one near a tenth is older by more than that. */
 enum rise_pace rise_pace(const struct rise *r, int64_t step, real value, real *steps);
 
 #endif

@@ -1,7 +1,6 @@
-/* floor 0: threads, and sums that do not depend on how many there are. Only team.c knows hwloc (info.c
- * asks for its version). */
-#ifndef CLEAVE_TEAM_H
-#define CLEAVE_TEAM_H
+/* Threads, and sums that do not depend on their number. Only team.c uses hwloc (info.c reads its version). */
+#ifndef CLEAVE_TEAM
+#define CLEAVE_TEAM
 
 #include "base.h"
 
@@ -12,12 +11,12 @@ struct machine {
     char model[128];                     /* the processor's name                                   */
 };
 
-/* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask.
- * Binds helper thread k >= 1 to the k-th core of the mask, if there is one for each, unless the user set
- * OMP_PROC_BIND or OMP_PLACES; the calling thread goes to the first core and keeps the mask. Returns the number in use. */
+/* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask. Binds
+ * helper thread k >= 1 to the k-th core of the mask, if there is one for each, unless the user set OMP_PROC_BIND or
+ * OMP_PLACES; the calling thread goes to the first core and keeps the mask. Returns the number in use. */
 int team_make(int threads);
 struct machine team_machine(void);
-int64_t team_memory(void);               /* of the machine, or what limits leave of it [byte]; needs no look at it after team_make */
+int64_t team_memory(void);  /* of the machine, or what limits leave of it [byte]; needs no look at it after team_make */
 
 /* Wall clock [s]. */
 double team_clock(void);

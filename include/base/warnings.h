@@ -1,6 +1,6 @@
-/* floor 0: what a run has to say that is no error: a list of lines, each said once, in the order in which they came. */
-#ifndef CLEAVE_WARNINGS_H
-#define CLEAVE_WARNINGS_H
+/* What a run has to say that is no error: a list of lines, each said once, in the order in which they came. */
+#ifndef CLEAVE_WARNINGS
+#define CLEAVE_WARNINGS
 
 #include <stdio.h>
 

@@ -1,10 +1,10 @@
-/* floor 1: the search for near particles: fixed cells over reference positions (families of bonds). */
-#ifndef CLEAVE_CELLS_H
-#define CLEAVE_CELLS_H
+/* The search for near particles: fixed cells over reference positions (families of bonds). */
+#ifndef CLEAVE_CELLS
+#define CLEAVE_CELLS
 
 #include "particles.h"
 
-/* ---- search over reference positions: body and images --------------------------------------------- */
+/* ---- search over reference positions: body and images ------------------------------------------------------------ */
 
 struct cells {
     int dim;
@@ -23,15 +23,17 @@ void cells_free(struct cells *c);
 int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
                int32_t *found, int room);
 
-/* At least as many as cells_near finds round any of the particles, themselves included; at most those of the square that
- * holds the circle. Cheap: it counts cells. */
+/* At least as many as cells_near finds round any of the particles, themselves included; at most those of the square
+ * that holds the circle. Cheap: it counts cells. */
 int cells_most(const struct cells *c, real radius);
 
-/* The same round particle i, itself included if wanted, into a list that grows as needed; at NULL to begin with, whoever holds
- * it frees it. */
+/* Particles near particle i, itself included if wanted, in a list that grows as needed; NULL to begin with, freed by
+ * the caller. */
 struct near { int32_t *at; int n, room; };
-void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself);
+void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
+               bool itself);
 /* The same in the order of cells: a little faster where there are images, and as good where order does not matter. */
-void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself);
+void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
+                   bool itself);
 
 #endif

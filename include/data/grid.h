@@ -1,7 +1,7 @@
-/* floor 1: the background grid of the material point method: a box of nodes round the material points. Nodes
+/* The background grid of the material point method: a box of nodes round the material points. Nodes
  * are counted from an anchor fixed for the whole run, so a grid that grows keeps its node positions exactly. */
-#ifndef CLEAVE_GRID_H
-#define CLEAVE_GRID_H
+#ifndef CLEAVE_GRID
+#define CLEAVE_GRID
 
 #include "base/base.h"
 
@@ -19,21 +19,21 @@ struct grid {
     real *velocity[DIM_MAX];             /* nodal velocity at the end of the step          [m/s]    */
     int64_t walls, walls_room;
     struct wall *wall;                   /* prescribed velocities of this step, in order            */
-    int64_t folds, folds_room;
-    struct fold *fold;                   /* nodes beyond planes of symmetry, for this box           */
+    int64_t mirror_nodes, mirror_nodes_room;
+    struct mirror_node *mirror_node;                   /* nodes beyond planes of symmetry, for this box           */
     real light_mass;                     /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
     struct follower *follower;           /* [n] those of this step, ascending                       */
     uint8_t *held;                       /* [n] not 0: a wall holds it; 0 but while followers are found */
 };
 
-/* A node that points have hardly reached, its neighbour and the one behind that, from which its acceleration is extrapolated; where
- * none is behind, the neighbour itself. */
+/* A node that points have hardly reached, its neighbour and the one behind that, from which its acceleration is
+ * extrapolated; where none is behind, the neighbour itself. */
 struct follower { int32_t node, leader, behind; };
 
 /* A node beyond a plane of symmetry: it moves as the mirror image of a node on the body's side, which takes what points
  * give to either. */
-struct fold {
+struct mirror_node {
     int32_t node, image;                 /* beyond the plane; on the body's side                   */
     int8_t sign[DIM_MAX];                /* -1: this component turns round                         */
     uint8_t load;                        /* whose plane it is                                      */
@@ -45,7 +45,7 @@ struct fold {
 /* One held component of one node; its force is replaced by what the prescribed motion needs. */
 struct wall {
     int32_t node;
-    int16_t component, load;             /* load: who holds it                                      */
+    int16_t component, load;             /* load: the boundary condition that constrains it         */
     real velocity, change;               /* in this step; since the step before            [m/s]    */
     real reaction;                       /* impulse of this step, without that of the prescribed change [N s] */
 };
@@ -56,17 +56,17 @@ struct wall {
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
 void grid_free(struct grid *g);
 void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load);
-void grid_add_fold(struct grid *g, const struct fold *fold);
-/* Nothing is on the grid in this step: it holds nobody. */
+void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
+/* Nothing is on the grid in this step: no node is constrained. */
 void grid_idle(struct grid *g);
 
-/* Nodes lighter than this share of a full one are left at rest. 1e-9 is usual; but such a node may carry a
- * force, and what it carries would be lost: momentum is kept to 1e-12 only if just empty nodes are left out, and with the
+/* Nodes lighter than this share of a full one are left at rest. 1e-9 is usual; but such a node may carry a force,
+ * and what it carries would be lost: momentum is kept to 1e-12 only if just empty nodes are left out, and with the
  * re-map light nodes do no harm (their velocity is that of their particle). */
 #define GRID_MASS_SMALLEST 1e-30
 
-/* Nodes lighter than this share of a full one follow a neighbour: below 1e-6 motions of a hundredth of a spacing reach across, above
- * 1e-3 bodies that turn gain more than 1e-3 in four turns. */
+/* Nodes lighter than this share of a full one follow a neighbour: below 1e-6 motions of a hundredth of a spacing
+ * reach across, above 1e-3 bodies that turn gain more than 1e-3 in four turns. */
 #define GRID_MASS_LIGHT 1e-5
 
 /* In equilibrium the balance of a node that a point's edge has just reached decides that point's whole stress, which is
@@ -79,7 +79,8 @@ static inline real grid_position(const struct grid *g, int d, int64_t k)
     return g->anchor[d] + g->h * (real)(g->first[d] + k);
 }
 
-/* Where x is in direction d, in node distances from the anchor; its floor is the cell. All who ask round alike. */
+/* Place of x in direction d, in node distances from the anchor; its floor is the cell. One function, so that all
+ * callers round alike. */
 static inline real grid_place(const struct grid *g, int d, real x) { return (x - g->anchor[d]) * (1 / g->h); }
 
 /* Its floor, without a call of the library. */

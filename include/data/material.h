@@ -1,7 +1,7 @@
-/* floor 1: one material: what the scene gives and what the methods derive from it: wave speeds, elastic constants of the
- * space, and the constants of bond-based peridynamics. */
-#ifndef CLEAVE_MATERIAL_H
-#define CLEAVE_MATERIAL_H
+/* One material: what the scene gives and what the methods derive from it: wave speeds, elastic constants of
+ * the space, and the constants of bond-based peridynamics. */
+#ifndef CLEAVE_MATERIAL
+#define CLEAVE_MATERIAL
 
 #include <math.h>
 
@@ -26,7 +26,10 @@ struct material {
     real bulk;                           /* E in 1D, k2 = (c11 + c12)/2 in 2D, K in 3D [Pa]         */
 };
 
-static inline bool material_yields(const struct material *m) { return m->yield_stress > 0 && isfinite(m->yield_stress); }
+static inline bool material_yields(const struct material *m)
+{
+    return m->yield_stress > 0 && isfinite(m->yield_stress);
+}
 
 /* Poisson's ratio that bond-based peridynamics imposes: 1/3, 1/4, 1/4; NAN in 1D. */
 real material_bond_poisson(enum space space);

@@ -1,10 +1,10 @@
-/* floor 1: particles of both kinds as a structure of arrays, and the one table that describes every array.
+/* Particles of both kinds as a structure of arrays, and the one table that describes every array.
  *
  * Layout: entries 0 .. n-1 are the body, sorted row by row (x fastest) so that lattice neighbours are
  * neighbours in memory; entries n .. n_all-1 are mirror images of some of them (struct image), read by bonds,
  * never integrated. Arrays have room for LANES more entries, so that whole vectors can be loaded anywhere. */
-#ifndef CLEAVE_PARTICLES_H
-#define CLEAVE_PARTICLES_H
+#ifndef CLEAVE_PARTICLES
+#define CLEAVE_PARTICLES
 
 #include <math.h>
 
@@ -22,9 +22,9 @@ enum particle_flag {
     FLAG_STRESSED = 2,                   /* largest principal stress passed the trigger          */
     FLAG_DRIVEN = 4,                     /* a velocity or fixed condition holds a component      */
     FLAG_CRACKED = 8,                    /* lost a bond to a particle, neither of them driven    */
-    FLAG_CARRIED = 16,                   /* peridynamic, but moved by the grid (carry.h)         */
+    FLAG_CARRIED = 16,                   /* peridynamic, but moved by the grid (grid_coupled.h)         */
     FLAG_MESHED = 32,                    /* material point of the mesh (mesh.h)                  */
-    FLAG_LISTED = 64                     /* stands on the list that convert.c is making          */
+    FLAG_LISTED = 64                     /* stands on the list that conversion.c is making          */
 };
 
 struct particles {
@@ -32,7 +32,7 @@ struct particles {
     int dim;
     const struct material *plane_strain; /* the materials of a body in plane strain, borrowed; in other spaces NULL */
     int64_t n_of[KINDS];                 /* of the body                                          */
-    int64_t n_carried;                   /* peridynamic particles that the grid moves            */
+    int64_t n_grid_coupled;                   /* peridynamic particles that the grid moves            */
     int32_t *list[KINDS];                /* their indices, ascending; rebuilt by particles_list  */
     int64_t n_free;                      /* material points on the grid, not of the mesh         */
     int32_t *list_free;                  /* theirs                                               */
@@ -43,22 +43,27 @@ struct particles {
     real *f[DIM_MAX];                    /* bond and applied force                  [N]          */
     real *mass;                          /*                                         [kg]         */
     real *volume0, *volume;              /* reference and current volume            [m^3]        */
-    real *stress[SYM_MAX];               /* Cauchy stress of material points        [Pa]         */
+    /* Cauchy stress [Pa]. Of points on the grid: written by g2p in every step. Of points of a mesh: by
+     * engine_mesh_sync, of peridynamic particles: by engine_stress, both for frames (engine_sync) and for samples
+     * and reversion that read it, and stale in between. */
+    real *stress[SYM_MAX];
     real *gradient[DIM_MAX * DIM_MAX];   /* velocity gradient dv_a/dx_b at [a dim + b], only APIC [1/s] */
     real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP              [1]          */
     real *plastic_strain;                /* accumulated, equivalent; only where a material yields [1] */
     real *out_of_plane;                  /* sigma_zz - nu (sigma_xx + sigma_yy), only plane strain with it [Pa] */
-    real *end_strain;                    /* material points at the end of state-based bonds: what their cells add to the mean
-                                            strain S of their family, and ...                    [1] */
-    real *end_turn[ROTATION];            /* ... their rotation R: in the plane cos - 1 and sin, in space its quaternion,
-                                            the scalar last; only models with rotations          [1] */
-    real *end_pull;                      /* what bonds tell them in turn: derivative of their family's energy by end_strain,
-                                            and ...                                              [J] */
+    /* material points at the end of state-based bonds: what their cells add to the mean strain S of their family,
+     * and ... [1] */
+    real *end_strain;
+    /* ... their rotation R: in the plane cos - 1 and sin, in space its quaternion, the scalar last; only models with
+     * rotations [1] */
+    real *end_rotation[ROTATION];
+    /* what bonds tell them in turn: derivative of their family's energy by end_strain, and ... [J] */
+    real *end_pull;
     real *end_moment[DIM_MAX];           /* ... moment of their bonds about them, in axes that turn with them [N m] */
-    real *quiet;                         /* peridynamic: since when its stress is low, infinite: it is not; only with return [s] */
+    real *low_since;          /* peridynamic: since when its stress is low, infinite: it is not; only with return [s] */
     real *damage;                        /* share of broken bonds, 0..1             [1]          */
     uint8_t *kind, *material, *body, *flag;  /* enum kind; indices; enum particle_flag           */
-    uint8_t *returns;                    /* how often it became a material point again; only with return [1] */
+    uint8_t *reversions;                    /* how often it became a material point again; only with return [1] */
     int32_t *id;                         /* order in which the scene made them                   */
 };
 
@@ -87,8 +92,16 @@ static inline int64_t image_root(const struct particles *p, const struct image *
 }
 
 /* Which optional arrays exist. */
-enum { WITH_GRADIENT = 1, WITH_STRETCH = 2, WITH_PLASTIC = 4, WITH_OUT_OF_PLANE = 8, WITH_RETURN = 16, WITH_ENDS = 32, WITH_TURNS = 64,
-       WITH_EVERYTHING = 127 };
+enum {
+    WITH_GRADIENT = 1,
+    WITH_STRETCH = 2,
+    WITH_PLASTIC = 4,
+    WITH_OUT_OF_PLANE = 8,
+    WITH_RETURN = 16,
+    WITH_ENDS = 32,
+    WITH_ROTATIONS = 64,
+    WITH_EVERYTHING = 127
+};
 
 /* One line per array: name, unit, what it is, where it lives. `size` is the bytes of one entry; `count` the
  * number of component arrays for a dimension. The table makes, frees, sorts, checkpoints and restores. */
@@ -115,9 +128,10 @@ static inline bool particle_on_grid(const struct particles *p, int64_t i)
     return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_CARRIED);
 }
 
-/* Stress across the plane, sigma_zz = nu (sigma_xx + sigma_yy) and what flow adds; 0 unless in plane strain [Pa]. Bonds have nu =
- * 1/4, as their material is made to have; what they had as points that flowed they keep, and their own yielding adds nothing.
- * Exact for small strain and in the current frame, in the reference frame to a share of the size of the strain. */
+/* Stress across the plane, sigma_zz = nu (sigma_xx + sigma_yy) and what flow adds; 0 unless in plane strain [Pa].
+ * Bonds have nu = 1/4, as their material is made to have; what they had as points that flowed they keep, and their
+ * own yielding adds nothing. Exact for small strain and in the current frame, in the reference frame to a share of
+ * the size of the strain. */
 static inline real particle_stress_across(const struct particles *p, int64_t i)
 {
     if (!p->plane_strain) return 0;
@@ -139,8 +153,8 @@ void particles_extent(const struct particles *p, int64_t n, int d, real *low, re
 /* Longest edge of the box round the body's particles [m]. */
 real particles_longest(const struct particles *p);
 
-/* Volume of a particle of a lattice [m^3]; section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One place works it out, or who
- * divides by it would not get 1 to the last bit. */
+/* Volume of a particle of a lattice [m^3]; section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One function, so that
+ * a quotient of two such volumes is 1 to the last bit. */
 static inline real lattice_volume(real section, real spacing, int dim)
 {
     real volume = section;

@@ -1,11 +1,11 @@
-/* floor 1: sets of points by constructive geometry, functions of time, and cracks: the plain words that a
+/* Sets of points by constructive geometry, functions of time, and cracks: the plain words that a
  * scene is made of and that set-up, loads and probes share. Coordinates are reference positions [m]. */
-#ifndef CLEAVE_REGION_H
-#define CLEAVE_REGION_H
+#ifndef CLEAVE_REGION
+#define CLEAVE_REGION
 
 #include "base/base.h"
 
-/* ---- regions ------------------------------------------------------------------------------------- */
+/* ---- regions ----------------------------------------------------------------------------------------------------- */
 
 enum solid_kind { SOLID_ALL, SOLID_BOX, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_SPACE };
 
@@ -37,7 +37,7 @@ void region_free(struct region *r);
 /* Ascending numbers. */
 struct number_list { int n; real *value; };
 
-/* ---- functions of time ---------------------------------------------------------------------------- */
+/* ---- functions of time ------------------------------------------------------------------------------------------- */
 
 enum time_kind { TIME_CONSTANT, TIME_STEP, TIME_PULSE, TIME_RAMP, TIME_TABLE };
 
@@ -58,7 +58,7 @@ real time_function_at(const struct time_function *f, real t);
 /* Its integral from 0 to t >= 0 [s]. */
 real time_function_integral(const struct time_function *f, real t);
 
-/* ---- cracks --------------------------------------------------------------------------------------- */
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 /* A pre-crack: a point in 1D (corner[0]), a segment in 2D (corner[0..1]), a plane convex polygon in 3D. */
 struct crack {
@@ -70,14 +70,15 @@ struct crack {
  * particle closer to the crack's plane than 1e-9 lengths counts as on its positive side; a bond that passes
  * exactly through a crack's end is cut. */
 bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
-/* False: it cuts no bond of a particle at X that is no longer than `reach` [m]. Quick, for the many that are far away. */
+/* False: it cuts no bond of a particle at X that is no longer than `reach` [m]. Quick, for the many that are far
+ * away. */
 bool crack_near(const struct crack *c, const real *X, real reach, int dim);
 
-/* ---- waves ---------------------------------------------------------------------------------------- */
+/* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* A plane wave: at t = 0 v = velocity exp(-(xi/r)^2) along `polarisation`, xi = (X - at) . direction, r a quarter of the
- * width. It moves along `direction` into material at rest and leaves displaced material behind. Its particles move along
- * or across its direction: a longitudinal or a transverse wave. */
+/* A plane wave: at t = 0 v = velocity exp(-(xi/r)^2) along `polarisation`, xi = (X - at) . direction, r a quarter of
+ * the width. It moves along `direction` into material at rest and leaves displaced material behind. Its particles
+ * move along or across its direction: a longitudinal or a transverse wave. */
 struct wave_pulse {
     real at[DIM_MAX];                    /* centre                    [m]   */
     real direction[DIM_MAX];             /* unit vector                     */
@@ -87,8 +88,8 @@ struct wave_pulse {
     bool transverse;
 };
 
-/* Velocity along the polarisation [m/s], displacement along it [m] and its slope du/dxi [1] at X, in material of wave speed
- * c [m/s]: v = -c du/dxi. */
+/* Velocity along the polarisation [m/s], displacement along it [m] and its slope du/dxi [1] at X, in material of
+ * wave speed c [m/s]: v = -c du/dxi. */
 struct wave_state { real velocity, displacement, strain; };
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim);
 

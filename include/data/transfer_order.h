@@ -1,15 +1,15 @@
-/* floor 1: the order of transfers between points and the grid: grid cells in coloured blocks over current positions. */
-#ifndef CLEAVE_TRANSFER_ORDER_H
-#define CLEAVE_TRANSFER_ORDER_H
+/* The order of transfers between points and the grid: grid cells in coloured blocks over current positions. */
+#ifndef CLEAVE_TRANSFER_ORDER
+#define CLEAVE_TRANSFER_ORDER
 
 #include "grid.h"
 #include "particles.h"
 
-/* Grid cells are grouped in blocks, BLOCK_LENGTH cells long in x, along which particles lie in memory, and BLOCK_EDGE wide
- * in the other directions; a block has one of 2^dim colours, and blocks of one colour share no node for any shape function
- * here (support reaches one cell below and two above), so each may be scattered by its own thread. Colours are taken in
- * order and a block by one thread: the same bits on any number of threads. Blocks are counted from the grid's absolute
- * node 0, so that growing the grid keeps them. */
+/* Grid cells are grouped in blocks, BLOCK_LENGTH cells long in x, along which particles lie in memory, and
+ * BLOCK_EDGE wide in the other directions; a block has one of 2^dim colours, and blocks of one colour share no node
+ * for any shape function here (support reaches one cell below and two above), so each may be scattered by its own
+ * thread. Colours are taken in order and a block by one thread: the same bits on any number of threads. Blocks are
+ * counted from the grid's absolute node 0, so that growing the grid keeps them. */
 enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 /* Entries of the order may be read this far beyond its end: what they hold stands first in line to be fetched. */
 enum { ORDER_AHEAD = 64 };

@@ -1,6 +1,6 @@
-/* floor 3: the critical time step of any peridynamic law: 2/omega_max of its linearised force. */
-#ifndef CLEAVE_CRITICAL_STEP_H
-#define CLEAVE_CRITICAL_STEP_H
+/* The critical time step of any peridynamic law: 2/omega_max of its linearised force. */
+#ifndef CLEAVE_CRITICAL_STEP
+#define CLEAVE_CRITICAL_STEP
 
 #include "kernels/kernels.h"
 #include "loads/loads.h"
@@ -24,10 +24,12 @@ void bond_body_stiffness(void *bond_body, const real *u, real *y);
 /* 2/omega_max [s] of all rows of b, which must be of the whole body: the largest eigenvalue of M^-1 K, where K d is the
  * force at X + s d over s for strains of 1e-7, lowered by 2 % since the iteration comes from below. Mirror images of
  * `loads` (NULL: none) follow. Particles are left as they were but for p->f. */
-real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads, real spacing);
+real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
+                      real spacing);
 
-/* The same of a block of full lattice with free surfaces, made for it: no body that is part of this lattice moves faster.
- * `longest` [m]: the edges of the bodies in question. `bound`: the block's block-Gershgorin bound [s]. */
-real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest, real *bound);
+/* The same of a block of full lattice with free surfaces, made for it: no body that is part of this lattice moves
+ * faster. `longest` [m]: the edges of the bodies in question. `bound`: the block's block-Gershgorin bound [s]. */
+real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest,
+                              real *bound);
 
 #endif

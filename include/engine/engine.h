@@ -1,13 +1,13 @@
-/* floor 5: the engine owns everything of a run, by value. */
-#ifndef CLEAVE_ENGINE_H
-#define CLEAVE_ENGINE_H
+/* The engine owns everything of a run, by value. */
+#ifndef CLEAVE_ENGINE
+#define CLEAVE_ENGINE
 
 #include <signal.h>
 
 #include "bonds/bonds.h"
-#include "coupling/carry.h"
+#include "coupling/grid_coupled.h"
 #include "data/cells.h"
-#include "coupling/convert.h"
+#include "coupling/conversion.h"
 #include "critical_step.h"
 #include "scene/fill.h"
 #include "data/grid.h"
@@ -17,15 +17,15 @@
 #include "output/output.h"
 #include "data/particles.h"
 #include "probes/probes.h"
-#include "active/rest_points.h"
-#include "coupling/rim.h"
+#include "active/active_points.h"
+#include "coupling/interface_zone.h"
 #include "base/rise.h"
 #include "scene/scene.h"
 #include "solver.h"
 #include "base/team.h"
 #include "fracture/tips.h"
 #include "base/warnings.h"
-#include "probes/watch.h"
+#include "probes/diagnostics.h"
 
 /* Frame of a body, and why where the scene does not say current. */
 struct frame_choice { bool reference; const char *reason; };
@@ -45,8 +45,8 @@ struct engine {
     struct elastic *elastic;             /* [materials]                                               */
     struct grid grid;
     struct transfer_order order;         /* of the material points                                    */
-    struct rest_points rest_points;      /* which of them the maps leave out                         */
-    struct carried carried;              /* peridynamic particles that the grid moves (coupling pm .. pgg) */
+    struct active_points active_points;      /* which of them the maps leave out                         */
+    struct grid_coupled grid_coupled;              /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct partial_stress partial;
     struct transfer_data transfer;
     struct frame_choice *frame;          /* [bodies]                                                  */
@@ -54,15 +54,15 @@ struct engine {
     struct mesh_source mesh_source;
     struct elastic *cell_elastic;        /* [materials] constants of its cells                        */
     real mesh_speed;                     /* largest component of a nodal velocity              [m/s]  */
-    bool wild;                           /* a peridynamic particle is out of hand                     */
+    bool diverged;                           /* a peridynamic particle is diverged                     */
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
     struct solver solver;
     struct conversion conversion;
     struct region start_region;          /* peridynamic from the start; no solid: none                */
-    struct watch watch;
+    struct diagnostics diagnostics;
     struct tips tips;
-    struct growth *growth;               /* [scene->growths] cracks that grow as they are told        */
+    struct growth *growth;               /* [scene->growths] cracks with prescribed or SIF-controlled growth */
     struct probes probes;
     struct wave_pulse *pulse;            /* [pulses] of the initial states                            */
     int pulses;
@@ -83,20 +83,21 @@ struct engine {
     bool sort_needed;                    /* material points moved to other cells or converted         */
     enum coupling coupling;              /* of the scene; hand-shake where nothing meets              */
     uint8_t *bonded;                     /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
-    struct rim rim;                      /* damped beside peridynamic particles (FLIP, partial stress) */
-    real damped;                         /* energy that the rim's damping, and conversion of moving cells, took [J] */
-    real rim_share;                      /* of a step; 0: not at all                                  */
+    struct interface_zone zone;                      /* damped beside peridynamic particles (FLIP, partial stress) */
+    real damped;                /* energy that the interface zone's damping, and conversion of moving cells, took [J] */
+    real interface_damping_share;                      /* of a step; 0: not at all                                  */
     bool uses_partial;                   /* points know what bonds carry: partial stress, ends of state-based bonds */
     real *record;                        /* one line of history.csv                                   */
     int optional;                        /* WITH_* arrays of the particles                            */
     int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
     int64_t bond_visits;
-    real rested;                         /* share of the body at rest, summed over the steps ...      */
-    struct { real rested; int64_t step; } sampled;   /* ... and over those before the last sample, which was at this one */
+    real inactive;                         /* share of the body at rest, summed over the steps ...      */
+    /* ... and over those before the last sample, which was at this one */
+    struct { real inactive; int64_t step; } sampled;
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
     struct {                             /* a sample in the making (engine_report.h)                  */
         bool due;
-        real kinetic, work, held_work;
+        real kinetic, work, constraint_work;
         real *before[DIM_MAX];           /* velocities at its begin, where something is on the grid [m/s] */
         struct energy energy;            /* of the positions of t_n; kinetic comes last               */
     } sampling;
@@ -111,9 +112,10 @@ struct engine {
 
 /* Everything up to step 0: particles, cells, loads, bonds, grid, time step. `out` may be NULL. */
 status engine_make(struct engine *e, const struct scene *s, struct output *out);
-/* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family [byte]. */
+/* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family
+ * [byte]. */
 real engine_memory(const struct engine *e);
-/* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal asked for it. */
+/* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal came. */
 status engine_run(struct engine *e);
 /* What it does with a solver that is not explicit (solver.c), and what that needs. */
 status engine_solve(struct engine *e);
@@ -121,65 +123,67 @@ status solver_make(struct engine *e);
 /* One step in time. */
 status engine_step(struct engine *e);
 void engine_free(struct engine *e);
-/* What material points leave to the bonds of now, and the rim beside them. */
+/* What material points leave to the bonds of now, and the interface zone beside them. */
 void engine_partial_make(struct engine *e);
 /* The time step and the number of steps (engine_time.c). */
 status engine_time_make(struct engine *e);
-/* Internal forces of the places of now, of the nodes of a mesh first of all: of bonds into part.f, of bonds and cells into the
- * mesh's nodes (engine_mesh.c). What bonds see of the mesh's points and images is brought up to date. The same parts as in a
- * step, without any motion; bonds beyond their limit break. */
+/* Internal forces of the places of now, of the nodes of a mesh first of all: of bonds into part.f, of bonds and
+ * cells into the mesh's nodes (engine_mesh.c). What bonds see of the mesh's points and images is brought up to date.
+ * The same parts as in a step, without any motion; bonds beyond their limit break. */
 void engine_forces(struct engine *e);
 /* Of those the part of the mesh: forces of bonds, already in part.f, and of cells on its nodes. */
 void engine_nodes_force(struct engine *e);
-/* Material points at the end of state-based bonds hear from their cells, or from their stress. */
-void engine_ends_know(struct engine *e);
-/* Sum of v . f over points on the grid where they are now, without any motion [W]; accounts of loads change. `middle`: half a step
- * later [s]. */
+/* Updates material points at the end of state-based bonds from their cells, or from their stress. */
+void engine_ends_update(struct engine *e);
+/* Sum of v . f over points on the grid where they are now, without any motion [W]; accounts of loads change.
+ * `middle`: half a step later [s]. */
 real engine_grid_power(struct engine *e, real middle);
-/* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical step
- * [s]; its part of a step; positions, velocities and stresses of its points for whoever looks, or only the motion
- * of some; after conversion. */
+/* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical
+ * step [s]; its part of a step; positions, velocities and stresses of all its points, or only the motion of some;
+ * after conversion. */
 status engine_frames(struct engine *e);
 bool engine_has_mesh(const struct engine *e);
-/* Would `auto` put this body into the reference frame, did the scene not ask for the current one? */
+/* True if `auto` would put this body into the reference frame, did the scene not require the current one. */
 bool engine_frame_allowed(const struct engine *e, int body);
 /* Where the nodes lie, by the frames. */
 void engine_grid_make(struct engine *e);
 status engine_mesh_make(struct engine *e);
 real engine_mesh_critical_step(const struct engine *e);
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity);
-void engine_mesh_show(struct engine *e);
-void engine_mesh_look(void *engine, const int32_t *list, int64_t n);
+void engine_mesh_sync(struct engine *e);
+void engine_mesh_sync_points(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
-void engine_mesh_adopt(struct engine *e, const int32_t *list, int64_t n);
-/* Return to material points (engine_return.c): whether the scene allows it; before a step, what is due; anew the rim of the
- * material points, and which of them have bonds. */
-status engine_return_check(const struct engine *e);
-void engine_return(struct engine *e);
-void engine_rim_make(struct engine *e);
-/* After the run: the same scene on material points alone, if a pulse probe wants to be compared with it. */
+void engine_mesh_insert(struct engine *e, const int32_t *list, int64_t n);
+/* Return to material points (engine_reversion.c): whether the scene allows it; before a step, what is due; anew the
+ * interface zone of the material points, and which of them have bonds. */
+status engine_reversion_check(const struct engine *e);
+void engine_revert(struct engine *e);
+void engine_interface_make(struct engine *e);
+/* After the run: the same scene on material points alone, if a pulse probe compares with it. */
 status engine_baseline(struct engine *e);
-/* Share of the body at rest now (rest.h). */
-real engine_rest(const struct engine *e);
-/* Saves or restores the state between two steps (engine_archive.c); says on standard error where a checkpoint was written
- * with other kernels. */
+/* Share of the body at rest now (active_set.h). */
+real engine_inactive_share(const struct engine *e);
+/* Saves or restores the state between two steps (engine_archive.c); says on standard error where a checkpoint was
+ * written with other kernels. */
 status engine_archive(void *engine, struct archive *a);
-/* Everything about the scene that is allowed but probably not meant, into e->warnings. Call once, before the first step. */
+/* Everything about the scene that is allowed but probably not meant, into e->warnings. Call once, before the first
+ * step. */
 void engine_warn(struct engine *e);
 /* What shows while a run goes on: into e->warnings and, the first time, on standard error. */
 void engine_say(struct engine *e, const char *text);
-/* Runs out of hand (engine_alarm.c). `make`: what the scene starts with. `alarm`, after every step: FAILED with place, step,
- * cause and cure where something moves faster than waves do; `runaway` is the same, of peridynamic particles and points of a mesh
- * only if told so. `cure`: what to change, from how `value` has grown and what the loads have done. */
-enum { ENGINE_CURE = 640 };
-void engine_alarm_make(struct engine *e);
-status engine_alarm(struct engine *e);
-/* After a sample: FAILED where the balance of energies says what places do not. At the end: a warning of what is no alarm, but
- * more than results should be trusted with. */
-status engine_energy_alarm(struct engine *e);
+/* Stability checks (engine_stability.c). `make`: the state at the start. `check`, after every step: FAILED with
+ * place, step, cause and remedy where something moves faster than waves; the divergence check alone takes
+ * peridynamic particles and points of a mesh only if their flags are set. `remedy`: what to change, from how `value`
+ * has grown and what the loads have done. */
+enum { ENGINE_REMEDY = 640 };
+void engine_stability_check_make(struct engine *e);
+status engine_stability_check(struct engine *e);
+/* After a sample: FAILED where the balance of energies says what places do not. At the end: a warning of what is no
+ * alarm, but more than results should be trusted with. */
+status engine_energy_check(struct engine *e);
 void engine_say_balance(struct engine *e);
-status engine_runaway(const struct engine *e, bool peridynamic, bool meshed);
-void engine_cure(const struct engine *e, const struct rise *rise, real value, char *text, size_t room);
+status engine_divergence_check(const struct engine *e, bool peridynamic, bool meshed);
+void engine_remedy(const struct engine *e, const struct rise *rise, real value, char *text, size_t room);
 /* What probes may look at. */
 struct observed engine_observed(const struct engine *e);
 

@@ -1,9 +1,10 @@
-/* floor 1: static equilibrium instead of steps in time: what the solvers keep between two steps (src/engine/solver.c).
+/* Static equilibrium instead of steps in time: what the solvers keep between two steps
+ * (src/engine/solver.c).
  *
- * Bonds do not break while solving. Forces have their value at the end of the scene's duration, and driven particles are
- * where they have moved to until then. */
-#ifndef CLEAVE_SOLVER_H
-#define CLEAVE_SOLVER_H
+ * Bonds do not break while solving. Forces have their value at the end of the scene's duration, and driven particles
+ * are where they have moved to until then. */
+#ifndef CLEAVE_SOLVER
+#define CLEAVE_SOLVER
 
 #include "base/archive.h"
 

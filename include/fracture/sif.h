@@ -1,23 +1,23 @@
-/* floor 3: stress-intensity factors by the interaction integral, on particles of either kind.
+/* Stress-intensity factors by the interaction integral, on particles of either kind.
  *
- * The flux of energy (W + T) n_1 - sigma_ij n_j u_i,1 into a moving tip (Freund 1990, eq. 5.2.7), of the actual and an
- * auxiliary motion together, as an integral over a disc round the tip (Nakamura, Shih & Freund 1985):
+ * The flux of energy (W + T) n_1 - sigma_ij n_j u_i,1 into a moving tip (Freund 1990, eq. 5.2.7), of the actual and
+ * an auxiliary motion together, as an integral over a disc round the tip (Nakamura, Shih & Freund 1985):
  *
  *   I = sum q_,j [sigma_ij u^a_i,1 + sigma^a_ij u_i,1 - (sigma_ml u^a_m,l + rho v_l v^a_l) delta_1j] A
  *     + sum q [rho (a_i u^a_i,1 + a^a_i u_i,1) - rho (v_i v^a_i,1 + v^a_i v_i,1)] A
  *
- * with the weight q = 1 for r < inner, 0 for r > outer. sigma_ij,j is replaced by rho times the acceleration a, so that
- * no stress is differentiated. K = E* I/(2 A(v)) for an auxiliary field of K^a = 1; J = I(actual, actual)/2. At rest and
- * without inertia only the ring where q varies contributes. */
-#ifndef CLEAVE_SIF_H
-#define CLEAVE_SIF_H
+ * with the weight q = 1 for r < inner, 0 for r > outer. sigma_ij,j is replaced by rho times the acceleration a, so
+ * that no stress is differentiated. K = E* I/(2 A(v)) for an auxiliary field of K^a = 1; J = I(actual, actual)/2. At
+ * rest and without inertia only the ring where q varies contributes. */
+#ifndef CLEAVE_SIF
+#define CLEAVE_SIF
 
 #include "bonds/bonds.h"
 #include "data/cells.h"
 #include "data/particles.h"
 #include "sif_fields.h"
 
-/* ---- gradients at particles (sif_gradient.c) --------------------------------------------------------------- */
+/* ---- gradients at particles (sif_gradient.c) --------------------------------------------------------------------- */
 
 /* What hides particles from each other: cracks that cut the line between their reference positions, and bonds that
  * load has broken. */
@@ -54,7 +54,7 @@ void gradient_stencil_free(struct gradient_stencil *s);
 /* gradient[a][b] = d field_a/dX_b at particle i; field[0], field[1] are by particle, images included. */
 void gradient_of(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2]);
 
-/* ---- the integral (sif.c) ---------------------------------------------------------------------------------- */
+/* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
 
 struct contour { real inner, outer; };   /* where q leaves 1 and reaches 0 [m] */
 /* q over z = (r - inner)/(outer - inner): 1 - 10 z^3 + 15 z^4 - 6 z^5; 1 - 3 z^2 + 2 z^3; 1 - z. The smoother, the more
@@ -94,7 +94,8 @@ real sif_density(const struct sif_tip *tip, const struct contour *c, const real 
 
 /* Factors for each of n contours: one pass over the particles for their gradients. */
 void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int n, const struct sif_motion *motion,
-                   const struct gradient_rule *rule, const struct particles *p, const struct cells *c, struct sif *found);
+                   const struct gradient_rule *rule, const struct particles *p, const struct cells *c,
+                   struct sif *found);
 
 /* Largest difference between contours: of K_I or K_II over |K|, or of J over J, means over the contours in the
  * denominators; NAN where they are 0. */

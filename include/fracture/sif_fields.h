@@ -1,7 +1,7 @@
-/* floor 1: fields round the tip of a crack in a plane elastic body, and the formulas that go with them (Freund 1990,
+/* Fields round the tip of a crack in a plane elastic body, and the formulas that go with them (Freund 1990,
  * Dynamic Fracture Mechanics, chapters 4 and 6). Local frame: x1 along the crack, ahead of the tip; x2 across. */
-#ifndef CLEAVE_SIF_FIELDS_H
-#define CLEAVE_SIF_FIELDS_H
+#ifndef CLEAVE_SIF_FIELDS
+#define CLEAVE_SIF_FIELDS
 
 #include "data/material.h"
 

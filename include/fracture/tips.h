@@ -1,4 +1,4 @@
-/* floor 3: crack tips, followed from sample to sample.
+/* Crack tips, followed from sample to sample.
  *
  * A tip starts at the end of a pre-crack inside the body or where the first particle away from every known crack
  * passes damage 0.35. Particles that pass 0.35 and touch (1.5 spacings, reference positions, same body) a
@@ -7,8 +7,8 @@
  * the last 2.5 spacings of the pre-crack itself do not count as growth. A crack that started away from all others
  * and is reached by one becomes part of it. In 3D every edge of a pre-crack inside the body is one front: its start
  * is the whole edge. */
-#ifndef CLEAVE_TIPS_H
-#define CLEAVE_TIPS_H
+#ifndef CLEAVE_TIPS
+#define CLEAVE_TIPS
 
 #include "base/archive.h"
 #include "data/cells.h"

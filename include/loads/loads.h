@@ -1,7 +1,7 @@
-/* floor 3: prescribed velocities, forces, walls and mirrors as functions of time; and the account of what they
+/* Prescribed velocities, forces, walls and mirrors as functions of time; and the account of what they
  * put in: impulse and work. */
-#ifndef CLEAVE_LOADS_H
-#define CLEAVE_LOADS_H
+#ifndef CLEAVE_LOADS
+#define CLEAVE_LOADS
 
 #include "base/archive.h"
 #include "bonds/bonds.h"
@@ -51,10 +51,10 @@ struct load {
     int64_t n;
     int32_t *particle;                   /* ascending                                                 */
     real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
-                                            column's first particle, -1/2 on the next; BODY_FORCE: volume times profile [m^3].
-                                            Equal ones are one array, of several components or loads  */
-    int leader;                          /* TRACTION, BODY_FORCE: first load of the same particles, which acts for it; -1 */
-    real *before[DIM_MAX];               /* [n] of a leader, components with a value: where they were in this step [m] */
+                                            column's first particle, -1/2 on the next; BODY_FORCE: volume times
+                                            profile [m^3]. Equal ones are one array, of several components or loads  */
+    int leader;                      /* TRACTION, BODY_FORCE: first load of the same particles, which acts for it; -1 */
+    real *before[DIM_MAX];              /* [n] of a leader, components with a value: where they were in this step [m] */
     real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
                                             moves the driven particles themselves             [N]     */
     real displacement[DIM_MAX];          /* of the driven particles, accumulated              [m]     */
@@ -64,8 +64,8 @@ struct load {
 /* A component of a node that is held as long as the grid keeps its box. */
 struct held { int32_t node; uint8_t component, load; };
 
-struct held_set {
-    int64_t n, room, lasting;            /* the first `lasting` do not hang on who has mass           */
+struct constrained_set {
+    int64_t n, room, lasting;            /* the first `lasting` do not depend on the masses of nodes  */
     struct held *held;
     int64_t first[DIM_MAX], count[DIM_MAX];   /* of the box of nodes they were found in                */
 };
@@ -80,17 +80,18 @@ struct loads {
     struct image *image;
     real impulse[DIM_MAX];               /* given by loads and supports since the start       [N s]   */
     real work;                           /* done by applied forces, up to where particles are [J]     */
-    real held_work;                      /* done by supports, up to the velocities, half a step behind [J] */
+    real constraint_work;                      /* done by supports, up to the velocities, half a step behind [J] */
     real spacing, reach;                 /* [m]; of bonds                                             */
     real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
                                             loads' moment [1/s^2], 0: none                            */
     real place_step[DIM_MAX];            /* places across mirrors are multiples of it; 0: as they are [m] */
     real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
     int64_t share_room;
-    struct held_set held, held_mesh;     /* nodes in driven regions and on mirrors; driven ones of the mesh */
+    struct constrained_set held, constrained_mesh; /* nodes in driven regions and on mirrors; driven ones of the mesh */
 };
 
-/* Something else than bonds and the grid may move a particle; it waits for bonds of others, across a clamped plane nearby. */
+/* Something else than bonds and the grid may move a particle; it waits for bonds of others, across a clamped plane
+ * nearby. */
 enum { LOADED = 1, WAITS = 2 };
 static inline bool is_loaded(const struct loads *l, int64_t i) { return l->loaded && l->loaded[i] & LOADED; }
 /* Is it a mirror that holds motion along its plane, too? Along a line there is none: it is one of symmetry. */
@@ -99,17 +100,17 @@ static inline bool is_clamp(const struct boundary *b, int dim)
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
 }
 
-/* Finds the particles of one boundary (of a mirror those in its plane, if it is clamped), ascending, and their shares; marks
- * FLAG_DRIVEN. Refuses a force on a region without particles, a traction on one without a free face. */
+/* Finds the particles of one boundary (of a mirror those in its plane, if it is clamped), ascending, and their
+ * shares; marks FLAG_DRIVEN. Refuses a force on a region without particles, a traction on one without a free face. */
 status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
-/* The face of a traction (loads_columns.c): of each column of particles along the normal the first that nothing hides bears its
- * area, and that along the face together with the next where `two` are wanted. */
+/* The face of a traction (loads_columns.c): of each column of particles along the normal the first that nothing
+ * hides bears its area, and that along the face together with the next where `two` are wanted. */
 struct face {
-    real *normal, *along;                /* [particles] area for the component along the normal, and for the others [m^2] */
+    real *normal, *along;            /* [particles] area for the component along the normal, and for the others [m^2] */
 };
-void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-               bool two);
+void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
+               real spacing, bool two);
 void face_free(struct face *f);
 
 /* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
@@ -119,7 +120,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
                   real reach, int optional);
 void loads_free(struct loads *l);
 
-/* ---- applied forces (loads_applied.c) --------------------------------------------------------------- */
+/* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
 /* The part of loads_make that joins loads of the same particles; its end. */
 void loads_join(struct loads *l, int dim);
@@ -130,7 +131,7 @@ void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
 
 #define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 
-/* ---- mirrors (loads_mirror.c) ---------------------------------------------------------------------- */
+/* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */
 
 /* The part of loads_make that checks mirrors and appends their images. Refuses a mirror that cuts its body. */
 status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional);
@@ -138,13 +139,13 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int 
 /* WAITS of those whose bonds may cross a clamped plane. */
 void loads_mirrors_mark(struct loads *l, const struct particles *p);
 
-/* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. Places of the sources across the
- * mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */
+/* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. Places of the sources
+ * across the mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */
 void loads_mirror(const struct loads *l, struct particles *p);
 
-/* Before bonds: f = 0 on every loaded particle (loads_applied.c). After bonds: books what mirror images gave, adds applied forces; for
- * driven peridynamic particles replaces f by what gives them their velocity. t is the middle of the step, where the kick
- * ends that began dt_velocity before. */
+/* Before bonds: f = 0 on every loaded particle (loads_applied.c). After bonds: books what mirror images gave, adds
+ * applied forces; for driven peridynamic particles replaces f by what gives them their velocity. t is the middle of
+ * the step, where the kick ends that began dt_velocity before. */
 void loads_clear(struct loads *l, struct particles *p);
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
@@ -167,19 +168,20 @@ void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
 /* Does a mirror's plane stand on a node of the grid or half-way between two? */
 bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
-/* ---- static equilibrium (loads_static.c) ------------------------------------------------------------- */
+/* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 
-/* Boundaries of a static problem in pseudo-time, n of them into `to`: forces have their value at `duration`, and what is
- * driven goes as far as it goes until then. Both grow evenly from 0 to `ramp` [s] and stay. */
+/* Boundaries of a static problem in pseudo-time, n of them into `to`: forces have their value at `duration`, and
+ * what is driven goes as far as it goes until then. Both grow evenly from 0 to `ramp` [s] and stay. */
 void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp);
 
 /* Of such boundaries once they have grown: displacement of every driven component [m], and which are driven (bits of
  * `held` by particle); where two overlap the later one holds, as in a run. */
-void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement, uint8_t *held);
+void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
+                         uint8_t *held);
 
-/* A body that nothing holds in the plane has no equilibrium under loads that turn it, and those on the scattered particles
- * of a shaken lattice always do a little: from now on the forces of its inertia in that turn belong to the applied ones
- * (inertia relief). Returns the moment over the largest that forces of their size could make there [1]. */
+/* A body that nothing holds in the plane has no equilibrium under loads that turn it, and those on the scattered
+ * particles of a shaken lattice always do a little: from now on the forces of its inertia in that turn belong to the
+ * applied ones (inertia relief). Returns the moment over the largest that forces of their size could make there [1]. */
 real loads_static_balance(struct loads *l, const struct particles *p);
 /* Adds the applied forces to part.f. */
 void loads_static_force(const struct loads *l, struct particles *p);
@@ -188,7 +190,7 @@ void loads_static_force(const struct loads *l, struct particles *p);
 void loads_static_hold(struct loads *l, struct particles *p);
 
 /* Half the applied force times the displacement, and half of reactions times theirs: the work of loads that grow in
- * proportion on a linear body, into `work` and `held_work`. */
+ * proportion on a linear body, into `work` and `constraint_work`. */
 void loads_static_work(struct loads *l, const struct particles *p);
 
 status loads_archive(struct loads *l, struct archive *a);

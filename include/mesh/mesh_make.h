@@ -1,12 +1,12 @@
-/* floor 3: makes the mesh of the reference frame (include/mesh/mesh.h) and follows conversion. */
-#ifndef CLEAVE_MESH_MAKE_H
-#define CLEAVE_MESH_MAKE_H
+/* Makes the mesh of the reference frame (include/mesh/mesh.h) and follows conversion. */
+#ifndef CLEAVE_MESH_MAKE
+#define CLEAVE_MESH_MAKE
 
 #include "base/archive.h"
 #include "bonds/bonds.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
-#include "mesh.h"
+#include "data/mesh.h"
 #include "data/particles.h"
 
 /* What cut cells hang on. */
@@ -17,38 +17,40 @@ struct mesh_source {
     const struct partial_stress *partial;/* NULL, or what points leave to bonds                       */
 };
 
-/* A mesh of all particles with FLAG_MESHED, nodes where the anchor and node distance of `like` put them; nodes take what the
- * points have of displacement and velocity, by least squares. REFUSED where particles are not two a cell and direction,
- * all of one volume, or where two bodies would share a node: they would move as one. */
+/* A mesh of all particles with FLAG_MESHED, nodes where the anchor and node distance of `like` put them; nodes take
+ * what the points have of displacement and velocity, by least squares. REFUSED where particles are not two a cell
+ * and direction, all of one volume, or where two bodies would share a node: they would move as one. */
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source);
 void mesh_free(struct mesh *mesh);
-/* Into how many sets all particles fall that would share no node of such a mesh; 0: they do not lie two a cell and direction. */
+/* Into how many sets all particles fall that would share no node of such a mesh; 0: they do not lie two a cell and
+ * direction. */
 int64_t mesh_pieces(const struct particles *p, const struct grid *like);
 
-/* Takes particles out that are no material points any more, and makes cells anew where `changed` [n] (NULL: everywhere)
- * have converted or leave another part of their stress to bonds. Nodal velocities stay: each particle takes its share of
- * momentum along. Returns the energy of motion inside cells that ends with that [J]. */
-real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n);
-/* The same where all points stay and only what bonds carry of their stress has changed; false, and nothing is settled, where
- * other cells are cut than before. */
-bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const int32_t *changed,
-                  int64_t n);
+/* Takes particles out that are no material points any more, and makes cells anew where `changed` [n] (NULL:
+ * everywhere) have converted or leave another part of their stress to bonds. Nodal velocities stay: each particle
+ * takes its share of momentum along. Returns the energy of motion inside cells that ends with that [J]. */
+real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed,
+                 int64_t n);
+/* The same where all points stay and only what bonds carry of their stress has changed; false, and nothing is
+ * settled, where other cells are cut than before. */
+bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                  const int32_t *changed, int64_t n);
 
-/* The listed particles, material points again, become points of the mesh. Their momentum joins that of the nodes round
- * them, whose velocity becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N); displacements of these nodes are fitted anew, by least
- * squares over all points that they move. Returns the kinetic energy that ends with that [J]. mesh_follow, with those
- * points among the changed, makes their cells; until then the mesh must not be moved. */
-real mesh_adopt(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+/* The listed particles, material points again, become points of the mesh. Their momentum joins that of the nodes
+ * round them, whose velocity becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N); displacements of these nodes are
+ * fitted anew, by least squares over all points that they move. Returns the kinetic energy that ends with that [J].
+ * mesh_follow, with those points among the changed, makes their cells; until then the mesh must not be moved. */
+real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
 
 /* Points that something outside the mesh pulls at or looks at in every step: beside bonds, loaded, or with an image. */
 void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);
 
-/* Largest stable step by the cells alone: 2/omega of the stiffest single cell, for each set of points it may be left with
- * (`any`) or only for the cells there are [s]. */
+/* Largest stable step by the cells alone: 2/omega of the stiffest single cell, for each set of points it may be left
+ * with (`any`) or only for the cells there are [s]. */
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any);
 
 /* First particle at which the mesh is squeezed to nothing or through itself, p->n: none. */
-int64_t mesh_folded(const struct mesh *mesh, const struct particles *p);
+int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p);
 
 status mesh_archive(struct mesh *mesh, struct archive *a);
 

@@ -1,7 +1,8 @@
-/* floor 4: hashes of files, and a footer behind the last byte of HDF5 files: 24 bytes, a mark, the number of bytes before and a hash of
- * them. The library, and all that reads by it, opens such a file as if nothing were there; every changed, lost or added byte shows. */
-#ifndef CLEAVE_CHECKSUM_H
-#define CLEAVE_CHECKSUM_H
+/* Hashes of files, and a footer behind the last byte of HDF5 files: 24 bytes, a mark, the number of bytes
+ * before and a hash of them. The library, and all that reads by it, opens such a file as if nothing were there;
+ * every changed, lost or added byte shows. */
+#ifndef CLEAVE_CHECKSUM
+#define CLEAVE_CHECKSUM
 
 #include "base/base.h"
 

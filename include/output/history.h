@@ -1,6 +1,6 @@
-/* floor 4: history.csv read back, of a finished or a running run. */
-#ifndef CLEAVE_HISTORY_H
-#define CLEAVE_HISTORY_H
+/* History.csv read back, of a finished or a running run. */
+#ifndef CLEAVE_HISTORY
+#define CLEAVE_HISTORY
 
 #include "base/base.h"
 

@@ -1,9 +1,9 @@
-/* floor 4: what a run leaves in its folder: frames, their indices, history, checkpoints. Only output*.c,
- * checkpoint.c and particle_list.c know HDF5 (info.c asks for its version). Every file but history.csv, which grows, is
- * written aside, synced and renamed: a file that is there is whole. After a failed write of HDF5 all that needs it
- * returns FAILED and lets the first message stand. */
-#ifndef CLEAVE_OUTPUT_H
-#define CLEAVE_OUTPUT_H
+/* What a run leaves in its folder: frames, their indices, history, checkpoints. Only output*.c, checkpoint.c and
+ * particle_list.c use HDF5 (info.c reads its version). Every file but history.csv, which grows, is written aside,
+ * synced and renamed: a file that is there is whole. After a failed write of HDF5 all that needs it returns FAILED
+ * and lets the first message stand. */
+#ifndef CLEAVE_OUTPUT
+#define CLEAVE_OUTPUT
 
 #include <stdio.h>
 
@@ -30,18 +30,19 @@ struct output {
     struct frame_job *writing;           /* a frame on its way to the disk; NULL: none                */
     char *frame_copy;                    /* what it copies; kept for the next one, whose pages are then there */
     int64_t frame_copy_bytes;
-    struct { int32_t *order; char *room; int64_t n; } frame_kept;    /* by id; of a field: the writer's, kept likewise */
+    struct { int32_t *order; char *room; int64_t n; } frame_kept;   /* by id; of a field: the writer's, kept likewise */
 };
 
 /* Once per process, before any other HDF5 call: no exit handler, no error stack on the terminal; SIGXFSZ and
  * SIGPIPE ignored (a full disk must be an error, not a death). */
 void output_start(void);
 
-/* Makes DIR and DIR/frames, and takes them for this process. REFUSED while another process runs there; if DIR holds files
- * that are no run's; without OUTPUT_OVERWRITE if it holds the run of another scene (a scene.yaml with other text); and in mode
- * OUTPUT_FIRST if it holds a run of the same one. To resume where nothing has run is to begin, with a line that says so; REFUSED where
- * a run has lost its checkpoints. Removes temporary files of runs, and without OUTPUT_RESUME what the older run left; writes
- * scene.yaml. FAILED if it cannot be made. On a fault nothing is left to close. */
+/* Makes DIR and DIR/frames, and takes them for this process. REFUSED while another process runs there; if DIR holds
+ * files that are no run's; without OUTPUT_OVERWRITE if it holds the run of another scene (a scene.yaml with other
+ * text); and in mode OUTPUT_FIRST if it holds a run of the same one. To resume where nothing has run is to begin,
+ * with a line that says so; REFUSED where a run has lost its checkpoints. Removes temporary files of runs, and
+ * without OUTPUT_RESUME what the older run left; writes scene.yaml. FAILED if it cannot be made. On a fault nothing
+ * is left to close. */
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 void output_close(struct output *o);
 /* Do two texts of scenes say the same, wherever their particle lists lie? */
@@ -50,15 +51,16 @@ bool scene_text_same(const char *a, const char *b);
 /* Writes `text` to DIR/name (aside, sync, rename). */
 status output_text(const struct output *o, const char *name, const char *text, size_t length);
 
-/* After a restart: takes frames that are gone or cut short out of the indices; how many there are, and through `text` what to say of them. */
+/* After a restart: takes frames that are gone or cut short out of the indices; how many there are, and through
+ * `text` what to say of them. */
 status output_frames_check(struct output *o, int *lost, char *text, size_t room);
 
 /* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
  * written in the order of their id. Single precision but for the reference positions. */
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
-/* The same, written by a thread of its own while the particles go on: what changes of them is copied before it returns;
- * they and `scene_text` must stay until output_wait. One frame at a time: the next one, checkpoints and output_close wait for it. A fault is told by whichever
- * waits. */
+/* The same, written by a thread of its own while the particles go on: what changes of them is copied before it
+ * returns; they and `scene_text` must stay until output_wait. One frame at a time: the next frame, checkpoints and
+ * output_close wait for it. A fault is returned by the call that waits. */
 status output_frame_begin(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 /* Until no frame is on its way; OK without one. */
 status output_wait(struct output *o);
@@ -86,7 +88,7 @@ void frame_free(struct frame *f);
 struct listed_frame { int number; real time; };
 status frames_list(const char *folder, int *n, struct listed_frame **list);
 
-/* ---- checkpoints ----------------------------------------------------------------------------------- */
+/* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
 /* DIR/checkpoint.h5, the one before as checkpoint.previous.h5. `archive_all` saves or restores everything through
  * the archive it is handed. Format version, scene text and a 24-byte footer (magic, length, hash of all bytes

@@ -1,6 +1,6 @@
-/* floor 4: how the files of a run are made: paths, and whole files written aside, synced and renamed. */
-#ifndef CLEAVE_OUTPUT_FILES_H
-#define CLEAVE_OUTPUT_FILES_H
+/* How the files of a run are made: paths, and whole files written aside, synced and renamed. */
+#ifndef CLEAVE_OUTPUT_FILES
+#define CLEAVE_OUTPUT_FILES
 
 #include "base/base.h"
 
@@ -33,7 +33,7 @@ status file_seal(const char *path, const void *tail, size_t length);
 /* Renames the sealed PATH.tmp to `path` and syncs the folder. On a fault PATH.tmp is removed. */
 status file_publish(const char *path);
 
-/* Removes PATH.tmp and gives its space back even if somebody still holds it open. */
+/* Removes PATH.tmp and gives its space back even if the file is still open. */
 void file_discard(const char *path);
 
 /* Reads a whole regular file; a 0 stands behind its last byte. Free with memory_free. */

@@ -1,8 +1,8 @@
-/* floor 4: the few HDF5 operations that the program needs, on one file at a time, with one sticky fault: after the
+/* The few HDF5 operations that the program needs, on one file at a time, with one sticky fault: after the
  * first failed call every further one on the same file does nothing, because HDF5 1.10 crashes when it is used on
  * after a failed write. Only the output files include this. */
-#ifndef CLEAVE_OUTPUT_HDF5_H
-#define CLEAVE_OUTPUT_HDF5_H
+#ifndef CLEAVE_OUTPUT_HDF5
+#define CLEAVE_OUTPUT_HDF5
 
 #include <hdf5.h>
 

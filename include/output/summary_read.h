@@ -1,6 +1,6 @@
-/* floor 4: figures out of a finished run's summary.json. */
-#ifndef CLEAVE_SUMMARY_READ_H
-#define CLEAVE_SUMMARY_READ_H
+/* Figures out of a finished run's summary.json. */
+#ifndef CLEAVE_SUMMARY_READ
+#define CLEAVE_SUMMARY_READ
 
 #include "base/base.h"
 

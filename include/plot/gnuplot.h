@@ -1,7 +1,7 @@
-/* floor 4: a gnuplot that draws one picture: commands and binary data go down a pipe, the picture appears under its
+/* A gnuplot that draws one picture: commands and binary data go down a pipe, the picture appears under its
  * name only when it is whole. */
-#ifndef CLEAVE_GNUPLOT_H
-#define CLEAVE_GNUPLOT_H
+#ifndef CLEAVE_GNUPLOT
+#define CLEAVE_GNUPLOT
 
 #include <stdio.h>
 

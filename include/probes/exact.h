@@ -1,17 +1,18 @@
-/* floor 1: closed forms of the uniform elastic bar [left, right]: what a computed field is compared with.
+/* Closed forms of the uniform elastic bar [left, right]: what a computed field is compared with.
  * c = sqrt(E/rho); F is the stress at the loaded end, s the distance from it; tension is positive. Strain is stress/E
  * but where the bar has yielded.
  *
  *   STEP BAR      a load applied at t = 0 and held, the bar at rest before: d'Alembert's solution with all reflections
  *                     sigma = F sum_n (-r)^n [H(ct - 2nL - s) + r H(ct - 2(n+1)L + s)],   r = +1 fixed, -1 free far end
  *                 each front carries v = -+ sigma/(rho c); displacements are the fronts' velocities times their age
- *   PLASTIC BAR   the same load beyond the yield stress, bilinear with tangent E_t: a precursor sigma_y at c, the rest at
- *                 sqrt(E_t/rho) (von Karman & Duwez 1950); until the precursor reaches the far end, nothing after that
+ *   PLASTIC BAR   the same load beyond the yield stress, bilinear with tangent E_t: a precursor sigma_y at c, the rest
+ *                 at sqrt(E_t/rho) (von Karman & Duwez 1950); until the precursor reaches the far end, nothing after
+ *                 that
  *   PULSE         the waves that initial pulses are (region.h): at rest ahead, displaced by sqrt(pi) V r/c behind; the
  *                 ends reflect by images, a fixed one is held wherever it is
  *   MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi (x - origin)/lambda), under the body force that makes it a solution */
-#ifndef CLEAVE_EXACT_H
-#define CLEAVE_EXACT_H
+#ifndef CLEAVE_EXACT
+#define CLEAVE_EXACT
 
 #include "data/region.h"
 
@@ -46,9 +47,9 @@ enum { EXACT_FRONTS = 2 };
  * front. Returns how many there are; none for smooth forms and where the form does not hold. */
 int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
-/* Where the exact stress is even, well away from fronts and ends. PLATEAU: behind the (last) front, a tenth of the bar
- * away from it and from the ends; 0.08 of it behind a plastic front. PRECURSOR: from 0.07 of the bar behind the precursor
- * to 0.05 ahead of the plastic front. False: there is no such place. */
+/* Where the exact stress is even, well away from fronts and ends. PLATEAU: behind the (last) front, a tenth of the
+ * bar away from it and from the ends; 0.08 of it behind a plastic front. PRECURSOR: from 0.07 of the bar behind the
+ * precursor to 0.05 ahead of the plastic front. False: there is no such place. */
 enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
 bool exact_plateau(const struct exact *e, real t, enum exact_window which, real *from, real *to);
 

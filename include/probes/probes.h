@@ -1,6 +1,6 @@
-/* floor 3: what a run watches besides its frames: time series, profiles, and the figures scripts rely on. */
-#ifndef CLEAVE_PROBES_H
-#define CLEAVE_PROBES_H
+/* What a run watches besides its frames: time series, profiles, and the figures scripts rely on. */
+#ifndef CLEAVE_PROBES
+#define CLEAVE_PROBES
 
 #include "base/archive.h"
 #include "bonds/bonds.h"
@@ -26,13 +26,13 @@ enum probe_kind {
     PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
     PROBE_EXACT,             /* a bar against a closed form                                                */
     PROBE_SIF,               /* stress-intensity factors of a crack tip                                    */
-    PROBE_GROWTH,            /* a crack that grows as it is told: its tip, the path it took                */
+    PROBE_GROWTH,            /* a crack with prescribed or SIF-controlled growth: its tip, its path        */
     PROBE_RIGID,             /* a body that turns as a whole (plane)                                       */
     PROBES
 };
 
-/* Figures of EXACT; all but the last three by the stress of bond flux (probes_parts.h), those with `_strain` the same of
- * E x strain against E x exact strain; strain by central differences over the neighbours in the bar:
+/* Figures of EXACT; all but the last three by the stress of bond flux (probes_parts.h), those with `_strain` the
+ * same of E x strain against E x exact strain; strain by central differences over the neighbours in the bar:
  *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
  *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
  *   plateau                 mean stress behind the last front, off fronts and ends (exact_plateau) [Pa]
@@ -40,7 +40,7 @@ enum probe_kind {
  *   end_displacement        of the outermost particle at the loaded end, half a spacing inside [m]
  *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, with velocities when they are known */
 
-/* As the scene asks for it. */
+/* As the scene specifies it. */
 struct probe_request {
     char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
     enum probe_kind kind;
@@ -90,7 +90,7 @@ struct observed {
     real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
     real t;                              /* [s]                                                       */
     real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
-    const struct growth *growth;         /* cracks that grow as they are told                         */
+    const struct growth *growth;         /* cracks with prescribed or SIF-controlled growth           */
     int growths;
     const struct baseline *baseline;     /* NULL: none                                                */
     real t_velocity;                     /* when velocities are known, half a step before t   [s]     */
@@ -130,7 +130,8 @@ void probes_step(struct probes *s, const struct observed *o);
  * (NAN) are left out. */
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
-/* The profiles of LINE and EXACT probes as csv, each handed to `put` as the file <name>_<frame>.csv; and how many they are. */
+/* The profiles of LINE and EXACT probes as csv, each handed to `put` as the file <name>_<frame>.csv; and how many
+ * they are. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame);
 int64_t probes_profiled(const struct probes *s);
@@ -138,7 +139,7 @@ int64_t probes_profiled(const struct probes *s);
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 bool probes_profile_name(const struct probes *s, int k, int frame, char *name);
 /* Factors of the named SIF probe at the last sample, and the direction of its tip then; false: none yet. */
-bool probes_ruling(const struct probes *s, const char *name, struct ruling *found);
+bool probes_sif_control(const struct probes *s, const char *name, struct control *found);
 status probes_archive(struct probes *s, struct archive *a);
 
 #endif

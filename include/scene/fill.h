@@ -1,16 +1,16 @@
-/* floor 4: the particles of a scene, before anything is known of bonds, grids or loads. */
-#ifndef CLEAVE_FILL_H
-#define CLEAVE_FILL_H
+/* The particles of a scene, before anything is known of bonds, grids or loads. */
+#ifndef CLEAVE_FILL
+#define CLEAVE_FILL
 
 #include "data/particles.h"
 #include "scene.h"
 
 /* Positions, volumes, masses and the initial state, from lattices and lists; `optional` is a sum of WITH_*. REFUSED:
- * empty bodies, unreadable lists, lists in another unit than the spacing, two particles in one place; nothing is left to free
- * then. */
+ * empty bodies, unreadable lists, lists in another unit than the spacing, two particles in one place; nothing is
+ * left to free then. */
 status fill_particles(struct particles *p, const struct scene *s, int optional);
-/* Part of it (fill_lists.c): REFUSED where particles of a list are so far apart, or so close, that its unit is not that of the
- * spacing, or so many bonds would come of it that no memory holds them. */
+/* Part of it (fill_lists.c): REFUSED where particles of a list are so far apart, or so close, that its unit is not
+ * that of the spacing, or so many bonds would come of it that no memory holds them. */
 status fill_check_lists(const struct particles *p, const struct scene *s);
 
 #endif

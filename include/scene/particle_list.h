@@ -1,11 +1,11 @@
-/* floor 4: lists of particles from files. Only output*.c, checkpoint.c and particle_list.c know HDF5.
+/* Lists of particles from files. Only output*.c, checkpoint.c and particle_list.c know HDF5.
  *
  * CSV: a header line that names the columns x, y, z (as many as the space has), volume and, if wanted, material
  * and body, in any order; then one line per particle. Empty lines and lines that begin with # are skipped.
  * HDF5: datasets positions (n x dim; in 1D also n), volumes (n) and, if wanted, material (n) and body (n).
  * Metres and cubic metres; materials and bodies are numbered from 0 in the order of the scene. */
-#ifndef CLEAVE_PARTICLE_LIST_H
-#define CLEAVE_PARTICLE_LIST_H
+#ifndef CLEAVE_PARTICLE_LIST
+#define CLEAVE_PARTICLE_LIST
 
 #include "base/base.h"
 

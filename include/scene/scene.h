@@ -1,13 +1,12 @@
-/* floor 4: a scene: everything a run needs, as read and checked. Only scene_yaml.c knows libyaml (info.c asks for
- * its version). Every length is in
- * metres, every time in seconds: units are gone. */
-#ifndef CLEAVE_SCENE_H
-#define CLEAVE_SCENE_H
+/* A scene: everything a run needs, as read and checked, in SI units. Only scene_yaml.c uses libyaml (info.c reads
+ * its version). */
+#ifndef CLEAVE_SCENE
+#define CLEAVE_SCENE
 
 #include <stdio.h>
 
 #include "bonds/bonds.h"
-#include "coupling/convert.h"
+#include "coupling/conversion.h"
 #include "fracture/growth.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
@@ -32,7 +31,7 @@ struct scene_body {
     uint64_t contents;                   /* hash of that file; 0: not read                            */
     char place[PLACE_LENGTH];            /* where the scene names that list, `file:line:column: key: `; "": unknown */
     real velocity[DIM_MAX];              /* [m/s]                                                     */
-    enum grid_frame frame;               /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
+    enum grid_frame frame;   /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
     const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not                 */
 };
 
@@ -55,7 +54,7 @@ struct scene_choice {
     char like[80], feature[40];          /* that problem; what the spacing resolves                   */
     real size, points;                   /* of the feature [m], in spacings                           */
     real resolution;                     /* as that problem counts                                    */
-    real accuracy, error;                /* asked, expected [1]                                       */
+    real accuracy, error;                /* required, expected [1]                                    */
     real seconds;                        /* of the loop on one thread of the chart's machine, about   */
     char picked[80];                     /* the chart's method                                        */
     real horizon, step;                  /* [spacings], 0 without bonds; share of the critical step   */
@@ -80,7 +79,7 @@ struct scene {
     int materials;  struct material *material;
     int bodies;     struct scene_body *body;
 
-    bool has_accuracy; real accuracy;    /* asked of method auto                              [1]     */
+    bool has_accuracy; real accuracy;    /* required of method auto [1]                               */
     struct scene_choice choice;
 
     real spacing, horizon, irregularity; /* [m], in spacings, [1]                                     */
@@ -105,19 +104,19 @@ struct scene {
     bool has_grid_origin; real grid_origin[DIM_MAX];   /* a node of the grid [m]                      */
 
     enum coupling coupling;
-    real rim_damping;                    /* of the rim of the material points (rim.h), in c/h         */
-    bool has_rim_damping;                /* as has_shape                                              */
-    const char *frame_wish;              /* what the scene says that has a meaning in the current frame only; NULL: nothing */
+    real interface_damping;                    /* of the rim of the material points (interface_zone.h), in c/h */
+    bool has_interface_damping;                /* as has_shape                                              */
+    const char *frame_wish;        /* what the scene says that has a meaning in the current frame only; NULL: nothing */
     struct conversion_rule conversion;
 
     int cracks;     struct crack *crack;
-    int growths;    struct growth_rule *growth;        /* cracks that grow as they are told           */
+    int growths;    struct growth_rule *growth;        /* cracks with prescribed or SIF-controlled growth */
     int initials;   struct scene_initial *initial;
     int boundaries; struct boundary *boundary;
     int probes;     struct probe_request *probe;
 
     real time_step;                      /* [s]; 0: automatic                                         */
-    bool rest;                           /* what nothing has reached is skipped (rest.h)                  */
+    bool rest;                           /* what nothing has reached is skipped (active_set.h)                  */
     real safety;                         /* of the automatic step                                     */
     int frames;                          /* frames after the one at t = 0                             */
     bool has_frames;                     /* the scene says how many                                   */
@@ -139,27 +138,18 @@ static inline real scene_section(const struct scene *s)
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
 
-/* Reads and checks a file. On REFUSED the message is `file:line:column: what; what would be right`; nothing is
- * left to free. */
-status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides);
-/* The same from memory; no file is touched, not even to see whether particle lists exist. `name` stands in messages. */
-status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
-                       const struct scene_override *override, int overrides);
+/* Frees what a scene holds; a scene is read by auto/scene_read.h. */
 void scene_free(struct scene *s);
-/* What was chosen and why, in a few lines; nothing where the scene says itself (auto.c). */
-void scene_choice_print(const struct scene *s, FILE *out);
 
-/* Why a body cannot be in the reference frame whatever it does, and why `mpm.frame: auto` would not put it there of its own; NULL: it can,
- * it would. */
-const char *scene_frame_obstacle(const struct scene *s, int body);
-const char *scene_frame_reluctance(const struct scene *s, int body);
+/* Why a body cannot be in the reference frame whatever it does, and why `mpm.frame: auto` would not put it there of
+ * its own; NULL: it can, it would. */
+const char *scene_frame_unsupported(const struct scene *s, int body);
+const char *scene_frame_not_default(const struct scene *s, int body);
 
 /* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
 status scene_help(FILE *out, const char *key);
 
 /* Writes the manual page cleave.1 (troff). */
 status scene_manual(FILE *out);
-/* What a run promises, and which test holds it to that. */
-status trust_print(FILE *out);
 
 #endif

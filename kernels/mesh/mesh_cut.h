@@ -1,15 +1,15 @@
-/* floor 2: eight cut cells: what is left of the points of each answers by a stiffness of its own.
+/* Eight partial cells at once: each responds by a stiffness of its own, which follows from the points it has left.
  *
- * A cell's energy hangs on its mean strain and on what bends it (mesh_law.h), not on its translation and rotation: in 3D on
- * 18 modes, not on 24 displacements. The stiffness is that of these modes, eight cells side by side, and symmetric: one half
- * is stored, 171 numbers in 3D and 15 in the plane. Shear strains count by their angle, so that what belongs to them is their
- * stress. */
-#ifndef CLEAVE_MESH_CUT_H
-#define CLEAVE_MESH_CUT_H
+ * The energy of a cell depends on its mean strain and its bending modes (mesh_law.h), not on translation and rotation:
+ * in 3D on 18 modes instead of 24 displacements. The stiffness is that of these modes, eight cells side by side, and
+ * symmetric: one half is stored, 171 numbers in 3D and 15 in the plane. Shear strains are angles (twice the tensor
+ * component), so that their conjugate forces are stresses. */
+#ifndef CLEAVE_KERNELS_MESH_CUT
+#define CLEAVE_KERNELS_MESH_CUT
 
 #include "mesh_law.h"
 
-/* Displacements of the corners of the eight cut cells of a group. */
+/* Displacements of the corners of the eight partial cells of a group [m]. */
 static ALWAYS_INLINE void mesh_cut_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3], const int dim)
 {
     const int32_t *cell = mesh->cut + group * LANES;
@@ -18,7 +18,7 @@ static ALWAYS_INLINE void mesh_cut_load(const struct mesh *mesh, int64_t group, 
         for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
-/* Modes as one vector: symmetric components of the mean strain, then what bends, set by set. */
+/* The modes as one vector: symmetric components of the mean strain, then the bending modes, set by set [1]. */
 static ALWAYS_INLINE void cut_modes(const struct mesh_cell *s, lanes *v, const int dim)
 {
     int n = symmetric_count(dim);
@@ -31,7 +31,7 @@ static ALWAYS_INLINE void cut_modes(const struct mesh_cell *s, lanes *v, const i
         if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
 }
 
-/* f = K v of the symmetric part, half of which is stored, row by row from the diagonal on. */
+/* f = K v with a symmetric K, half of which is stored, row by row from the diagonal on. */
 static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, const int n)
 {
     for (int a = 0; a < n; a++) f[a] = lanes_of(0);
@@ -44,8 +44,10 @@ static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, co
     }
 }
 
-/* Forces on the modes and moments of points that are ends of bonds, in the cells of a group (struct mesh_end): f += share^T pull. */
-static ALWAYS_INLINE void cut_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f, const int dim)
+/* Adds the forces on the modes of the cells of a group by points that are ends of bonds (struct mesh_end): f += share^T
+ * pull [Pa]. */
+static ALWAYS_INLINE void cut_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f,
+                                       const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const int n = mesh_modes(dim);
@@ -57,17 +59,20 @@ static ALWAYS_INLINE void cut_add_ends(const struct mesh *mesh, const struct par
     }
 }
 
-static ALWAYS_INLINE void cut_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *moment, const int dim)
+/* Adds the moments of bonds about the points at their ends, per volume of the cell [Pa]. */
+static ALWAYS_INLINE void cut_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
+                                          lanes *moment, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const real inverse = 1 / (mesh->volume * (1 << dim));
     for (; end < last; end++)
-        for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) moment[k][end->lane] += p->end_moment[c][end->point] * inverse;
+        for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++)
+            moment[k][end->lane] += p->end_moment[c][end->point] * inverse;
 }
 
-/* Stress and forces of the modes. */
-static ALWAYS_INLINE void cut_law(const struct mesh *mesh, const struct particles *p, int64_t group, struct mesh_cell *s,
-                                  const int dim)
+/* Stress of the mean strain and forces on the bending modes of a group of partial cells [Pa]. */
+static ALWAYS_INLINE void cut_law(const struct mesh *mesh, const struct particles *p, int64_t group,
+                                  struct mesh_cell *s, const int dim)
 {
     const int n = mesh_modes(dim), half = n * (n + 1) / 2;
     lanes v[MODES_MAX], f[MODES_MAX];

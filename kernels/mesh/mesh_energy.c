@@ -1,9 +1,9 @@
-/* floor 2: energies of the mesh, for the ledger. */
+/* Kinetic and elastic energy of the mesh, for the energy balance. */
 #include "mesh_cut.h"
 #include "mesh_run.h"
 #include "base/team.h"
 
-static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
+static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid *g = context;
     for (int d = 0; d < g->dim; d++) {
@@ -18,11 +18,11 @@ static void kinetic_block(const void *context, int64_t first, int64_t end, real 
 real mesh_kinetic(const struct mesh *mesh)
 {
     real sum = 0;
-    if (mesh->points > 0) team_sums(mesh->grid.n, 1, kinetic_block, &mesh->grid, &sum);
+    if (mesh->points > 0) team_sums(mesh->grid.n, 1, mesh_energy_kinetic_block, &mesh->grid, &sum);
     return sum;
 }
 
-static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
+static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
     for (int d = 0; d < mesh->grid.dim; d++) {
@@ -38,8 +38,9 @@ real mesh_kick(const struct mesh *mesh, real dt)
 {
     real sum = 0;
     if (mesh->points == 0) return 0;
-    team_sums(mesh->grid.n, 1, kick_block, mesh, &sum);
-    for (int64_t k = 0; k < mesh->grid.walls; k++) {     /* held ones change as they are told, and their work is booked as they move */
+    team_sums(mesh->grid.n, 1, mesh_energy_kick_block, mesh, &sum);
+    /* constrained nodes move as prescribed; their work is booked as they move */
+    for (int64_t k = 0; k < mesh->grid.walls; k++) {
         const struct wall *w = &mesh->grid.wall[k];
         sum -= 0.25 * square(mesh->grid.force[w->component][w->node]) * mesh->inverse_mass[w->node];
     }
@@ -55,7 +56,7 @@ static ALWAYS_INLINE real lanes_sum(lanes a)
     return all;
 }
 
-/* Of a group of cut cells; behind the last lies no stiffness. */
+/* Elastic energy of a group of partial cells [J]; lanes beyond the last cell have no stiffness. */
 static ALWAYS_INLINE real cut_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
 {
     const struct mesh *mesh = s->mesh;
@@ -67,8 +68,9 @@ static ALWAYS_INLINE real cut_energy(const struct strain_sum *s, int64_t group, 
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
-/* Of a run, eight cells at a time; cells behind its end count nothing. */
-static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_run *run, const int dim, const bool finite)
+/* Elastic energy of a run, eight cells at a time [J]; cells beyond its end contribute 0. */
+static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_run *run, const int dim,
+                                     const bool finite)
 {
     const struct mesh *mesh = s->mesh;
     lanes sum = lanes_of(0);
@@ -83,15 +85,15 @@ static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct me
     return lanes_sum(sum);
 }
 
-#define TERM(D, FINITE)                                                                                              \
-    static real run_term_##D##_##FINITE(const void *context, int64_t r)                                              \
-    {                                                                                                                \
-        const struct strain_sum *s = context;                                                                        \
-        return run_energy(s, &s->mesh->run[r], D, FINITE);                                                           \
-    }                                                                                                                \
-    static real cut_term_##D##_##FINITE(const void *context, int64_t group)                                          \
-    {                                                                                                                \
-        return cut_energy(context, group, D, FINITE);                                                                \
+#define TERM(D, FINITE)                                                                                                \
+    static real run_term_##D##_##FINITE(const void *context, int64_t r)                                                \
+    {                                                                                                                  \
+        const struct strain_sum *s = context;                                                                          \
+        return run_energy(s, &s->mesh->run[r], D, FINITE);                                                             \
+    }                                                                                                                  \
+    static real cut_term_##D##_##FINITE(const void *context, int64_t group)                                            \
+    {                                                                                                                  \
+        return cut_energy(context, group, D, FINITE);                                                                  \
     }
 TERM(1, 0)
 TERM(2, 0)

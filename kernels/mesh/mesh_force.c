@@ -1,13 +1,13 @@
-/* floor 2: forces of the mesh on its nodes: whole cells in runs, eight at a time; cut cells by their stiffness.
+/* Internal forces of the mesh on its nodes: whole cells in runs, eight at a time; partial cells by their own stiffness.
  *
- * A run adds to the nodes of its cells, layer by layer. Layers are grouped in bands, and bands of one parity share no node:
- * two colours, any number of threads, the same bits. */
+ * A run adds to the nodes of its cells, layer by layer. Layers are grouped in bands, and bands of one parity share no
+ * node: two colours give the same bits on any number of threads. */
 #include <string.h>
 
 #include "mesh_cut.h"
 #include "mesh_run.h"
 
-/* ---- whole cells ------------------------------------------------------------------------------------------ */
+/* ---- whole cells ------------------------------------------------------------------------------------------------- */
 
 /* {before[7], now[0], .., now[6]} */
 static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
@@ -15,39 +15,42 @@ static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
     return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
-/* Cells side by side share nodes: what a vector of cells gives to its upper corners along x joins what the next lower
- * corners get, one lane further, so that every node of the row is added to once. */
-static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *run, const struct elastic *m, const int dim,
-                                    const bool finite)
+/* Adds the forces of a run to the nodes, and sets run->stressed. Cells side by side share nodes: the forces of a vector
+ * of cells on their upper corners along x are shifted by one lane and joined with those on the lower corners of the
+ * next cells, so that each node of the row is added to once. */
+static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *run, const struct elastic *m,
+                                    const int dim, const bool finite)
 {
     const struct grid *g = &mesh->grid;
     const real volume = mesh->volume * (1 << dim);
     const bool balanced = mesh_balanced(m, dim);
     const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
     const uint8_t *levels = mesh_levels(mesh, row);
-    lanes carry[CORNERS_MAX][3], tension = lanes_of(-INFINITY);
+    lanes grid_coupled_select[CORNERS_MAX][3], tension = lanes_of(-INFINITY);
     for (int c = 0; c < 1 << dim; c++)
-        for (int i = 0; i < dim; i++) carry[c][i] = lanes_of(0);
+        for (int i = 0; i < dim; i++) grid_coupled_select[c][i] = lanes_of(0);
     for (int64_t k = 0; k < run->cells; k += LANES) {
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
-        if (mesh_asleep(levels, start + k)) continue;      /* so what the cells before carry is 0 */
+        if (mesh_asleep(levels, start + k)) continue;      /* forces carried from the cells before are 0 */
         mesh_run_load(mesh, run, k, u, dim);
         mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];
-                lanes_store(to, lanes_load(to) + (f[c][i] + shifted(carry[c][i], f[c + 1][i])));
-                carry[c][i] = f[c + 1][i];
+                lanes_store(to, lanes_load(to) + (f[c][i] + shifted(grid_coupled_select[c][i], f[c + 1][i])));
+                grid_coupled_select[c][i] = f[c + 1][i];
             }
     }
-    if (run->cells % LANES == 0)                 /* else the last upper corners are in the last vector */
+    if (run->cells % LANES == 0)                 /* else the upper corners of the last cell are in the last vector */
         for (int c = 0; c < 1 << dim; c += 2)
-            for (int i = 0; i < dim; i++) g->force[i][run->cell + run->cells + mesh->corner[c]] += carry[c][i][LANES - 1];
+            for (int i = 0; i < dim; i++)
+                g->force[i][run->cell + run->cells + mesh->corner[c]] += grid_coupled_select[c][i][LANES - 1];
     run->stressed = false;
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
 
+/* Forces of all runs of a band. */
 static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, const struct elastic *m, const int dim,
                                      const bool finite)
 {
@@ -55,30 +58,33 @@ static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, cons
         run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], dim, finite);
 }
 
-/* Two colours of bands. The parallel region stands in each instance, where dimension and strain are literals. */
-#define BANDS(D, FINITE)                                                                                             \
-    static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                               \
-    {                                                                                                                \
-        _Pragma("omp parallel")                                                                                      \
-        {                                                                                                            \
-            _Pragma("omp for schedule(static)") for (int64_t b = 0; b < mesh->bands; b += 2)                         \
-                band_force(mesh, b, m, D, FINITE);                                                                   \
-            _Pragma("omp for schedule(static) nowait") for (int64_t b = 1; b < mesh->bands; b += 2)                  \
-                band_force(mesh, b, m, D, FINITE);                                                                   \
-        }                                                                                                            \
+/* Forces of all bands, in two colours. The parallel region is inside each instance, where dimension and strain measure
+ * are literals. */
+#define BANDS(D, FINITE)                                                                                               \
+    static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                 \
+    {                                                                                                                  \
+        _Pragma("omp parallel")                                                                                        \
+        {                                                                                                              \
+            _Pragma("omp for schedule(static)") for (int64_t b = 0; b < mesh->bands; b += 2)                           \
+                band_force(mesh, b, m, D, FINITE);                                                                     \
+            _Pragma("omp for schedule(static) nowait") for (int64_t b = 1; b < mesh->bands; b += 2)                    \
+                band_force(mesh, b, m, D, FINITE);                                                                     \
+        }                                                                                                              \
     }
 
-/* ---- cut cells -------------------------------------------------------------------------------------------- */
+/* ---- partial cells ----------------------------------------------------------------------------------------------- */
 
+/* Are all cells of a group of partial cells inactive? */
 static ALWAYS_INLINE bool cuts_asleep(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
-    for (int l = 0; l < LANES; l++) level |= mesh->rest.level[mesh_block(mesh, mesh->cut[group * LANES + l])];
+    for (int l = 0; l < LANES; l++) level |= mesh->active.level[mesh_block(mesh, mesh->cut[group * LANES + l])];
     return level == 0;
 }
 
-/* Which cells of a group may have a point past its trigger. */
-static ALWAYS_INLINE void cut_mark(struct mesh *mesh, const struct elastic *m, int64_t group, const struct mesh_cell *s, const int dim)
+/* Sets cut_stressed of the cells of a group that may have a point past its trigger. */
+static ALWAYS_INLINE void cut_mark(struct mesh *mesh, const struct elastic *m, int64_t group, const struct mesh_cell *s,
+                                   const int dim)
 {
     const uint8_t *material = mesh->cut_material + group * LANES;
     lanes tension = lanes_of(0), P[3][3];
@@ -91,26 +97,28 @@ static ALWAYS_INLINE void cut_mark(struct mesh *mesh, const struct elastic *m, i
     }
 }
 
-static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct particles *p, const struct elastic *m, int64_t group,
-                                    const int dim, const bool finite)
+/* Forces of a group of partial cells on their corners, into mesh->cut_force [N]. */
+static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                    int64_t group, const int dim, const bool finite)
 {
-    const bool turns = finite && dim > 1;
+    const bool rotates = finite && dim > 1;
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], moment[3] = {{0}};
     mesh_cut_load(mesh, group, u, dim);
-    cell_strain(&s, mesh->grid.h, u, dim, turns);
+    cell_strain(&s, mesh->grid.h, u, dim, rotates);
     cut_mark(mesh, m, group, &s, dim);
     cut_law(mesh, p, group, &s, dim);
-    if (mesh->ends && p->end_turn[0]) cut_add_moments(mesh, p, group, moment, dim);
-    if (turns) cell_balance(&s, moment, dim);
-    else if (dim > 1 && mesh->ends && p->end_turn[0]) cell_skew(&s, moment, dim);
-    cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, turns);
+    if (mesh->ends && p->end_rotation[0]) cut_add_moments(mesh, p, group, moment, dim);
+    if (rotates) cell_balance(&s, moment, dim);
+    else if (dim > 1 && mesh->ends && p->end_rotation[0]) cell_skew(&s, moment, dim);
+    cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
     lanes *out = (lanes *)mesh->cut_force + group * (1 << dim) * dim;
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
 }
 
-/* Several share a node: computed by the team, added in order. */
+/* Adds the forces of partial cells to the nodes. Several cells share a node: forces are computed in parallel, and added
+ * serially in order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
     for (int64_t group = 0; group < mesh_groups(mesh); group++) {
@@ -131,15 +139,15 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 
 enum { FEW = 16 };                       /* groups that one thread computes in less time than a team */
 
-#define CUTS(D, FINITE)                                                                                              \
-    static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)     \
-    {                                                                                                                \
-        TEAM_LOOP(mesh_groups(mesh) > FEW, for (int64_t k = 0; k < mesh_groups(mesh); k++)                           \
-            if (!cuts_asleep(mesh, k)) cut_force(mesh, p, m, k, D, FINITE););                                        \
-        cuts_add(mesh, D);                                                                                           \
+#define CUTS(D, FINITE)                                                                                                \
+    static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
+    {                                                                                                                  \
+        TEAM_LOOP(mesh_groups(mesh) > FEW, for (int64_t k = 0; k < mesh_groups(mesh); k++)                             \
+            if (!cuts_asleep(mesh, k)) cut_force(mesh, p, m, k, D, FINITE););                                          \
+        cuts_add(mesh, D);                                                                                             \
     }
 
-/* ---- all -------------------------------------------------------------------------------------------------- */
+/* ---- entry point ------------------------------------------------------------------------------------------------- */
 
 #define MESH_FORCES(X) X(1, 0) X(2, 0) X(2, 1) X(3, 0) X(3, 1)
 MESH_FORCES(BANDS)
@@ -147,10 +155,10 @@ MESH_FORCES(CUTS)
 
 void mesh_force(struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite)
 {
-#define CASE(D, FINITE)                                                                                              \
-    if (mesh->grid.dim == D && (D == 1 || finite == FINITE)) {                                                       \
-        bands_force_##D##_##FINITE(mesh, m);                                                                         \
-        cuts_force_##D##_##FINITE(mesh, p, m);                                                                       \
+#define CASE(D, FINITE)                                                                                                \
+    if (mesh->grid.dim == D && (D == 1 || finite == FINITE)) {                                                         \
+        bands_force_##D##_##FINITE(mesh, m);                                                                           \
+        cuts_force_##D##_##FINITE(mesh, p, m);                                                                         \
     }
     MESH_FORCES(CASE)
 #undef CASE

@@ -1,34 +1,35 @@
-/* floor 2: one linear cell of the mesh with its 2^dim material points: forces on its corners from their displacements.
+/* One linear cell of the mesh with its 2^dim material points: forces on its corners from their displacements.
  *
- * Displacements are taken apart into the modes of a linear cell: with s_c = -1 or 1 along each axis for corner c,
+ * Displacements are decomposed into the modes of a linear cell: with s_c = -1 or 1 along each axis for corner c,
  *
  *     mode_M = 2^-(dim - |M|)/h  sum_c (prod_{d in M} s_c,d) u_c        M: a set of axes
  *
- * |M| = 1 is the mean gradient g, larger sets bend the cell. The gradient at a point adds mode_M times its coordinates
- * (+-1/4) along the axes of M but the one derived by. Sums over the points then are closed forms, the same as point by point
- * to round-off: <x^2> = 1/16, <x^2 y^2> = 1/256.
+ * |M| = 1 is the mean gradient g; larger sets are bending modes. Bending mode M adds to the gradient at a point mode_M
+ * times the coordinates (+-1/4) of the point along all axes of M except the axis of differentiation. Sums over the
+ * points are then closed forms, equal to sums point by point up to round-off: <x^2> = 1/16, <x^2 y^2> = 1/256.
  *
- * Finite strain turns with the cell: R is the rotation of its mean gradient F = 1 + g = R U, and the law is linear in the
- * strain of Biot, P = R C : (sym R^T F_p - 1), what bonds do, whose force is linear in their stretch. As R hangs on F, the
- * exact gradient of that energy has one more term: the skew part that balances the moment M = sum V s U_p^T of the
- * turned stresses,  P += R w x,  (tr U - U) w = axial(M - M^T)/V. It vanishes for isotropic constants in the plane; with
- * it energy and angular momentum are exact (tests/unit/mesh/test_mesh.c). */
-#ifndef CLEAVE_MESH_LAW_H
-#define CLEAVE_MESH_LAW_H
+ * At finite strain the axes rotate with the cell: R is the rotation of its mean gradient F = 1 + g = R U, and the law
+ * is linear in the strain of Biot, P = R C : (sym R^T F_p - 1), as the force of a bond is linear in its stretch. Since
+ * R depends on F, the exact gradient of that energy has one more term: the antisymmetric part that balances the moment
+ * M = sum V s U_p^T of the rotated stresses,  P += R w x,  (tr U - U) w = axial(M - M^T)/V. It vanishes for isotropic
+ * constants in the plane; with it energy and angular momentum are exact (tests/unit/mesh/test_mesh.c). */
+#ifndef CLEAVE_KERNELS_MESH_LAW
+#define CLEAVE_KERNELS_MESH_LAW
 
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Eight cells: modes and what belongs to them, in axes that turn with the cell where it turns. */
+/* Modes, strain and stress of eight cells, in axes that rotate with the cell where it rotates. */
 struct mesh_cell {
-    lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3];   /* of sets of two axes and more; energy per volume by mode */
+    /* mode: by set of axes and component [1]; force: derivative of the energy per volume by a bending mode [Pa] */
+    lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3];
     lanes R[3][3], e[3][3], P[3][3];                     /* rotation; strain and stress of the mean gradient        */
 };
 
-/* Loops over sets of axes are written out: what they hold stays in registers. */
+/* Loops over sets of axes are unrolled, so that their values stay in registers. */
 #define SETS _Pragma("GCC unroll 8")
 
-/* ---- modes -------------------------------------------------------------------------------------------- */
+/* ---- modes ------------------------------------------------------------------------------------------------------- */
 
 /* v[M] = sum_c sign v[c], in place. */
 static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
@@ -52,10 +53,11 @@ static ALWAYS_INLINE void corners_of_modes(lanes *v, const int dim)
             }
 }
 
-/* ---- rotation ------------------------------------------------------------------------------------------- */
+/* ---- rotation ---------------------------------------------------------------------------------------------------- */
 
-/* R and R^T F - 1 of F = 1 + g in the plane; cos - 1 by the sine, for strains far below the rotation's round-off. */
-static ALWAYS_INLINE void cell_turn_2d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
+/* R and e = R^T F - 1 of F = 1 + g in the plane. cos - 1 is computed from the sine, to resolve strains far below the
+ * round-off of the rotation. */
+static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     lanes c = 2.0 + g[0][0] + g[1][1], s = g[1][0] - g[0][1];
     const lanes inverse = lanes_inverse_root(c * c + s * s);
@@ -76,8 +78,9 @@ static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
         }
 }
 
-/* Newton's iteration R <- (R + R^-T)/2 (Higham 1986); cells are far from flat, so that few steps are enough. */
-static ALWAYS_INLINE void cell_turn_3d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
+/* R and the symmetric part of e = R^T F - 1 of F = 1 + g in space, by Newton's iteration R <- (R + R^-T)/2 (Higham
+ * 1986); cells are far from flat, so that few steps are enough. */
+static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) R[a][b] = g[a][b] + (a == b ? 1.0 : 0.0);
@@ -91,7 +94,7 @@ static ALWAYS_INLINE void cell_turn_3d(const lanes g[3][3], lanes R[3][3], lanes
                 change = lanes_max(change, by * by);
                 R[a][b] = next;
             }
-        if (!lanes_any(change > 1e-17)) break;   /* the next step would change (3e-9)^2/2: nothing */
+        if (!lanes_any(change > 1e-17)) break;   /* the next step changes R by (3e-9)^2/2: below round-off */
     }
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
@@ -102,8 +105,8 @@ static ALWAYS_INLINE void cell_turn_3d(const lanes g[3][3], lanes R[3][3], lanes
         for (int b = 0; b < a; b++) e[a][b] = e[b][a] = 0.5 * (e[a][b] + e[b][a]);
 }
 
-/* v <- R^T v or R v, components of a vector. */
-static ALWAYS_INLINE void turn_vector(const lanes R[3][3], lanes *v, const bool back, const int dim)
+/* v <- R v if `back`, else R^T v; v [dim] are the components of a vector. */
+static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const bool back, const int dim)
 {
     lanes old[3];
     for (int a = 0; a < dim; a++) old[a] = v[a];
@@ -113,7 +116,7 @@ static ALWAYS_INLINE void turn_vector(const lanes R[3][3], lanes *v, const bool 
     }
 }
 
-/* Adds the skew part to P that balances the moment m[k] (axial, per volume). */
+/* Adds to P the antisymmetric part that balances the moment m[k] (axial, per volume) [Pa]. */
 static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lanes *m, const int dim)
 {
     if (dim == 2) {
@@ -134,9 +137,9 @@ static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lan
     }
 }
 
-/* ---- the law ---------------------------------------------------------------------------------------------- */
+/* ---- constitutive law -------------------------------------------------------------------------------------------- */
 
-/* Stress of the strain e (symmetric). */
+/* Stress P [Pa] of the symmetric strain e. */
 static ALWAYS_INLINE void stress_of(const struct elastic *m, const lanes e[3][3], lanes P[3][3], const int dim)
 {
     for (int a = 0; a < dim; a++) {
@@ -146,22 +149,25 @@ static ALWAYS_INLINE void stress_of(const struct elastic *m, const lanes e[3][3]
     }
 }
 
-/* What bends the cell: derivative of the energy per volume by mode M of component i, in the cell's own axes. The gradient
- * d_j u_i holds mode {j, l} of i times the coordinate along l, and mode {1, 2, 3} of i times both others. */
-static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M, const int i, const int dim)
+/* Derivative of the energy per volume by bending mode M of component i, in the axes of the cell [Pa]. The gradient d_j
+ * u_i contains mode {j, l} of component i times the coordinate along l, and mode {1, 2, 3} of component i times the two
+ * other coordinates. */
+static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M, const int i,
+                                const int dim)
 {
     if (dim == 3 && M == 7) return mode[M][i] * ((m->c11 + 2 * m->shear) / 256);
     if (dim == 2) return mode[M][i] * ((m->c11 + m->shear) / 16);
     const int k = M == 6 ? 0 : M == 5 ? 1 : 2;   /* the axis that is not in M */
-    if (k == i) {                                /* only shears, each with the like mode of another component */
+    if (k == i) {                                /* shears only, coupled to two modes of other components */
         const lanes trace = mode[6][0] + mode[5][1] + mode[3][2];
         return (mode[M][i] + trace) * (m->shear / 16);
     }
     return (mode[M][i] * (m->c11 + m->shear) + mode[7 & ~(1 << i)][k] * m->c12) * (1.0 / 16);
 }
 
-/* Strain and modes of displacements u[c][i] of the corners. */
-static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3], const int dim, const bool turns)
+/* Strain and modes of the displacements u[c][i] of the corners [m]. */
+static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3], const int dim,
+                                      const bool rotates)
 {
     const int corners = 1 << dim;
     lanes g[3][3];
@@ -169,22 +175,23 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
         lanes v[CORNERS_MAX];
         for (int c = 0; c < corners; c++) v[c] = u[c][i];
         modes_of_corners(v, dim);
-        SETS for (int M = 1; M < corners; M++) s->mode[M][i] = v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
+        SETS for (int M = 1; M < corners; M++) s->mode[M][i] =
+            v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
         for (int b = 0; b < dim; b++) g[i][b] = s->mode[1 << b][i];
     }
-    lanes R[3][3], e[3][3];                      /* of their own: Newton's loop keeps them in registers */
-    if (turns && dim == 2) cell_turn_2d(g, R, e);
-    if (turns && dim == 3) cell_turn_3d(g, R, e);
+    lanes R[3][3], e[3][3];                      /* local, so that Newton's loop keeps them in registers */
+    if (rotates && dim == 2) cell_rotation_2d(g, R, e);
+    if (rotates && dim == 3) cell_rotation_3d(g, R, e);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) {
-            s->e[a][b] = turns ? e[a][b] : 0.5 * (g[a][b] + g[b][a]);
-            if (turns) s->R[a][b] = R[a][b];
+            s->e[a][b] = rotates ? e[a][b] : 0.5 * (g[a][b] + g[b][a]);
+            if (rotates) s->R[a][b] = R[a][b];
         }
-    SETS for (int M = 1; M < corners && turns; M++)
-        if (M & (M - 1)) turn_vector(s->R, s->mode[M], false, dim);
+    SETS for (int M = 1; M < corners && rotates; M++)
+        if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
 }
 
-/* What whole cells answer. */
+/* Stress and forces on the bending modes of whole cells [Pa]. */
 static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
     stress_of(m, s->e, s->P, dim);
@@ -192,9 +199,10 @@ static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s,
         if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = bend(m, s->mode, M, i, dim);
 }
 
-/* A bound of the largest principal stress at the points of cells with all their stress P: of the mean the largest normal
- * stress and all shears (Gershgorin), and all that bends. */
-static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct mesh_cell *s, const lanes P[3][3], const int dim)
+/* Bound of the largest principal stress at the points of cells [Pa]: of the mean stress P the largest normal stress and
+ * all shear stresses (Gershgorin), plus the sum of all bending modes. */
+static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct mesh_cell *s, const lanes P[3][3],
+                                        const int dim)
 {
     lanes largest = lanes_of(0), bound = P[0][0];
     SETS for (int M = 1; M < 1 << dim; M++)
@@ -205,7 +213,7 @@ static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct me
     return bound + largest * ((m->c11 + m->shear) * 0.25);
 }
 
-/* Energy that the cells store [J]. */
+/* Elastic energy of the cells [J]. */
 static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, const int dim)
 {
     lanes energy = lanes_of(0);
@@ -217,8 +225,9 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
     return energy * (0.5 * volume);
 }
 
-/* Balances the moment of stresses, axial parts of sum P U^T over all modes, U = 1 + e of the mean, and what is in `moment` already
- * [Pa]: of bonds whose ends turn with the cell. */
+/* Adds to P the antisymmetric part that balances the moment of the stresses, axial parts of sum P U^T over all modes
+ * with U = 1 + e of the mean strain, and the moment already in `moment` [Pa], of bonds whose ends rotate with the
+ * cell. */
 static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
@@ -230,7 +239,7 @@ static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const
     add_skew(s->P, s->e, moment, dim);
 }
 
-/* Moments alone where strain is small: the rotation is the skew part of the gradient. */
+/* Balances the moments of bonds alone, at small strain: the rotation is the antisymmetric part of the gradient. */
 static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, const int dim)
 {
     lanes none[3][3];
@@ -239,19 +248,19 @@ static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, co
     add_skew(s->P, none, moment, dim);
 }
 
-/* Forces f [N] on the corners, turned back. */
+/* Forces f [N] on the corners, rotated back from the axes of the cell. */
 static ALWAYS_INLINE void cell_corners(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3], const int dim,
-                                       const bool turns)
+                                       const bool rotates)
 {
     const int corners = 1 << dim;
-    for (int b = 0; b < dim && turns; b++) {
+    for (int b = 0; b < dim && rotates; b++) {
         lanes column[3];
         for (int a = 0; a < dim; a++) column[a] = s->P[a][b];
-        turn_vector(s->R, column, true, dim);
+        rotate_vector(s->R, column, true, dim);
         for (int a = 0; a < dim; a++) s->P[a][b] = column[a];
     }
-    SETS for (int M = 1; M < corners && turns; M++)
-        if (M & (M - 1)) turn_vector(s->R, s->force[M], true, dim);
+    SETS for (int M = 1; M < corners && rotates; M++)
+        if (M & (M - 1)) rotate_vector(s->R, s->force[M], true, dim);
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         v[0] = lanes_of(0);

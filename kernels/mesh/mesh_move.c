@@ -1,11 +1,11 @@
-/* floor 2: nodes of the mesh move. */
+/* Motion of the nodes of the mesh: velocities and displacements, walls, and mirror nodes. */
 #include <math.h>
 
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* What held components do to their nodes: the force becomes what the prescribed motion needs. Walls of one component follow
- * each other; their sums join the totals at the end. */
+/* Replaces the force on constrained components by that of the prescribed motion, and adds the impulse [N s] and the
+ * work [J] of the walls. The walls of one component are consecutive; their sums are added to the totals at the end. */
 static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
@@ -28,7 +28,8 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
     }
 }
 
-/* What round-off left. */
+/* Sets constrained components to the prescribed velocity exactly: removes what round-off left in velocity and
+ * displacement. */
 static void walls_move(struct mesh *mesh, real dt)
 {
     const struct grid *g = &mesh->grid;
@@ -50,8 +51,9 @@ void mesh_clear(struct mesh *mesh)
                 lanes_store(mesh->grid.force[d] + I, lanes_of(0));
 }
 
-/* Nodes of a row move, in whole vectors: what lies behind them has neither force nor mass and stays at rest. Returns the
- * largest component of a velocity, squared. Maxima drop what is no number: a sum keeps it. */
+/* Moves the nodes of a row, in whole vectors: entries beyond the last node have neither force nor mass and stay at
+ * rest. Returns the largest velocity component, squared [m^2/s^2], INFINITY where one is not finite: maxima drop NaN,
+ * so a sum over all components detects it. */
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
@@ -74,13 +76,14 @@ static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
     return isfinite(all) ? largest : INFINITY;
 }
 
-/* A node beyond a mirror half-way between two moves as its image (grid_move.c): for the step the image has the mass and the
- * force of both. Few, in order, on one thread: several may share an image. */
-static void folds_in(struct mesh *mesh, real dt_velocity)
+/* A node beyond a mirror plane that lies half-way between two nodes moves as its image (grid_move.c): for the step the
+ * image has the mass and the force of both. Mirror nodes are few and several may share an image: one thread, in
+ * order. */
+static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
 {
     struct grid *g = &mesh->grid;
-    for (int64_t k = 0; k < g->folds; k++) {
-        struct fold *f = &g->fold[k];
+    for (int64_t k = 0; k < g->mirror_nodes; k++) {
+        struct mirror_node *f = &g->mirror_node[k];
         f->mass = g->mass[f->node];
         if (f->mass <= 0) continue;
         f->image_mass = g->mass[f->image], f->image_inverse = mesh->inverse_mass[f->image];
@@ -94,13 +97,14 @@ static void folds_in(struct mesh *mesh, real dt_velocity)
     }
 }
 
-/* The masses as they were, of the force to each its own share, and what the mirror gave: to a component that turns round as much at
- * the node as at its image. */
-static void folds_out(struct mesh *mesh, real impulse[DIM_MAX])
+/* Restores the masses, divides the force between node and image by their masses, gives the mirror node the reflected
+ * motion, and computes the reaction of the mirror: a component that changes sign counts twice, for the node and for its
+ * image. */
+static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
 {
     struct grid *g = &mesh->grid;
-    for (int64_t k = g->folds - 1; k >= 0; k--) {        /* the other way round: to the same bits */
-        struct fold *f = &g->fold[k];
+    for (int64_t k = g->mirror_nodes - 1; k >= 0; k--) {        /* reverse order restores masses to the bit */
+        struct mirror_node *f = &g->mirror_node[k];
         const real both = g->mass[f->image];
         if (f->mass > 0) g->mass[f->image] = f->image_mass, mesh->inverse_mass[f->image] = f->image_inverse;
         for (int d = 0; d < g->dim; d++) {
@@ -120,12 +124,12 @@ static void folds_out(struct mesh *mesh, real impulse[DIM_MAX])
 real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     real most = 0;
-    folds_in(mesh, dt_velocity);
+    mesh_mirror_nodes_gather(mesh, dt_velocity);
     walls_force(mesh, dt_velocity, impulse, work);
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t r = 0; r < mesh->rows; r++)
         most = real_max(most, row_move(mesh, r, dt, dt_velocity));
     walls_move(mesh, dt);
-    folds_out(mesh, impulse);
+    mesh_mirror_nodes_spread(mesh, impulse);
     return sqrt(most);
 }

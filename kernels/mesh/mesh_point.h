@@ -1,14 +1,17 @@
-/* floor 2: what the material points of one cell of a mesh have by its nodes, plainly: what the closed forms of mesh_law.h add up.
+/* Displacement gradient, strain and stress at each material point of one cell of a mesh, point by point; mesh_law.h has
+ * the sums over the points in closed form.
  *
- * Points lie at a quarter and three quarters along every axis: from corners to points, and from points to corners, values go
- * by one axis after the other, near + (far - near)/4. A quarter is exact: all ways to a point give the same bits. */
-#ifndef CLEAVE_MESH_POINT_H
-#define CLEAVE_MESH_POINT_H
+ * Points lie at a quarter and three quarters along every axis. Values are interpolated from corners to points, and
+ * distributed from points to corners, along one axis after the other, near + (far - near)/4. The factor 1/4 is exact,
+ * so that mesh_places and mesh_place_value give the same bits. */
+#ifndef CLEAVE_KERNELS_MESH_POINT
+#define CLEAVE_KERNELS_MESH_POINT
 
 #include "kernels/kernels.h"
 #include "kernels/pd/polar.h"
 #include "kernels/mpm/stress.h"
 
+/* Replaces the values at both ends of an edge by those at a quarter and at three quarters. */
 static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
 {
     const real by = 0.25 * (*high - *low), near = *low + by;
@@ -16,7 +19,8 @@ static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
     *low = near;
 }
 
-/* Values at the corners to values at the places, in place; and, the matrix being symmetric, shares of places to corners. */
+/* Interpolates values v [2^dim] from the corners to the places, in place. The matrix is symmetric, so that the same
+ * call distributes values of the places to the corners. */
 static ALWAYS_INLINE void mesh_places(real *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -24,7 +28,7 @@ static ALWAYS_INLINE void mesh_places(real *v, const int dim)
             if (!(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
 }
 
-/* The value at place q alone. */
+/* Value at place q alone from the values v [2^dim] at the corners; overwrites v. */
 static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -42,8 +46,9 @@ static ALWAYS_INLINE void mesh_corners(const struct mesh *mesh, const real *fiel
     for (int c = 0; c < 1 << dim; c++) v[c] = field[I + mesh->corner[c]];
 }
 
-/* Gradients of the displacement at the places of cell I, row major. */
-static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, real g[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+/* Gradients of the displacement at the places of cell I, row major [1]. */
+static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, real g[CORNERS_MAX][DIM_MAX * DIM_MAX],
+                                         const int dim)
 {
     const real inverse = 1 / mesh->grid.h;
     for (int a = 0; a < dim; a++) {
@@ -61,10 +66,10 @@ static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, rea
     }
 }
 
-/* e = R^T F_p - 1 at the places of cell I, R the rotation of its mean gradient (1 at small strain). Row major; only the
- * symmetric part is strain. */
-static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real *R, real e[CORNERS_MAX][DIM_MAX * DIM_MAX],
-                                       const int dim, bool finite)
+/* e = R^T F_p - 1 at the places of cell I, R the rotation of its mean gradient (the identity at small strain). Row
+ * major; only the symmetric part is strain. */
+static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real *R,
+                                       real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX], mean[DIM_MAX * DIM_MAX];
     mesh_gradients(mesh, I, g, dim);
@@ -88,7 +93,7 @@ static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real 
             }
 }
 
-/* C : sym e, symmetric components. */
+/* Stress C : sym e, symmetric components [Pa]. */
 static ALWAYS_INLINE void mesh_point_stress(const struct elastic *m, const real *e, real *s, const int dim)
 {
     for (int a = 0; a < dim; a++) {

@@ -1,16 +1,18 @@
-/* floor 2: what the material points of a mesh know: their motion, their stress, and whether it asks for conversion. */
+/* The material points of a mesh: their motion, their stress, and the mark for conversion. */
 #include "mesh_cut.h"
 #include "mesh_point.h"
 #include "mesh_run.h"
-#include "kernels/pd/turn.h"
+#include "kernels/pd/rotation.h"
 
-/* One body for every number of axes; the parallel region stands in each instance. */
+/* One body for all dimensions; the parallel region is inside each instance. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
-/* ---- motion ------------------------------------------------------------------------------------------------- */
+/* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Of the points at the places set in `places`: u_p = sum N u_I, v_p = sum N v_I with constant weights. */
-static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places, const int dim)
+/* Moves the points of cell I whose places are set in `places`: u_p = sum N u_I, v_p = sum N v_I with constant
+ * weights. */
+static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places,
+                                    const int dim)
 {
     const int32_t *point = &mesh->point[I << dim];
     for (int a = 0; a < dim; a++) {
@@ -28,6 +30,7 @@ static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p
     }
 }
 
+/* Moves point i alone. */
 static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *p, int64_t i, const int dim)
 {
     const int64_t I = mesh->place[i] >> dim;
@@ -43,21 +46,21 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
 
 enum { FEW = 128 };                      /* cells whose points one thread moves in less time than a team */
 
-#define MOVE(D)                                                                                                      \
-    static void all_move_##D(const struct mesh *mesh, struct particles *p)                                           \
-    {                                                                                                                \
-        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                      \
-            if (mesh->kind[I]) cell_move(mesh, p, I, ~0u, D);                                                        \
-    }                                                                                                                \
-    static void seen_move_##D(const struct mesh *mesh, struct particles *p)                                          \
-    {                                                                                                                \
-        TEAM_LOOP(mesh->seen > FEW, for (int64_t k = 0; k < mesh->seen; k++)                                         \
-            cell_move(mesh, p, mesh->see[k].cell, mesh->see[k].places, D););                                         \
-    }                                                                                                                \
-    static void points_move_##D(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)        \
-    {                                                                                                                \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < n; k++)                                 \
-            if (mesh->place[list[k]] >= 0) point_move(mesh, p, list[k], D);                                          \
+#define MOVE(D)                                                                                                        \
+    static void all_move_##D(const struct mesh *mesh, struct particles *p)                                             \
+    {                                                                                                                  \
+        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                        \
+            if (mesh->kind[I]) cell_move(mesh, p, I, ~0u, D);                                                          \
+    }                                                                                                                  \
+    static void seen_move_##D(const struct mesh *mesh, struct particles *p)                                            \
+    {                                                                                                                  \
+        TEAM_LOOP(mesh->exposed > FEW, for (int64_t k = 0; k < mesh->exposed; k++)                                     \
+            cell_move(mesh, p, mesh->exposed_list[k].cell, mesh->exposed_list[k].places, D););                         \
+    }                                                                                                                  \
+    static void points_move_##D(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)          \
+    {                                                                                                                  \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < n; k++)                                   \
+            if (mesh->place[list[k]] >= 0) point_move(mesh, p, list[k], D);                                            \
     }
 DIMENSIONS(MOVE)
 
@@ -68,7 +71,7 @@ void mesh_points_move(const struct mesh *mesh, struct particles *p)
     else all_move_3(mesh, p);
 }
 
-void mesh_seen_move(const struct mesh *mesh, struct particles *p)
+void mesh_exposed_move(const struct mesh *mesh, struct particles *p)
 {
     if (p->dim == 1) seen_move_1(mesh, p);
     else if (p->dim == 2) seen_move_2(mesh, p);
@@ -82,13 +85,14 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
     else points_move_3(mesh, p, list, n);
 }
 
-/* ---- what points at the end of bonds know ------------------------------------------------------------------- */
+/* ---- points at the ends of bonds --------------------------------------------------------------------------------- */
 
-/* Rotations of the cells of a group, as particles.end_turn has them; where strain is small by the skew part of the gradient. */
-static ALWAYS_INLINE void cells_turn(const struct mesh_cell *s, lanes *turn, const int dim, const bool turns)
+/* Rotations of the cells of a group, in the layout of particles.end_rotation; at small strain by the antisymmetric part
+ * of the gradient. */
+static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
 {
     lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_of(0);
-    for (int a = 0; a < dim && turns; a++)
+    for (int a = 0; a < dim && rotates; a++)
         for (int b = 0; b < dim; b++) R[a * dim + b] = s->R[a][b];
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -96,59 +100,64 @@ static ALWAYS_INLINE void cells_turn(const struct mesh_cell *s, lanes *turn, con
         square += w[k] * w[k];
     }
     if (dim == 2) {
-        turn[0] = turns ? R[0] - 1.0 : -2.0 * square / (1.0 + square);
-        turn[1] = turns ? R[2] : 2.0 * w[2] / (1.0 + square);
+        rotation[0] = rotates ? R[0] - 1.0 : -2.0 * square / (1.0 + square);
+        rotation[1] = rotates ? R[2] : 2.0 * w[2] / (1.0 + square);
         return;
     }
-    if (turns) {
-        turn_make(turn, R, lanes_of(0.5), 3);
+    if (rotates) {
+        rotation_make(rotation, R, lanes_of(0.5), 3);
         return;
     }
-    turn[3] = lanes_inverse_root(1.0 + square);
-    for (int k = 0; k < 3; k++) turn[k] = w[k] * turn[3];
+    rotation[3] = lanes_inverse_root(1.0 + square);
+    for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-static ALWAYS_INLINE void group_ends_know(const struct mesh *mesh, struct particles *p, int64_t group, const int dim, const bool finite)
+/* Sets end_strain and end_rotation of the points at the ends of bonds in a group of partial cells. */
+static ALWAYS_INLINE void row_block_ends_update(const struct mesh *mesh, struct particles *p, int64_t group,
+                                                const int dim, const bool finite)
 {
     struct mesh_cell s;
-    lanes u[CORNERS_MAX][3], v[MODES_MAX], turn[ROTATION];
+    lanes u[CORNERS_MAX][3], v[MODES_MAX], rotation[ROTATION];
     const int n = mesh_modes(dim);
     if (mesh->ends[group] == mesh->ends[group + 1]) return;
     mesh_cut_load(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, finite);
     cut_modes(&s, v, dim);
-    if (p->end_turn[0]) cells_turn(&s, turn, dim, finite);
+    if (p->end_rotation[0]) cells_rotate(&s, rotation, dim, finite);
     for (int32_t k = mesh->ends[group]; k < mesh->ends[group + 1]; k++) {
         const struct mesh_end *end = &mesh->end[k];
         const real *share = mesh->end_share + (int64_t)k * n;
         real strain = 0;
         for (int m = 0; m < n; m++) strain += share[m] * v[m][end->lane];
         p->end_strain[end->point] = strain;
-        for (int c = 0; p->end_turn[0] && c < (dim == 2 ? 2 : ROTATION); c++) p->end_turn[c][end->point] = turn[c][end->lane];
+        for (int c = 0; p->end_rotation[0] && c < (dim == 2 ? 2 : ROTATION); c++)
+            p->end_rotation[c][end->point] = rotation[c][end->lane];
     }
 }
 
-#define ENDS(D, FINITE)                                                                                              \
-    static void ends_know_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
-    {                                                                                                                \
-        TEAM_LOOP(mesh_groups(mesh) > FEW / LANES, for (int64_t k = 0; k < mesh_groups(mesh); k++)                   \
-            group_ends_know(mesh, p, k, D, FINITE););                                                                \
+#define ENDS(D, FINITE)                                                                                                \
+    static void ends_know_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                                 \
+    {                                                                                                                  \
+        TEAM_LOOP(mesh_groups(mesh) > FEW / LANES, for (int64_t k = 0; k < mesh_groups(mesh); k++)                     \
+            row_block_ends_update(mesh, p, k, D, FINITE););                                                            \
     }
 ENDS(2, false)
 ENDS(2, true)
 ENDS(3, false)
 ENDS(3, true)
 
-void mesh_ends_know(const struct mesh *mesh, struct particles *p, bool finite)
+void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 {
     if (!mesh->ends) return;
     if (p->dim == 2) (finite ? ends_know_2_true : ends_know_2_false)(mesh, p);
     if (p->dim == 3) (finite ? ends_know_3_true : ends_know_3_false)(mesh, p);
 }
 
-/* ---- what points take ---------------------------------------------------------------------------------------- */
+/* ---- forces of points -------------------------------------------------------------------------------------------- */
 
-static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places, const int dim)
+/* Adds the forces of the points of cell I whose places are set in `places` to its nodes. */
+static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places,
+                                    const int dim)
 {
     const int32_t *point = &mesh->point[I << dim];
     for (int a = 0; a < dim; a++) {
@@ -159,21 +168,21 @@ static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p
     }
 }
 
-void mesh_seen_force(struct mesh *mesh, const struct particles *p)
+void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 {
-    for (int64_t k = 0; k < mesh->seen; k++) {   /* few, and several share a node: in order */
-        const struct mesh_seen s = mesh->see[k];
+    for (int64_t k = 0; k < mesh->exposed; k++) {   /* few, and cells share nodes: in order */
+        const struct mesh_exposed s = mesh->exposed_list[k];
         if (p->dim == 1) cell_pull(mesh, p, s.cell, s.places, 1);
         else if (p->dim == 2) cell_pull(mesh, p, s.cell, s.places, 2);
         else cell_pull(mesh, p, s.cell, s.places, 3);
     }
 }
 
-/* ---- stress -------------------------------------------------------------------------------------------------- */
+/* ---- stress ------------------------------------------------------------------------------------------------------ */
 
-/* Cauchy stress R sym(s U) R^T/det U of a point with the strain e, and its volume. */
-static ALWAYS_INLINE void point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R, const real *e,
-                                       const int dim, bool finite)
+/* Stores the Cauchy stress R sym(s U) R^T/det U of point i with the strain e, and at finite strain its volume. */
+static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R,
+                                            const real *e, const int dim, bool finite)
 {
     const int n = symmetric_count(dim);
     real s[SYM_MAX], S[9], T[9], det = 1;
@@ -216,15 +225,15 @@ static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles 
     mesh_strains(mesh, I, R, e, dim, finite);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
-        if (i >= 0) point_stress(p, &m[p->material[i]], i, R, e[q], dim, finite);
+        if (i >= 0) store_point_stress(p, &m[p->material[i]], i, R, e[q], dim, finite);
     }
 }
 
-#define STRESS(D)                                                                                                    \
-    static void stress_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)       \
-    {                                                                                                                \
-        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                      \
-            if (mesh->kind[I]) cell_stress(mesh, p, m, I, D, finite);                                                \
+#define STRESS(D)                                                                                                      \
+    static void stress_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)         \
+    {                                                                                                                  \
+        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                        \
+            if (mesh->kind[I]) cell_stress(mesh, p, m, I, D, finite);                                                  \
     }
 DIMENSIONS(STRESS)
 
@@ -235,7 +244,7 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
     else stress_3(mesh, p, m, finite);
 }
 
-/* ---- conversion ------------------------------------------------------------------------------------------- */
+/* ---- conversion -------------------------------------------------------------------------------------------------- */
 
 /* Marks the points of a cell whose largest principal stress passes the trigger. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
@@ -252,7 +261,8 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
     }
 }
 
-/* Strain of eight cells at place q: the mean, and what bends times the place's coordinates +-1/4. */
+/* Strain of eight cells at place q: the mean strain, plus the bending modes times the coordinates +-1/4 of the
+ * place. */
 static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
 {
     for (int i = 0; i < dim; i++)
@@ -268,9 +278,10 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
         }
 }
 
-/* A bound of the largest principal stress, closer than that of mesh_force: place by place, where there are points (`there`,
- * NULL: everywhere). */
-static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there, const int dim)
+/* Bound of the largest principal stress [Pa], closer than that of mesh_force: place by place, where `there` is set
+ * (NULL: at all places). */
+static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
+                                         const int dim)
 {
     lanes most = lanes_of(-INFINITY), e[3][3], P[3][3];
     SETS for (int q = 0; q < 1 << dim; q++) {
@@ -285,8 +296,9 @@ static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct m
     return most;
 }
 
-/* Does a cell hold points of another material? */
-static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct particles *p, int64_t I, uint8_t material, const int dim)
+/* Does cell I hold points of another material than `material`? */
+static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct particles *p, int64_t I, uint8_t material,
+                                     const int dim)
 {
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
@@ -295,6 +307,7 @@ static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct parti
     return false;
 }
 
+/* Marks the points past their trigger in a run; cells are tested point by point where the bound exceeds the trigger. */
 static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, const int dim, const bool finite)
 {
@@ -310,21 +323,25 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
     }
 }
 
-static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t group,
-                                     const int dim, const bool finite)
+/* Marks the points past their trigger in a group of partial cells; a bound by the material of the cell decides which
+ * cells are tested point by point, and mixed cells always are. */
+static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
+                                     int64_t group, const int dim, const bool finite)
 {
     const int64_t first = group * LANES;
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], tension = lanes_of(0);
     lanes_mask there[CORNERS_MAX] = {{0}};
     for (int q = 0; q < 1 << dim; q++)
-        for (int l = 0; l < LANES; l++) there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->cut[first + l] << dim) + q] >= 0);
+        for (int l = 0; l < LANES; l++)
+            there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->cut[first + l] << dim) + q] >= 0);
     mesh_cut_load(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
     for (int64_t k = first; k < first + LANES && k < mesh->cuts; k++) {
         const uint8_t material = mesh->cut_material[k];
         if (k == first || material != mesh->cut_material[k - 1]) tension = cells_tension(&m[material], &s, there, dim);
-        if (mesh->cut_stressed[k] && (tension[k - first] > m[material].trigger || cell_mixed(mesh, p, mesh->cut[k], material, dim)))
+        if (mesh->cut_stressed[k] &&
+            (tension[k - first] > m[material].trigger || cell_mixed(mesh, p, mesh->cut[k], material, dim)))
             cell_mark(mesh, p, m, mesh->cut[k], dim, finite);
     }
 }
@@ -336,13 +353,13 @@ static inline bool group_stressed(const struct mesh *mesh, int64_t group)
     return any;
 }
 
-#define MARK(D, FINITE)                                                                                              \
-    static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)     \
-    {                                                                                                                \
-        for (int64_t k = 0; k < mesh_groups(mesh); k++)                                                              \
-            if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                       \
-        for (int64_t r = 0; r < mesh->runs; r++)                                                                     \
-            if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                               \
+#define MARK(D, FINITE)                                                                                                \
+    static void cells_mark_##D##_##FINITE(const struct mesh *mesh, struct particles *p, const struct elastic *m)       \
+    {                                                                                                                  \
+        for (int64_t k = 0; k < mesh_groups(mesh); k++)                                                                \
+            if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                         \
+        for (int64_t r = 0; r < mesh->runs; r++)                                                                       \
+            if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                                 \
     }
 MARK(1, false)
 MARK(2, false)

@@ -1,15 +1,15 @@
-/* floor 2: nodes to points at the end of the step: position, velocity gradient, stress, volume, and the mark of a point
- * whose largest principal stress passed the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49, corrected:
- * L from the second map, rotation W sigma - sigma W).
- *     FLIP (MUSL)  x += dt sum N v_I,  L = sum v2_I (x) grad N  with the velocity v2 of the second map
- *     and bonds    x += dt sum N v2_I
- *     APIC         v = sum N v_I, x += dt v,  L = sum v_I (x) grad N
- * Eq. 40 moves all with v_I. Forces of bonds reach points through N M^-1 N^T, whose adjoint in the mass is the second map: where
- * bonds ask for places, v2 makes the linear step the leap-frog of one energy; with v_I each displacement has
- * dt^2 (1 - N M^-1 N^T m) N M^-1 f more, and bonds gain energy from stress. Nothing linear asks where other points are, but
- * weights follow them in long runs: a free plate of GIMP that turns loses a tenth of its energy in 1e5 steps with v_I, and gains
- * 40 % with v2 (bench/stability/failing_motion.c).
- * Every point is written by one thread. */
+/* Grid to particles (G2P): position, velocity gradient, stress and volume of the material points at the end of the
+ * step, and FLAG_STRESSED where the largest principal stress exceeds the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49,
+ * corrected: L from the second map, rotation W sigma - sigma W).
+ *     FLIP (MUSL)    x += dt sum N v_I,   L = sum v2_I (x) grad N   with the velocity v2 of the second map
+ *       with bonds   x += dt sum N v2_I   for points at which bonds end
+ *     APIC           v = sum N v_I,   x += dt v,   L = sum v_I (x) grad N
+ * Eq. 40 moves all points with v_I. Bond forces act on points through N M^-1 N^T, whose adjoint in the mass is the
+ * second map. Where bonds depend on the positions of points, motion with v2 makes the linear step the leap-frog scheme
+ * of one energy; with v_I each displacement has the extra term dt^2 (1 - N M^-1 N^T m) N M^-1 f, and bonds gain energy
+ * from the stress. For points without bonds no linear term depends on their positions, but the weights follow the
+ * positions in long runs: a free rotating plate with GIMP shapes loses a tenth of its energy in 1e5 steps with v_I, and
+ * gains 40 % with v2 (bench/stability/limits_motion.c). Each point is written by one thread. */
 #include "kernels/kernels.h"
 #include "plastic.h"
 #include "scatter.h"
@@ -17,7 +17,8 @@
 #include "stress.h"
 #include "kernels/simd/variants.h"
 
-/* Constants of the points, of one material as a rule. */
+/* Elastic constants of the points in a vector [Pa]. Usually all points have one material; other materials are filled in
+ * lane by lane. */
 static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p, const struct transfer_data *t,
                                                       const int32_t *point, const int dim)
 {
@@ -33,10 +34,12 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
     return m;
 }
 
-/* Stress and volume; volume follows tr eps of the space; in plane stress the strain through the thickness is
- * left out (below 1 % strain it changes the volume by less than 0.5 %). */
-static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, const struct elastic_points *m,
-                                        const int32_t *point, const row_of_points *L, const int dim, const enum shape shape)
+/* Updates stress [Pa], volume [m^3] and the stretches of cpGIMP from the velocity gradient L [1/s], and sets
+ * FLAG_STRESSED. The volume follows the trace of the strain in the space; in plane stress the strain through the
+ * thickness is left out (below 1 % strain it changes the volume by less than 0.5 %). */
+static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t,
+                                        const struct elastic_points *m, const int32_t *point, const row_of_points *L,
+                                        const int dim, const enum shape shape)
 {
     const int n = dim * (dim + 1) / 2;
     row_of_points stress[SYM_MAX];
@@ -57,21 +60,24 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
     }
 }
 
-/* Rotations of points that may be ends of bonds, by the spin of the step (Cayley). */
-static ALWAYS_INLINE void points_turn(struct particles *p, const int32_t *point, const row_of_points *L, real dt, const int dim)
+/* Rotates particles.end_rotation, of points that may be ends of bonds, by the spin of the step (Cayley transform). */
+static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *point, const row_of_points *L, real dt,
+                                        const int dim)
 {
     if (dim == 2) {
         const row_of_points half = 0.25 * dt * (L[2] - L[1]), scale = 2.0 / (1.0 + half * half);
         const row_of_points less = -half * half * scale, sine = half * scale;          /* cos - 1, sin */
-        const row_of_points a = points_load(p->end_turn[0], point, dim), b = points_load(p->end_turn[1], point, dim);
-        points_store(p->end_turn[0], point, a + less + a * less - b * sine, dim);
-        points_store(p->end_turn[1], point, b + b * less + (1.0 + a) * sine, dim);
+        const row_of_points a = points_load(p->end_rotation[0], point, dim),
+                            b = points_load(p->end_rotation[1], point, dim);
+        points_store(p->end_rotation[0], point, a + less + a * less - b * sine, dim);
+        points_store(p->end_rotation[1], point, b + b * less + (1.0 + a) * sine, dim);
         return;
     }
     const row_of_points w[3] = {0.25 * dt * (L[7] - L[5]), 0.25 * dt * (L[2] - L[6]), 0.25 * dt * (L[3] - L[1])};
     row_of_points q[ROTATION], next[ROTATION];
-    for (int c = 0; c < ROTATION; c++) q[c] = points_load(p->end_turn[c], point, dim);
-    for (int k = 0; k < 3; k++) next[k] = q[k] + q[3] * w[k] + w[(k + 1) % 3] * q[(k + 2) % 3] - w[(k + 2) % 3] * q[(k + 1) % 3];
+    for (int c = 0; c < ROTATION; c++) q[c] = points_load(p->end_rotation[c], point, dim);
+    for (int k = 0; k < 3; k++)
+        next[k] = q[k] + q[3] * w[k] + w[(k + 1) % 3] * q[(k + 2) % 3] - w[(k + 2) % 3] * q[(k + 1) % 3];
     next[3] = q[3] - w[0] * q[0] - w[1] * q[1] - w[2] * q[2];
     row_of_points size2 = points_of(0);
     for (int c = 0; c < ROTATION; c++) size2 += next[c] * next[c];
@@ -79,11 +85,12 @@ static ALWAYS_INLINE void points_turn(struct particles *p, const int32_t *point,
         const real inverse = 1 / sqrt(size2[k]);
         for (int c = 0; c < ROTATION; c++) next[c][k] *= inverse;
     }
-    for (int c = 0; c < ROTATION; c++) points_store(p->end_turn[c], point, next[c], dim);
+    for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* What the trial stress has beyond the yield surface becomes plastic strain; the mark is that of the stress that stays.
- * Last of all and on what is stored, so that points that cannot yield keep their registers. */
+/* Return mapping of point i: the part of the trial stress beyond the yield surface becomes plastic strain.
+ * FLAG_STRESSED is cleared where the returned stress does not exceed the trigger. Runs last and on stored values, so
+ * that points that cannot yield keep their values in registers. */
 static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -98,9 +105,9 @@ static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic 
     if (!(stress_principal(stress, dim) > m->trigger)) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
-/* Returns which points left their cell, a bit each. */
+/* Adds `step` [m] to the positions of the points. Returns a bit mask of the points that left their cell. */
 static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
-                                     const struct stencil *s, const row_of_points *step, const int dim)
+                                     const struct cell_stencil *s, const row_of_points *step, const int dim)
 {
     points_mask inside = (points_mask){0} - 1;
     for (int d = 0; d < dim; d++) {
@@ -112,18 +119,19 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_signs((row_of_points)~inside);
 }
 
-/* -1 of points that bonds meet, 1 of others. */
+/* -1 for points at which bonds end and, with momentum_only, for all points; 1 for the others. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
-    row_of_points bonded = points_of(t->bare ? -1 : 1);
-    for (int k = 0; t->bonded && !t->bare && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
+    row_of_points bonded = points_of(t->momentum_only ? -1 : 1);
+    for (int k = 0; t->bonded && !t->momentum_only && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
     return bonded;
 }
 
-/* Velocity and its gradient at the points. Nodes of a row are added up first: all share the weights across. */
-static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct stencil *s,
-                                        const row_of_points bonded, row_of_points *velocity, row_of_points *L, const int dim,
-                                        const enum shape shape, const enum transfer transfer)
+/* Velocity [m/s] and velocity gradient L [1/s] at the points. The nodes of a row are added first, since they share the
+ * weight of the directions across the row. */
+static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
+                                        const row_of_points bonded, row_of_points *velocity, row_of_points *L,
+                                        const int dim, const enum shape shape, const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
     const bool any = transfer == TRANSFER_FLIP && points_signs(bonded) != 0;
@@ -133,7 +141,8 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
         const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
         const int64_t I = cell_row(c, g, k1, k2, dim);
         for (int d = 0; d < dim; d++) {
-            const real *moving = g->velocity[d] + I, *straining = transfer == TRANSFER_APIC ? moving : g->momentum[d] + I;
+            const real *moving = g->velocity[d] + I,
+                       *straining = transfer == TRANSFER_APIC ? moving : g->momentum[d] + I;
             row_of_points moved = points_of(0), strained = points_of(0), slope[2] = {points_of(0), points_of(0)};
             FOR_NODES(dim, shape) {
                 const int64_t node = row_node(g, k, dim, shape);
@@ -148,22 +157,22 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
     }
 }
 
-/* Returns how many of the n points, at most AT_ONCE, left the cell. */
+/* Updates the n listed points, at most AT_ONCE, of cell c. Returns how many left the cell. */
 static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                     const enum shape shape, const enum transfer transfer)
 {
-    struct stencil s;
+    struct cell_stencil s;
     row_of_points velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
-    stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
+    cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
     points_gather(g, c, &s, points_bonded(t, s.point, dim), velocity, L, dim, shape, transfer);
     if (transfer == TRANSFER_APIC) {
         for (int d = 0; d < dim; d++) points_store(p->v[d], s.point, velocity[d], dim);
         for (int k = 0; k < dim * dim; k++) points_store(p->gradient[k], s.point, L[k], dim);
     }
     const struct elastic_points m = elastic_of(p, t, s.point, dim);
-    if (!t->bare) points_strain(p, t, &m, s.point, L, dim, shape);
-    if (dim > 1 && __builtin_expect(p->end_turn[0] != NULL, 0)) points_turn(p, s.point, L, t->dt, dim);
+    if (!t->momentum_only) points_strain(p, t, &m, s.point, L, dim, shape);
+    if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, s.point, L, t->dt, dim);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
     const int moved = points_move(g, c, p, &s, velocity, dim);
     if (__builtin_expect(points_signs(-m.yield), 0))
@@ -172,6 +181,7 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
+/* Prefetches what g2p_points reads of the point ORDER_AHEAD places after place k of the list. */
 static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
@@ -181,7 +191,8 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
     for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
 }
 
-/* Returns how many points left the cell, which is found anew for each round: most have but one, and nothing need be kept. */
+/* Updates the n points of one cell and returns how many left it. The cell is computed again for every AT_ONCE points:
+ * most cells need one pass only, so it is not kept in registers. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       const int32_t *list, int n, const int dim, const enum shape shape,
                                       const enum transfer transfer)
@@ -195,22 +206,22 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
     return moved;
 }
 
-#define INSTANCE(D, S, T)                                                                                           \
-    static int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)   \
-    {                                                                                                               \
-        const struct transfer_order *o = t->order;                                                                  \
-        int64_t moved = 0;                                                                                          \
-        _Pragma("omp parallel reduction(+ : moved)")                                                                \
-        {                                                                                                           \
-            struct grid nodes = *g;            /* as in scatter.h */                                                \
-            struct particles points = *p;                                                                           \
-            struct transfer_data data = *t;                                                                         \
-            _Pragma("omp for schedule(static)")                                                                     \
-            for (int32_t k = 0; k < o->cells; k++)                                                                  \
-                moved += g2p_cell(&nodes, &points, &data, o->particle + o->cell_start[k],                           \
-                                  o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T);             \
-        }                                                                                                           \
-        return moved;                                                                                               \
+#define INSTANCE(D, S, T)                                                                                              \
+    static int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)      \
+    {                                                                                                                  \
+        const struct transfer_order *o = t->order;                                                                     \
+        int64_t moved = 0;                                                                                             \
+        _Pragma("omp parallel reduction(+ : moved)")                                                                   \
+        {                                                                                                              \
+            struct grid nodes = *g;            /* as in scatter.h */                                                   \
+            struct particles points = *p;                                                                              \
+            struct transfer_data data = *t;                                                                            \
+            _Pragma("omp for schedule(static)")                                                                        \
+            for (int32_t k = 0; k < o->cells; k++)                                                                     \
+                moved += g2p_cell(&nodes, &points, &data, o->particle + o->cell_start[k],                              \
+                                  o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T);                \
+        }                                                                                                              \
+        return moved;                                                                                                  \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 SHAPE_VARIANTS(BOTH)

@@ -1,4 +1,5 @@
-/* floor 2: nodal updates between the maps. One division a node; few bytes beside the points'. */
+/* Nodal updates of the background grid between the maps: velocities, walls, mirror nodes and light nodes. One division
+ * per node; memory traffic is small compared with the maps over points. */
 #include <stdlib.h>
 
 #include "kernels/kernels.h"
@@ -12,7 +13,8 @@ void grid_clear(struct grid *g)
     }
 }
 
-/* What a held component does to its node: the reaction replaces the force, and with APIC the momentum too. */
+/* Constrains one velocity component of a wall node: the reaction replaces the force, and with APIC also the momentum.
+ * Adds the impulse [N s] and the work [J] of the wall. */
 static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, real smallest_mass,
                       real impulse[DIM_MAX], real *work)
 {
@@ -20,26 +22,31 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
     const int64_t I = w->node;
     w->reaction = 0;
     if (g->mass[I] < smallest_mass) return;
-    /* FLIP: points take the change only. APIC: they take the velocity, and with it what replaces P/m = velocity - dv. */
+    /* FLIP: points receive only the change of velocity. APIC: points receive the nodal velocity itself, so the wall
+     * also replaces P/m = velocity - dv. */
     const real before = transfer == TRANSFER_APIC ? g->velocity[d][I] - g->force[d][I] : w->velocity - w->change;
     const real given = g->mass[I] * (w->velocity - before - g->force[d][I]);
     w->reaction = given - g->mass[I] * w->change;
     impulse[d] += given;
-    *work += given * (w->velocity - 0.5 * w->change);    /* its own way: what APIC loses on the way to the nodes is no work of walls */
+    /* work over the motion of the wall itself: what APIC loses in the map to the nodes is no work of walls */
+    *work += given * (w->velocity - 0.5 * w->change);
     g->force[d][I] = w->change;
     g->velocity[d][I] = w->velocity;
 }
 
-/* ---- planes of symmetry ----------------------------------------------------------------------------------
+/* ---- planes of symmetry ------------------------------------------------------------------------------------------
  *
- * The motion of a node g beyond a plane is that of its image I turned round, v_g = s v_I. With this constraint the lumped
- * equations of both are (m_I + m_g) dv_I = dt (f_I + s f_g): as if the mirrored body were there, for every shape. Few, in
- * order, on one thread: several may share an image. */
+ * A node g beyond a plane of symmetry moves as the mirror image of node I on the side of the body, v_g = s v_I with the
+ * sign s of each component. With this constraint the lumped equations of both nodes are (m_I + m_g) dv_I = dt (f_I + s
+ * f_g), as if the mirrored body were present, for every shape. Mirror nodes are few and several may share an image;
+ * they are processed in order by one thread. */
 
-static void folds_in(struct grid *g, enum transfer transfer, real dt_velocity)
+/* Adds mass, force and momentum of each mirror node to its image and sets them to 0 at the mirror node. `taken` keeps
+ * the impulse that the points gave to the mirror node [N s]. */
+static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, real dt_velocity)
 {
-    for (int64_t k = 0; k < g->folds; k++) {
-        struct fold *f = &g->fold[k];
+    for (int64_t k = 0; k < g->mirror_nodes; k++) {
+        struct mirror_node *f = &g->mirror_node[k];
         const int64_t from = f->node, to = f->image;
         f->mass = g->mass[from];
         if (f->mass <= 0) continue;
@@ -53,12 +60,13 @@ static void folds_in(struct grid *g, enum transfer transfer, real dt_velocity)
     }
 }
 
-/* A component that turns round needs an impulse at the node, m_g dv_g - dt f_g, and the same at its image: together they
- * do no work, for the two move against each other. */
-static void folds_out(struct grid *g, enum transfer transfer, real impulse[DIM_MAX])
+/* Gives each mirror node the reflected motion of its image, and computes the reaction of the plane. A component that
+ * changes sign needs the impulse m_g dv_g - dt f_g at the node and an equal impulse at its image: together they do no
+ * work, since node and image move in opposite directions. */
+static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, real impulse[DIM_MAX])
 {
-    for (int64_t k = 0; k < g->folds; k++) {
-        struct fold *f = &g->fold[k];
+    for (int64_t k = 0; k < g->mirror_nodes; k++) {
+        struct mirror_node *f = &g->mirror_node[k];
         for (int d = 0; d < g->dim; d++) {
             f->reaction[d] = 0;
             if (f->mass <= 0) continue;
@@ -72,17 +80,20 @@ static void folds_out(struct grid *g, enum transfer transfer, real impulse[DIM_M
     }
 }
 
-/* ---- light nodes -----------------------------------------------------------------------------------------
+/* ---- light nodes -------------------------------------------------------------------------------------------------
  *
- * Where a body ends at a node, its points dip into the next cell by some share u of it and give a node there a mass ~ u^2 and a
- * force ~ u. Its acceleration ~ 1/u strains the points by as much however small u is, and not at all below 0: stiffness that comes
- * and goes with the motion, from which a beam of APIC gains 8 % in a millisecond. The acceleration of such a node I is extrapolated
- * from a heavier neighbour J and the next one, K, behind it,
- *     a_I = 2 a_J - a_K,   f_J += 2 f_I,   f_K -= f_I,   and m_J += 2 m_I,   m_K -= m_I where they are pushed,
- * so that what maps forces to accelerations stays symmetric and bodies may turn; its velocity, without weight in the balance, is
- * that of its points. Nodes that walls hold neither lead nor follow. FLIP does not gain from it. Few, in order. */
+ * Where a body ends at a node, its points reach into the next cell by a share u of it and give a node there a mass ~
+ * u^2 and a force ~ u. The acceleration of that node, ~ 1/u, strains the points by as much however small u is, and not
+ * at all for u <= 0: a stiffness that switches on and off with the motion, from which a beam with APIC gains 8 % of
+ * energy in a millisecond. The acceleration of such a light node I is therefore extrapolated from a heavier neighbour J
+ * and the node K behind it,
+ *     a_I = 2 a_J - a_K,   f_J += 2 f_I,   f_K -= f_I,   and for the accelerations m_J += 2 m_I,   m_K -= m_I,
+ * so that the map from forces to accelerations stays symmetric and bodies can rotate. The velocity of a light node has
+ * no weight in the balance and is that of its points. Wall nodes neither lead nor follow. FLIP gains no energy from
+ * light nodes. Followers are few and processed in order. */
 
-/* The heaviest of the nearest nodes that are heavier than I by far, along axes before diagonals; -1: none. */
+/* The heaviest of the nearest nodes of node I with more mass than g->light_mass: neighbours along axes come before
+ * those along diagonals. -1: there is none. */
 static int64_t leader_of(const struct grid *g, int64_t I)
 {
     int64_t leader = -1;
@@ -108,6 +119,7 @@ static int by_node(const void *a, const void *b)
     return (p->node > q->node) - (p->node < q->node);
 }
 
+/* Lists the light nodes of this step with their leaders and the nodes behind these, ascending. */
 static void followers_find(struct grid *g, real smallest_mass)
 {
     int64_t n = 0;
@@ -128,7 +140,7 @@ static void followers_find(struct grid *g, real smallest_mass)
     qsort(g->follower, (size_t)n, sizeof *g->follower, by_node);
 }
 
-/* Gives `times` what node I has to node J: J is as much heavier where it is pushed, and its velocity stays. */
+/* Adds `times` the force and the mass of node I to node J, for its acceleration; the velocity of J stays. */
 static void lend(struct grid *g, int64_t I, int64_t J, real times)
 {
     const real more = times * g->mass[I] / g->mass[J];
@@ -139,6 +151,7 @@ static void lend(struct grid *g, int64_t I, int64_t J, real times)
     g->mass[J] += times * g->mass[I];
 }
 
+/* Before the velocities are computed: finds the followers (APIC only) and passes their force and mass on. */
 static void followers_in(struct grid *g, enum transfer transfer, real smallest_mass)
 {
     g->followers = 0;
@@ -154,6 +167,7 @@ static void followers_in(struct grid *g, enum transfer transfer, real smallest_m
     }
 }
 
+/* After the velocities are computed: extrapolates the change of velocity of the followers [m/s] and adds it. */
 static void followers_out(struct grid *g)
 {
     for (int64_t k = 0; k < g->followers; k++)
@@ -167,7 +181,7 @@ static void followers_out(struct grid *g)
 void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
                real *work)
 {
-    folds_in(g, transfer, dt_velocity);
+    grid_mirror_nodes_gather(g, transfer, dt_velocity);
     followers_in(g, transfer, smallest_mass);
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < g->n; I++) {
@@ -179,24 +193,26 @@ void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real sm
             g->momentum[d][I] = 0;
         }
     }
-    for (int64_t k = 0; k < g->walls; k++)     /* few, and their sums must not depend on threads */
+    for (int64_t k = 0; k < g->walls; k++)     /* few; a serial loop keeps sums independent of the threads */
         wall_move(g, &g->wall[k], transfer, smallest_mass, impulse, work);
     followers_out(g);
-    folds_out(g, transfer, impulse);
+    grid_mirror_nodes_spread(g, transfer, impulse);
 }
 
 void grid_remapped(struct grid *g, real smallest_mass)
 {
-    for (int64_t k = 0; k < g->folds; k++)
+    for (int64_t k = 0; k < g->mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
-            g->momentum[d][g->fold[k].image] += g->fold[k].sign[d] * g->momentum[d][g->fold[k].node];
+            g->momentum[d][g->mirror_node[k].image] +=
+                g->mirror_node[k].sign[d] * g->momentum[d][g->mirror_node[k].node];
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < g->n; I++) {
         const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;
         for (int d = 0; d < g->dim; d++) g->momentum[d][I] *= inverse;
     }
     for (int64_t k = 0; k < g->walls; k++) g->momentum[g->wall[k].component][g->wall[k].node] = g->wall[k].velocity;
-    for (int64_t k = 0; k < g->folds; k++)
+    for (int64_t k = 0; k < g->mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
-            g->momentum[d][g->fold[k].node] = g->fold[k].sign[d] * g->momentum[d][g->fold[k].image];
+            g->momentum[d][g->mirror_node[k].node] =
+                g->mirror_node[k].sign[d] * g->momentum[d][g->mirror_node[k].image];
 }

@@ -1,10 +1,11 @@
-/* floor 2: the first map: mass, momentum and force of material points to the nodes, scattered block by block, colour
- * by colour (struct transfer_order), so that a node has one writer at a time and always the same order of terms.
+/* Particles to grid (P2G), the first map: mass, momentum and force of material points to the nodes, scattered block by
+ * block, colour by colour (struct transfer_order), so that a node has one writer at a time and always the same order of
+ * terms.
  *
  *     m_I = sum m N,   P_I = sum m v N   (APIC: m (v + L (x_I - x_p)) N),   f_I = sum (N f - V sigma_given . grad N)
  *
- * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes a point in
- * 2D; nodes of a block stay in cache. */
+ * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
+ * of a block stay in cache. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -16,21 +17,22 @@
 /* Sums over the points of a cell, by rows of its nodes: mass, momentum, force. */
 typedef row_of_nodes cell_sums[1 + 2 * DIM_MAX][ROWS_MAX];
 
-/* Place of sigma_ab in a symmetric tensor. */
+/* Index of sigma_ab among the components of a symmetric tensor. */
 static ALWAYS_INLINE int symmetric_place(int a, int b, const int dim)
 {
     return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
-/* Force of the skew part of the stress given: f_a = -V sum_b skew_ab grad_b. Only ends of bonds have one (partial_stress.c). */
+/* Adds the force of the antisymmetric part of the stress, f_a = -V sum_b skew_ab grad_b. Only points at the ends of
+ * state-based bonds have one (partial_stress.c). */
 static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, const struct transfer_data *t,
-                                   const struct stencil *s, const struct touch *row, int at, const int dim,
+                                   const struct cell_stencil *s, const struct touch *row, int at, const int dim,
                                    const enum shape shape)
 {
     static const int first[DIM_MAX] = {0, 1, 2}, second[DIM_MAX] = {1, 2, 0};
     const int64_t i = s->point[at];
     real skew[DIM_MAX];
-    if (dim == 1 || t->bare || !stress_given_skew(p, t->partial, i, skew, dim)) return;
+    if (dim == 1 || t->momentum_only || !stress_given_skew(p, t->partial, i, skew, dim)) return;
     FOR_TOUCHED(s, at, dim, shape) {
         row_of_nodes grad[DIM_MAX];
         for (int e = 0; e < dim; e++)
@@ -44,16 +46,17 @@ static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, con
     }
 }
 
-/* Adds what one point gives. Factors that all rows share are taken out: of the directions along a row. */
+/* Adds mass, momentum and force of point `at` to the sums of its cell. Factors of the directions along a row, which all
+ * rows share, are computed once. */
 static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct particles *p,
-                                       const struct transfer_data *t, const struct stencil *s, int at, const int dim,
-                                       const enum shape shape, const enum transfer transfer)
+                                       const struct transfer_data *t, const struct cell_stencil *s, int at,
+                                       const int dim, const enum shape shape, const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
     const int64_t i = s->point[at];
     const struct touch row = stencil_touch(s, at, g->h, dim, shape);
     real stress[SYM_MAX];
-    if (t->bare) memset(stress, 0, sizeof stress);
+    if (t->momentum_only) memset(stress, 0, sizeof stress);
     else stress_given(p, t->partial, i, stress, dim);
     const real m = p->mass[i], volume = p->volume[i];
     for (int k = 0; k < dim * (dim + 1) / 2; k++) stress[k] *= volume;
@@ -77,19 +80,20 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
         const int k = PATCH(dim, shape);
         sum[0][k] += mass * weight;
         for (int d = 0; d < dim; d++) {
-            row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
+            row_of_nodes grid_coupled = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
             for (int e = along; e < dim; e++) {
                 if (transfer == TRANSFER_APIC)
-                    carried += sheared[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
+                    grid_coupled += sheared[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
                 pushed -= pull[symmetric_place(d, e, dim)] * stencil_slope(s, at, k1, k2, e, dim, shape);
             }
-            sum[1 + d][k] += carried * weight;
+            sum[1 + d][k] += grid_coupled * weight;
             sum[1 + dim + d][k] = pushed;
         }
     }
     if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_skew(sum, p, t, s, &row, at, dim, shape);
 }
 
+/* Prefetches what p2g_particle reads of the point ORDER_AHEAD places after place k of the list. */
 static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *list, int k, const int dim,
                                     const enum transfer transfer)
 {
@@ -101,6 +105,7 @@ static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *li
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) fetch(p->gradient[c] + i);
 }
 
+/* Maps the n points of one cell to its nodes. */
 static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles *p, const struct transfer_data *t,
                                    const int32_t *list, int n, const int dim, const enum shape shape,
                                    const enum transfer transfer)
@@ -110,10 +115,10 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     FOR_ROWS(dim, shape)
         for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_of(0);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
-        struct stencil s;
+        struct cell_stencil s;
         const int points = at_once(n - k, dim);
-        stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
-        stencil_turn(&s, dim, shape);
+        cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
+        stencil_rotation(&s, dim, shape);
         for (int at = 0; at < points; at++) {
             p2g_fetch(p, list, k + at, dim, transfer);
             p2g_particle(sum, g, p, t, &s, at, dim, shape, transfer);
@@ -130,10 +135,10 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     }
 }
 
-#define INSTANCE(D, S, T)                                                                                           \
-    static void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)      \
-    {                                                                                                               \
-        SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T));                 \
+#define INSTANCE(D, S, T)                                                                                              \
+    static void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)         \
+    {                                                                                                                  \
+        SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T));                    \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 SHAPE_VARIANTS(BOTH)
@@ -142,26 +147,26 @@ SHAPE_VARIANTS(BOTH)
 #define ENTRIES(D, S) TRANSFER_VARIANTS(ENTRY, D, S)
 p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIES)};
 
-/* ---- a single field of few points -------------------------------------------------------------------- */
+/* ---- single field of a few points -------------------------------------------------------------------------------- */
 
 static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct particles *p, real half_width, int32_t i,
                                           real value, real *field, const int dim, const enum shape shape)
 {
     const struct cell c = cell_make(g, p, i, dim, shape);
-    struct stencil s;
-    stencil_make(&s, g, &c, p, &i, 1, half_width, dim, shape);
-    stencil_turn(&s, dim, shape);
+    struct cell_stencil s;
+    cell_stencil_make(&s, g, &c, p, &i, 1, half_width, dim, shape);
+    stencil_rotation(&s, dim, shape);
     const row_of_nodes spread = value * stencil_touch(&s, 0, g->h, dim, shape).N;
     FOR_TOUCHED(&s, 0, dim, shape)
         nodes_add(g, field + cell_row(&c, g, k1, k2, dim), spread * stencil_row(&s, 0, k1, k2, dim, shape), dim, shape);
 }
 
-#define SPREAD(D, S)                                                                                            \
-    static void spread_##D##d_##S(const struct grid *g, const struct particles *p, real half_width,             \
-                                  const int32_t *list, int64_t n, const real *value, real *field)               \
-    {                                                                                                           \
-        for (int64_t k = 0; k < n; k++)                                                                         \
-            spread_particle(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);                          \
+#define SPREAD(D, S)                                                                                                   \
+    static void spread_##D##d_##S(const struct grid *g, const struct particles *p, real half_width,                    \
+                                  const int32_t *list, int64_t n, const real *value, real *field)                      \
+    {                                                                                                                  \
+        for (int64_t k = 0; k < n; k++)                                                                                \
+            spread_particle(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);                                 \
     }
 SHAPE_VARIANTS(SPREAD)
 

@@ -1,10 +1,10 @@
-/* floor 2: return mappings of the four spaces. Below, `bound` is the yield stress before the step, sigma_y + H a. */
+/* Return mappings of the four spaces. Below, `bound` is the yield stress before the step, sigma_y + H a. */
 #include "plastic.h"
 
 #include <math.h>
 
-/* Newton's method of plane stress ends at this share of the stress, some roundings. From 1e-4 to 1e5 yield stresses
- * beyond the surface it takes two to four steps, and the limit is never met. */
+/* Newton's method for plane stress ends at this share of the stress, a few roundings. For trial stresses from 1e-4 to
+ * 1e5 yield stresses beyond the surface it takes two to four steps; RETURN_STEPS is never reached. */
 #define RETURN_CLOSE 1e-15
 enum { RETURN_STEPS = 40 };
 
@@ -27,6 +27,7 @@ static real return_radial(const struct elastic *m, real q2, real bound, real *le
     return more;
 }
 
+/* Radial return in space. */
 static real return_solid(const struct elastic *m, real *s, real bound)
 {
     const real mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
@@ -39,7 +40,8 @@ static real return_solid(const struct elastic *m, real *s, real bound)
     return more;
 }
 
-/* The same with sigma_zz, which eps_zz = 0 ties to the others: nu (sigma_xx + sigma_yy) and what flow adds to it. */
+/* Radial return with sigma_zz, which eps_zz = 0 determines: nu (sigma_xx + sigma_yy) plus what plastic flow adds to
+ * it. */
 static real return_plane_strain(const struct elastic *m, real *s, real bound, real *out_of_plane)
 {
     const real zz = m->poisson * (s[0] + s[1]) + *out_of_plane, mean = (s[0] + s[1] + zz) / 3;
@@ -52,10 +54,11 @@ static real return_plane_strain(const struct elastic *m, real *s, real bound, re
     return more;
 }
 
-/* Projected onto sigma_zz = 0 (Simo & Hughes 1998, section 3.4): with p = xx + yy and d = xx - yy
+/* Return projected onto sigma_zz = 0 (Simo & Hughes 1998, section 3.4): with p = xx + yy and d = xx - yy
  *     q^2 = p^2/4 + 3 d^2/4 + 3 xy^2,   p = p_trial/(1 + A t),   d, xy = trial/(1 + 3 G t),   A = E/(2 (1 - nu))
- * and t = da/q from q (1 - H t) = bound. Written as 1 - H t - bound/q(t) = 0 the left side is decreasing and convex, for
- * 1/q is a power mean of two linear functions, which is concave: Newton's method from t = 0 climbs to the root. */
+ * and t = da/q from q (1 - H t) = bound. Written as 1 - H t - bound/q(t) = 0 the left side is decreasing and convex,
+ * since 1/q is a power mean of two linear functions, which is concave: Newton's method from t = 0 increases to the
+ * root. */
 static real return_plane_stress(const struct elastic *m, real *s, real bound)
 {
     const real p = s[0] + s[1], d = s[0] - s[1], even = 0.25 * p * p, odd = 0.75 * d * d + 3 * s[2] * s[2];

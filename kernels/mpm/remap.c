@@ -1,15 +1,15 @@
-/* floor 2: the second map of MUSL: points take the change of the nodal velocities (FLIP), then give their new momentum
+/* The second map of MUSL: points receive the change of the nodal velocities (FLIP), then their new momentum is mapped
  * back to the nodes with the same weights:  v_p += sum N dv_I,   P_I = sum m v_p N  (Zeng et al. 2022, eqs. 39, 42). */
 #include "kernels/kernels.h"
 #include "scatter.h"
 #include "shape.h"
 #include "kernels/simd/variants.h"
 
-/* By rows of a cell's nodes: the sums of momentum. */
+/* Sums of momentum by rows of the nodes of a cell [kg m/s]. */
 typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
 
-/* Points take the change of velocity; their momentum then [kg m/s]. */
-static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct stencil *s, const struct grid *g,
+/* Adds the change of the nodal velocities to the points; `momentum` is their momentum afterwards [kg m/s]. */
+static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cell_stencil *s, const struct grid *g,
                                        const struct cell *c, struct particles *p, const int dim, const enum shape shape)
 {
     row_of_points gain[DIM_MAX];
@@ -31,6 +31,7 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct ste
     }
 }
 
+/* Prefetches what remap_gather reads of the point ORDER_AHEAD places after place k of the list. */
 static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
@@ -39,15 +40,16 @@ static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *
     for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i);
 }
 
+/* Both halves of the map for the n listed points, at most AT_ONCE, of cell c; adds to the sums of the cell. */
 static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
                                        const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                        const enum shape shape)
 {
-    struct stencil s;
+    struct cell_stencil s;
     row_of_points momentum[DIM_MAX];
-    stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
+    cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
     remap_gather(momentum, &s, g, c, p, dim, shape);
-    stencil_turn(&s, dim, shape);
+    stencil_rotation(&s, dim, shape);
     for (int at = 0; at < n; at++) {
         const row_of_nodes N = stencil_touch(&s, at, g->h, dim, shape).N;
         row_of_nodes given[DIM_MAX];
@@ -60,6 +62,7 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
     }
 }
 
+/* Both halves of the map for the n points of one cell. */
 static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                      const int32_t *list, int n, const int dim, const enum shape shape)
 {
@@ -74,10 +77,10 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
             nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
 }
 
-#define INSTANCE(D, S)                                                                                              \
-    static void remap_##D##d_##S(struct grid *g, struct particles *p, const struct transfer_data *t)                \
-    {                                                                                                               \
-        SCATTER(D, t, g, p, remap_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));                             \
+#define INSTANCE(D, S)                                                                                                 \
+    static void remap_##D##d_##S(struct grid *g, struct particles *p, const struct transfer_data *t)                   \
+    {                                                                                                                  \
+        SCATTER(D, t, g, p, remap_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));                                \
     }
 SHAPE_VARIANTS(INSTANCE)
 

@@ -1,7 +1,8 @@
-/* floor 2: numbers of the four nodes of a row, or of as many points as fit into a register, one in each lane. Maps take from
- * nodes with points in the lanes, and give to nodes with nodes in the lanes: neither adds up across lanes. */
-#ifndef CLEAVE_ROW_H
-#define CLEAVE_ROW_H
+/* Vectors of the four nodes of a row, or of as many points as fit into a register, one node or point per lane. Maps
+ * from nodes to points have points in the lanes, maps from points to nodes have nodes in the lanes: neither adds across
+ * lanes. */
+#ifndef CLEAVE_KERNELS_ROW
+#define CLEAVE_KERNELS_ROW
 
 #include "base/base.h"
 
@@ -51,13 +52,14 @@ static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 #endif
 }
 
+/* Absolute values. */
 static ALWAYS_INLINE row_of_points points_size(row_of_points a)
 {
     const points_mask digits = (points_mask){0} + INT64_MAX;
     return (row_of_points)((points_mask)a & digits);
 }
 
-/* Bit k: that of point k is negative. */
+/* Bit mask: bit k is set where lane k is negative. */
 static ALWAYS_INLINE int points_signs(row_of_points a)
 {
 #ifdef __AVX__
@@ -68,16 +70,20 @@ static ALWAYS_INLINE int points_signs(row_of_points a)
 #endif
 }
 
-/* Points taken at once: as many as a cell has as a rule, but two in 1D. Lanes beyond are copies. */
+/* Points processed at once: as many as a cell usually holds; two in 1D. The lanes beyond are copies. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
 static ALWAYS_INLINE int smaller(int a, int b) { return a < b ? a : b; }
 static ALWAYS_INLINE int at_once(int left, const int dim) { return smaller(left, AT_ONCE(dim)); }
 
-/* All lanes are one point: the branch pays where cells hold one, and costs nothing where they hold four. */
-static ALWAYS_INLINE bool points_alone(const int32_t *point, const int dim) { return dim > 1 && point[0] == point[POINTS - 1]; }
+/* Are all lanes one point? The branch pays where cells hold one point, and costs nothing where they hold four. */
+static ALWAYS_INLINE bool points_alone(const int32_t *point, const int dim)
+{
+    return dim > 1 && point[0] == point[POINTS - 1];
+}
 
-/* An array's numbers of a few points, wherever they stand. Storing, a point named twice has to agree with itself. */
+/* Loads and stores the entries of an array for a few points, at any indices. In a store, lanes of one point must hold
+ * equal values. */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
     if (points_alone(point, dim)) return points_of(from[point[0]]);
@@ -93,8 +99,8 @@ static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_po
     for (int k = 1; k < AT_ONCE(dim); k++) to[point[k]] = a[k];
 }
 
-/* Rows by nodes, a lane for each point, to rows by points, a lane for each node. */
-static ALWAYS_INLINE void rows_turn(const row_of_points from[ROW], row_of_nodes to[POINTS])
+/* Transposes ROW vectors with one lane per point to POINTS vectors with one lane per node. */
+static ALWAYS_INLINE void rows_rotate(const row_of_points from[ROW], row_of_nodes to[POINTS])
 {
 #ifdef __AVX__
 #define EVEN(u, v) VECTOR_PICK(points_mask, u, v, 0, 4, 2, 6)

@@ -1,18 +1,19 @@
-/* floor 2: shape functions of the background grid, and the nodes of a cell.
+/* Shape functions of the background grid, and the nodes of a cell.
  *
- * A place t is counted from the lower node of the point's cell in node distances h, l is the half width of the particle
- * over h. A shape gives the weights N and the slopes dN/dt of four nodes in a row, from the one below the cell: wide enough
- * for every shape, and the same four for all points of a cell. Two and three dimensions are products. All shapes are
- * partitions of unity and reproduce linear fields. Linear and GIMP: Bardenhagen & Kober 2004, Zeng et al. 2021, eq. 9. */
-#ifndef CLEAVE_SHAPE_H
-#define CLEAVE_SHAPE_H
+ * t is the distance of a point from the lower node of its cell over the node distance h, l the half width of the
+ * particle over h. A shape gives the weights N and the slopes dN/dt of four nodes in a row, from the one below the cell
+ * on: enough for every shape, and the same four nodes for all points of a cell. Shapes in two and three dimensions are
+ * products. All shapes are partitions of unity and reproduce linear fields. Linear and GIMP: Bardenhagen & Kober 2004,
+ * Zeng et al. 2021, eq. 9. */
+#ifndef CLEAVE_KERNELS_SHAPE
+#define CLEAVE_KERNELS_SHAPE
 
 #include "kernels/kernels.h"
 #include "row.h"
 
-/* ---- one direction, a few points -----------------------------------------------------------------------
+/* ---- one direction, a few points ---------------------------------------------------------------------------------
  *
- * Weights are made for a few points of a cell at once, one in each lane, so that nothing is added up across lanes. */
+ * Weights are computed for a few points of a cell at once, one point per lane, so that no sum runs across lanes. */
 
 /* Hat functions: 1 - t, t. */
 static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
@@ -22,17 +23,19 @@ static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], ro
     dN[1] = points_of(-1), dN[2] = points_of(1);
 }
 
-/* Mean of the hat functions over the particle's width 2l <= 2. The hats of the cell's two nodes go on as straight lines beyond
- * the cell; what reaches over its lower end by b = (l - t)_+ gives the node below b^2/4l and bends both lines by as much, and so
- * at the upper end. So a node that the particle just touches gets a weight of the size that it should, never below 0: it may have
- * no other, and what a node without mass is given is lost. GIMP keeps 2l <= 1 and has three nodes. A stretched particle
- * (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous particles then share out
- * every hat without gap or overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen & Kober
- * 2004). */
-static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width, row_of_points N[ROW],
-                                     row_of_points dN[ROW])
+/* Mean of the hat functions over the particle's width 2l <= 2. The hats of the two nodes of the cell continue as
+ * straight lines beyond it. A particle that extends over the lower end of the cell by b = (l - t)_+ gives the node
+ * below the weight b^2/4l, and the kink of both hats at that end changes their means by multiples of it; the upper end
+ * is treated alike. So a node that the particle just touches gets a weight of the correct size, never below 0: such a
+ * node may have no other weight, and what a node without mass receives is lost. GIMP keeps 2l <= 1 and has three nodes.
+ * A stretched particle (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous
+ * particles then divide every hat without gap or overlap, and a uniform stress leaves no residual (contiguous
+ * particles: Bardenhagen & Kober 2004). */
+static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width,
+                                     row_of_points N[ROW], row_of_points dN[ROW])
 {
-    const row_of_points rest = 1 - t, below = points_max(l - t, points_of(0)), above = points_max(l - rest, points_of(0));
+    const row_of_points rest = 1 - t, below = points_max(l - t, points_of(0)),
+                        above = points_max(l - rest, points_of(0));
     dN[0] = -below * inverse_width, dN[3] = above * inverse_width;
     N[0] = -0.5 * below * dN[0], N[3] = 0.5 * above * dN[3];
     N[1] = rest - 2 * N[0] + N[3], N[2] = t + N[0] - 2 * N[3];
@@ -49,9 +52,9 @@ static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row
     dN[1] = t * (1.5 * t - 2), dN[2] = rest * (2 - 1.5 * rest);
 }
 
-/* Weights must add up to 1 to the last bit: every map gives momentum (sum N) times what it takes, and on a lattice all points
- * have the same round-off, which grows with the steps. The nearer node of the cell, never a light one, takes what is
- * missing. */
+/* Makes the weights add up to 1 to the last bit: every map multiplies momentum by sum N, and on a lattice all points
+ * have the same round-off, which would grow with the steps. The missing part goes to the nearer node of the cell, which
+ * is never a light one. */
 static ALWAYS_INLINE void whole(row_of_points t, row_of_points N[ROW])
 {
     const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
@@ -59,9 +62,9 @@ static ALWAYS_INLINE void whole(row_of_points t, row_of_points N[ROW])
     N[2] += points_choose(t - 0.5, points_of(0), missing);
 }
 
-/* The quadratic B-spline is the mean of a hat over a whole cell. */
-static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row_of_points l, row_of_points inverse_width,
-                                    row_of_points N[ROW], row_of_points dN[ROW])
+/* Weights and slopes of any shape. The quadratic B-spline is the mean of a hat over a whole cell: GIMP with l = 1/2. */
+static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row_of_points l,
+                                    row_of_points inverse_width, row_of_points N[ROW], row_of_points dN[ROW])
 {
     switch (shape) {
     case SHAPE_LINEAR: shape_linear(t, N, dN); return;
@@ -72,46 +75,48 @@ static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row
     whole(t, N);
 }
 
-/* ---- the nodes of a cell ----------------------------------------------------------------------------
+/* ---- nodes of a cell ---------------------------------------------------------------------------------------------
  *
- * The points of a cell share a patch of nodes: rows of four along x, and one row beside the other in the directions across.
- * Linear shapes in two and three dimensions, which reach only the corners, take the four corners of a face z = const as
- * one row instead, so that no place of a vector is idle. */
+ * The points of a cell share a patch of nodes: rows of four along x, side by side in the directions across. Linear
+ * shapes reach only the corners; in two and three dimensions their row holds the four corners of a face z = const
+ * instead, so that no lane of a vector is idle. */
 
 enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 
 #define IS_FACE(dim, shape) ((shape) == SHAPE_LINEAR && (dim) > 1)
-/* Directions that lie in a row; the others are across it. */
+/* Number of directions that lie in a row; the remaining directions are across it. */
 #define ROW_DIMS(dim, shape) (IS_FACE(dim, shape) ? 2 : 1)
 /* Rows of the patch along y and z. */
 #define ROWS_Y(dim, shape) ((dim) > 1 && !IS_FACE(dim, shape) ? ACROSS : 1)
 #define ROWS_Z(dim, shape) ((dim) > 2 ? IS_FACE(dim, shape) ? 2 : ACROSS : 1)
 #define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
 
-/* A point of a shape with three nodes skips the rest in 3D; in 2D a weight of zero costs less than finding its rows. */
+/* In 3D a point of a shape with three nodes per direction visits only the rows that it touches; in 2D a weight of zero
+ * costs less than finding these rows. */
 #define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
 
-/* Loop over the nodes k of a row; the ends of a linear one have no weight. */
+/* Loop over the nodes k of a row; the end nodes of a linear row have no weight and are left out. */
 #define ROW_END(dim, shape) ((shape) == SHAPE_LINEAR && !IS_FACE(dim, shape) ? 1 : 0)
 #define FOR_NODES(dim, shape) for (int k = ROW_END(dim, shape); k < ROW - ROW_END(dim, shape); k++)
 
-/* Loops over the rows k1, k2 of a patch, over those that point `at` of a stencil touches, and that any of its points does. */
-#define FOR_SPAN(low2, end2, low1, end1)                                                                             \
-    for (int k2 = (low2), above = (end2); k2 < above; k2++)                                                          \
+/* Loops over the rows k1, k2 of a patch: over all rows, over those that point `at` of a stencil touches, and over those
+ * that any point of the stencil touches. */
+#define FOR_SPAN(low2, end2, low1, end1)                                                                               \
+    for (int k2 = (low2), above = (end2); k2 < above; k2++)                                                            \
         for (int k1 = (low1), beyond = (end1); k1 < beyond; k1++)
 #define FOR_ROWS(dim, shape) FOR_SPAN(0, ROWS_Z(dim, shape), 0, ROWS_Y(dim, shape))
-#define FOR_TOUCHED(s, at, dim, shape)                                                                               \
-    FOR_SPAN(SKIPS(dim, shape) ? (s)->low[2][at] : 0, SKIPS(dim, shape) ? k2 + 3 : ROWS_Z(dim, shape),               \
+#define FOR_TOUCHED(s, at, dim, shape)                                                                                 \
+    FOR_SPAN(SKIPS(dim, shape) ? (s)->low[2][at] : 0, SKIPS(dim, shape) ? k2 + 3 : ROWS_Z(dim, shape),                 \
              SKIPS(dim, shape) ? (s)->low[1][at] : 0, SKIPS(dim, shape) ? k1 + 3 : ROWS_Y(dim, shape))
-#define FOR_ANY_TOUCHED(s, dim, shape)                                                                               \
-    FOR_SPAN(SKIPS(dim, shape) ? (s)->lowest[2] : 0, SKIPS(dim, shape) ? (s)->end[2] : ROWS_Z(dim, shape),           \
+#define FOR_ANY_TOUCHED(s, dim, shape)                                                                                 \
+    FOR_SPAN(SKIPS(dim, shape) ? (s)->lowest[2] : 0, SKIPS(dim, shape) ? (s)->end[2] : ROWS_Z(dim, shape),             \
              SKIPS(dim, shape) ? (s)->lowest[1] : 0, SKIPS(dim, shape) ? (s)->end[1] : ROWS_Y(dim, shape))
-/* Place of a row in the arrays of a patch. */
+/* Index of row k1, k2 in the arrays of a patch. */
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
 struct cell {
     int64_t node;                        /* index of the patch's lowest node                            */
-    real place[DIM_MAX];                 /* of its lower corner, in node distances from the anchor      */
+    real place[DIM_MAX];                 /* lower corner of the cell, in node distances from the anchor */
 };
 
 /* The cell of point i. */
@@ -127,7 +132,7 @@ static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct pa
     return c;
 }
 
-/* First node of a row. */
+/* Index of the first node of row k1, k2. */
 static ALWAYS_INLINE int64_t cell_row(const struct cell *c, const struct grid *g, int k1, int k2, const int dim)
 {
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
@@ -139,7 +144,9 @@ static ALWAYS_INLINE int64_t row_node(const struct grid *g, int k, const int dim
     return IS_FACE(dim, shape) ? k % 2 + k / 2 * g->stride[1] : k;
 }
 
-static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes a, const int dim, const enum shape shape)
+/* Adds the values of a row to its nodes, from `to` on. */
+static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes a, const int dim,
+                                    const enum shape shape)
 {
     if (IS_FACE(dim, shape)) {
         *(pair_anywhere *)to += (pair_of_nodes){a[0], a[1]};
@@ -149,28 +156,29 @@ static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes
     }
 }
 
-/* ---- the weights of a few points of a cell --------------------------------------------------------------- */
+/* ---- weights of a few points of a cell -------------------------------------------------------------------------- */
 
-struct stencil {
-    int32_t point[POINTS];               /* where fewer are left: the last one, again                     */
+struct cell_stencil {
+    int32_t point[POINTS];               /* padded with the last point                                    */
     row_of_points x[DIM_MAX];            /* position                                                  [m] */
     row_of_points t[DIM_MAX];            /* place in the cell                                         [1] */
-    row_of_points N[ROW], D[2][ROW];     /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
-    row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D seen from each point                          */
-    row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS]; /* of rows: weights [1], slopes [1/m], by the direction across */
-    int low[DIM_MAX][POINTS];            /* first row that a point of three nodes touches                 */
-    int lowest[DIM_MAX], end[DIM_MAX];   /* first that any touches, and first beyond that none does       */
+    row_of_points N[ROW], D[2][ROW];   /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
+    row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D by point, of maps to nodes                    */
+    /* factors of the rows by direction across: weights [1], slopes [1/m] */
+    row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS];
+    int low[DIM_MAX][POINTS];            /* first row that each point touches (three nodes)               */
+    int lowest[DIM_MAX], end[DIM_MAX];   /* first row that any point touches; one past the last           */
 };
 
-/* The nodes of a row seen from one point: weights [1], slopes in the directions along it [1/m]. */
+/* Weights [1] of the nodes of a row at one point, and slopes in the directions along the row [1/m]. */
 struct touch { row_of_nodes N, D[2]; };
 
-/* Largest half width over h of cpGIMP: four nodes reach no further. A particle stretched beyond it keeps it, and numerical
- * fracture starts: at a stretch of 4 with two particles per cell. */
+/* Largest half width over h of cpGIMP: the four nodes of a row allow no more. A particle that is stretched further
+ * keeps this width, and numerical fracture starts: at a stretch of 4 with two particles per cell. */
 #define HALF_WIDTH_MOST 1
 
-/* Corners of a face: products of two hats. */
-static ALWAYS_INLINE void stencil_face(struct stencil *s, real inverse, const int dim)
+/* Weights and slopes of the corners of a face: products of two hats. */
+static ALWAYS_INLINE void stencil_face(struct cell_stencil *s, real inverse, const int dim)
 {
     const row_of_points X[2] = {1 - s->t[0], s->t[0]}, Y[2] = {1 - s->t[1], s->t[1]};
     for (int k = 0; k < ROW; k++) {
@@ -183,17 +191,19 @@ static ALWAYS_INLINE void stencil_face(struct stencil *s, real inverse, const in
     s->B[2][0] = points_of(-inverse), s->B[2][1] = points_of(inverse);
 }
 
-/* Points whose place is below l leave out the node above their cell, the others the one below. Nothing here may branch:
- * at the edges of a lattice's particles the answers are as good as random. */
-static ALWAYS_INLINE void stencil_touched(struct stencil *s, row_of_points l, int d)
+/* Finds the rows that points of a shape with three nodes touch in direction d: for t < l the node above the cell is
+ * excluded, else the node below. The code has no branch: on a lattice t = l but for round-off, and the outcome is as
+ * good as random. */
+static ALWAYS_INLINE void stencil_touched(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_signs(s->t[d] - l) & all;
     for (int k = 0; k < POINTS; k++) s->low[d][k] = upper >> k & 1;
     s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
-static ALWAYS_INLINE void stencil_direction(struct stencil *s, const struct particles *p, real inverse, real half_width,
-                                            int d, const int dim, const enum shape shape)
+/* Weights and slopes of the points of a stencil in direction d. */
+static ALWAYS_INLINE void stencil_direction(struct cell_stencil *s, const struct particles *p, real inverse,
+                                            real half_width, int d, const int dim, const enum shape shape)
 {
     row_of_points l = points_of(half_width * inverse), inverse_width = points_of(0.5 / (half_width * inverse));
     row_of_points N[ROW], dN[ROW];
@@ -209,10 +219,10 @@ static ALWAYS_INLINE void stencil_direction(struct stencil *s, const struct part
     if (SKIPS(dim, shape) && d > 0) stencil_touched(s, shape == SHAPE_GIMP ? l : points_of(0.5), d);
 }
 
-/* Of the n points of a list, at most AT_ONCE. */
-static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, const struct cell *c,
-                                       const struct particles *p, const int32_t *list, int n, real half_width, const int dim,
-                                       const enum shape shape)
+/* Weights and slopes of the n listed points, at most AT_ONCE, of cell c. half_width: l_p [m]. */
+static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct grid *g, const struct cell *c,
+                                            const struct particles *p, const int32_t *list, int n, real half_width,
+                                            const int dim, const enum shape shape)
 {
     const real inverse = 1 / g->h;
     for (int k = 0; k < POINTS; k++) s->point[k] = list[smaller(k % AT_ONCE(dim), n - 1)];
@@ -225,25 +235,29 @@ static ALWAYS_INLINE void stencil_make(struct stencil *s, const struct grid *g, 
         for (int d = 0; d < dim; d++) stencil_direction(s, p, inverse, half_width, d, dim, shape);
 }
 
-/* Rows seen from each point, for maps that add to nodes. */
-static ALWAYS_INLINE void stencil_turn(struct stencil *s, const int dim, const enum shape shape)
+/* Transposes the weights and slopes of a row to one vector per point, for maps that add to nodes. */
+static ALWAYS_INLINE void stencil_rotation(struct cell_stencil *s, const int dim, const enum shape shape)
 {
     if (IS_FACE(dim, shape)) return;
-    rows_turn(s->N, s->from_N);
-    rows_turn(s->D[0], s->from_D);
+    rows_rotate(s->N, s->from_N);
+    rows_rotate(s->D[0], s->from_D);
 }
 
-/* A row seen from point `at`. Corners of a face are cheaper one by one than turned. */
-static ALWAYS_INLINE struct touch stencil_touch(const struct stencil *s, int at, real h, const int dim, const enum shape shape)
+/* Weights and slopes of a row at point `at`. For the corners of a face a new computation is cheaper than
+ * transposing. */
+static ALWAYS_INLINE struct touch stencil_touch(const struct cell_stencil *s, int at, real h, const int dim,
+                                                const enum shape shape)
 {
     if (!IS_FACE(dim, shape)) return (struct touch){s->from_N[at], {s->from_D[at]}};
     const row_of_nodes right = {-1, 1, -1, 1}, up = {-1, -1, 1, 1};
-    const row_of_nodes X = (row_of_nodes){1, 0, 1, 0} + s->t[0][at] * right, Y = (row_of_nodes){1, 1, 0, 0} + s->t[1][at] * up;
+    const row_of_nodes X = (row_of_nodes){1, 0, 1, 0} + s->t[0][at] * right,
+                       Y = (row_of_nodes){1, 1, 0, 0} + s->t[1][at] * up;
     return (struct touch){X * Y, {Y * (right * (1 / h)), X * (up * (1 / h))}};
 }
 
-/* Weights of a row, a lane for each point, and its slopes in the direction d across it [1/m]. */
-static ALWAYS_INLINE row_of_points stencil_rows(const struct stencil *s, int k1, int k2, const int dim, const enum shape shape)
+/* Factor that the directions across a row give to the weights of row k1, k2, one lane per point [1]. */
+static ALWAYS_INLINE row_of_points stencil_rows(const struct cell_stencil *s, int k1, int k2, const int dim,
+                                                const enum shape shape)
 {
     row_of_points weight = points_of(1);
     if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1];
@@ -251,7 +265,8 @@ static ALWAYS_INLINE row_of_points stencil_rows(const struct stencil *s, int k1,
     return weight;
 }
 
-static ALWAYS_INLINE row_of_points stencil_slopes(const struct stencil *s, int k1, int k2, int d, const int dim,
+/* Derivative of that factor in direction d across the row, one lane per point [1/m]. */
+static ALWAYS_INLINE row_of_points stencil_slopes(const struct cell_stencil *s, int k1, int k2, int d, const int dim,
                                                   const enum shape shape)
 {
     row_of_points slope = points_of(1);
@@ -260,8 +275,9 @@ static ALWAYS_INLINE row_of_points stencil_slopes(const struct stencil *s, int k
     return slope;
 }
 
-/* The same of point `at` alone. */
-static ALWAYS_INLINE real stencil_row(const struct stencil *s, int at, int k1, int k2, const int dim, const enum shape shape)
+/* stencil_rows and stencil_slopes of point `at` alone. */
+static ALWAYS_INLINE real stencil_row(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
+                                      const enum shape shape)
 {
     real weight = 1;
     if (dim > 1 && !IS_FACE(dim, shape)) weight *= s->A[1][k1][at];
@@ -269,7 +285,7 @@ static ALWAYS_INLINE real stencil_row(const struct stencil *s, int at, int k1, i
     return weight;
 }
 
-static ALWAYS_INLINE real stencil_slope(const struct stencil *s, int at, int k1, int k2, int d, const int dim,
+static ALWAYS_INLINE real stencil_slope(const struct cell_stencil *s, int at, int k1, int k2, int d, const int dim,
                                         const enum shape shape)
 {
     real slope = 1;
@@ -278,8 +294,9 @@ static ALWAYS_INLINE real stencil_slope(const struct stencil *s, int at, int k1,
     return slope;
 }
 
-/* From point `at` to the nodes of a row in the direction d along it, and to those of row k across it [m]. */
-static ALWAYS_INLINE row_of_nodes stencil_along(const struct stencil *s, int at, real h, int d, const int dim,
+/* Distances in direction d from point `at`: to the nodes of a row, for d along it, and to row k, for d across it
+ * [m]. */
+static ALWAYS_INLINE row_of_nodes stencil_along(const struct cell_stencil *s, int at, real h, int d, const int dim,
                                                 const enum shape shape)
 {
     const row_of_nodes nodes = !IS_FACE(dim, shape) ? (row_of_nodes){-1, 0, 1, 2}
@@ -288,7 +305,7 @@ static ALWAYS_INLINE row_of_nodes stencil_along(const struct stencil *s, int at,
     return (nodes - s->t[d][at]) * h;
 }
 
-static ALWAYS_INLINE real stencil_across(const struct stencil *s, int at, real h, int d, int k, const int dim,
+static ALWAYS_INLINE real stencil_across(const struct cell_stencil *s, int at, real h, int d, int k, const int dim,
                                          const enum shape shape)
 {
     return (k - (IS_FACE(dim, shape) ? 0 : 1) - s->t[d][at]) * h;

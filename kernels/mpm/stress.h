@@ -1,20 +1,23 @@
-/* floor 2: constitutive update of a material point: linear elasticity in the rate form of Jaumann:
+/* Constitutive update of a material point: linear elasticity in the rate form of Jaumann:
  *     sigma += C : eps + W sigma - sigma W,   eps = sym(A) - W W / 2,  W = skew(A),  A = L dt
- * The second order of eps makes turns free of strain: places that turn by the angle w in a step have sym(A) = -w^2/2 across the
- * axis (Hughes and Winget 1980, to second order). With sym(A) alone a body of points grows by w^2/2 a step, points and bonds no
- * longer agree on what is unstrained, and a disc with a peridynamic core gains half its energy in four turns.
- * Components as in base.h; plane stress and plane strain differ in their constants only. */
-#ifndef CLEAVE_STRESS_H
-#define CLEAVE_STRESS_H
+ * The second-order term of eps makes rotations free of strain: positions that rotate by the angle w in a step have
+ * sym(A) = -w^2/2 across the axis (Hughes and Winget 1980, to second order). With sym(A) alone a rotating body of
+ * material points grows by w^2/2 per step, its unstrained state differs from that of bonds, and a disc with a
+ * peridynamic core gains half its energy in four turns. Components as in base.h; plane stress and plane strain differ
+ * in their constants only. */
+#ifndef CLEAVE_KERNELS_STRESS
+#define CLEAVE_KERNELS_STRESS
 
 #include <math.h>
 
 #include "kernels/kernels.h"
 #include "row.h"
 
-/* Angle of a step above which the exact rotation replaces the one by two terms, whose error is a sixth of its cube [rad]. */
+/* Rotation angle of a step above which the exact rotation replaces the one by two terms, whose error is a sixth of the
+ * cube of the angle [rad]. */
 #define SPIN_SMALL 1e-3
-/* Below this one term will do: it lets stresses grow by the square of the angle, 1e-4 in 1e5 steps. */
+/* Rotation angle of a step below which one term is enough [rad]: stresses grow by the square of the angle, 1e-4 in 1e5
+ * steps. */
 #define SPIN_NONE 3e-5
 
 /* R s R^T with the rotation by the angle -w of x towards y (w = W_xy). */
@@ -26,14 +29,14 @@ static inline void stress_rotate_2d(real *s, real w)
     s[0] = mean + turned, s[1] = mean - turned;
 }
 
-/* a b, 3x3 */
+/* c = a b, 3x3. */
 static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], real c[3][3])
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
 }
 
-/* R s R^T with R = exp W (Rodrigues); W_xy, W_yz, W_zx. */
+/* R s R^T with R = exp W (Rodrigues); W by its components W_xy, W_yz, W_zx. */
 static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
 {
     const real S[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
@@ -52,7 +55,8 @@ static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
 }
 
 /* W s - s W = W s + (W s)^T of the stress of a few points; w: W_xy, in 3D W_yz and W_zx too. */
-static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_points *w, row_of_points *more, const int dim)
+static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_points *w, row_of_points *more,
+                                      const int dim)
 {
     if (dim == 2) {
         more[0] = 2 * w[0] * s[2], more[1] = -more[0], more[2] = w[0] * (s[1] - s[0]);
@@ -65,7 +69,7 @@ static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_point
     more[5] = w[2] * (s[0] - s[2]) + w[0] * s[4] - w[1] * s[3];
 }
 
-/* Turns the stress of a few points; each by its own angle, exactly where that is large. */
+/* Rotates the stress of a few points, each by its own angle; points with a large angle are rotated exactly. */
 static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -94,8 +98,8 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w
 struct elastic_points { row_of_points c11, c12, shear, trigger, yield; };   /* [Pa] */
 
 /* Updates s by the velocity gradient L[a dim + b] = dv_a/dx_b; returns the trace of the strain increment. */
-static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_points *L, const struct elastic_points *m, real dt,
-                                                 const int dim)
+static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_points *L,
+                                                 const struct elastic_points *m, real dt, const int dim)
 {
     if (dim == 1) {
         s[0] += m->c11 * L[0] * dt;
@@ -112,7 +116,8 @@ static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_
     }
     const row_of_points spin[3] = {0.5 * (L[1] - L[3]) * dt, 0.5 * (L[5] - L[7]) * dt, 0.5 * (L[6] - L[2]) * dt};
     const row_of_points half[3] = {0.5 * spin[0] * spin[0], 0.5 * spin[1] * spin[1], 0.5 * spin[2] * spin[2]};
-    const row_of_points xx = L[0] * dt + half[0] + half[2], yy = L[4] * dt + half[0] + half[1], zz = L[8] * dt + half[1] + half[2];
+    const row_of_points xx = L[0] * dt + half[0] + half[2], yy = L[4] * dt + half[0] + half[1],
+                        zz = L[8] * dt + half[1] + half[2];
     const row_of_points trace = xx + yy + zz, pressure = m->c12 * trace, twice = m->c11 - m->c12;
     stress_rotate(s, spin, dim);
     s[0] += pressure + twice * xx;
@@ -139,7 +144,8 @@ static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
     return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
 }
 
-/* No principal stress exceeds this; cheap, to look closer only where it may matter. */
+/* Upper bound of the principal stresses. It is cheap: the largest principal stress is computed only where the bound
+ * exceeds the trigger. */
 static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -149,7 +155,7 @@ static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
     return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
 }
 
-/* The same for a few points. */
+/* Upper bound of the principal stresses of a few points. */
 static ALWAYS_INLINE row_of_points stress_bounds(const row_of_points *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -157,7 +163,8 @@ static ALWAYS_INLINE row_of_points stress_bounds(const row_of_points *s, const i
     return points_max(points_max(s[0], s[1]), s[2]) + 2 * (points_size(s[3]) + points_size(s[4]) + points_size(s[5]));
 }
 
-/* The stress a point gives to the grid: all of it, or what the crossing bonds leave (src/coupling/partial_stress.c). */
+/* Stress that point i gives to the grid [Pa]: all of its stress, or the part that the crossing bonds leave
+ * (src/coupling/partial_stress.c). */
 static ALWAYS_INLINE void stress_given(const struct particles *p, const struct partial_stress *partial, int64_t i,
                                        real *stress, const int dim)
 {
@@ -165,19 +172,19 @@ static ALWAYS_INLINE void stress_given(const struct particles *p, const struct p
     for (int s = 0; s < n; s++) stress[s] = p->stress[s][i];
     if (!partial || !partial->index || partial->index[i] < 0) return;
     const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
-    real carried[SYM_MAX];
+    real grid_coupled[SYM_MAX];
     for (int a = 0; a < n; a++) {
-        carried[a] = 0;
-        for (int b = 0; b < n; b++) carried[a] += M[a * n + b] * stress[b];
+        grid_coupled[a] = 0;
+        for (int b = 0; b < n; b++) grid_coupled[a] += M[a * n + b] * stress[b];
     }
-    for (int a = 0; a < n; a++) stress[a] -= carried[a];
+    for (int a = 0; a < n; a++) stress[a] -= grid_coupled[a];
     if (!partial->local) return;
     const real *local = partial->local + (int64_t)partial->index[i] * n, pull = p->end_pull[i] / p->volume[i];
     for (int a = 0; a < n; a++) stress[a] += pull * local[a];
 }
 
-/* v turned by a quaternion. */
-static inline void turn_by(const real *q, real *v)
+/* Rotates v by the quaternion q, in place. */
+static inline void rotate_by(const real *q, real *v)
 {
     real u[3], old[3] = {v[0], v[1], v[2]};
     for (int k = 0; k < 3; k++) {
@@ -190,8 +197,8 @@ static inline void turn_by(const real *q, real *v)
     }
 }
 
-/* The skew part of what an end of bonds gives [Pa]: it balances the moment of its bonds; of sigma_ab in the order xy yz zx. False:
- * there is none. */
+/* Antisymmetric part of the stress that a point at the end of state-based bonds gives to the grid [Pa], components
+ * sigma_ab in the order xy, yz, zx: it balances the moment of the bonds. False: there is none. */
 static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const struct partial_stress *partial, int64_t i,
                                             real *skew, const int dim)
 {
@@ -201,9 +208,10 @@ static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const str
         skew[0] = half * p->end_moment[0][i];
         return true;
     }
-    const real turn[ROTATION] = {p->end_turn[0][i], p->end_turn[1][i], p->end_turn[2][i], p->end_turn[3][i]};
+    const real rotation[ROTATION] = {p->end_rotation[0][i], p->end_rotation[1][i], p->end_rotation[2][i],
+                                     p->end_rotation[3][i]};
     real moment[3] = {p->end_moment[0][i], p->end_moment[1][i], p->end_moment[2][i]};
-    turn_by(turn, moment);
+    rotate_by(rotation, moment);
     for (int c = 0; c < 3; c++) skew[c] = half * moment[(c + 2) % 3];
     return true;
 }

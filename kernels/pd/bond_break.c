@@ -1,13 +1,13 @@
-/* floor 2: the rule of breaking, scalar and exact: a bond whose stretch is larger than its critical stretch is broken
+/* The rule of breaking, scalar and exact: a bond whose stretch is larger than its critical stretch is broken
  * for ever; equality keeps it. Its energy is booked half at each end. */
 #include <math.h>
 
 #include "bond_laws.h"
-#include "bond_slot.h"
+#include "bond_column.h"
 #include "kernels/kernels.h"
 #include "state_laws.h"
 
-#define LIMIT_MARGIN 1e-9                /* vectors look that much below a limit for their round-off; the scalar rule decides */
+#define LIMIT_MARGIN 1e-9        /* vectors look that much below a limit for their round-off; the scalar rule decides */
 #define ROUND_OFF 1e-14                  /* of a squared elongation, where limits are smaller than that margin tells */
 
 /* Stretch of stored bond q between i and j [1]. */
@@ -30,7 +30,8 @@ static void set_flag(struct particles *p, int32_t i, int flag)
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* Half the energy of a bond [J]. Of a state-based one it is not to be had: its row loses what state_row_energy tells. */
+/* Half the energy of a bond [J]. Of a state-based one it is not to be had: its row loses what state_row_energy
+ * tells. */
 static real half_energy(const struct bonds *b, int64_t q, real stretch)
 {
     return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / fabs(b->inverse_length[q]);
@@ -51,7 +52,8 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
 {
     if (!b->state.modulus) b->fracture_energy[row] += half_energy(b, q, stretch);
-    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_stored(b, q);
+    const struct bond bond = {q, j, b->inverse_length[q], b->w[q]};
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_of(b, &bond);
     bond_end(b, p, row, q, i, j);
 }
 
@@ -81,8 +83,8 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     const int32_t i = b->particle[row];
     int64_t broken = 0;
     real before = 0;
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+    for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
+        const int64_t q = bond_to_write(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
         const real stretch = bond_stretch(b, p, q, i, j);
@@ -105,28 +107,29 @@ static real least_limit(const struct bond_limit *limit)
     return least * (1 - LIMIT_MARGIN);
 }
 
-/* The larger of each row's squared elongation so far and that of its bond in a slot: no root. Broken bonds have a negative
- * one. */
-static ALWAYS_INLINE lanes largest_of(lanes largest, const struct particles *p, const lanes *x, const struct slot s, const int dim)
+/* The larger of each row's squared elongation so far and that of its bond in a column: no root. Broken bonds have a
+ * negative one. */
+static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct particles *p, const lanes *x,
+                                                 const struct column s, const int dim)
 {
-    const lanes inverse = slot_inverse_length(s);
+    const lanes inverse = column_inverse_length(s);
     lanes distance2 = lanes_of(0);
     for (int d = 0; d < dim; d++) {
-        const lanes y = slot_at(s, p->x[d]) - x[d];
+        const lanes y = column_at(s, p->x[d]) - x[d];
         distance2 += y * y;
     }
-    return slot_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
+    return column_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
 }
 
-/* Which rows of a group have a bond beyond this stretch. */
+/* Which rows of a row block have a bond beyond this stretch. */
 static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, real least,
                                           const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes x[DIM_MAX], largest = lanes_of(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(SLOT) largest = largest_of(largest, p, x, SLOT, dim)
-    FOR_SLOTS(b, g, VISIT);
+#define VISIT(SLOT) largest = bond_break_largest_of(largest, p, x, SLOT, dim)
+    FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     return largest > lanes_of(square(1 + least) * (1 - ROUND_OFF));
 }
@@ -135,26 +138,28 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const real least = least_limit(limit);
-    return p->dim == 1 ? rows_past(b, p, g, least, 1) : p->dim == 2 ? rows_past(b, p, g, least, 2) : rows_past(b, p, g, least, 3);
+    return p->dim == 1   ? rows_past(b, p, g, least, 1)
+           : p->dim == 2 ? rows_past(b, p, g, least, 2)
+                         : rows_past(b, p, g, least, 3);
 }
 
-int64_t bond_break_group(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t group)
+int64_t bond_break_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block)
 {
-    const lanes_mask past = rows_due(b, p, limit, group);
+    const lanes_mask past = rows_due(b, p, limit, row_block);
     int64_t broken = 0;
-    for (int l = 0; l < LANES && group * LANES + l < b->rows && lanes_any(past); l++)
-        if (past[l]) broken += break_row(b, p, limit, group * LANES + l);
+    for (int l = 0; l < LANES && row_block * LANES + l < b->rows && lanes_any(past); l++)
+        if (past[l]) broken += break_row(b, p, limit, row_block * LANES + l);
     return broken;
 }
 
-/* Padding rows are asked with the last, whose kind they have. */
+/* Padding rows follow the last row, whose kind they have. */
 bool bond_break_asks(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     bool asks = false;
     if (!b->state.modulus) return false;
 #pragma omp parallel for schedule(static) reduction(|| : asks)
-    for (int64_t g = 0; g < b->groups; g++) {
-        if (asks || group_whole(b, g)) continue;
+    for (int64_t g = 0; g < b->row_blocks; g++) {
+        if (asks || row_block_whole(b, g)) continue;
         const lanes_mask past = rows_due(b, p, limit, g);
         for (int l = 0; l < LANES; l++) asks = asks || (past[l] && p->kind[b->particle[g * LANES + l]] == KIND_MPM);
     }
@@ -165,6 +170,6 @@ int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_l
 {
     int64_t broken = 0;
 #pragma omp parallel for schedule(static) reduction(+ : broken)
-    for (int64_t g = 0; g < b->groups; g++) broken += bond_break_group(b, p, limit, g);
+    for (int64_t g = 0; g < b->row_blocks; g++) broken += bond_break_row_block(b, p, limit, g);
     return broken;
 }

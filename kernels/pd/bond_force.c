@@ -1,14 +1,14 @@
-/* floor 2: force of all intact bonds on the particles of their rows, and the breaking of what is stretched too far.
+/* Force of all intact bonds on the particles of their rows, and the breaking of what is stretched too far.
  *
  *     s = |x_j - x_i| / |X_j - X_i| - 1,   f_i = sum_j stiffness w_ij law(s) (x_j - x_i)/|x_j - x_i|
  *
- * Eight rows at a time, slot by slot; a row is written by its own lane only, so no second writer exists and the result
- * does not depend on threads. Both ends compute the same stretch from the same numbers with the same operations (a
- * difference and its negative), so both rows break a bond in the same step without talking. */
+ * Eight rows at a time, column by column; a row is written by its own lane only, so no second writer exists and the
+ * result does not depend on threads. Both ends compute the same stretch from the same numbers with the same
+ * operations (a difference and its negative), so both rows break a bond in the same step without talking. */
 #include <math.h>
 
 #include "bond_laws.h"
-#include "bond_slot.h"
+#include "bond_column.h"
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 #include "sweep.h"
@@ -16,32 +16,32 @@
 
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
 
-/* A group while its slots are visited; `stretch` is the largest. */
+/* A row block while its columns are visited; `stretch` is the largest. */
 struct bond_sums { lanes x0, x1, x2, f0, f1, f2, stretch; };
 
-/* Adds the forces of a slot. The difference of the inverse lengths would be the stretch over the length, and cheaper; a body in
- * free fall then gathers three times the round-off. */
-static ALWAYS_INLINE struct bond_sums bond_force_slot(struct bond_sums sum, const struct particles *p, const struct slot s,
-                                                      const int dim, const enum pd_model model)
+/* Adds the forces of a column. The difference of the inverse lengths would be the stretch over the length, and
+ * cheaper; a body in free fall then gathers three times the round-off. */
+static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
+                                                        const struct column s, const int dim, const enum pd_model model)
 {
-    const lanes d0 = slot_at(s, p->x[0]) - sum.x0;
-    const lanes d1 = dim > 1 ? slot_at(s, p->x[1]) - sum.x1 : d0;
-    const lanes d2 = dim > 2 ? slot_at(s, p->x[2]) - sum.x2 : d0;
+    const lanes d0 = column_at(s, p->x[0]) - sum.x0;
+    const lanes d1 = dim > 1 ? column_at(s, p->x[1]) - sum.x1 : d0;
+    const lanes d2 = dim > 2 ? column_at(s, p->x[2]) - sum.x2 : d0;
     lanes distance2 = d0 * d0 + TINY;
     if (dim > 1) distance2 += d1 * d1;
     if (dim > 2) distance2 += d2 * d2;
-    const lanes inverse = lanes_inverse_root(distance2), w = slot_weight(s);
-    const lanes stretch = STRETCH_OF(distance2 * inverse, slot_inverse_length(s));
+    const lanes inverse = lanes_inverse_root(distance2), w = column_weight(s);
+    const lanes stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
     const lanes force = bond_law(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
-    sum.stretch = slot_largest(s, sum.stretch, stretch);
+    sum.stretch = column_largest(s, sum.stretch, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
     if (dim > 2) sum.f2 += force * d2;
     return sum;
 }
 
-/* Force of one group, mixed into what f holds by `share`; returns whether a bond may have passed its limit. */
-static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particles *p, int64_t g, const real share,
+/* Force of one row block, mixed into what f holds by `share`; returns whether a bond may have passed its limit. */
+static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const real share,
                                            const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -51,8 +51,8 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
     const lanes zero = lanes_of(0), x0 = lanes_at(p->x[0], own, row);
     struct bond_sums sum = {x0, dim > 1 ? lanes_at(p->x[1], own, row) : x0, dim > 2 ? lanes_at(p->x[2], own, row) : x0,
                             zero, zero, zero, lanes_of(-1)};
-#define VISIT(SLOT) sum = bond_force_slot(sum, p, SLOT, dim, model)
-    FOR_SLOTS(b, g, VISIT);
+#define VISIT(SLOT) sum = bond_force_column(sum, p, SLOT, dim, model)
+    FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     rows_store(p->f[0], row, rows, aligned, sum.f0 * b->stiffness, share);
     if (dim > 1) rows_store(p->f[1], row, rows, aligned, sum.f1 * b->stiffness, share);
@@ -60,21 +60,21 @@ static ALWAYS_INLINE bool bond_force_group(const struct bonds *b, struct particl
     return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
 }
 
-/* Force of one group and the breaking of its bonds; returns how many broke. */
-static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g,
-                                                  const int dim, const enum pd_model model)
+/* Force of one row block and the breaking of its bonds; returns how many broke. */
+static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                                                  int64_t g, const int dim, const enum pd_model model)
 {
-    if (!bond_force_group(b, p, g, 1, dim, model)) return 0;
-    const int64_t broken = bond_break_group(b, p, limit, g);
-    if (broken > 0 && !limit->whole_force) bond_force_group(b, p, g, 0.5, dim, model);
+    if (!bond_force_row_block(b, p, g, 1, dim, model)) return 0;
+    const int64_t broken = bond_break_row_block(b, p, limit, g);
+    if (broken > 0 && !limit->whole_force) bond_force_row_block(b, p, g, 0.5, dim, model);
     return broken;
 }
 
-#define INSTANCE(D, M)                                                                                                \
-    static int64_t bond_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,        \
-                                         struct pd_motion *m)                                                         \
-    {                                                                                                                 \
-        SWEEP(b, p, m, D, bond_force_and_break(b, p, limit, group, D, PD_##M));                                       \
+#define INSTANCE(D, M)                                                                                                 \
+    static int64_t bond_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,         \
+                                         struct pd_motion *m)                                                          \
+    {                                                                                                                  \
+        SWEEP(b, p, m, D, bond_force_and_break(b, p, limit, row_block, D, PD_##M));                                    \
     }
 PD_VARIANTS(INSTANCE)
 

@@ -1,8 +1,8 @@
-/* floor 2: the laws of single bonds. A law maps what a bond measures to the force of a unit weight; how bonds are
+/* The laws of single bonds. A law maps what a bond measures to the force of a unit weight; how bonds are
  * visited is not its business. To add one: write it here, add its name to enum pd_model, a case below, and one line a
  * dimension in variants.h. */
-#ifndef CLEAVE_BOND_LAWS_H
-#define CLEAVE_BOND_LAWS_H
+#ifndef CLEAVE_KERNELS_BOND_LAWS
+#define CLEAVE_KERNELS_BOND_LAWS
 
 #include <math.h>
 
@@ -28,8 +28,8 @@ static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes s
     return stretch - plastic;
 }
 
-/* Force over stiffness and weight [1] of eight bonds from entry q on: f = c s n (Silling & Askari 2005; Zeng et al. 2022,
- * eqs. 17, 29), of the elastic part of the stretch where bonds yield. Updates what yielding does to them. */
+/* Force over stiffness and weight [1] of eight bonds from entry q on: f = c s n (Silling & Askari 2005; Zeng et al.
+ * 2022, eqs. 17, 29), of the elastic part of the stretch where bonds yield. Updates what yielding does to them. */
 static ALWAYS_INLINE lanes bond_law(const enum pd_model model, const struct bonds *b, int64_t q, lanes stretch, lanes w)
 {
     return model == PD_BOND_PLASTIC ? bond_yields(b, q, stretch, w > 0.0) : stretch;
@@ -49,36 +49,37 @@ static inline real bond_elastic_one(const struct bonds *b, int64_t q, real stret
 /* Elastic energy over stiffness, weight and reference length [1]. */
 static ALWAYS_INLINE lanes bond_law_energy(lanes elastic) { return 0.5 * elastic * elastic; }
 
-/* ---- one stored bond, for what is visited at samples and frames only ---------------------------------- */
+/* ---- one bond, for what is visited at samples and frames only --------------------------------------------- */
 
 /* Elastic part of the stretch of entry q of the row of particle i [1]. */
-static inline real bond_elastic_stored(const struct bonds *b, const struct particles *p, int64_t q, int32_t i)
+static inline real bond_elastic_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     real distance2 = 0;
-    for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][b->nbr[q]] - p->x[d][i]);
-    return bond_elastic_one(b, q, sqrt(distance2) * b->inverse_length[q] - 1);
+    for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][bond->nbr] - p->x[d][i]);
+    return bond_elastic_one(b, bond->entry, sqrt(distance2) * bond->inverse_length - 1);
 }
 
 /* Its force as the force kernel makes it; tension is positive [N]. */
-static inline real bond_force_stored(const struct bonds *b, const struct particles *p, int64_t q, int32_t i)
+static inline real bond_force_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
-    return b->w[q] == 0 ? 0 : b->stiffness * b->w[q] * bond_elastic_stored(b, p, q, i);
+    return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_of(b, p, bond, i);
 }
 
 /* Its elastic energy [J]. */
-static inline real bond_energy_stored(const struct bonds *b, const struct particles *p, int64_t q, int32_t i)
+static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
-    if (b->w[q] == 0) return 0;
-    return 0.5 * b->stiffness * b->w[q] * square(bond_elastic_stored(b, p, q, i)) / b->inverse_length[q];
+    if (bond->w == 0) return 0;
+    return 0.5 * b->stiffness * bond->w * square(bond_elastic_of(b, p, bond, i)) / bond->inverse_length;
 }
 
 /* Its plastic work [J]: closed form, since hardening is linear and the path only grows. */
-static inline real bond_work_stored(const struct bonds *b, int64_t q)
+static inline real bond_work_of(const struct bonds *b, const struct bond *bond)
 {
-    if (b->w[q] == 0 || b->plastic_path[q] == 0) return 0;
+    const int64_t q = bond->entry;
+    if (bond->w == 0 || b->plastic_path[q] == 0) return 0;
     const int32_t pair = b->pair[q];
     const real path = b->plastic_path[q], yield = b->yield.stretch[pair], hardening = b->yield.hardening[pair];
-    return b->stiffness * b->w[q] * path * (yield + 0.5 * hardening * path) / b->inverse_length[q];
+    return b->stiffness * bond->w * path * (yield + 0.5 * hardening * path) / bond->inverse_length;
 }
 
 #endif

@@ -1,122 +1,121 @@
-/* floor 2: what bonds hold: their elastic energy, and the stress they amount to. Visited at samples and frames only. */
+/* What bonds hold: their elastic energy, and the stress they amount to. Visited at samples and frames only. */
 #include <math.h>
 
 #include "bond_laws.h"
-#include "bond_slot.h"
+#include "bond_column.h"
 #include "kernels/kernels.h"
 #include "base/team.h"
 #include "kernels/simd/variants.h"
 
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
 
-/* 1/|y|, and the stretch of the bonds of a slot from rows at x to neighbours at x + y. */
-static ALWAYS_INLINE lanes measure(const struct slot s, const struct particles *p, const lanes *x, lanes *y, lanes *stretch,
-                                   const int dim)
+/* 1/|y|, and the stretch of the bonds of a column from rows at x to neighbours at x + y. */
+static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
+                                              lanes *y, lanes *stretch, const int dim)
 {
     lanes distance2 = lanes_of(TINY);
     for (int d = 0; d < dim; d++) {
-        y[d] = slot_at(s, p->x[d]) - x[d];
+        y[d] = column_at(s, p->x[d]) - x[d];
         distance2 += y[d] * y[d];
     }
     const lanes inverse = lanes_inverse_root(distance2);
-    *stretch = STRETCH_OF(distance2 * inverse, slot_inverse_length(s));
+    *stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
     return inverse;
 }
 
-/* Energy of a slot over half the stiffness. */
-static ALWAYS_INLINE lanes bond_energy_slot(const struct slot s, const struct particles *p, const lanes *x, const int dim,
-                                            const enum pd_model model)
+/* Energy of a column over half the stiffness. */
+static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
+                                              const int dim, const enum pd_model model)
 {
     lanes y[DIM_MAX], stretch;
-    measure(s, p, x, y, &stretch, dim);
-    const lanes w = slot_weight(s), inverse = slot_inverse_length(s);
+    bond_measure_store(s, p, x, y, &stretch, dim);
+    const lanes w = column_weight(s), inverse = column_inverse_length(s);
     const lanes length = lanes_inverse_root(inverse * inverse);            /* cheaper than a division */
     const lanes elastic = bond_elastic(model, s.b, s.number * LANES, stretch);
     return lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
 }
 
-/* Energy over half the stiffness (each bond has two rows) of the eight rows of a group. */
-static ALWAYS_INLINE real bond_energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
-                                            const enum pd_model model)
+/* Energy over half the stiffness (each bond has two rows) of the eight rows of a row block. */
+static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
+                                                const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes sum = lanes_of(0), x[DIM_MAX];
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(SLOT) sum += bond_energy_slot(SLOT, p, x, dim, model)
-    FOR_SLOTS(b, g, VISIT);
+#define VISIT(SLOT) sum += bond_energy_column(SLOT, p, x, dim, model)
+    FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     real total = 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     return total;
 }
 
-/* Adds sum_j F_ij (x) (x_j - x_i) over the stiffness, of a slot. */
-static ALWAYS_INLINE void bond_stress_slot(lanes *sum, const struct slot s, const struct particles *p, const lanes *x,
-                                           const int dim, const enum pd_model model)
+/* Adds sum_j F_ij (x) (x_j - x_i) over the stiffness, of a column. */
+static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, const struct particles *p,
+                                             const lanes *x, const int dim, const enum pd_model model)
 {
     lanes y[DIM_MAX], stretch;
-    const lanes inverse = measure(s, p, x, y, &stretch, dim);
-    const lanes share = slot_weight(s) * bond_elastic(model, s.b, s.number * LANES, stretch) * inverse;
+    const lanes inverse = bond_measure_store(s, p, x, y, &stretch, dim);
+    const lanes share = column_weight(s) * bond_elastic(model, s.b, s.number * LANES, stretch) * inverse;
     for (int d = 0; d < dim; d++) sum[d] += share * y[d] * y[d];
     if (dim > 1) sum[dim] += share * y[0] * y[1];
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
 }
 
 /* sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F the force on i, of the peridynamic particles among the eight rows of a
- * group. */
-static ALWAYS_INLINE void bond_stress_group(const struct bonds *b, struct particles *p, int64_t g, const int dim,
+ * row block. */
+static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                             const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes sum[SYM_MAX], x[DIM_MAX];
     for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_of(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(SLOT) bond_stress_slot(sum, SLOT, p, x, dim, model)
-    FOR_SLOTS(b, g, VISIT);
+#define VISIT(SLOT) bond_stress_column(sum, SLOT, p, x, dim, model)
+    FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
         for (int s = 0; s < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; s++)
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
-static real plastic_term(const void *context, int64_t row)
+static real bond_measure_plastic_term(const void *context, int64_t row)
 {
     const struct bonds *b = context;
     real sum = b->plastic_work[row];
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++)
-        sum += 0.5 * bond_work_stored(b, bond_index(b, row / LANES, k, (int)(row % LANES)));
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) sum += 0.5 * bond_work_of(b, &it.bond);
     return sum;
 }
 
 real bond_plastic_work(const struct bonds *b)
 {
-    return b->plastic_path ? team_sum(b->rows, plastic_term, b) : 0;
+    return b->plastic_path ? team_sum(b->rows, bond_measure_plastic_term, b) : 0;
 }
 
-/* Groups are added in blocks of fixed size, the blocks in their order: the same bits on any number of threads. */
-enum { GROUPS_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
+/* Row blocks are added in blocks of fixed size, the blocks in their order: the same bits on any number of threads. */
+enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
 
-#define INSTANCE(D, M)                                                                                          \
-    static real bond_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                        \
-    {                                                                                                           \
-        real total = 0;                                                                                         \
-        for (int64_t first = 0; first < b->groups; first += (int64_t)GROUPS_PER_BLOCK * BLOCKS_AT_ONCE) {       \
-            real part[BLOCKS_AT_ONCE] = {0};                                                                    \
-            _Pragma("omp parallel for schedule(static)")                                                        \
-            for (int block = 0; block < BLOCKS_AT_ONCE; block++)                                                \
-                for (int k = 0; k < GROUPS_PER_BLOCK; k++) {                                                    \
-                    int64_t g = first + (int64_t)block * GROUPS_PER_BLOCK + k;                                  \
-                    if (g < b->groups && (PD_##M == PD_BOND_PLASTIC || b->rest.level[g] > 0))                   \
-                        part[block] += bond_energy_group(b, p, g, D, PD_##M);                                   \
-                }                                                                                               \
-            for (int block = 0; block < BLOCKS_AT_ONCE; block++) total += part[block];                          \
-        }                                                                                                       \
-        return 0.5 * b->stiffness * total;                                                                      \
-    }                                                                                                           \
-    static void bond_stress_##D##d_##M(const struct bonds *b, struct particles *p)                              \
-    {                                                                                                           \
-        _Pragma("omp parallel for schedule(static)")                                                            \
-        for (int64_t g = 0; g < b->groups; g++) bond_stress_group(b, p, g, D, PD_##M);                                                \
+#define INSTANCE(D, M)                                                                                                 \
+    static real bond_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                               \
+    {                                                                                                                  \
+        real total = 0;                                                                                                \
+        for (int64_t first = 0; first < b->row_blocks; first += (int64_t)ROW_BLOCK_PER_BLOCK * BLOCKS_AT_ONCE) {       \
+            real part[BLOCKS_AT_ONCE] = {0};                                                                           \
+            _Pragma("omp parallel for schedule(static)")                                                               \
+            for (int block = 0; block < BLOCKS_AT_ONCE; block++)                                                       \
+                for (int k = 0; k < ROW_BLOCK_PER_BLOCK; k++) {                                                        \
+                    int64_t g = first + (int64_t)block * ROW_BLOCK_PER_BLOCK + k;                                      \
+                    if (g < b->row_blocks && (PD_##M == PD_BOND_PLASTIC || b->active.level[g] > 0))                    \
+                        part[block] += bond_energy_row_block(b, p, g, D, PD_##M);                                      \
+                }                                                                                                      \
+            for (int block = 0; block < BLOCKS_AT_ONCE; block++) total += part[block];                                 \
+        }                                                                                                              \
+        return 0.5 * b->stiffness * total;                                                                             \
+    }                                                                                                                  \
+    static void bond_stress_##D##d_##M(const struct bonds *b, struct particles *p)                                     \
+    {                                                                                                                  \
+        _Pragma("omp parallel for schedule(static)")                                                                   \
+        for (int64_t g = 0; g < b->row_blocks; g++) bond_stress_row_block(b, p, g, D, PD_##M);                         \
     }
 PD_VARIANTS(INSTANCE)
 

@@ -1,14 +1,16 @@
-/* floor 2: what bonds across clamped planes do to the sources of their images.
+/* What bonds across clamped planes do to the sources of their images.
  *
- * The image g of a source j in a clamped plane is where the plane reflects j, x_g = X_g + P u_j with P = -1 (by component where a
- * plane of symmetry has a part in it). The lattice is its own image, a displacement turned round is not: the bond from i to g(j)
- * pulls along n, that from j to g(i) along R n, and the forces that sweeps find for i and j come from no energy. The energy is
+ * The image g of a source j in a clamped plane is where the plane reflects j, x_g = X_g + P u_j with P = -1 (by
+ * component where a plane of symmetry has a part in it). The lattice is its own image, a displacement turned round
+ * is not: the bond from i to g(j) pulls along n, that from j to g(i) along R n, and the forces that sweeps find for
+ * i and j come from no energy. The energy is
  *
  *     E(u) = sum of the energies W_i of the body's own rows, images following their sources,
  *     f_i += T_ig,   f_j -= P^T T_ig    for every image g of j in the row of i
  *
- * with T_ig what W_i alone gives. A bond that knows but itself has half its force from either end: half of what the sweep gave i
- * belongs to the row that the image does not have. State-based rows see clamped images that know nothing, so theirs is T_ig. */
+ * with T_ig what W_i alone gives. A bond that knows but itself has half its force from either end: half of what the
+ * sweep gave i belongs to the row that the image does not have. State-based rows see clamped images that know
+ * nothing, so theirs is T_ig. */
 #include "bond_laws.h"
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
@@ -19,7 +21,8 @@ enum { MANY = 4096 };                    /* bonds from which on a team pays */
 /* Eight bonds: where they lead, and 1/|Y| and the stretch. */
 struct across { lanes y[DIM_MAX], w, inverse_length, inverse, stretch; };
 
-static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k, const int dim)
+static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k,
+                                             const int dim)
 {
     struct across a = {.w = lanes_load(c->w + k), .inverse_length = lanes_load(c->inverse_length + k)};
     lanes distance2 = lanes_of(STATE_TINY);
@@ -38,48 +41,53 @@ static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct par
     const struct clamped *c = &b->clamped;
     const struct across a = across_of(c, p, k, dim);
     lanes elastic = a.stretch;
-    for (int l = 0; b->plastic_stretch && l < LANES && k + l < c->n; l++) elastic[l] -= b->plastic_stretch[c->entry[k + l]];
+    for (int l = 0; b->plastic_stretch && l < LANES && k + l < c->n; l++)
+        elastic[l] -= b->plastic_stretch[c->entry[k + l]];
     const lanes share = (-0.5 * b->stiffness) * (a.w * elastic * a.inverse);
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, share * a.y[d]);
 }
 
 /* Minus the own force state of the row (state_laws.h). */
 static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim,
-                                          const bool turns)
+                                          const bool rotates)
 {
     const struct clamped *c = &b->clamped;
     const struct state *t = &b->state;
     const struct across a = across_of(c, p, k, dim);
     const lanes r = lanes_inverse_root(lanes_choose(a.w > 0.0, a.inverse_length * a.inverse_length, lanes_of(1)));
     const lanes spring = lanes_gather(t->spring, c->from + k);
-    lanes along = r * lanes_gather(t->pressure, c->from + k), turn[TURN], xi[DIM_MAX], effective[DIM_MAX];
-    if (!turns) along += r * a.stretch * spring;
+    lanes along = r * lanes_gather(t->pressure, c->from + k), rotation[ROTATION_NUMBERS], xi[DIM_MAX],
+          effective[DIM_MAX];
+    if (!rotates) along += r * a.stretch * spring;
     for (int d = 0; d < dim; d++) {
         xi[d] = lanes_gather(p->X[d], c->to + k) - lanes_gather(p->X[d], c->from + k);
-        effective[d] = turns ? spring * (a.y[d] - xi[d]) : lanes_of(0);
+        effective[d] = rotates ? spring * (a.y[d] - xi[d]) : lanes_of(0);
     }
-    for (int e = 0; turns && e < TURN; e++) turn[e] = lanes_gather(t->turn[e], c->from + k);
-    if (turns) turn_off(effective, turn, xi, dim);
+    for (int e = 0; rotates && e < ROTATION_NUMBERS; e++) rotation[e] = lanes_gather(t->rotation[e], c->from + k);
+    if (rotates) rotate_back(effective, rotation, xi, dim);
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }
 
-static ALWAYS_INLINE void reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
+static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const struct particles *p, int64_t k,
+                                                const int dim)
 {
     if (!b->state.modulus) bond_reactions(b, p, k, dim);
-    else if (b->state.turn[0]) state_reactions(b, p, k, dim, true);
+    else if (b->state.rotation[0]) state_reactions(b, p, k, dim, true);
     else state_reactions(b, p, k, dim, false);
 }
 
-static void give(const struct clamped *c, struct particles *p, int64_t h)
+static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
 {
     for (int d = 0; d < p->dim; d++) {
         real sum = 0;
-        for (int64_t k = c->first[h]; k < c->first[h + 1]; k++) sum += c->end[k].sign[d] * c->reaction[d][c->end[k].bond];
+        for (int64_t k = c->first[h]; k < c->first[h + 1]; k++)
+            sum += c->end[k].sign[d] * c->reaction[d][c->end[k].bond];
         p->f[d][c->particle[h]] += sum;
     }
 }
 
-/* Weights of now; a bond that the sweep broke acts as it does there: with half its force, or with all of it (bond_force_fn). */
+/* Weights of now; a bond that the sweep broke acts as it does there: with half its force, or with all of it
+ * (bond_force_fn). */
 static void weights_follow(struct bonds *b, real of_broken)
 {
     struct clamped *c = &b->clamped;
@@ -97,8 +105,8 @@ int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, 
     const int64_t broken = sweep(b, p, limit, motion);       /* stale, if one of these bonds is among them */
     if (c->stale) weights_follow(b, limit->whole_force ? 1 : 0.5);
     TEAM_LOOP(c->n > MANY, for (int64_t k = 0; k < c->n; k += LANES)
-        if (p->dim == 2) reactions(b, p, k, 2);
-        else reactions(b, p, k, 3););
-    TEAM_LOOP(c->n > MANY, for (int64_t h = 0; h < c->held; h++) give(c, p, h););
+        if (p->dim == 2) clamp_force_reactions(b, p, k, 2);
+        else clamp_force_reactions(b, p, k, 3););
+    TEAM_LOOP(c->n > MANY, for (int64_t h = 0; h < c->held; h++) clamp_force_give(c, p, h););
     return broken;
 }

@@ -1,18 +1,19 @@
-/* floor 2: the leap-frog step of peridynamic particles. Moves 72 bytes a particle in 2D: x, v read and written, f and m read. */
+/* The leap-frog step of peridynamic particles. Moves 72 bytes a particle in 2D: x, v read and written, f
+ * and m read. */
 #include "pd_move.h"
 #include "kernels/simd/variants.h"
 
-#define INSTANCE(D)                                                                                                     \
-    static bool pd_move_##D##d(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *m)          \
-    {                                                                                                                   \
-        int64_t wild = 0;                                                                                               \
-        if (n == 0) return false;                                                                                       \
-        _Pragma("omp parallel for schedule(static) reduction(+ : wild)")                                                \
-        for (int64_t k = 0; k < n; k += LANES) {                                                                        \
-            _Alignas(sizeof(lanes)) int32_t room[LANES];                                                                \
-            wild += pd_move_eight(p, list_eight(list, k, n, room), eight_at(k, n), NULL, m, D);                         \
-        }                                                                                                               \
-        return wild > 0;                                                                                                \
+#define INSTANCE(D)                                                                                                    \
+    static bool pd_move_##D##d(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *m)         \
+    {                                                                                                                  \
+        int64_t diverged = 0;                                                                                          \
+        if (n == 0) return false;                                                                                      \
+        _Pragma("omp parallel for schedule(static) reduction(+ : diverged)")                                           \
+        for (int64_t k = 0; k < n; k += LANES) {                                                                       \
+            _Alignas(sizeof(lanes)) int32_t room[LANES];                                                               \
+            diverged += pd_move_eight(p, list_eight(list, k, n, room), eight_at(k, n), NULL, m, D);                    \
+        }                                                                                                              \
+        return diverged > 0;                                                                                           \
     }
 DIM_VARIANTS(INSTANCE)
 

@@ -1,9 +1,8 @@
-/* floor 2: the leap-frog step of eight peridynamic particles, for whoever only moves them (pd_move.c) and for sweeps of forces
- * (sweep.h). */
-#ifndef CLEAVE_PD_MOVE_H
-#define CLEAVE_PD_MOVE_H
+/* The leap-frog step of eight peridynamic particles, for pd_move.c and for sweeps of forces (sweep.h). */
+#ifndef CLEAVE_KERNELS_PD_MOVE
+#define CLEAVE_KERNELS_PD_MOVE
 
-#include "kernels/alarm.h"
+#include "kernels/divergence.h"
 #include "kernels/kernels.h"
 
 /* Which of the first n of eight particles move, a bit each: neither the grid moves them, nor do they wait for loads. */
@@ -26,8 +25,8 @@ static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together,
             if (movers >> l & 1) to[list[l]] = a[l];
 }
 
-/* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of those of eight particles that move; `together`: all, and they are
- * consecutive. Is one of them out of hand? */
+/* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of those of eight particles that move; `together`: all,
+ * and they are consecutive. Is one of them diverged? */
 static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m,
                                   const int dim, const bool together)
 {
@@ -43,13 +42,14 @@ static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsi
         pd_store(p->v[d], list, together, movers, v[d]);
         pd_store(p->x[d], list, together, movers, x[d]);
     }
-    const lanes_mask wild = out_of_hand(speed2, place, square(m->fastest));
-    bool any = together && lanes_any(wild);
-    for (int l = 0; l < LANES && !together; l++) any |= (movers >> l & 1) && wild[l];
+    const lanes_mask diverged = out_of_hand(speed2, place, square(m->fastest));
+    bool any = together && lanes_any(diverged);
+    for (int l = 0; l < LANES && !together; l++) any |= (movers >> l & 1) && diverged[l];
     return any;
 }
 
-/* The same of the first n of eight particles, in ascending order from a 32-byte boundary on, but for those that do not move. */
+/* The same of the first n of eight particles, in ascending order from a 32-byte boundary on, but for those that do
+ * not move. */
 static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
                                         const struct pd_motion *m, const int dim)
 {

@@ -1,6 +1,6 @@
-/* floor 2: the rotation R nearest to a matrix M: R maximises R : M, that is M = R U with U symmetric and positive. */
-#ifndef CLEAVE_POLAR_H
-#define CLEAVE_POLAR_H
+/* The rotation R nearest to a matrix M: R maximises R : M, that is M = R U with U symmetric and positive. */
+#ifndef CLEAVE_KERNELS_POLAR
+#define CLEAVE_KERNELS_POLAR
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
-/* floor 2: polar.h for eight matrices at once: entry c of lane l is M[c][l]. */
-#ifndef CLEAVE_POLAR_LANES_H
-#define CLEAVE_POLAR_LANES_H
+/* polar.h for eight matrices at once: entry c of lane l is M[c][l]. */
+#ifndef CLEAVE_KERNELS_POLAR_LANES
+#define CLEAVE_KERNELS_POLAR_LANES
 
 #include "kernels/simd/lanes.h"
 #include "polar.h"
@@ -16,8 +16,8 @@ static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
     R[1] = -R[2];
 }
 
-/* One step of R <- (R + R^-T)/2; lanes that are singular or inside out lose their bit of `sound`. Returns the determinant that
- * R had. */
+/* One step of R <- (R + R^-T)/2; lanes that are singular or inside out lose their bit of `sound`. Returns the
+ * determinant that R had. */
 static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
 {
     const lanes cofactor[9] = {
@@ -31,8 +31,8 @@ static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
     return determinant;
 }
 
-/* After a step no singular value is below 1, since (s + 1/s)/2 is not, and their product bounds how far each is above. A step
- * squares that and halves it: from 1e-8 what is left is below round-off. */
+/* After a step no singular value is below 1, since (s + 1/s)/2 is not, and their product bounds how far each is
+ * above. A step squares that and halves it: from 1e-8 what is left is below round-off. */
 static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
 {
     lanes size2 = lanes_of(POLAR_TINY);

@@ -1,4 +1,4 @@
-/* floor 2: state-based peridynamics: what particles know of their families, and what a bond makes of it.
+/* State-based peridynamics: sums over families, and the force of a bond that follows from them.
  *
  * With w = omega beta V_i V_j / V0^2, Y the bond now and xi before, r = |xi|, e = |Y| - r, n = Y/|Y|:
  *
@@ -11,68 +11,69 @@
  *     with effective displacements Y - R xi (modified model of 2026, here for finite rotation; shear exact on lattices)
  *         f_i = sum_j w {r (P_i + P_j) n + [g_i (Y - R_i xi) + g_j (Y - R_j xi)]},   A = D^2 lambda',  B = 2 D G
  *
- * Since R_i makes its own energy least, the force is the energy's exact gradient in cut families too: energy and angular
- * momentum are kept. A material point at the end of bonds has a family, too, of which its bonds see a part: its cell adds the rest
- * of S (particles.end_strain) and gives R (end_turn), and is told in turn what that means to it: P Q (end_pull), and the moment of
- * the springs about it (end_moment; src/coupling/partial_stress.c). */
-#ifndef CLEAVE_STATE_LAWS_H
-#define CLEAVE_STATE_LAWS_H
+ * Since R_i makes its own energy least, the force is the energy's exact gradient in cut families too: energy and
+ * angular momentum are kept. A material point at the end of bonds has a family, too, of which its bonds see a part:
+ * its cell adds the rest of S (particles.end_strain) and gives R (end_rotation), and receives the conjugate
+ * reactions: P Q (end_pull), and the moment of the springs about it (end_moment; src/coupling/partial_stress.c). */
+#ifndef CLEAVE_KERNELS_STATE_LAWS
+#define CLEAVE_KERNELS_STATE_LAWS
 
 #include <math.h>
 
-#include "bond_slot.h"
+#include "bond_column.h"
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
-#include "turn.h"
+#include "rotation.h"
 
 #define STATE_TINY 1e-300                /* keeps roots of a padding lane finite */
 
-/* The bonds of a slot, as both sweeps see them. */
+/* The bonds of a column, as both sweeps see them. */
 struct state_bond {
     lanes y[DIM_MAX], xi[DIM_MAX];       /* now and before [m]; xi only where rotations matter */
     lanes distance2;                     /* |Y|^2 [m^2] */
     lanes inverse_length;                /* 1/|xi|; of broken bonds maybe the negative [1/m] */
 };
 
-static ALWAYS_INLINE bool state_turns(const enum pd_model model) { return model == PD_MOSPD; }
+static ALWAYS_INLINE bool state_rotates(const enum pd_model model) { return model == PD_MOSPD; }
 
-static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct particles *p, const struct slot slot,
+static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct particles *p, const struct column column,
                                           const lanes *x, const lanes *X, const int dim, const enum pd_model model)
 {
     s->distance2 = lanes_of(STATE_TINY);
     for (int d = 0; d < dim; d++) {
-        s->y[d] = slot_at(slot, p->x[d]) - x[d];
+        s->y[d] = column_at(column, p->x[d]) - x[d];
         s->distance2 += s->y[d] * s->y[d];
-        if (state_turns(model)) s->xi[d] = slot_reference(slot, p, d, X[d]);
+        if (state_rotates(model)) s->xi[d] = column_reference(column, p, d, X[d]);
     }
-    s->inverse_length = slot_inverse_length(slot);
+    s->inverse_length = column_inverse_length(column);
 }
 
-/* w |xi| or w |xi|^2: factors, of a lattice without the round-off of positions, which no difference magnifies [m], [m^2]. */
-static ALWAYS_INLINE lanes state_weight(const struct slot s, lanes w, lanes inverse_length, const bool square)
+/* w |xi| or w |xi|^2: factors, of a lattice without the round-off of positions, which no difference magnifies [m],
+ * [m^2]. */
+static ALWAYS_INLINE lanes state_weight(const struct column s, lanes w, lanes inverse_length, const bool square)
 {
-    if (s.kind >= SLOT_WHOLE) return lanes_of(square ? s.pattern->squared : s.pattern->weighted);
-    const struct bond_length *known = &s.b->lattice[s.pattern ? s.pattern->lattice : s.b->common[s.number].lattice];
+    if (s.kind >= COLUMN_WHOLE) return lanes_of(square ? s.stencil->squared : s.stencil->weighted);
+    const struct bond_length *known = &s.b->lattice[s.stencil ? s.stencil->lattice : s.b->common[s.number].lattice];
     if (s.kind) return w * (square ? known->square : known->length);
     const lanes r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));
 }
 
-/* |xi| as what is stored says, so that |xi|/|Y| is 1 but for round-off where nothing has moved; of broken bonds maybe the negative
- * [m]. */
-static ALWAYS_INLINE lanes state_length(const struct slot s, lanes inverse_length)
+/* |xi| as what is stored says, so that |xi|/|Y| is 1 but for round-off where nothing has moved; of broken bonds
+ * maybe the negative [m]. */
+static ALWAYS_INLINE lanes state_length(const struct column s, lanes inverse_length)
 {
-    if (s.pattern) return lanes_of(s.pattern->length);
+    if (s.stencil) return lanes_of(s.stencil->length);
     return 1.0 / (s.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_of(1)));
 }
 
-/* e/|Y| = 1 - |xi|/|Y|, rounded as a stretch is (bond_slot.h). */
+/* e/|Y| = 1 - |xi|/|Y|, rounded as a stretch is (bond_column.h). */
 #define SHARE_OF(LENGTH, INVERSE) (9.0 - ((LENGTH) * (INVERSE) + 8.0))
 
 /* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side
  * [J]. */
 static inline real state_own_force(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real *T,
-                                   real *xi, const int dim, const bool turns)
+                                   real *xi, const int dim, const bool rotates)
 {
     const struct state *t = &b->state;
     const int32_t j = b->nbr[q];
@@ -82,15 +83,15 @@ static inline real state_own_force(const struct bonds *b, const struct particles
         y2 += square(y[d]);
     }
     const real length = sqrt(y2), e = r * STRETCH_OF(length, fabs(b->inverse_length[q])), w = b->w[q];
-    real along = r * t->pressure[i] + (turns ? 0 : e * t->spring[i]);
+    real along = r * t->pressure[i] + (rotates ? 0 : e * t->spring[i]);
     energy = 0.5 * w * along * e;
     for (int d = 0; d < dim; d++) T[d] = w * along * y[d] / length;
-    if (!turns) return energy;
-    lanes effective[DIM_MAX], arm[DIM_MAX], turn[TURN];          /* eight times the same */
+    if (!rotates) return energy;
+    lanes effective[DIM_MAX], arm[DIM_MAX], rotation[ROTATION_NUMBERS];          /* eight times the same */
     real effective2 = 0;
-    for (int c = 0; c < TURN; c++) turn[c] = lanes_of(t->turn[c][i]);
+    for (int c = 0; c < ROTATION_NUMBERS; c++) rotation[c] = lanes_of(t->rotation[c][i]);
     for (int d = 0; d < dim; d++) effective[d] = lanes_of(t->spring[i] * (y[d] - xi[d])), arm[d] = lanes_of(xi[d]);
-    turn_off(effective, turn, arm, dim);
+    rotate_back(effective, rotation, arm, dim);
     for (int d = 0; d < dim; d++) T[d] += w * effective[d][0], effective2 += square(effective[d][0]);
     return energy + 0.5 * w * effective2 / t->spring[i];
 }

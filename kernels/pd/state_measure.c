@@ -1,5 +1,5 @@
-/* floor 2: what state-based bonds hold: their elastic energy, and the stress they amount to. Visited at samples and frames
- * only, from what the last sweep over the families left in b->state.
+/* What state-based bonds hold: their elastic energy, and the stress they amount to. Visited at samples and
+ * frames only, from what the last sweep over the families left in b->state.
  *     energy of row i   1/2 sum_j (own force state of i) . (effective displacement):  its sum over j is V_i W_i
  *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, made symmetric (own force state only);
  *                       places y, not xi: the stress turns with the body */
@@ -12,101 +12,103 @@
 #include "base/team.h"
 #include "kernels/simd/variants.h"
 
-/* What a group's own force states rest on. */
-struct own_state { lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, turn[TURN]; };
+/* What a row block's own force states rest on. */
+struct own_state { lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION_NUMBERS]; };
 
-static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
-                                                   const bool turns)
+static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
+                                                   const int dim, const bool rotates)
 {
     const int32_t *row = b->particle + g * LANES, own = b->aligned[g] ? row[0] : -1;
     const struct state *t = &b->state;
     struct own_state s;
     s.pressure = lanes_at(t->pressure, own, row), s.spring = lanes_at(t->spring, own, row);
     for (int d = 0; d < dim; d++) s.x[d] = lanes_at(p->x[d], own, row), s.X[d] = lanes_at(p->X[d], own, row);
-    for (int c = 0; turns && c < TURN; c++) s.turn[c] = lanes_at(t->turn[c], own, row);
+    for (int c = 0; rotates && c < ROTATION_NUMBERS; c++) s.rotation[c] = lanes_at(t->rotation[c], own, row);
     return s;
 }
 
-/* state_own_force of the eight bonds of a slot; broken ones have none. */
-static ALWAYS_INLINE lanes own_force_slot(const struct own_state *s, const struct slot slot, const struct particles *p, lanes *T,
-                                          lanes *y, const int dim, const bool turns)
+/* state_own_force of the eight bonds of a column; broken ones have none. */
+static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const struct column column,
+                                            const struct particles *p, lanes *T, lanes *y, const int dim,
+                                            const bool rotates)
 {
-    const lanes w = slot_weight(slot), inverse_length = slot_inverse_length(slot);
+    const lanes w = column_weight(column), inverse_length = column_inverse_length(column);
     const lanes r = lanes_inverse_root(lanes_choose(w > 0.0, inverse_length * inverse_length, lanes_of(1)));
     lanes xi[DIM_MAX], effective[DIM_MAX], distance2 = lanes_of(STATE_TINY), effective2 = lanes_of(0);
     for (int d = 0; d < dim; d++) {
-        y[d] = slot_at(slot, p->x[d]) - s->x[d], xi[d] = slot_reference(slot, p, d, s->X[d]);
+        y[d] = column_at(column, p->x[d]) - s->x[d], xi[d] = column_reference(column, p, d, s->X[d]);
         distance2 += y[d] * y[d];
     }
     const lanes inverse = lanes_inverse_root(distance2);
     const lanes e = r * STRETCH_OF(distance2 * inverse, lanes_size(inverse_length));
     lanes along = r * s->pressure;
-    if (!turns) along += e * s->spring;
+    if (!rotates) along += e * s->spring;
     lanes energy = along * e;
     for (int d = 0; d < dim; d++) T[d] = along * y[d] * inverse;
     for (int d = 0; d < dim; d++) effective[d] = s->spring * (y[d] - xi[d]);
-    if (turns) turn_off(effective, s->turn, xi, dim);
-    for (int d = 0; turns && d < dim; d++) T[d] += effective[d], effective2 += effective[d] * effective[d];
-    for (int d = 0; d < dim; d++) T[d] = w * T[d];       /* last: a weight that is known to be one leaves the sums as they are */
-    if (turns) energy += effective2 / s->spring;
+    if (rotates) rotate_back(effective, s->rotation, xi, dim);
+    for (int d = 0; rotates && d < dim; d++) T[d] += effective[d], effective2 += effective[d] * effective[d];
+    /* last: a weight that is known to be one leaves the sums as they are */
+    for (int d = 0; d < dim; d++) T[d] = w * T[d];
+    if (rotates) energy += effective2 / s->spring;
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_of(0));
 }
 
-static ALWAYS_INLINE real energy_group(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
+static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                        const enum pd_model model)
 {
-    if (b->rest.level[g] == 0) return 0;
-    const struct own_state s = own_state_of(b, p, g, dim, state_turns(model));
+    if (b->active.level[g] == 0) return 0;
+    const struct own_state s = own_state_of(b, p, g, dim, state_rotates(model));
     lanes sum = lanes_of(0), T[DIM_MAX], y[DIM_MAX];
     real total = 0;
-#define VISIT(SLOT) sum += own_force_slot(&s, SLOT, p, T, y, dim, state_turns(model))
-    FOR_SLOTS(b, g, VISIT);
+#define VISIT(SLOT) sum += own_force_column(&s, SLOT, p, T, y, dim, state_rotates(model))
+    FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     return total;
 }
 
-static ALWAYS_INLINE void stress_slot(lanes *sum, const struct own_state *s, const struct slot slot, const struct particles *p,
-                                      const int dim, const enum pd_model model)
+static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
+                                        const struct particles *p, const int dim, const enum pd_model model)
 {
     lanes T[DIM_MAX], y[DIM_MAX];
-    own_force_slot(s, slot, p, T, y, dim, state_turns(model));
+    own_force_column(s, column, p, T, y, dim, state_rotates(model));
     for (int d = 0; d < dim; d++) sum[d] += T[d] * y[d];
     if (dim > 1) sum[dim] += 0.5 * (T[0] * y[1] + T[1] * y[0]);
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
-static ALWAYS_INLINE void stress_group(const struct bonds *b, struct particles *p, int64_t g, const int dim,
+static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                        const enum pd_model model)
 {
-    const struct own_state s = own_state_of(b, p, g, dim, state_turns(model));
+    const struct own_state s = own_state_of(b, p, g, dim, state_rotates(model));
     const int32_t *row = b->particle + g * LANES;
     lanes sum[SYM_MAX];
     for (int c = 0; c < dim * (dim + 1) / 2; c++) sum[c] = lanes_of(0);
-#define VISIT(SLOT) stress_slot(sum, &s, SLOT, p, dim, model)
-    FOR_SLOTS(b, g, VISIT);
+#define VISIT(SLOT) stress_column(sum, &s, SLOT, p, dim, model)
+    FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
         for (int c = 0; c < dim * (dim + 1) / 2 && p->kind[row[l]] == KIND_PD; c++)
             p->stress[c][row[l]] = sum[c][l] / p->volume0[row[l]];
 }
 
-struct group_sum { const struct bonds *b; const struct particles *p; };
+struct row_block_sum { const struct bonds *b; const struct particles *p; };
 
-#define INSTANCE(D, M)                                                                                          \
-    static real energy_term_##D##d_##M(const void *context, int64_t g)                                          \
-    {                                                                                                           \
-        const struct group_sum *s = context;                                                                    \
-        return energy_group(s->b, s->p, g, D, PD_##M);                                                          \
-    }                                                                                                           \
-    static real state_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                       \
-    {                                                                                                           \
-        return team_sum(b->groups, energy_term_##D##d_##M, &(struct group_sum){b, p});                          \
-    }                                                                                                           \
-    static void state_stress_##D##d_##M(const struct bonds *b, struct particles *p)                             \
-    {                                                                                                           \
-        _Pragma("omp parallel for schedule(static)")                                                            \
-        for (int64_t g = 0; g < b->groups; g++) stress_group(b, p, g, D, PD_##M);                               \
+#define INSTANCE(D, M)                                                                                                 \
+    static real energy_term_##D##d_##M(const void *context, int64_t g)                                                 \
+    {                                                                                                                  \
+        const struct row_block_sum *s = context;                                                                       \
+        return energy_row_block(s->b, s->p, g, D, PD_##M);                                                             \
+    }                                                                                                                  \
+    static real state_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                              \
+    {                                                                                                                  \
+        return team_sum(b->row_blocks, energy_term_##D##d_##M, &(struct row_block_sum){b, p});                         \
+    }                                                                                                                  \
+    static void state_stress_##D##d_##M(const struct bonds *b, struct particles *p)                                    \
+    {                                                                                                                  \
+        _Pragma("omp parallel for schedule(static)")                                                                   \
+        for (int64_t g = 0; g < b->row_blocks; g++) stress_row_block(b, p, g, D, PD_##M);                              \
     }
 STATE_VARIANTS(INSTANCE)
 
@@ -115,39 +117,41 @@ bond_energy_fn *const state_energy_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIAN
 #define STRESS(D, M) [D][PD_##M] = state_stress_##D##d_##M,
 bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(STRESS)};
 
-/* ---- a row whose weights change ------------------------------------------------------------------------- */
+/* ---- a row whose weights change ---------------------------------------------------------------------------------- */
 
 /* Rotation of a material point at the end of bonds, row major. */
 static void end_rotation(const struct particles *p, int32_t i, real *R)
 {
     if (p->dim == 2) {
-        R[0] = R[3] = 1 + p->end_turn[0][i], R[2] = p->end_turn[1][i], R[1] = -R[2];
+        R[0] = R[3] = 1 + p->end_rotation[0][i], R[2] = p->end_rotation[1][i], R[1] = -R[2];
         return;
     }
-    const real q[ROTATION] = {p->end_turn[0][i], p->end_turn[1][i], p->end_turn[2][i], p->end_turn[3][i]};
+    const real q[ROTATION] = {p->end_rotation[0][i], p->end_rotation[1][i], p->end_rotation[2][i],
+                              p->end_rotation[3][i]};
     for (int c = 0; c < 3; c++) {
         real column[3] = {c == 0, c == 1, c == 2};
-        turn_by(q, column);
+        rotate_by(q, column);
         for (int a = 0; a < 3; a++) R[3 * a + c] = column[a];
     }
 }
 
-/* w |Y - R xi|^2 over a row, with the rotation that its weights ask for now, or that of a point's cell [m^2]. */
+/* w |Y - R xi|^2 over a row, with the rotation from its present weights, or that of a point's cell [m^2]. */
 static real row_effective(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
     const int dim = p->dim;
     real M[DIM_MAX * DIM_MAX] = {0}, R[DIM_MAX * DIM_MAX], sum = 0;
     for (int pass = 0; pass < 2; pass++) {
-        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-            const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-            const int32_t j = b->nbr[q];
-            if (b->w[q] == 0) continue;
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+            const int32_t j = it.bond.nbr;
+            const real w = it.bond.w;
+            if (w == 0) continue;
             for (int d = 0; d < dim; d++) {
                 real effective = p->x[d][j] - p->x[d][i];
-                for (int c = 0; c < dim && pass == 0; c++) M[d * dim + c] += b->w[q] * effective * (p->X[c][j] - p->X[c][i]);
+                for (int c = 0; c < dim && pass == 0; c++)
+                    M[d * dim + c] += w * effective * (p->X[c][j] - p->X[c][i]);
                 for (int c = 0; c < dim && pass == 1; c++) effective -= R[d * dim + c] * (p->X[c][j] - p->X[c][i]);
-                if (pass == 1) sum += b->w[q] * square(effective);
+                if (pass == 1) sum += w * square(effective);
             }
         }
         if (pass == 0 && p->kind[i] == KIND_PD) polar_rotation(M, R, dim);
@@ -161,17 +165,17 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
     real Q = 0, S = 0, e2 = 0;
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        if (b->w[q] == 0) continue;
-        real y2 = 0, r = fabs(1 / b->inverse_length[q]);
-        for (int d = 0; d < p->dim; d++) y2 += square(p->x[d][b->nbr[q]] - p->x[d][i]);
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        const real w = it.bond.w, r = fabs(1 / it.bond.inverse_length);
+        real y2 = 0;
+        if (w == 0) continue;
+        for (int d = 0; d < p->dim; d++) y2 += square(p->x[d][it.bond.nbr] - p->x[d][i]);
         const real e = sqrt(y2) - r;
-        Q += b->w[q] * r * r, S += b->w[q] * r * e, e2 += b->w[q] * e * e;
+        Q += w * r * r, S += w * r * e, e2 += w * e * e;
     }
     if (!b->state.local || !b->whole[row]) Q = b->state.weighted[row];
     if (!(Q > 0)) return 0;
-    if (b->state.turn[0]) e2 = row_effective(b, p, row);
+    if (b->state.rotation[0]) e2 = row_effective(b, p, row);
     const real mean = S / Q + (p->kind[i] == KIND_PD ? 0 : p->end_strain[i]);
     return 0.5 * p->volume0[i] * (m->A * square(mean) + m->B * e2 / Q);
 }

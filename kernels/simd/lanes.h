@@ -1,8 +1,9 @@
-/* floor 2: eight doubles as one value. Written with the compiler's vector extension, so the same source becomes AVX-512, AVX2
- * or SSE code. Where AVX-512 has one instruction for what is several elsewhere, it is named, beside a twin for narrower
- * vectors. The twins work with signs and bits: comparisons of eight doubles become eight comparisons there. */
-#ifndef CLEAVE_LANES_H
-#define CLEAVE_LANES_H
+/* Eight doubles as one value. Written with the compiler's vector extension, so the same source becomes
+ * AVX-512, AVX2 or SSE code. Where AVX-512 has one instruction for what is several elsewhere, it is named, beside a
+ * twin for narrower vectors. The twins work with signs and bits: comparisons of eight doubles become eight
+ * comparisons there. */
+#ifndef CLEAVE_KERNELS_LANES
+#define CLEAVE_KERNELS_LANES
 
 #include <math.h>
 
@@ -32,8 +33,8 @@ static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 #endif
 }
 
-/* Eight of a list of n from the k-th on; the last ones of all are copied to `room`, and filled up with the first of them: fewer than
- * eight never look consecutive. */
+/* Eight of a list of n from the k-th on; the last ones of all are copied to `room`, and filled up with the first of
+ * them: fewer than eight never look consecutive. */
 static ALWAYS_INLINE const int32_t *list_eight(const int32_t *list, int64_t k, int64_t n, int32_t room[LANES])
 {
     if (k + LANES <= n) return list + k;
@@ -134,8 +135,8 @@ static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
 
 #if defined __AVX512F__ || defined __FMA__
 
-/* 1/sqrt(a), roughly. Halving the exponent with the bits behind it and turning it round is right to 3.5 % for any normal
- * number (the constant makes the largest error least); one round of the series below leaves 6e-6. */
+/* 1/sqrt(a), roughly. Halving the exponent with the bits behind it and turning it round is right to 3.5 % for any
+ * normal number (the constant makes the largest error least); one round of the series below leaves 6e-6. */
 static ALWAYS_INLINE lanes lanes_estimate(lanes a)
 {
 #ifdef __AVX512F__
@@ -146,9 +147,9 @@ static ALWAYS_INLINE lanes lanes_estimate(lanes a)
 #endif
 }
 
-/* 1/sqrt(a) of normal numbers to full double precision, from an estimate y of 14 bits: with c = 1 - a y^2 below 2^-13 the
- * series y (1 + c/2 + 3c^2/8 + 5c^3/16) leaves 35 c^4/128 < 2^-53. A third of a root and a division, and shorter than two
- * steps of Newton. */
+/* 1/sqrt(a) of normal numbers to full double precision, from an estimate y of 14 bits: with c = 1 - a y^2 below
+ * 2^-13 the series y (1 + c/2 + 3c^2/8 + 5c^3/16) leaves 35 c^4/128 < 2^-53. A third of a root and a division, and
+ * shorter than two steps of Newton. */
 static ALWAYS_INLINE lanes lanes_inverse_root(lanes a)
 {
     const lanes y = lanes_estimate(a), c = 1.0 - (a * y) * y;

@@ -1,20 +1,21 @@
-/* floor 2: what every set of kernels has (kernel.h): all that kernels.h, plastic.h and probe.h declare. */
-#ifndef CLEAVE_SET_H
-#define CLEAVE_SET_H
+/* What every set of kernels has (kernel.h): all that kernels.h, plastic.h and microbench.h declare. */
+#ifndef CLEAVE_KERNELS_SET
+#define CLEAVE_KERNELS_SET
 
 #include "kernels/kernels.h"
 #include "kernels/mpm/plastic.h"
-#include "kernels/microbench/probe.h"
+#include "kernels/microbench/microbench.h"
 
 #define KERNELS(X)                                                                                                     \
     X(bond_force_table) X(bond_energy_table) X(bond_stress_table) X(state_force_table) X(state_energy_table)           \
-    X(state_stress_table) X(state_know_table) X(pd_move_table) X(p2g_table) X(remap_table) X(g2p_table) X(spread_table) \
-    X(kernels_choose) X(bond_forces) X(bond_break_group) X(bond_break_all) X(bond_break_asks) X(bond_fade)             \
-    X(state_row_energy) X(bond_plastic_work) X(plastic_return) X(grid_clear) X(grid_move) X(grid_remapped) X(mesh_clear) X(mesh_force)     \
-    X(mesh_move) X(mesh_points_move) X(mesh_seen_move) X(mesh_listed_move) X(mesh_seen_force) X(mesh_points_stress)    \
-    X(mesh_points_mark) X(mesh_kinetic) X(mesh_kick) X(mesh_strain) X(mesh_ends_know) X(stencil_probe_make) X(stencil_probe_run)         \
+    X(state_stress_table) X(state_precompute_table) X(pd_move_table) X(p2g_table) X(remap_table) X(g2p_table)          \
+    X(spread_table) X(kernels_choose) X(bond_forces) X(bond_break_row_block) X(bond_break_all) X(bond_break_asks)      \
+    X(bond_fade) X(state_row_energy) X(bond_plastic_work) X(plastic_return) X(grid_clear) X(grid_move)                 \
+    X(grid_remapped) X(mesh_clear) X(mesh_force) X(mesh_move) X(mesh_points_move) X(mesh_exposed_move)                 \
+    X(mesh_listed_move) X(mesh_exposed_force) X(mesh_points_stress) X(mesh_points_mark) X(mesh_kinetic)                \
+    X(mesh_kick) X(mesh_strain) X(mesh_ends_update) X(stencil_probe_make) X(stencil_probe_run)                         \
     X(stencil_probe_free) X(triad_probe_make) X(triad_probe_run) X(triad_probe_free) X(point_probe_make)               \
-    X(point_probe_run) X(point_probe_free) X(particles_out_of_hand)
+    X(point_probe_run) X(point_probe_free) X(particles_diverged)
 
 /* A pointer to each, tables to their first row. */
 #define KERNEL_POINTER(name) __typeof__(&*name) name;

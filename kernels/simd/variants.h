@@ -1,7 +1,7 @@
-/* floor 2: the list of kernel instances. One line here makes the instance, its table entry, its test and its
+/* The list of kernel instances. One line here makes the instance, its table entry, its test and its
  * timing. */
-#ifndef CLEAVE_VARIANTS_H
-#define CLEAVE_VARIANTS_H
+#ifndef CLEAVE_KERNELS_VARIANTS
+#define CLEAVE_KERNELS_VARIANTS
 
 #define DIM_VARIANTS(X) X(1) X(2) X(3)
 

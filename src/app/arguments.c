@@ -1,4 +1,4 @@
-/* floor 5: the command line of the commands that read a scene. */
+/* The command line of the commands that read a scene. */
 #include "arguments.h"
 
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static status read_threads(struct run_arguments *a, const char *text)
     return OK;
 }
 
-static status read_all(struct run_arguments *a, int argc, char **argv, const char *usage)
+static status arguments_read_all(struct run_arguments *a, int argc, char **argv, const char *usage)
 {
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
@@ -45,7 +45,8 @@ static status read_all(struct run_arguments *a, int argc, char **argv, const cha
         else if (a->scene) return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
         else a->scene = word;
     }
-    if (a->resume && a->overwrite) return status_set(REFUSED, "--resume goes on with a run and --overwrite replaces it: one of them");
+    if (a->resume && a->overwrite)
+        return status_set(REFUSED, "--resume goes on with a run and --overwrite replaces it: one of them");
     return a->scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
 }
 
@@ -53,7 +54,7 @@ status arguments_read(struct run_arguments *a, int argc, char **argv, const char
 {
     memset(a, 0, sizeof *a);
     a->override = NEW("arguments.override", argc, struct scene_override);
-    status s = read_all(a, argc, argv, usage);
+    status s = arguments_read_all(a, argc, argv, usage);
     if (s != OK) arguments_free(a);
     return s;
 }

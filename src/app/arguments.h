@@ -1,6 +1,6 @@
-/* floor 5: the command line of the commands that read a scene. */
-#ifndef CLEAVE_ARGUMENTS_H
-#define CLEAVE_ARGUMENTS_H
+/* The command line of the commands that read a scene. */
+#ifndef CLEAVE_ARGUMENTS
+#define CLEAVE_ARGUMENTS
 
 #include "scene/scene.h"
 
@@ -12,7 +12,7 @@ struct run_arguments {
     bool resume, overwrite, quiet;
 };
 
-/* argv[0] is the command. REFUSED with the usage line on anything else. */
+/* argv[0]: the command. REFUSED with the usage line for malformed words. */
 status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage);
 void arguments_free(struct run_arguments *a);
 

@@ -1,7 +1,8 @@
-/* floor 5: `cleave check`: what a scene would cost, and whether it is sound; nothing is written. */
+/* `cleave check`: checks a scene and estimates the cost of its run; nothing is written. */
 #include <math.h>
 #include <stdio.h>
 
+#include "auto/scene_read.h"
 #include "check_parts.h"
 #include "commands.h"
 #include "engine/engine.h"
@@ -24,7 +25,8 @@ static void say_frames(const struct engine *e)
             printf("frame          body %s: %s, as %s\n", e->scene->body[b].name,
                    e->frame[b].reference ? "reference" : "current", e->frame[b].reason);
     if (e->mesh.points > 0)
-        printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n", (long long)e->mesh.points);
+        printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n",
+               (long long)e->mesh.points);
 }
 
 static void say_contact(const struct engine *e)
@@ -39,20 +41,22 @@ static void say_contact(const struct engine *e)
 static void say_time_step(const struct engine *e)
 {
     if (e->scene->solver != SOLVER_EXPLICIT)
-        printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n", e->scene->solver_tolerance,
-               (long long)e->steps);
+        printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n",
+               e->scene->solver_tolerance, (long long)e->steps);
     else
-        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->dt, e->dt / e->dt_critical,
-               e->dt_critical, (long long)e->steps, e->scene->duration);
+        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->dt,
+               e->dt / e->dt_critical, e->dt_critical, (long long)e->steps, e->scene->duration);
 }
 
-/* Why the time of a run is what it is. */
+/* Basis of the estimated run time. */
 static void say_basis(const struct engine *e, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
-        printf("; steps take %.2g times the first ones, as where the spacing is %.3g times as large", c->growth, c->coarser);
+        printf("; steps take %.2g times the first ones, as where the spacing is %.3g times as large", c->growth,
+               c->coarser);
     if (c->basis == COST_FIRST)
-        printf("; steps like the first ones%s", e->scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
+        printf("; steps like the first ones%s",
+               e->scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
@@ -63,8 +67,8 @@ static void say_cost(const struct engine *e, const struct cost *c, int threads)
         printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
     else {
         printf("run time       %s %.2g s on %d thread%s, %.1g s of it to write: %.3g ns a particle and step at first",
-               c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about", c->run, threads, many,
-               c->output, 1e9 * c->step / (double)e->part.n);
+               c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about", c->run, threads,
+               many, c->output, 1e9 * c->step / (double)e->part.n);
         say_basis(e, c);
     }
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
@@ -93,7 +97,7 @@ status command_check(int argc, char **argv)
     struct cost cost = {0};
     const double start = team_clock();
     status result = scene_read(&s, a.scene, a.override, a.overrides);
-    s.rest = false;                              /* what it costs once waves are everywhere */
+    s.rest = false;                              /* cost with the whole body active */
     if (result == OK) result = engine_make(&e, &s, NULL);
     cost.make = team_clock() - start;
     if (result == OK) {

@@ -1,12 +1,13 @@
-/* floor 5: what a person who knows the methods would say about a scene before it runs. Limits and what they rest on:
- *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are cut short
- *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from an
- *                interface, the group velocity of the shortest waves is off by a tenth
- *   stress       sigma = rho c v in front of what moves with v; waves of both ends meet and reflect: four times that, as long as
- *                they have not passed the body more than PASSAGES times: those of long loads pile up
- *   strain       a body strained by less than LITTLE is well off in cells that keep their points
- *   bonds        time of a bond and step by model and dimension (`cleave bench kernels`, AVX-512, one core)
- * Nothing here is an error. */
+/* Advice about a scene before it runs: parts that are not resolved, and parts that are not needed. No advice is an
+ * error. Limits and their basis:
+ *
+ *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are incomplete
+ *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from
+ *                an interface, the group velocity of the shortest waves is off by a tenth
+ *   stress       sigma = rho c v ahead of a part that moves with v; waves of both ends meet and reflect: four times
+ *                that, unless they cross the body more than PASSAGES times, as waves of long loads add up
+ *   strain       cells that keep their points suit bodies strained by less than LITTLE
+ *   bonds        time of a bond and step by model and dimension (`cleave bench kernels`, AVX-512, one core) */
 #include <math.h>
 #include <string.h>
 
@@ -17,13 +18,15 @@
 #define REACHED 4                        /* rho c v  */
 #define PASSAGES 4
 #define LITTLE 0.1
-static const real bond_ns[][3] = {[MODEL_BOND] = {0.44, 0.55}, [MODEL_OSPD] = {0.75, 0.86}, [MODEL_MOSPD] = {1.05, 2.2}};   /* 2D, 3D */
+/* time per bond and step [ns]: 2D, 3D */
+static const real bond_ns[][3] = {
+    [MODEL_BOND] = {0.44, 0.55}, [MODEL_OSPD] = {0.75, 0.86}, [MODEL_MOSPD] = {1.05, 2.2}};
 
 static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; }
 
-/* ---- what is not resolved ----------------------------------------------------------------------------------------- */
+/* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
-/* Smallest edge or diameter of a solid; INFINITY without. */
+/* Smallest edge or diameter of a solid [m]; INFINITY: it has none. */
 static real solid_size(const struct solid *a, int dim)
 {
     real least = INFINITY;
@@ -31,6 +34,7 @@ static real solid_size(const struct solid *a, int dim)
     return a->kind == SOLID_BALL || a->kind == SOLID_CYLINDER ? 2 * a->radius : least;
 }
 
+/* Bodies, gaps and cracks smaller than FEATURE horizons. */
 static void advise_features(const struct scene *s, FILE *out)
 {
     for (int b = 0; b < s->bodies && s->dim > 1; b++)
@@ -38,34 +42,40 @@ static void advise_features(const struct scene *s, FILE *out)
             const struct solid *a = &s->body[b].shape.solid[k];
             const real size = solid_size(a, s->dim);
             if (s->method == METHOD_MPM || (k > 0 && !a->subtract) || !(size < FEATURE * horizon_of(s))) continue;
-            fprintf(out, "unresolved: body %s: a %s of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
-                         "it feels cut-off families: spacing %.2g m would do\n", s->body[b].name, a->subtract ? "gap" : "part", size,
-                    size / horizon_of(s), size / s->spacing, FEATURE, size / (FEATURE * s->horizon));
+            fprintf(out,
+                    "unresolved: body %s: a %s of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
+                    "it feels cut-off families: spacing %.2g m would do\n",
+                    s->body[b].name, a->subtract ? "gap" : "part", size, size / horizon_of(s), size / s->spacing,
+                    FEATURE, size / (FEATURE * s->horizon));
         }
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
         real length = 0;
         for (int d = 0; d < s->dim; d++) length += square(s->crack[k].corner[1][d] - s->crack[k].corner[0][d]);
         length = sqrt(length);
         if (length < FEATURE * horizon_of(s))
-            fprintf(out, "unresolved: crack %d is %.4g m long, %.2g horizons: its two ends are not apart\n", k + 1, length,
-                    length / horizon_of(s));
+            fprintf(out, "unresolved: crack %d is %.4g m long, %.2g horizons: its two ends are not apart\n", k + 1,
+                    length, length / horizon_of(s));
     }
 }
 
-/* How long a load takes to change [s]; INFINITY: it does not; 0: at once. */
+/* Rise time of a pulse or ramp [s]; INFINITY for other functions of time. */
 static real rise_time(const struct time_function *f)
 {
     return f->kind == TIME_PULSE || f->kind == TIME_RAMP ? f->until - f->from : INFINITY;
 }
 
+/* Loads and pulses shorter than WAVE spacings. */
 static void advise_waves(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->boundaries && s->solver == SOLVER_EXPLICIT; b++) {
         const real length = e->wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
         if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
-            fprintf(out, "unresolved: boundary %s changes within %.3g spacings of wave: below %d waves disperse; spacing %.2g m "
-                         "or a slower load\n", s->boundary[b].name, length, WAVE, s->spacing * length / WAVE);
+            fprintf(
+                out,
+                "unresolved: boundary %s changes within %.3g spacings of wave: below %d waves disperse; spacing %.2g m "
+                "or a slower load\n",
+                s->boundary[b].name, length, WAVE, s->spacing * length / WAVE);
     }
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_pulse && s->initial[k].pulse.width < WAVE * s->spacing)
@@ -73,7 +83,8 @@ static void advise_waves(const struct engine *e, FILE *out)
                     s->initial[k].pulse.width / s->spacing, WAVE, s->initial[k].pulse.width / WAVE);
 }
 
-/* Pairs within the horizon of a crack's end that it cuts when a hair longer and not when a hair shorter. */
+/* Number of pairs of particles near a crack's end, within their horizon, that the crack cuts if longer by 1e-7 of its
+ * length and does not cut if shorter by as much. */
 static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end, int32_t *found, int room)
 {
     const struct particles *p = &e->part;
@@ -97,6 +108,7 @@ static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end
     return tied;
 }
 
+/* Crack ends that lie exactly on bonds. */
 static void advise_ties(const struct engine *e, FILE *out)
 {
     enum { ROOM = 1024 };
@@ -106,12 +118,15 @@ static void advise_ties(const struct engine *e, FILE *out)
             if (cells_most(&e->cells, e->source.family.cutoff) > ROOM) return;
             const int64_t tied = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
             if (tied > 0)
-                fprintf(out, "unresolved: an end of crack %d lies exactly on %lld bonds, which count as cut: a hair shorter it "
-                             "would leave them; moved by a tenth of a spacing it says what it means\n", k + 1, (long long)tied);
+                fprintf(
+                    out,
+                    "unresolved: an end of crack %d lies exactly on %lld bonds, which count as cut: a hair shorter it "
+                    "would leave them; moved by a tenth of a spacing it says what it means\n",
+                    k + 1, (long long)tied);
         }
 }
 
-/* Points of the current frame lose each other where they are pulled more than a cell apart: a crack that no one asked for. */
+/* Finds unintended separation: points of the current frame that are pulled more than a cell apart share no nodes. */
 static void advise_separation(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -126,26 +141,32 @@ static void advise_separation(const struct engine *e, FILE *out)
         }
         const real stretch = 1 + (most - least) / (high - low);
         if (stretch > 0.9 * s->cell)
-            fprintf(out, "unresolved: the body is pulled to %.3g times its length: beyond a stretch of %.3g (cell over spacing) points "
-                         "no longer share nodes and part; mpm.cell %.2g, mpm.shape cpgimp, or method adaptive\n", stretch, s->cell,
-                    ceil(1.2 * stretch));
+            fprintf(out,
+                    "unresolved: the body is pulled to %.3g times its length: beyond a stretch of %.3g (cell over "
+                    "spacing) points "
+                    "no longer share nodes and part; mpm.cell %.2g, mpm.shape cpgimp, or method adaptive\n",
+                    stretch, s->cell, ceil(1.2 * stretch));
     }
 }
 
-/* ---- what is not needed ------------------------------------------------------------------------------------------- */
+/* ---- parts that are not needed ----------------------------------------------------------------------------------- */
 
+/* State-based models where bonds have the Poisson's ratio of the scene. */
 static void advise_model(const struct scene *s, FILE *out)
 {
     const real wanted = material_bond_poisson(s->space);
     if (s->model == MODEL_BOND || s->dim == 1) return;
     for (int m = 0; m < s->materials; m++)
         if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
-    fprintf(out, "unneeded: model %s: bonds alone have Poisson's ratio %.4g, which is asked for, and take %.0f %% of the time\n",
-            s->model == MODEL_OSPD ? "ospd" : "mospd", wanted, 100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2]);
+    fprintf(
+        out,
+        "unneeded: model %s: bonds alone have Poisson's ratio %.4g, which is asked for, and take %.0f %% of the time\n",
+        s->model == MODEL_OSPD ? "ospd" : "mospd", wanted,
+        100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2]);
 }
 
-/* Largest stress that the speeds and tractions of boundaries and initial states can make [Pa]; INFINITY: it cannot be said, where
- * forces act on volumes or waves pile up. */
+/* Largest stress that the speeds and tractions of boundaries and initial states can make [Pa]; INFINITY: unknown, with
+ * body forces, tables in time, or waves that add up. */
 static real stress_reached(const struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -158,7 +179,8 @@ static real stress_reached(const struct engine *e)
         const struct boundary *a = &s->boundary[b];
         if (a->kind == BOUNDARY_BODY_FORCE || a->time.kind == TIME_TABLE) return INFINITY;
         for (int d = 0; d < s->dim && a->kind == BOUNDARY_VELOCITY; d++)
-            if (a->components & 1 << d) low[d] = real_min(low[d], a->value[d]), high[d] = real_max(high[d], a->value[d]);
+            if (a->components & 1 << d)
+                low[d] = real_min(low[d], a->value[d]), high[d] = real_max(high[d], a->value[d]);
         for (int d = 0; d < s->dim && a->kind == BOUNDARY_TRACTION; d++) traction += fabs(a->value[d]);
     }
     for (int d = 0; d < s->dim; d++) speed2 += square(high[d] - low[d]);
@@ -166,6 +188,7 @@ static real stress_reached(const struct engine *e)
     return REACHED * (density * e->wave_speed * sqrt(speed2) + traction) + e->strain_stress;
 }
 
+/* Bodies in the current frame that the reference frame could hold. */
 static void advise_frame(const struct engine *e, FILE *out)
 {
     const real reached = stress_reached(e);
@@ -187,6 +210,7 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
+/* Peridynamics where no bond can break. */
 static void advise_method(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -196,10 +220,14 @@ static void advise_method(const struct engine *e, FILE *out)
         weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);
     const real reached = stress_reached(e);
     if (isinf(weakest))
-        fprintf(out, "unneeded: method %s: nothing breaks here (neither energy_release_rate nor critical_stretch is given), and there "
-                     "is no crack: mpm would do\n", s->method == METHOD_PD ? "pd" : "adaptive");
+        fprintf(out,
+                "unneeded: method %s: nothing breaks here (neither energy_release_rate nor critical_stretch is given), "
+                "and there "
+                "is no crack: mpm would do\n",
+                s->method == METHOD_PD ? "pd" : "adaptive");
     else if (reached < weakest)
-        fprintf(out, "unneeded: method %s: waves here reach %.3g Pa at the most, bonds break at %.3g Pa: mpm would do\n",
+        fprintf(out,
+                "unneeded: method %s: waves here reach %.3g Pa at the most, bonds break at %.3g Pa: mpm would do\n",
                 s->method == METHOD_PD ? "pd" : "adaptive", reached, weakest);
 }
 
@@ -208,9 +236,11 @@ static void advise_symmetry(const struct engine *e, FILE *out)
     real at;
     for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++)
         if (scene_is_mirrored(e, axis, &at))
-            fprintf(out, "unneeded: half of it: the scene is its own mirror image at %c = %.6g m, all %lld particles, what they lost and "
-                         "what loads them: a boundary mirror there and half the body take half the time\n", 'x' + axis, at,
-                    (long long)e->part.n);
+            fprintf(out,
+                    "unneeded: half of it: the scene is its own mirror image at %c = %.6g m, all %lld particles, what "
+                    "they lost and "
+                    "what loads them: a boundary mirror there and half the body take half the time\n",
+                    'x' + axis, at, (long long)e->part.n);
 }
 
 void advise(const struct engine *e, FILE *out)

@@ -1,10 +1,11 @@
-/* floor 5: what a run costs, from steps that are thrown away: no table of figures knows the machine, its load and the scene as
- * well as they do. A short run is tried as a whole. Of a long one the first steps are timed, all of the body awake; what
- * waking, converting and comparing make of them is what they make of the same scene with larger particles, tried as a whole. */
+/* Estimates the cost of a run from trial steps, which include the effects of the machine, its load and the scene. A
+ * short run is tried as a whole. Of a long run the first steps are timed with the whole body active; the effect of
+ * inactive parts, conversion and reference runs is that in the same scene with larger particles, tried as a whole. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "auto/scene_read.h"
 #include "check_parts.h"
 #include "src/engine/engine_report.h"
 #include "base/memory.h"
@@ -13,16 +14,17 @@
 enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15
 #define SECONDS_MOST 1.0
-#define SECONDS_WHOLE 1.5                /* of what is tried as a whole                                       */
-#define PATIENCE 3.0                     /* with it, where converting or a busy machine makes it longer       */
-#define COARSER_MOST 4.0                 /* a body of so much larger particles still breaks in the same places, about */
-#define FRAME_BYTES 72                   /* of a particle: copied for the writer, its room and its order      */
-#define OUTPUT_BYTES 2.7e6               /* of the library that writes                                        */
-#define FILE_SECONDS 2.5e-3              /* frames, checkpoints and profiles, however small; measured, as the next:     */
+#define SECONDS_WHOLE 1.5                /* of a trial of a whole run [s]                                     */
+#define PATIENCE 3.0                     /* factor on it, for conversion or a busy machine                    */
+#define COARSER_MOST 4.0                 /* factor on the spacing: a body still breaks in about the same places */
+#define FRAME_BYTES 72                   /* per particle: copy for the writer, its room, order                */
+#define OUTPUT_BYTES 2.7e6               /* of the HDF5 library                                               */
+#define FILE_SECONDS 2.5e-3              /* per frame, checkpoint or profile, of any size; measured, as the next: */
 #define FILE_SECONDS_PARTICLE 8e-8       /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
-#define BONDS_MOST 2e8                   /* of a body that is made peridynamic to see what that costs         */
+#define BONDS_MOST 2e8                   /* of a body tried with all particles peridynamic                    */
 
-/* Of the steps after the first, which meets cold memory; from sample to sample, so that these have their share. */
+/* Median time of a step [s] after the first one, which has cold caches; measured from sample to sample, so that samples
+ * are included. */
 static status time_steps(struct engine *e, double *step)
 {
     const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
@@ -37,7 +39,8 @@ static status time_steps(struct engine *e, double *step)
     while (n < PERIODS_MOST && all < SECONDS_MOST && (n < 3 || all < SECONDS_ENOUGH)) {
         const double start = team_clock();
         int64_t taken = 0;
-        for (; taken < period && e->step < e->steps - 1 && team_clock() - start < SECONDS_MOST; taken++) TRY(engine_step(e));
+        for (; taken < period && e->step < e->steps - 1 && team_clock() - start < SECONDS_MOST; taken++)
+            TRY(engine_step(e));
         if (taken == 0) break;
         all += team_clock() - start;
         spent[n++] = (team_clock() - start) / (double)taken;
@@ -46,7 +49,7 @@ static status time_steps(struct engine *e, double *step)
     return OK;
 }
 
-/* A static solver asks for the bonds' forces once in an iteration. */
+/* Median time of one evaluation of bond forces [s], which static solvers need in each iteration. */
 static double time_iteration(struct engine *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -61,9 +64,10 @@ static double time_iteration(struct engine *e)
 
 /* ---- other scenes ------------------------------------------------------------------------------------------------ */
 
-/* The scene with one key more; the caller frees both whatever comes of it. */
-static status make_other(struct scene *s, struct engine *e, const struct run_arguments *a, const char *key, const char *value,
-                         bool rest)
+/* Makes scene and engine with one more override (key NULL: none); the caller frees both in any case. rest: keep
+ * inactive parts. */
+static status make_other(struct scene *s, struct engine *e, const struct run_arguments *a, const char *key,
+                         const char *value, bool rest)
 {
     struct scene_override *override = NEW("check.override", a->overrides + 1, struct scene_override);
     memcpy(override, a->override, (size_t)a->overrides * sizeof *override);
@@ -75,7 +79,7 @@ static status make_other(struct scene *s, struct engine *e, const struct run_arg
     return engine_make(e, s, NULL);
 }
 
-/* Seconds of all steps; NAN where they fail or take far longer than was thought. */
+/* Time of all steps [s]; NAN if they fail or take far longer than expected. */
 static double all_steps(struct engine *e)
 {
     const double start = team_clock();
@@ -84,13 +88,14 @@ static double all_steps(struct engine *e)
     if (engine_report_start(e) != OK) return NAN;
     laps_start(&e->laps);
     while (e->step < e->steps) {
-        if (engine_step(e) != OK || engine_alarm(e) != OK || engine_report(e) != OK) return NAN;
+        if (engine_step(e) != OK || engine_stability_check(e) != OK || engine_report(e) != OK) return NAN;
         if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;
     }
     return engine_baseline(e) == OK ? team_clock() - start : NAN;
 }
 
-/* Seconds that all steps take [s] where `whole`, else a step of the first; NAN: it cannot be known. */
+/* Time of all steps of another scene [s]: measured where `whole`, else extrapolated from the first steps; NAN:
+ * unknown. */
 static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole)
 {
     struct scene s = {0};
@@ -106,7 +111,8 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     return seconds;
 }
 
-/* What all steps take beside what the first say, of the same scene with larger particles; NAN: it cannot be known. */
+/* Time of all steps over that expected from the first ones, in the same scene with larger particles; NAN: unknown.
+ * first: expected time of this scene [s]. */
 static double growth_of(struct cost *c, const struct engine *e, const struct run_arguments *a, double first)
 {
     const struct scene *s = e->scene;
@@ -120,18 +126,20 @@ static double growth_of(struct cost *c, const struct engine *e, const struct run
     return c->growth;
 }
 
-/* ---- the estimate -------------------------------------------------------------------------------------------------- */
+/* ---- the estimate ------------------------------------------------------------------------------------------------ */
 
-/* Neighbours of a particle inside the body, by the volume that they fill. */
+/* Neighbours of a particle inside the body, by the volume of a full family. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Frames, the one of the start and two checkpoints among them. */
+/* Time of output [s]: frames, the initial one and two checkpoints included. */
 static double output_seconds(const struct engine *e)
 {
     const double files = (double)(e->scene->frames < e->steps ? e->scene->frames : e->steps) + 3;
-    return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n + FILE_SECONDS * (double)probes_profiled(&e->probes));
+    return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
+                    FILE_SECONDS * (double)probes_profiled(&e->probes));
 }
 
+/* Time and basis of the whole run. */
 static void cost_run(struct cost *c, const struct engine *e, const struct run_arguments *a)
 {
     const double first = c->step * (double)e->steps;

@@ -1,40 +1,41 @@
-/* floor 5: the parts of `cleave check`: what a run costs, by measurement, and what a person would advise. */
-#ifndef CLEAVE_CHECK_PARTS_H
-#define CLEAVE_CHECK_PARTS_H
+/* The parts of `cleave check`: the measured cost of a run, and advice. */
+#ifndef CLEAVE_CHECK_PARTS
+#define CLEAVE_CHECK_PARTS
 
 #include <stdio.h>
 
 #include "arguments.h"
 #include "engine/engine.h"
 
-/* ---- check_cost.c ----------------------------------------------------------------------------------------------- */
+/* ---- check_cost.c ------------------------------------------------------------------------------------------------ */
 
-/* What the time of a run rests on: all of its steps; its first ones, times what the others take beside those where particles are
- * larger; its first ones, which is little where much will convert. */
+/* Basis of the time of a run. TRIED: all of its steps. SCALED: its first steps, times the ratio of all steps to the
+ * first ones in the same scene with larger particles. FIRST: its first steps alone, too little where many particles
+ * convert. */
 enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
 struct cost {
     double make;                         /* from the scene to step 0; by the caller                               [s] */
-    double step;                         /* first ones, samples included, all of the body awake; static: an iteration [s] */
-    double output;                       /* frames and checkpoints, on a disk that nobody else keeps busy          [s] */
-    double run;                          /* all of it                                                              [s] */
+    double step; /* a first step, samples included, whole body active; static: an iteration [s] */
+    double output;                       /* frames and checkpoints, on an idle disk [s]                       */
+    double run;                          /* whole run [s] */
     enum cost_basis basis;
-    double coarser, growth;              /* SCALED: larger by this; steps take that many times the first ones          */
-    double all_peridynamic;              /* a run if every particle were; NAN: it is, cannot become so, or is too large [s] */
-    double bytes;                        /* high-water mark of a run in which nothing converts                         */
+    double coarser, growth;              /* SCALED: factor on the spacing; all steps over first ones [1] */
+    double all_peridynamic;        /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
+    double bytes;                        /* peak memory of a run without conversion [byte] */
 };
 
-/* Takes steps and times them, with the team that runs now: the engine is good for nothing afterwards. `a` is where its scene comes
- * from. FAILED if one of the first steps fails. */
+/* Takes steps and times them, with the current team; the engine cannot be used afterwards. `a`: the arguments of its
+ * scene. FAILED if one of the first steps fails. */
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a);
 
-/* ---- check_advice.c --------------------------------------------------------------------------------------------- */
+/* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
-/* A line for each thing that the scene does not resolve, and for each that it does not need, with the numbers. The engine is
- * as made, before any step. */
+/* Writes a line, with numbers, for each part of the scene that is not resolved, and for each that is not needed. The
+ * engine has taken no step. */
 void advise(const struct engine *e, FILE *out);
-/* check_symmetry.c: does the scene equal its mirror image in the plane across `axis` through the middle of its particles, and
- * where is that [m]? */
+/* True if the scene equals its mirror image in the plane across `axis` through the middle of its particles, at *at [m]
+ * (check_symmetry.c). */
 bool scene_is_mirrored(const struct engine *e, int axis, real *at);
 
 #endif

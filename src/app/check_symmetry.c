@@ -1,14 +1,13 @@
-/* floor 5: is a scene its own mirror image? Asked of its particles, so that whatever the scene says with other words counts:
- * matter, cracks, initial velocities and loads. */
+/* Tests whether a scene is its own mirror image, on its particles: matter, cracks, initial velocities and loads. */
 #include <math.h>
 #include <string.h>
 
 #include "check_parts.h"
 #include "base/memory.h"
 
-#define NEAR_ENOUGH 1e-6                 /* of a spacing, of a largest component */
+#define NEAR_ENOUGH 1e-6                 /* [spacings], and share of a largest component */
 
-/* The one of the body at X; -1: nobody there. */
+/* Index of the particle of the body at X [m], [dim]; -1: none. */
 static int64_t particle_at(const struct engine *e, const real *X)
 {
     int32_t found[4];
@@ -23,7 +22,7 @@ static real largest(const real *a, int64_t n)
     return most;
 }
 
-/* Are values at twins alike, or with `odd` opposite? */
+/* True if values a, [n], at mirror twins are equal, or with `odd` opposite. twin: [n] index of the mirror image. */
 static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 {
     const real most = NEAR_ENOUGH * largest(a, n);
@@ -32,26 +31,29 @@ static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
     return true;
 }
 
-/* Matter at twins, and the bonds that cracks have taken from it. */
+/* True if material, body, kind, volume and damage by cracks are equal at twins. */
 static bool matter_agrees(const struct engine *e, const int32_t *twin)
 {
     const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++)
-        if (p->material[i] != p->material[twin[i]] || p->body[i] != p->body[twin[i]] || p->kind[i] != p->kind[twin[i]]) return false;
+        if (p->material[i] != p->material[twin[i]] || p->body[i] != p->body[twin[i]] || p->kind[i] != p->kind[twin[i]])
+            return false;
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 
-/* A number for each course in time and kind of load: loads that differ in either never cancel. */
+/* A number for the kind and time function of a load, such that loads that differ in either do not cancel in sums. */
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;
     real mark = 1 + b->kind + 10.0 * t->kind;
-    if (t->kind != TIME_CONSTANT && t->kind != TIME_TABLE) mark += 0.1234 * t->from / (t->from + t->until + 1e-300) + 1e6 * t->until;
+    if (t->kind != TIME_CONSTANT && t->kind != TIME_TABLE)
+        mark += 0.1234 * t->from / (t->from + t->until + 1e-300) + 1e6 * t->until;
     for (int k = 0; k < t->n; k++) mark += (k + 1.618) * (t->t[k] * 1e6 + t->value[k]);
     return mark;
 }
 
-/* What loads ask of component d, into `ask`, and whether they hold it, into `held`. */
+/* Sums, per particle, of the marked loads on component d into `ask`, [n], and of the marks of driving loads into
+ * `held`, [n]. */
 static void loads_ask(const struct engine *e, int d, real *ask, real *held)
 {
     memset(ask, 0, (size_t)e->part.n * sizeof *ask);
@@ -68,6 +70,7 @@ static void loads_ask(const struct engine *e, int d, real *ask, real *held)
     }
 }
 
+/* True if loads, constraints and initial velocities are mirror images across `axis`. */
 static bool loads_agree(const struct engine *e, int axis, const int32_t *twin)
 {
     const struct particles *p = &e->part;
@@ -75,15 +78,16 @@ static bool loads_agree(const struct engine *e, int axis, const int32_t *twin)
     bool same = true;
     for (int d = 0; d < p->dim && same; d++) {
         loads_ask(e, d, ask, held);
-        same = agree(ask, twin, p->n, d == axis) && agree(held, twin, p->n, false) && agree(p->v[d], twin, p->n, d == axis);
+        same = agree(ask, twin, p->n, d == axis) && agree(held, twin, p->n, false) &&
+               agree(p->v[d], twin, p->n, d == axis);
     }
     memory_free(ask);
     memory_free(held);
     return same;
 }
 
-/* Everybody's mirror image, or false where one has none. */
-static bool twins_find(const struct engine *e, int axis, real at, int32_t *twin)
+/* Finds the mirror image of every particle in the plane at `at` [m], twin[n]; false if a particle has none. */
+static bool mirror_twins_find(const struct engine *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++) {
@@ -107,7 +111,7 @@ bool scene_is_mirrored(const struct engine *e, int axis, real *at)
     *at = 0.5 * (low + high);
     if (high - low < e->scene->spacing) return false;
     int32_t *twin = NEW("check.twin", p->n, int32_t);
-    const bool same = twins_find(e, axis, *at, twin) && matter_agrees(e, twin) && loads_agree(e, axis, twin);
+    const bool same = mirror_twins_find(e, axis, *at, twin) && matter_agrees(e, twin) && loads_agree(e, axis, twin);
     memory_free(twin);
     return same;
 }

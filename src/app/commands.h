@@ -1,16 +1,20 @@
-/* floor 5: the commands of the program. Each gets the words after `cleave`, its own name first; what it returns is
- * the exit status, and on anything but OK the message says why. */
-#ifndef CLEAVE_COMMANDS_H
-#define CLEAVE_COMMANDS_H
+/* The commands of the program. Arguments: the words after `cleave`, the name of the command first. The return value is
+ * the exit status; for any but OK status_message gives the reason. */
+#ifndef CLEAVE_COMMANDS
+#define CLEAVE_COMMANDS
+
+#include <stdio.h>
 
 #include "base/base.h"
 
 status command_run(int argc, char **argv);
 status command_check(int argc, char **argv);
-status command_plot(int argc, char **argv);
 status command_compare(int argc, char **argv);
-status command_bench(int argc, char **argv);
 status command_help(int argc, char **argv);
 status command_info(int argc, char **argv);
+
+/* Pages of `cleave help`: the guarantees of a run and the tests that check them; the equations. */
+status trust_print(FILE *out);
+status theory_print(FILE *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* floor 5: `cleave compare A B`: how far two runs are apart: fields, energies, cracks, time taken. */
+/* `cleave compare A B`: differences of two runs: fields, energies, cracks, time taken. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,13 +9,13 @@
 #include "output/history.h"
 #include "base/memory.h"
 #include "output/output.h"
-#include "src/plot/plot.h"
+#include "plot/plot.h"
 #include "output/summary_read.h"
 
 enum { KEY_LENGTH = 64 };
 
 /* Two frames count as taken at one time if they are closer than this share of the time between frames: runs with
- * different steps do not hit the same instant. */
+ * different steps have no frames at identical times. */
 static const double SAME_TIME = 0.05;
 
 struct pair {
@@ -32,7 +32,7 @@ static bool holds_run(const char *folder)
            run_holds(folder, "frames.hdf.series");
 }
 
-/* ---- rows of the table ----------------------------------------------------------------------------- */
+/* ---- rows of the table ------------------------------------------------------------------------------------------- */
 
 static void print_number(double a)
 {
@@ -41,7 +41,7 @@ static void print_number(double a)
 }
 
 /* One figure of both runs and their difference B - A; left out where neither has it. */
-static void print_row(const char *label, const char *unit, double a, double b)
+static void compare_print_row(const char *label, const char *unit, double a, double b)
 {
     char text[KEY_LENGTH];
     if (isnan(a) && isnan(b)) return;
@@ -55,7 +55,7 @@ static void print_row(const char *label, const char *unit, double a, double b)
 
 static void print_head(const char *what) { printf("\n%-30s %14s %14s %14s\n", what, "A", "B", "B - A"); }
 
-/* ---- which frames ---------------------------------------------------------------------------------- */
+/* ---- choice of frames -------------------------------------------------------------------------------------------- */
 
 struct times { int n; struct listed_frame *list; };
 
@@ -64,7 +64,7 @@ static double interval(const struct times *t)
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Last frames of the same time; false if there are none. */
+/* Indices of the last frames of equal time; false: none. */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -79,7 +79,7 @@ static bool last_common(const struct times *a, const struct times *b, int *i, in
     return false;
 }
 
-/* ---- fields ---------------------------------------------------------------------------------------- */
+/* ---- fields ------------------------------------------------------------------------------------------------------ */
 
 struct difference {
     double largest, rms, scale;          /* of |a - b|; scale: largest |a| */
@@ -132,7 +132,7 @@ static void print_fields(const struct frame *a, const struct frame *b)
     printf("  %-28s %14lld of %lld\n", "particles of another kind", (long long)other_kind, (long long)a->n);
 }
 
-/* Why the particles of two frames cannot be set against each other; NULL if they can. */
+/* Why two frames cannot be compared particle by particle; NULL: they can. */
 static const char *particles_differ(const struct frame *a, const struct frame *b)
 {
     if (a->dim != b->dim) return "the dimensions differ";
@@ -141,6 +141,7 @@ static const char *particles_differ(const struct frame *a, const struct frame *b
     return NULL;
 }
 
+/* Compares two frames particle by particle and prints the differences. */
 static void compare_particles(struct pair *p, const struct frame *a, const struct frame *b)
 {
     const char *why = particles_differ(a, b);
@@ -160,6 +161,7 @@ static void compare_particles(struct pair *p, const struct frame *a, const struc
     print_fields(a, b);
 }
 
+/* Compares the last frames of equal time, if both runs have one. */
 static status compare_frames(struct pair *p)
 {
     struct times t[2] = {{0}};
@@ -182,13 +184,14 @@ static status compare_frames(struct pair *p)
     return s;
 }
 
-/* ---- energies -------------------------------------------------------------------------------------- */
+/* ---- energies ---------------------------------------------------------------------------------------------------- */
 
 static double last_of(const struct history *h, const char *name)
 {
     return h->rows > 0 ? history_at(h, h->rows - 1, history_column(h, name)) : NAN;
 }
 
+/* Compares the last lines of both history.csv. */
 static status compare_energies(const struct pair *p)
 {
     static const struct { const char *name, *label, *unit; } figure[] = {
@@ -217,35 +220,36 @@ static status compare_energies(const struct pair *p)
     }
     print_head("at the end of history.csv");
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
-        print_row(figure[k].label, figure[k].unit, last_of(&h[0], figure[k].name), last_of(&h[1], figure[k].name));
+        compare_print_row(figure[k].label, figure[k].unit, last_of(&h[0], figure[k].name),
+                          last_of(&h[1], figure[k].name));
     for (int k = 0; k < 2; k++) history_free(&h[k]);
     return OK;
 }
 
-/* ---- cracks ---------------------------------------------------------------------------------------- */
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* A figure of summary.json; NAN without. */
-static double figure_of(const char *folder, const char *key)
+/* A figure of summary.json; NAN: it has none. */
+static double compare_figure_of(const char *folder, const char *key)
 {
     double value;
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Where tip k of a run is; false past the last. */
+/* Place of tip k of a run [m]; false past the last tip. */
 static bool tip_place(const char *folder, int k, double place[DIM_MAX])
 {
     bool found = false;
     for (int d = 0; d < DIM_MAX; d++) {
         char key[KEY_LENGTH];
         snprintf(key, sizeof key, "crack.tips.%d.%c", k, 'x' + d);
-        place[d] = figure_of(folder, key);
+        place[d] = compare_figure_of(folder, key);
         found = found || isfinite(place[d]);
         if (!isfinite(place[d])) place[d] = 0;       /* a component the space does not have */
     }
     return found;
 }
 
-/* Every tip of A with the nearest one of B. */
+/* Prints every tip of A with the distance to the nearest tip of B. */
 static void print_tips(const struct pair *p)
 {
     double a[DIM_MAX], b[DIM_MAX];
@@ -269,8 +273,8 @@ static void compare_cracks(const struct pair *p)
         {"crack.tip_speed_max", "largest speed", "m/s"}};
     print_head("crack");
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
-        print_row(figure[k].label, figure[k].unit, figure_of(p->folder[0], figure[k].key),
-                  figure_of(p->folder[1], figure[k].key));
+        compare_print_row(figure[k].label, figure[k].unit, compare_figure_of(p->folder[0], figure[k].key),
+                  compare_figure_of(p->folder[1], figure[k].key));
     print_tips(p);
 }
 
@@ -281,13 +285,13 @@ static void compare_time(const struct pair *p)
         {"memory_peak_bytes", "peak memory", "byte"}, {"loop_seconds", "loop", "s"}};
     print_head("time taken");
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
-        print_row(figure[k].label, figure[k].unit, figure_of(p->folder[0], figure[k].key),
-                  figure_of(p->folder[1], figure[k].key));
-    double a = figure_of(p->folder[0], "loop_seconds"), b = figure_of(p->folder[1], "loop_seconds");
+        compare_print_row(figure[k].label, figure[k].unit, compare_figure_of(p->folder[0], figure[k].key),
+                  compare_figure_of(p->folder[1], figure[k].key));
+    double a = compare_figure_of(p->folder[0], "loop_seconds"), b = compare_figure_of(p->folder[1], "loop_seconds");
     if (a > 0 && b > 0) printf("  A/B = %.4g, t_r = 1 - A/B = %.4g\n", a / b, 1 - a / b);
 }
 
-/* ---- the command ----------------------------------------------------------------------------------- */
+/* ---- the command ------------------------------------------------------------------------------------------------- */
 
 static status read_words(struct pair *p, int argc, char **argv)
 {
@@ -305,7 +309,7 @@ static status read_words(struct pair *p, int argc, char **argv)
     return OK;
 }
 
-/* Name, method and state of a run; what is there must be readable. */
+/* Prints name, method and state of a run. FAILED if its summary exists and cannot be read. */
 static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];

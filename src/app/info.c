@@ -1,4 +1,4 @@
-/* floor 5: `cleave info`: what was built, and what it runs on. Asks the libraries for their versions, no more. */
+/* `cleave info`: prints the build, the versions of its libraries, and the machine. */
 #include <errno.h>
 #include <hdf5.h>
 #include <hwloc.h>
@@ -7,13 +7,13 @@
 #include <yaml.h>
 
 #include "commands.h"
-#include "engine/simd.h"
+#include "simd/simd.h"
 #include "base/team.h"
 
 static const char *compiler(void)
 {
 #if defined __clang__
-    return __VERSION__;                  /* names itself */
+    return __VERSION__;                  /* includes the name */
 #else
     return "gcc " __VERSION__;
 #endif
@@ -60,7 +60,8 @@ static void print_kernels(void)
 {
     printf("%-18s %s: %s\n", "kernels", simd_in_use()->name, simd_in_use()->meaning);
     for (const struct simd_set *s = simd_sets; s < simd_sets + simd_set_count; s++)
-        if (s != simd_in_use()) printf("%-18s %s: %s%s\n", "", s->name, s->meaning, s->runs() ? "" : "; not on this processor");
+        if (s != simd_in_use())
+            printf("%-18s %s: %s%s\n", "", s->name, s->meaning, s->runs() ? "" : "; not on this processor");
 }
 
 static void print_machine(void)

@@ -1,17 +1,19 @@
-/* floor 5: the program: one command, one exit status. */
+/* The program: one command, one exit status. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "bench/common/bench.h"
+#include "plot/plot.h"
 #include "commands.h"
 #include "base/last_words.h"
 #include "output/output.h"
 #include "scene/scene.h"
-#include "engine/simd.h"
+#include "simd/simd.h"
 
-/* Builds that report as they exit (leaks, what has run) say exit. */
+/* Exit without handlers; builds that report as they exit (leaks, coverage) define LEAVE as exit. */
 #ifndef LEAVE
 #define LEAVE _exit
 #endif
@@ -24,7 +26,7 @@ static const struct command commands[] = {
     {"plot", "DIR", "pictures of a finished or running run", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"bench", "[NAME...] [--quick]", "kernels, efficiency, coupling", command_bench},
-    {"help", "[KEY|trust]", "every scene key: type, unit, range, default; what a run promises", command_help},
+    {"help", "[KEY|theory|trust]", "every scene key; the equations; what a run promises", command_help},
     {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
 };
 
@@ -39,9 +41,10 @@ static status usage(status result)
 
 status command_help(int argc, char **argv)
 {
-    if (argc > 2) return status_set(REFUSED, "usage: cleave help [KEY]");
+    if (argc > 2) return status_set(REFUSED, "usage: cleave help [KEY|theory|trust]");
     if (argc == 2 && !strcmp(argv[1], "--manual")) return scene_manual(stdout);
     if (argc == 2 && !strcmp(argv[1], "trust")) return trust_print(stdout);
+    if (argc == 2 && !strcmp(argv[1], "theory")) return theory_print(stdout);
     return scene_help(stdout, argc == 2 ? argv[1] : NULL);
 }
 
@@ -57,15 +60,16 @@ static status call(int argc, char **argv)
     return status_set(REFUSED, "unknown command %s; cleave --help lists them", argv[1]);
 }
 
-/* OpenMP's threads wait for each other by spinning, for milliseconds: on a machine that is busy otherwise that slows a
- * run many times over. A short spin is asked for before the library starts, unless the user has an opinion. */
-static void wait_politely(char **argv)
+/* OpenMP threads wait for each other by spinning, for milliseconds: on a busy machine that slows a run many times
+ * over. A short spin is set before the library starts, unless the environment sets it. */
+static void limit_spin(char **argv)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
-    if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv);   /* where there is none: as it was */
+    if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv);   /* without /proc the default stays */
 }
 
-/* Daemons close their first descriptors before they start a program; the next file opened would get one, and what is printed. */
+/* Opens standard descriptors that are closed, as daemons leave them; the next file opened would receive one of them,
+ * and all that is printed. */
 static void keep_descriptors(void)
 {
     int fd;
@@ -77,12 +81,12 @@ static void keep_descriptors(void)
 int main(int argc, char **argv)
 {
     keep_descriptors();
-    wait_politely(argv);
+    limit_spin(argv);
     last_words_start();
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);
     if (lost && result == OK) result = status_set(FAILED, "cannot write to standard output");
     if (result != OK && status_message()[0]) fprintf(stderr, "%s\n", status_message());
     fflush(stderr);
-    LEAVE(result);                           /* libraries that failed to write may not survive their exit handlers */
+    LEAVE(result);                           /* after failed writes the exit handlers of libraries may crash */
 }

@@ -1,15 +1,16 @@
-/* floor 5: `cleave run` and `cleave check`: from a scene file to results, or to what it would cost. */
+/* `cleave run`: from a scene file to results. */
 #include <math.h>
 #include <omp.h>
 #include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
+#include "auto/scene_read.h"
 #include "arguments.h"
 #include "commands.h"
 #include "engine/engine.h"
 
-/* The one variable that a signal may reach. */
+/* Set by signals: a checkpoint and the end of the run are requested. */
 static volatile sig_atomic_t stop_asked;
 
 static void on_signal(int number)
@@ -18,14 +19,15 @@ static void on_signal(int number)
     stop_asked = 1;
 }
 
-/* What batch systems send ahead of the end, some of it every second. */
+/* For signals that batch systems send before the end of a job, some of them every second: repeated ones have no
+ * effect. */
 static void on_notice(int number)
 {
     (void)number;
     stop_asked = 1;
 }
 
-/* A signal that whoever started the program ignores stays ignored: nohup, or `&` in a script, asks for that. */
+/* A signal that the parent process ignores stays ignored, as nohup and `&` in a script require. */
 static void listen_to_signals(void)
 {
     static const struct { int number; void (*handler)(int); } heard[] = {
@@ -34,20 +36,21 @@ static void listen_to_signals(void)
     for (size_t k = 0; k < COUNT_OF(heard); k++) {
         const struct sigaction action = {.sa_handler = heard[k].handler};
         struct sigaction before;
-        if (sigaction(heard[k].number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(heard[k].number, &action, NULL);
+        if (sigaction(heard[k].number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(heard[k].number, &action, NULL);
     }
 }
 
-/* ---- run -------------------------------------------------------------------------------------------------------- */
+/* ---- run --------------------------------------------------------------------------------------------------------- */
 
 static void print_summary(const struct engine *e, const char *folder, double wall)
 {
     const struct shown_name shown = shown_name(folder);
     const struct tip *tip = tips_longest(&e->tips);
-    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n, (long long)e->step,
-           e->dt, wall);
-    bool broke = !isnan(e->watch.break_time);
-    if (broke) printf("  first bond cut at %.4g s", e->watch.break_time);
+    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n,
+           (long long)e->step, e->dt, wall);
+    bool broke = !isnan(e->diagnostics.break_time);
+    if (broke) printf("  first bond cut at %.4g s", e->diagnostics.break_time);
     if (tip)
         printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
                tip_angle(tip, e->part.dim));
@@ -55,7 +58,8 @@ static void print_summary(const struct engine *e, const char *folder, double wal
     printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n",
            100.0 * (double)e->conversion.start / (double)e->part.n,
            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n);
-    printf("  energy balance %.2g, momentum %.2g\n", e->watch.now.balance_error, e->watch.now.momentum_error);
+    printf("  energy balance %.2g, momentum %.2g\n", e->diagnostics.now.balance_error,
+           e->diagnostics.now.momentum_error);
     printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", shown.text,
            shown.text, shown.text);
 }
@@ -68,6 +72,7 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     return output_open(out, a->folder ? a->folder : folder, s->text, mode, s->compress);
 }
 
+/* Makes the engine, opens the folder, runs to the end and writes the summary. */
 static status run_engine(struct engine *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {
@@ -79,7 +84,8 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     engine_warn(e);
     warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
-        fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads, omp_get_num_procs());
+        fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
+                omp_get_num_procs());
     e->stop = &stop_asked;
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     status ran = engine_run(e);
@@ -94,7 +100,8 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
 status command_run(int argc, char **argv)
 {
     struct run_arguments a;
-    TRY(arguments_read(&a, argc, argv, "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
+    TRY(arguments_read(&a, argc, argv,
+                       "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
     int threads = team_make(a.threads);
     struct scene s = {0};
     struct engine e = {0};

@@ -1,43 +1,53 @@
-/* floor 4: what a run promises, and which test holds it to that: `cleave help trust`. */
+/* `cleave help trust`: the guarantees of a run, and the tests that check them. */
 #include <stdio.h>
 
-#include "scene/scene.h"
+#include "commands.h"
 
 struct promise { const char *what, *tests; };
 
 static const struct promise promises[] = {
-    {"The same scene gives the same frames and history to the last bit on any number of threads, of one build and one set of kernels.",
+    {"The same scene gives the same frames and history to the last bit on any number of threads, of one build and one "
+     "set of kernels.",
      "test_trust.sh test_sets.sh long_trust.sh long_settings.sh"},
-    {"A run that is stopped (SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2, time.wall) writes a checkpoint and exits with 130; --resume "
+    {"A run that is stopped (SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2, time.wall) writes a checkpoint and "
+     "exits with 130; --resume "
      "gets to the same bits, whatever probes it has.",
      "test_trust.sh test_faults.c"},
-    {"A run that is killed at any moment after its first checkpoint, of step 0, loses what came after its last one and no more; --resume gets to "
+    {"A run that is killed at any moment after its first checkpoint, of step 0, loses what came after its last one and "
+     "no more; --resume gets to "
      "the same bits.",
      "test_trust.sh test_faults.c long_trust.sh"},
-    {"A call of this program that fails (memory, open, read, write, fsync, close, rename, mkdir) ends a run with one line and status 1; files "
+    {"A call of this program that fails (memory, open, read, write, fsync, close, rename, mkdir) ends a run with one "
+     "line and status 1; files "
      "that are there are whole, and --resume gets to the same bits.",
      "test_faults.c long_faults.sh"},
     {"So does a disk that is full, or a file or memory limit; a library without memory leaves one line, too.",
      "test_trust.sh test_little_memory.sh long_faults.sh"},
     {"Files and the folders they are named in are synced before anything counts on them.", "test_faults.c"},
-    {"Every changed, lost or added byte of a checkpoint or frame is found; the older checkpoint takes over, a lost frame is named.",
+    {"Every changed, lost or added byte of a checkpoint or frame is found; the older checkpoint takes over, a lost "
+     "frame is named.",
      "test_checkpoint.c test_faults.c test_guards.sh"},
-    {"One run at a time has a folder; older runs, other people's files and what links lead to stay as they are.", "test_guards.sh"},
-    {"A run that turns unstable, folds its cells or gains energy stops, says where and why, and exits with 1; 5 % of energy lost or gained is "
+    {"One run at a time has a folder; older runs, other people's files and what links lead to stay as they are.",
+     "test_guards.sh"},
+    {"A run that turns unstable, folds its cells or gains energy stops, says where and why, and exits with 1; 5 % of "
+     "energy lost or gained is "
      "said; no frame or history holds a number that is none and is called done.",
-     "test_alarm.c test_watch.c test_bounds.sh test_numbers.c"},
-    {"A scene, override or particle list that is wrong is refused in one line with its place and what would be right, status 2, and leaves "
+     "test_stability_checks.c test_diagnostics.c test_bounds.sh test_numbers.c"},
+    {"A scene, override or particle list that is wrong is refused in one line with its place and what would be right, "
+     "status 2, and leaves "
      "nothing; no bytes whatever make the program crash or hang.",
      "test_refusals.sh test_scene_bad.c test_lists.c long_fuzz.sh"},
-    {"Forces are the gradient of one energy, whatever is coupled to whatever, but for the couplings that warn.", "test_operator.c test_lasting.c"},
+    {"Forces are the gradient of one energy, whatever is coupled to whatever, but for the couplings that warn.",
+     "test_operator.c test_energy_drift.c"},
     {"No data race, no undefined behaviour, no leak in small scenes of every kind.",
      "long_races.sh long_sanitizers.sh long_valgrind.sh"},
 };
 
-static const char not_promised[] =
-    "Not promised: the same bits from another build, compiler or set of kernels (they agree to round-off); what a file system forgets that was "
-    "synced; anything but the last checkpoint where the system kills the program for want of memory; that HDF5 survives a damaged particle list "
-    "(it may crash, which is said in one line).";
+static const char not_promised[] = "Not promised: the same bits from another build, compiler or set of kernels (they "
+                                   "agree to round-off); what a file system forgets that was "
+                                   "synced; anything but the last checkpoint where the system kills the program for "
+                                   "want of memory; that HDF5 survives a damaged particle list "
+                                   "(it may crash, which is said in one line).";
 
 /* A paragraph in lines of 100 letters, each after `indent` blanks. */
 static void paragraph(FILE *out, const char *text, int indent)

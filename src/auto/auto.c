@@ -1,30 +1,31 @@
-/* floor 4: `method: auto`: reads the scene once to see what it is like (auto_match.c), picks from the chart (auto_pick.c),
- * and lays spacing, method, horizon and step over the scene as if the user had written them. What the user wrote stays and
- * restricts the choice. */
+/* `method: auto`: reads the scene once to classify it (auto_match.c), picks a point of the cost-accuracy table
+ * (auto_pick.c), and writes spacing, method, horizon and step into the tree as if the user had given them. Keys of the
+ * user stay and restrict the choice. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "auto/scene_read.h"
 #include "auto.h"
 #include "base/memory.h"
 #include "src/scene/scene_internal.h"
 
 static const real usual_accuracy = 0.01;
 
-/* What rules a choice: the scene as read, and as written. */
+/* A request for a choice: the scene as read and as written, and the accuracy. */
 struct ask {
     const struct scene *scene;
     const struct node *root;
     struct auto_match match;
-    bool slow_loads;                     /* nothing but constant tractions loads it: they may grow slowly     */
+    bool slow_loads;                     /* all loads are constant tractions, which may grow slowly           */
     real accuracy;
 };
 
-/* ---- reading the scene before anything is chosen ---------------------------------------------------------------- */
+/* ---- first reading of the scene ---------------------------------------------------------------------------------- */
 
-/* With stand-ins for what is to be chosen, of which no other key complains. */
+/* Reads the scene with stand-ins for the keys that are to be chosen, which contradict no other key. */
 static status read_first(struct reader *r, const char *text, size_t length, struct scene *s)
 {
     static const char *const dropped[] = {"accuracy", "accuracy_chart", "pd.surface", "particles.spacing"};
@@ -35,7 +36,8 @@ static status read_first(struct reader *r, const char *text, size_t length, stru
     for (size_t k = 0; k < COUNT_OF(dropped) && read == OK; k++)
         if (tree_at(root, dropped[k])) read = tree_set(&first, root, dropped[k], "");
     const struct node *space = read == OK ? tree_at(root, "space") : NULL;
-    const bool line = space && strcmp(space->text, "line") == 0, yields = read == OK && tree_at(root, "material.yield_stress");
+    const bool line = space && strcmp(space->text, "line") == 0,
+               yields = read == OK && tree_at(root, "material.yield_stress");
     if (read == OK) read = tree_set(&first, root, "particles.spacing", "1");
     if (read == OK) read = tree_set(&first, root, "method", "adaptive");
     if (read == OK) read = tree_set(&first, root, "solver", "explicit");
@@ -45,31 +47,35 @@ static status read_first(struct reader *r, const char *text, size_t length, stru
     return read;
 }
 
-/* ---- what a method can do ---------------------------------------------------------------------------------------- */
+/* ---- capabilities of methods ------------------------------------------------------------------------------------- */
 
-static bool has_states(const struct chart_point *p)
+static bool has_states(const struct cost_point *p)
 {
-    return chart_says(p, "model", "ospd") || chart_says(p, "model", "mospd");
+    return cost_point_has(p, "model", "ospd") || cost_point_has(p, "model", "mospd");
 }
 
-static bool has_bonds(const struct chart_point *p) { return !chart_says(p, "method", "mpm"); }
+static bool auto_has_bonds(const struct cost_point *p) { return !cost_point_has(p, "method", "mpm"); }
 
-/* Bonds impose Poisson's ratio; one velocity field does not crack; a reference frame knows no neighbours but its own. */
-static bool can_do(const struct chart_point *p, const struct ask *a)
+/* True if the method of p can represent the scene. Bonds impose Poisson's ratio, material points with one velocity
+ * field do not crack, and bodies in the reference frame meet no other body. */
+static bool can_do(const struct cost_point *p, const struct ask *a)
 {
     const struct scene *s = a->scene;
     const real bond = material_bond_poisson(s->space);
-    const bool coupled = strncmp(p->method, "coupled", 7) == 0, slow = chart_says(p, "solver", "explicit");
-    if (has_bonds(p) && (a->match.points_only || (s->dim > 1 && !has_states(p) && fabs(s->material[0].poisson - bond) > 1e-6)))
+    const bool coupled = strncmp(p->method, "coupled", 7) == 0, slow = cost_point_has(p, "solver", "explicit");
+    if (auto_has_bonds(p) &&
+        (a->match.points_only || (s->dim > 1 && !has_states(p) && fabs(s->material[0].poisson - bond) > 1e-6)))
         return false;
-    if (!has_bonds(p) && a->match.needs_bonds && !(a->match.gap && chart_says(p, "mpm.frame", "reference"))) return false;
-    if (s->bodies > 1 && (chart_says(p, "method", "pd") || chart_says(p, "mpm.frame", "reference"))) return false;
+    if (!auto_has_bonds(p) && a->match.needs_bonds && !(a->match.gap && cost_point_has(p, "mpm.frame", "reference")))
+        return false;
+    if (s->bodies > 1 && (cost_point_has(p, "method", "pd") || cost_point_has(p, "mpm.frame", "reference")))
+        return false;
     if (coupled != s->has_pd_region && !(s->has_pd_region && strncmp(p->method, "adaptive", 8) == 0)) return false;
-    if (chart_says(p, "mpm.strain", "small") && 100 * a->match.strain > a->accuracy) return false;
+    if (cost_point_has(p, "mpm.strain", "small") && 100 * a->match.strain > a->accuracy) return false;
     return !a->match.at_rest || !slow || a->slow_loads;
 }
 
-/* ---- what the user wrote ------------------------------------------------------------------------------------------- */
+/* ---- keys of the user -------------------------------------------------------------------------------------------- */
 
 static bool same_value(const char *a, const char *b)
 {
@@ -79,45 +85,49 @@ static bool same_value(const char *a, const char *b)
     return strcmp(a, b) == 0;
 }
 
-/* The default; where it hangs on the method as resolve_defaults has it, else the first word of what explains it: `(gimp;
- * ..`. */
-static void usual_value(const struct key *k, const struct chart_point *p, char *text, size_t room)
+/* Default of a key with the method of p: as in resolve_defaults where it depends on the method, else the first word of
+ * its explanation, as in `(gimp; ..`. */
+static void usual_value(const struct key *k, const struct cost_point *p, char *text, size_t room)
 {
     const char *from = k->fallback + (*k->fallback == '(');
-    if (strcmp(k->path, "mpm.frame") == 0) from = "current";      /* charts of before the frame was chosen */
-    if (strcmp(k->path, "pd.surface") == 0) from = chart_says(p, "method", "pd") && !has_states(p) ? "volume" : "none";
+    if (strcmp(k->path, "mpm.frame") == 0) from = "current";      /* tables without a frame were measured in it */
+    if (strcmp(k->path, "pd.surface") == 0)
+        from = cost_point_has(p, "method", "pd") && !has_states(p) ? "volume" : "none";
     if (strcmp(k->path, "pd.influence") == 0) from = has_states(p) ? "inverse" : "one";
-    if (strcmp(k->path, "pd.normalisation") == 0) from = chart_says(p, "model", "mospd") ? "bulk" : "local";
+    if (strcmp(k->path, "pd.normalisation") == 0) from = cost_point_has(p, "model", "mospd") ? "bulk" : "local";
     snprintf(text, room, "%.*s", (int)strcspn(from, *k->fallback == '(' ? "; )" : ""), from);
 }
 
-/* Does a key of this group mean anything to the method? */
-static bool concerns(const char *path, const struct chart_point *p)
+/* True if a key has a meaning with the method of p. */
+static bool concerns(const char *path, const struct cost_point *p)
 {
-    if (strncmp(path, "pd.", 3) == 0 || strcmp(path, "model") == 0) return has_bonds(p);
+    if (strncmp(path, "pd.", 3) == 0 || strcmp(path, "model") == 0) return auto_has_bonds(p);
     if (strcmp(path, "mpm.shape") == 0 || strcmp(path, "mpm.transfer") == 0)
-        return !chart_says(p, "method", "pd") && !chart_says(p, "mpm.frame", "reference");
-    if (strncmp(path, "mpm.", 4) == 0) return !chart_says(p, "method", "pd") && strcmp(path, "mpm.origin") != 0;
-    if (strcmp(path, "coupling") == 0 || strncmp(path, "conversion.", 11) == 0) return chart_says(p, "method", "adaptive");
+        return !cost_point_has(p, "method", "pd") && !cost_point_has(p, "mpm.frame", "reference");
+    if (strncmp(path, "mpm.", 4) == 0) return !cost_point_has(p, "method", "pd") && strcmp(path, "mpm.origin") != 0;
+    if (strcmp(path, "coupling") == 0 || strncmp(path, "conversion.", 11) == 0)
+        return cost_point_has(p, "method", "adaptive");
     return false;
 }
 
-static bool agrees(const struct chart_point *p, const struct node *root)
+/* True if no key of the user contradicts the method of p. */
+static bool agrees(const struct cost_point *p, const struct node *root)
 {
     char value[CHART_WORD];
     for (int i = 0; i < keys_count; i++) {
         const struct node *n = keys[i].type <= KEY_CHOICE ? tree_at(root, keys[i].path) : NULL;
         if (!n || n->kind != NODE_SCALAR || !concerns(keys[i].path, p)) continue;
         if (strcmp(keys[i].path, "mpm.frame") == 0 && strcmp(n->text, "auto") == 0) continue;
-        if (!chart_key(p, keys[i].path, value, sizeof value)) usual_value(&keys[i], p, value, sizeof value);
+        if (!cost_accuracy_key(p, keys[i].path, value, sizeof value)) usual_value(&keys[i], p, value, sizeof value);
         if (!same_value(n->text, value)) return false;
     }
     const struct node *solver = tree_at(root, "solver");
-    return !solver || !chart_key(p, "solver", value, sizeof value) || strcmp(solver->text, "static") == 0 ||
+    return !solver || !cost_accuracy_key(p, "solver", value, sizeof value) || strcmp(solver->text, "static") == 0 ||
            strcmp(solver->text, value) == 0;
 }
 
-static bool allows(const struct chart_point *p, const void *context)
+/* True if p suits the scene and the keys of the user, horizon and safety included; `context`: struct ask. */
+static bool allows(const struct cost_point *p, const void *context)
 {
     const struct ask *a = context;
     const struct scene *s = a->scene;
@@ -126,9 +136,10 @@ static bool allows(const struct chart_point *p, const void *context)
     return can_do(p, a) && agrees(p, a->root);
 }
 
-/* ---- saying it -------------------------------------------------------------------------------------------------------- */
+/* ---- report of the choice ---------------------------------------------------------------------------------------- */
 
-/* The chart's time, by the number of particles and of steps: steps of waves go as the way that they go. */
+/* Expected time [s]: the time of the table in proportion to the numbers of particles and of steps; the number of steps
+ * is in proportion to the distance that waves travel. */
 static real seconds_of(const struct ask *a, const struct auto_point *p, real spacing)
 {
     real particles = 0;
@@ -141,13 +152,14 @@ static real seconds_of(const struct ask *a, const struct auto_point *p, real spa
     return p->seconds * particles / p->particles * steps;
 }
 
+/* Records the choice, for reports, in r->scene->choice. spacing: [m]. */
 static void keep_choice(struct scene_choice *c, const struct ask *a, const struct auto_found *f, real spacing)
 {
     const struct auto_match *m = &a->match;
     c->made = true;
     snprintf(c->like, sizeof c->like, "%s (%s of the chart)", m->kind->title, m->kind->problem);
     snprintf(c->feature, sizeof c->feature, "%s", m->kind->feature);
-    const bool gap = m->needs_bonds && !has_bonds(f->best.of);
+    const bool gap = m->needs_bonds && !auto_has_bonds(f->best.of);
     snprintf(c->picked, sizeof c->picked, "%.40s%s", f->best.of->method, gap ? ", the crack a gap of one cell" : "");
     c->size = m->feature, c->points = m->feature / spacing, c->resolution = c->points / m->kind->per_resolution;
     c->accuracy = a->accuracy, c->error = m->growth * f->best.error;
@@ -167,15 +179,19 @@ void scene_choice_print(const struct scene *s, FILE *out)
     fprintf(out, "auto           %s", c->picked);
     if (c->horizon > 0) fprintf(out, ", horizon %.4g", c->horizon);
     fprintf(out, ", spacing %.4g m, %.3g of the critical step:\n", s->spacing, c->step);
-    fprintf(out, "auto           the cheapest for an error of %.2g %% where %.2g %% is asked, in about %.2g s on one thread of "
-            "the chart's machine\n", 100 * c->error, 100 * c->accuracy, c->seconds);
+    fprintf(
+        out,
+        "auto           the cheapest for an error of %.2g %% where %.2g %% is asked, in about %.2g s on one thread of "
+        "the chart's machine\n",
+        100 * c->error, 100 * c->accuracy, c->seconds);
     if (!c->second[0]) return;
     fprintf(out, "auto           next best: %s, %.2g %% in %.2f times that time\n", c->second, 100 * c->second_error,
             c->second_share);
 }
 
-/* ---- all ----------------------------------------------------------------------------------------------------------------- */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* True if the scene has loads and all of them are constant tractions. */
 static bool loads_may_wait(const struct scene *s)
 {
     bool any = false;
@@ -188,6 +204,8 @@ static bool loads_may_wait(const struct scene *s)
     return any;
 }
 
+/* Matches the scene with a problem of the table and reads the accuracy. REFUSED without a match, or if strains exceed
+ * the accuracy. */
 static status make_ask(struct reader *r, struct ask *a)
 {
     const struct node *solver = tree_at(a->root, "solver"), *method = tree_at(a->root, "method");
@@ -202,52 +220,63 @@ static status make_ask(struct reader *r, struct ask *a)
         return fault(r, method, "%s", why);
     }
     if (a->match.strain > a->accuracy)
-        return fault(r, method, "strains of about %.2g are more than the accuracy of %.2g, and the chart's problems are "
-                     "linear; write method and particles.spacing", a->match.strain, a->accuracy);
+        return fault(r, method,
+                     "strains of about %.2g are more than the accuracy of %.2g, and the chart's problems are "
+                     "linear; write method and particles.spacing",
+                     a->match.strain, a->accuracy);
     return OK;
 }
 
+/* REFUSED: no point of the table is allowed and accurate enough; the message gives the smallest error that is
+ * reached. */
 static status fault_unreached(struct reader *r, const struct ask *a, const struct auto_found *f)
 {
     const struct node *at = tree_at(a->root, "accuracy");
     const struct auto_match *m = &a->match;
     if (!at) at = tree_at(a->root, "method");
     if (!f->finest.of)
-        return fault(r, at, "no method of the chart for %s does what this scene asks and fits what it fixes; leave keys of "
-                     "pd, mpm, model and spacing to auto, or write method and particles.spacing", m->kind->title);
-    return fault(r, at, "an error of %.2g %% is not reached by the chart of %s; %.2g %% is, by %s with %.4g spacings in %s: "
-                 "ask for that, or write method and particles.spacing", 100 * a->accuracy, m->kind->title,
-                 100 * m->growth * f->finest.error, f->finest.of->method, f->finest.resolution * m->kind->per_resolution,
-                 m->kind->feature);
+        return fault(r, at,
+                     "no method of the chart for %s does what this scene asks and fits what it fixes; leave keys of "
+                     "pd, mpm, model and spacing to auto, or write method and particles.spacing",
+                     m->kind->title);
+    return fault(r, at,
+                 "an error of %.2g %% is not reached by the chart of %s; %.2g %% is, by %s with %.4g spacings in %s: "
+                 "ask for that, or write method and particles.spacing",
+                 100 * a->accuracy, m->kind->title, 100 * m->growth * f->finest.error, f->finest.of->method,
+                 f->finest.resolution * m->kind->per_resolution, m->kind->feature);
 }
 
+/* Picks the point and a spacing that fits the geometry, and writes them into the tree. */
 static status choose(struct reader *r, struct node *root, struct ask *a, const struct chart *chart)
 {
     const real unit = a->match.feature / a->match.kind->per_resolution;      /* resolution x spacing */
     const struct node *spacing = tree_at(a->root, "particles.spacing");
-    struct auto_wish w = {.match = &a->match, .accuracy = a->accuracy / a->match.growth, .allows = allows, .context = a};
+    struct auto_wish w = {
+        .match = &a->match, .accuracy = a->accuracy / a->match.growth, .allows = allows, .context = a};
     struct auto_found f;
     real h = NAN;
     if (spacing) TRY(read_number(r, key_find("particles", "spacing"), spacing, &h));
     if (spacing) w.resolution = unit / h;
     auto_pick(&f, chart, &w);
     if (!f.best.of) return fault_unreached(r, a, &f);
-    if (!spacing) h = auto_spacing_fit(a->scene, unit / f.best.resolution, !chart_says(f.best.of, "method", "pd"));
+    if (!spacing) h = auto_spacing_fit(a->scene, unit / f.best.resolution, !cost_point_has(f.best.of, "method", "pd"));
     keep_choice(&r->scene->choice, a, &f, h);
     return auto_lay(r, root, &a->match, a->scene, f.best.of, h);
 }
 
-/* In the scene's folder, or where the program was started. */
-static status read_chart(struct reader *r, const struct node *root, struct chart *chart)
+/* Reads the table given by accuracy_chart, sought in the folder of the scene, then in the current folder; without this
+ * key the table of the program. */
+static status read_cost_accuracy(struct reader *r, const struct node *root, struct chart *chart)
 {
     const struct node *n = tree_at(root, "accuracy_chart");
     const char *slash = strrchr(r->name, '/');
     char path[4096];
-    if (!n) return chart_read(chart, NULL);
+    if (!n) return cost_accuracy_read(chart, NULL);
     if (n->kind != NODE_SCALAR || !*n->text)
         return fault(r, n, "%s is no file name; results/bench/chart.csv is one", shown(r, n));
-    snprintf(path, sizeof path, "%.*s%s", slash && n->text[0] != '/' ? (int)(slash - r->name) + 1 : 0, r->name, n->text);
-    return chart_read(chart, access(path, R_OK) == 0 ? path : n->text);
+    snprintf(path, sizeof path, "%.*s%s", slash && n->text[0] != '/' ? (int)(slash - r->name) + 1 : 0, r->name,
+             n->text);
+    return cost_accuracy_read(chart, access(path, R_OK) == 0 ? path : n->text);
 }
 
 status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length)
@@ -258,10 +287,10 @@ status auto_resolve(struct reader *r, struct node *root, const char *text, size_
     if (!method || strcmp(method->text, "auto") != 0) return OK;
     struct ask a = {.scene = &first, .root = root};
     status s = read_first(r, text, length, &first);
-    if (s == OK) s = read_chart(r, root, &chart);
+    if (s == OK) s = read_cost_accuracy(r, root, &chart);
     if (s == OK) s = make_ask(r, &a);
     if (s == OK) s = choose(r, root, &a, &chart);
-    chart_free(&chart);
+    cost_accuracy_free(&chart);
     scene_free(&first);
     return s;
 }

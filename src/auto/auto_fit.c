@@ -1,6 +1,6 @@
-/* floor 4: a spacing that fits the geometry: a lattice hangs on the first solid of each body and cuts its edges into whole
- * numbers of spacings (fill.c); gaps and tips of cracks along the axes are where the scene says only if they, too, lie
- * between particles. */
+/* A spacing that fits the geometry: the lattice of a body is placed by its first solid and divides its edges into whole
+ * numbers of spacings (fill.c); gaps and crack tips along the axes keep their places only if they, too, lie between
+ * particles. */
 #include <math.h>
 
 #include "auto.h"
@@ -13,7 +13,7 @@ static void add(struct lengths *l, real length)
     if (fabs(length) > 0 && l->n < LENGTHS_MOST) l->of[l->n++] = fabs(length);
 }
 
-/* Distances from a body's corner that lie inside it. */
+/* Adds the distance of a place X from the lower corner of a body, if X lies inside the body. */
 static void add_place(struct lengths *l, const struct solid *box, int axis, real X)
 {
     if (X > box->from[axis] && X < box->to[axis]) add(l, X - box->from[axis]);
@@ -23,11 +23,12 @@ static void add_cracks(struct lengths *l, const struct scene *s, const struct so
 {
     for (int k = 0; k < s->cracks && s->dim == 2; k++) {
         const real *a = s->crack[k].corner[0], *b = s->crack[k].corner[1];
-        if (a[0] != b[0] && a[1] != b[1]) continue;      /* oblique: it meets no lattice */
+        if (a[0] != b[0] && a[1] != b[1]) continue;      /* oblique: fits no lattice */
         for (int d = 0; d < 2; d++) add_place(l, box, d, a[d]), add_place(l, box, d, b[d]);
     }
 }
 
+/* Collects the lengths that the spacing should divide: edges of bodies, and places of gaps and cracks in them. */
 static void collect(struct lengths *l, const struct scene *s)
 {
     l->n = 0;
@@ -43,11 +44,11 @@ static void collect(struct lengths *l, const struct scene *s)
     }
 }
 
-/* Lengths of scenes have few digits: what is asked for may be missed by this share. */
+/* Relative tolerance of lengths, which have few digits in scenes. */
 #define DIGITS 1e-6
 
 /* Least whole number of spacings <= h in a length. */
-static real count_of(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
+static real auto_fit_count_of(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
 
 static bool divides(real unit, real length)
 {
@@ -55,7 +56,8 @@ static bool divides(real unit, real length)
     return fabs(count - round(count)) < 1e-6 * count;
 }
 
-/* The even part holds for the edges alone, cells of two spacings end with the body. */
+/* True if h divides all lengths and, with `even`, 2 h the edges of the body: cells of two spacings end with the
+ * body. */
 static bool fits(const struct lengths *l, const struct scene *s, real h, bool even)
 {
     for (int k = 0; k < l->n; k++)
@@ -65,7 +67,7 @@ static bool fits(const struct lengths *l, const struct scene *s, real h, bool ev
     return true;
 }
 
-/* Wave carriers may be cut to 3/4 of the spacing for it; then edges alone count. */
+/* Spacings down to 3/4 h are tried; without a fit the edge along x alone counts. */
 real auto_spacing_fit(const struct scene *s, real h, bool even)
 {
     struct lengths l;
@@ -74,8 +76,8 @@ real auto_spacing_fit(const struct scene *s, real h, bool even)
     for (int k = 0; k < l.n; k++) least = real_min(least, l.of[k]);
     if (!isfinite(least)) return h;
     for (int strict = even; strict >= 0; strict--)
-        for (real n = count_of(least, h); least / n > 0.75 * h; n++)
+        for (real n = auto_fit_count_of(least, h); least / n > 0.75 * h; n++)
             if (fits(&l, s, least / n, strict)) return least / n;
-    const real edge = auto_extent(s, 0, 0), cells = count_of(edge, h);
+    const real edge = auto_extent(s, 0, 0), cells = auto_fit_count_of(edge, h);
     return edge / (even ? 2 * ceil(cells / 2) : cells);
 }

@@ -1,4 +1,4 @@
-/* floor 4: `method: auto`: what was chosen, laid over the scene as if the user had written it. */
+/* `method: auto`: writes the choice into the tree of the scene as if the user had given it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,9 +6,9 @@
 #include "auto.h"
 #include "src/scene/scene_internal.h"
 
-/* ---- keys -------------------------------------------------------------------------------------------------------------- */
+/* ---- keys -------------------------------------------------------------------------------------------------------- */
 
-/* Unless the user said it. */
+/* Sets a key that the user has not given, or given as auto or static. */
 static status lay(struct reader *r, struct node *root, const char *key, const char *value)
 {
     const struct node *n = tree_at(root, key);
@@ -22,7 +22,8 @@ static status lay_number(struct reader *r, struct node *root, const char *key, r
     return lay(r, root, key, number_text(text, value));
 }
 
-static status lay_keys(struct reader *r, struct node *root, const struct chart_point *p)
+/* Sets the keys key=value;.. of a point of the table, and the frame it was measured in. */
+static status lay_keys(struct reader *r, struct node *root, const struct cost_point *p)
 {
     for (const char *at = p->keys; *at; at += strcspn(at, ";"), at += *at == ';') {
         char key[CHART_KEYS], *value;
@@ -32,11 +33,11 @@ static status lay_keys(struct reader *r, struct node *root, const struct chart_p
         *value++ = '\0';
         TRY(lay(r, root, key, value));
     }
-    if (chart_says(p, "method", "pd") || strstr(p->keys, "mpm.frame=")) return OK;
-    return lay(r, root, "mpm.frame", "current");         /* what a chart that says no frame was measured in */
+    if (cost_point_has(p, "method", "pd") || strstr(p->keys, "mpm.frame=")) return OK;
+    return lay(r, root, "mpm.frame", "current");         /* tables without a frame were measured in it */
 }
 
-/* There is no static solver for the reference frame: its loads grow by sin^2, to their full size at the end. */
+/* Loads for the reference frame, which has no static solver: they grow as sin^2, to their full size at the end. */
 static status lay_slow_loads(struct reader *r, struct node *root, const struct auto_match *m, const struct scene *s)
 {
     char key[64], value[96], number[32];
@@ -53,7 +54,7 @@ static status lay_slow_loads(struct reader *r, struct node *root, const struct a
     return OK;
 }
 
-/* ---- cracks ---------------------------------------------------------------------------------------------------------- */
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 /* The end of an edge crack inside the body, and the direction that the crack has there. */
 static int tip_of(const struct crack *c, const struct solid *box, real direction[2])
@@ -69,14 +70,14 @@ static int tip_of(const struct crack *c, const struct solid *box, real direction
     return tip;
 }
 
-static void put_point(FILE *to, const char *name, const real *X)
+static void auto_lay_put_point(FILE *to, const char *name, const real *X)
 {
     char number[2][32];
     fprintf(to, "%s: [%s, %s]", name, number_text(number[0], X[0]), number_text(number[1], X[1]));
 }
 
-/* Points of one velocity field know a crack as a gap: of one cell, a spacing to either side, its faces on nodes, as the
- * chart's. */
+/* Replaces the crack by a gap of the body, since material points have one velocity field: one cell wide, a spacing to
+ * either side, its faces on nodes, as in the runs of the table. h: spacing [m]. */
 static status lay_gap(struct reader *r, struct node *root, const struct scene *s, real h)
 {
     const struct solid *box = &s->body[0].shape.solid[0];
@@ -92,10 +93,10 @@ static status lay_gap(struct reader *r, struct node *root, const struct scene *s
     from[across] -= h, to[across] += h, origin[across] = from[across];
     FILE *out = fmemopen(text, sizeof text, "w");
     if (!out) return status_set(FAILED, "method auto: out of memory");
-    put_point(out, "[{box: {from", box->from);
-    put_point(out, ", to", box->to);
-    put_point(out, "}}, {subtract: {box: {from", from);
-    put_point(out, ", to", to);
+    auto_lay_put_point(out, "[{box: {from", box->from);
+    auto_lay_put_point(out, ", to", box->to);
+    auto_lay_put_point(out, "}}, {subtract: {box: {from", from);
+    auto_lay_put_point(out, ", to", to);
     fputs("}}}]", out);
     fclose(out);
     TRY(tree_set(r, root, tree_at(root, "body") ? "body" : "bodies[0].shape", text));
@@ -104,7 +105,7 @@ static status lay_gap(struct reader *r, struct node *root, const struct scene *s
     return lay(r, root, "mpm.origin", text);
 }
 
-/* Where a gap ends: for the probe of this number, unless it says so. */
+/* Sets tip and direction of sif probe number `probe` to the end of the gap. */
 static status lay_tip(struct reader *r, struct node *root, int probe, const struct crack *c, const struct solid *box)
 {
     char key[64], text[96];
@@ -118,8 +119,8 @@ static status lay_tip(struct reader *r, struct node *root, int probe, const stru
     return tree_set(r, root, key, text);
 }
 
-/* Factors are as accurate as the chart says on rings as it takes them: for probes that do not say theirs. `gap`: the crack that
- * one became, of which they no longer find the tip. */
+/* Gives sif probes without radii the rings of the runs of the table, for which its accuracy holds. `gap`: the crack
+ * that became a gap, whose tip probes do not find by themselves; NULL: none. */
 static status lay_rings(struct reader *r, struct node *root, const struct auto_match *m, const struct crack *gap,
                         const struct solid *box)
 {
@@ -139,10 +140,10 @@ static status lay_rings(struct reader *r, struct node *root, const struct auto_m
     return OK;
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------------------- */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
 status auto_lay(struct reader *r, struct node *root, const struct auto_match *m, const struct scene *s,
-                const struct chart_point *p, real spacing)
+                const struct cost_point *p, real spacing)
 {
     static const char *const done[] = {"accuracy", "accuracy_chart"};
     for (size_t k = 0; k < COUNT_OF(done); k++)
@@ -151,9 +152,9 @@ status auto_lay(struct reader *r, struct node *root, const struct auto_match *m,
     TRY(lay_number(r, root, "particles.spacing", spacing));
     if (p->horizon > 0) TRY(lay_number(r, root, "particles.horizon", p->horizon));
     TRY(lay_number(r, root, "time.safety", p->step));
-    const bool gap = m->needs_bonds && chart_says(p, "method", "mpm");
+    const bool gap = m->needs_bonds && cost_point_has(p, "method", "mpm");
     if (gap) TRY(lay_gap(r, root, s, spacing));
     TRY(lay_rings(r, root, m, gap ? &s->crack[0] : NULL, &s->body[0].shape.solid[0]));
-    return m->at_rest && chart_says(p, "solver", "explicit") ? lay_slow_loads(r, root, m, s) : OK;
+    return m->at_rest && cost_point_has(p, "solver", "explicit") ? lay_slow_loads(r, root, m, s) : OK;
 }
 

@@ -1,4 +1,5 @@
-/* floor 4: which problem of the chart a scene is like, by what it contains, and the feature that its spacing has to resolve. */
+/* Finds the problem of the cost-accuracy table that a scene resembles, from the content of the scene, and the feature
+ * that its spacing has to resolve. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,45 +10,49 @@ enum { STEP, PULSE, WAVE_P, WAVE_S, SQUARE, CUBE, HOLE, EDGE, INCLINED, SUDDEN, 
 
 enum { TRACTION = 1 << BOUNDARY_TRACTION, DRIVE = 1 << BOUNDARY_VELOCITY, FORCE = 1 << BOUNDARY_BODY_FORCE };
 
-/* per_resolution, travel, slow and ring say what bench/accuracy_*.c do: a pulse of 0.4 m at 50 particles a metre has 20
- * spacings, ..; known: bench/accuracy/accuracy_reference.h. */
+/* per_resolution, travel, slow and ring describe the runs of bench/accuracy/accuracy_*.c: a pulse of 0.4 m at 50
+ * particles per metre has 20 spacings, ..; known: bench/accuracy/accuracy_reference.h. */
 static const struct auto_kind kinds[] = {
     [STEP] = {"bar", "step", "a bar loaded at once", "the bar's length", 1, 0.75, 0, true, 0, 0, TRACTION},
     [PULSE] = {"bar", "pulse", "a pulse in a bar", "the pulse's width", 0.4, 1, 0, true, 0, 0, TRACTION},
     [WAVE_P] = {"wave", NULL, "a plane pressure wave", "the packet's width", 0.2, 1, 0, true, 0, 0, 0},
     [WAVE_S] = {"wave", NULL, "a plane shear wave", "the packet's width", 0.2, 0.577, 0, true, 0, 0, 0},
-    [SQUARE] = {"square", "plane stress", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true, 0, 0, FORCE},
+    [SQUARE] = {"square", "plane stress", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true, 0, 0,
+                FORCE},
     [CUBE] = {"cube", "solid", "a smooth motion under body forces", "the wavelength", 2, 0.28, 0, true, 0, 0, FORCE},
     [HOLE] = {"hole", "pulled", "a plate with a hole, at rest", "the hole's radius", 0.1, 0, 30, false, 0, 0, TRACTION},
-    [EDGE] = {"cracks", "edge crack", "an edge crack at rest", "the crack's length", 0.5, 0, 200, false, 0.4, 0, TRACTION},
-    [INCLINED] = {"cracks", "inclined crack", "a crack at rest", "half the crack's length", 0.3, 0, 200,
-        false, 2.0 / 3, 0, TRACTION},
-    [SUDDEN] = {"sudden", "at rest", "a suddenly loaded crack", "the waves' way to it", 1, 2.735, 0, false, 0.4, 0, TRACTION},
-    [MOVING] = {"sudden", "at 1000 m/s", "a loaded crack that grows", "the waves' way to it", 1, 2.735, 0,
-        false, 0.4, 0, TRACTION},
+    [EDGE] = {"cracks", "edge crack", "an edge crack at rest", "the crack's length", 0.5, 0, 200, false, 0.4, 0,
+              TRACTION},
+    [INCLINED] = {"cracks", "inclined crack", "a crack at rest", "half the crack's length", 0.3, 0, 200, false, 2.0 / 3,
+                  0, TRACTION},
+    [SUDDEN] = {"sudden", "at rest", "a suddenly loaded crack", "the waves' way to it", 1, 2.735, 0, false, 0.4, 0,
+                TRACTION},
+    [MOVING] = {"sudden", "at 1000 m/s", "a loaded crack that grows", "the waves' way to it", 1, 2.735, 0, false, 0.4,
+                0, TRACTION},
     [SPALL] = {"spall", "spall", "a bar that spalls", "the pulse's length", 0.4, 3.5, 0, false, 0, 0, 0},
-    [IMPACT] = {"fracture", "Kalthoff", "a struck plate that cracks", "the plate's width", 1, 2.62, 0, false,
-        0, 0.025, TRACTION | DRIVE},
-    [PULLED] = {"fracture", "pulled plate", "a pulled plate that cracks", "the plate's width", 1, 1.56, 0,
-        false, 0, 0.027, TRACTION | DRIVE},
+    [IMPACT] = {"fracture", "Kalthoff", "a struck plate that cracks", "the plate's width", 1, 2.62, 0, false, 0, 0.025,
+                TRACTION | DRIVE},
+    [PULLED] = {"fracture", "pulled plate", "a pulled plate that cracks", "the plate's width", 1, 1.56, 0, false, 0,
+                0.027, TRACTION | DRIVE},
 };
 
-/* The critical step of cells in space is shorter than in the plane, so that less of what the grid slows waves is made up by the
- * step: 1.2 times the error was measured (a column with Poisson's ratio 1/4). */
+/* Factor on errors in space: the critical step of cells is shorter than in the plane, so that the step compensates less
+ * of the waves' delay by the grid. 1.2 times the error of the plane was measured (a column with Poisson's ratio
+ * 1/4). */
 #define SOLID_GROWTH 1.3
 
-/* All runs of the chart in more than one dimension have C12/C11 = 1/3 (bonds can have no other). With another ratio
- * critical steps, and how much of an error lies in which component, are others: up to 1.2 times the error was measured
- * (Poisson's ratio 0.1, 0.3, 0.45). */
+/* Factor on errors of other materials: all runs of the table in more than one dimension have C12/C11 = 1/3 (bonds have
+ * no other). With another ratio critical steps and the components' shares in an error differ: up to 1.2 times the error
+ * was measured (Poisson's ratio 0.1, 0.3, 0.45). */
 #define MATERIAL_GROWTH 1.2
 
 static status no_match(const char *what)
 {
-    return status_set(REFUSED, "the chart of method auto has no problem like this one: %s; write method and particles.spacing",
-                      what);
+    return status_set(
+        REFUSED, "the chart of method auto has no problem like this one: %s; write method and particles.spacing", what);
 }
 
-/* ---- what a scene contains ----------------------------------------------------------------------------------------- */
+/* ---- content of a scene ------------------------------------------------------------------------------------------ */
 
 real auto_extent(const struct scene *s, int body, int axis)
 {
@@ -85,7 +90,8 @@ static bool is_inside(const struct scene *s, const real *X)
     return true;
 }
 
-/* Part of a crack inside the body: from its tip to the edge, or half of it where both ends are tips. */
+/* Length of a crack inside the body [m]: from its tip to the edge, or half of it where both ends are tips
+ * (*embedded). */
 static real crack_length(const struct scene *s, const struct crack *c, bool *embedded)
 {
     const real *a = c->corner[0], *b = c->corner[1];
@@ -105,7 +111,7 @@ static real crack_length(const struct scene *s, const struct crack *c, bool *emb
     return inside * length;
 }
 
-/* Supports have no value. */
+/* True if the boundary has a value; supports have none. */
 static bool is_load(const struct boundary *b, int dim)
 {
     return b->kind != BOUNDARY_MIRROR && dot(b->value, b->value, dim) > 0;
@@ -122,17 +128,18 @@ static const struct wave_pulse *first_pulse(const struct scene *s)
 {
     const struct wave_pulse *least = NULL;
     for (int k = 0; k < s->initials; k++)
-        if (s->initial[k].sets_pulse && (!least || s->initial[k].pulse.width < least->width)) least = &s->initial[k].pulse;
+        if (s->initial[k].sets_pulse && (!least || s->initial[k].pulse.width < least->width))
+            least = &s->initial[k].pulse;
     return least;
 }
 
 static real size_of(const real *value, int dim) { return sqrt(dot(value, value, dim)); }
 
-/* ---- kinds ------------------------------------------------------------------------------------------------------------ */
+/* ---- kinds ------------------------------------------------------------------------------------------------------- */
 
-/* `distance`: that waves go while the scene runs. Phase errors grow with it, those of a front (a bar's step, what makes it
- * spall) as sqrt: they are of order 1/2 in the spacing, and two lengths alone make them. A shorter way is no reason to
- * expect less. */
+/* Sets kind, feature [m] and growth of the error. `distance`: travel of waves during the scene [m]. Phase errors grow
+ * in proportion to it; errors of a front (step load on a bar, spall) grow with its square root, since they are of order
+ * 1/2 in the spacing and depend on two lengths only. A shorter distance gives no smaller error. */
 static void set_kind(struct auto_match *m, int kind, real feature, real distance)
 {
     const real farther = kinds[kind].travel > 0 ? distance / feature / kinds[kind].travel : 1;
@@ -142,8 +149,8 @@ static void set_kind(struct auto_match *m, int kind, real feature, real distance
     if (m->kind->at) m->cases = 1, m->at[0] = m->kind->at;
 }
 
-/* Lattices have four axes: errors go as cos 4 angle, the cases of the chart stand at its 1, 0 and -1; between two of them
- * the worse. */
+/* Cases for the direction of a wave: errors vary as cos(4 angle) on a square lattice, and the cases of the table are at
+ * its values 1, 0 and -1. Between two cases the worse counts. */
 static void wave_cases(struct auto_match *m, const struct wave_pulse *w)
 {
     static const char *const at[2][3] = {{"P 0 deg", "P 22.5 deg", "P 45 deg"}, {"S 0 deg", "S 22.5 deg", "S 45 deg"}};
@@ -154,7 +161,8 @@ static void wave_cases(struct auto_match *m, const struct wave_pulse *w)
     if (place > low + 1e-6) m->at[m->cases++] = at[w->transverse][low + 1];
 }
 
-/* Several pulses go the same way or back, and are of one type: the chart's problem is that of one. */
+/* True if pulses differ in type or direction (opposite directions are equal): the problem of the table has one
+ * pulse. */
 static bool pulses_differ(const struct scene *s, const struct wave_pulse *w)
 {
     bool differ = false;
@@ -166,6 +174,7 @@ static bool pulses_differ(const struct scene *s, const struct wave_pulse *w)
     return differ;
 }
 
+/* Initial pulses: the feature is the width of the narrowest. */
 static status match_pulse(struct auto_match *m, const struct scene *s, const struct wave_pulse *w)
 {
     const struct material *a = &s->material[0];
@@ -175,16 +184,18 @@ static status match_pulse(struct auto_match *m, const struct scene *s, const str
     if (s->dim == 1) set_kind(m, PULSE, w->width, distance);
     else if (s->dim == 2) set_kind(m, w->transverse ? WAVE_S : WAVE_P, w->width, distance), wave_cases(m, w);
     else {
-        /* along an axis material points are those of the plane, layer by layer; bonds are not */
+        /* along an axis each layer of material points moves as in the plane; families of bonds differ */
         for (int d = 0; d < 3; d++)
             if (fabs(w->direction[d]) > 1e-9 && fabs(w->direction[d]) < 1 - 1e-9)
                 return no_match("a pulse in a solid, not along an axis; nearest is one that is");
         set_kind(m, w->transverse ? WAVE_S : WAVE_P, w->width, distance);
-        m->cases = 1, m->at[0] = w->transverse ? "S 0 deg" : "P 0 deg", m->points_only = true, m->growth *= SOLID_GROWTH;
+        m->cases = 1, m->at[0] = w->transverse ? "S 0 deg" : "P 0 deg", m->points_only = true,
+        m->growth *= SOLID_GROWTH;
     }
     return OK;
 }
 
+/* Bar under traction: the feature is its length for a constant load, the length of the pulse for a pulse. */
 static status match_bar(struct auto_match *m, const struct scene *s)
 {
     const struct boundary *load = find_boundary(s, BOUNDARY_TRACTION);
@@ -192,18 +203,20 @@ static status match_bar(struct auto_match *m, const struct scene *s)
     if (!load) return no_match("a bar without initial pulse and without traction; nearest is one with one of them");
     m->strain = fabs(load->value[0]) / s->material[0].young;
     if (load->time.kind == TIME_CONSTANT) set_kind(m, STEP, auto_extent(s, 0, 0), c * s->duration);
-    else if (load->time.kind == TIME_PULSE) set_kind(m, PULSE, c * (load->time.until - load->time.from), c * s->duration);
+    else if (load->time.kind == TIME_PULSE)
+        set_kind(m, PULSE, c * (load->time.until - load->time.from), c * s->duration);
     else return no_match("a traction that is neither constant nor a pulse; nearest is time: {pulse: ..}");
     return OK;
 }
 
+/* Sine of body force in two or three dimensions: the feature is the wavelength along an axis. */
 static status match_forced(struct auto_match *m, const struct scene *s)
 {
     real least = INFINITY;
     for (int k = 0; k < s->boundaries; k++) {
         const struct boundary *b = &s->boundary[k];
         if (b->kind != BOUNDARY_BODY_FORCE || b->profile.kind != PROFILE_SINE) continue;
-        /* waves along a diagonal: L/sqrt(dim) from crest to crest, L along each axis */
+        /* a wave along a diagonal measures L/sqrt(dim) from crest to crest and L along each axis */
         const real *a = b->profile.direction;
         real most = 0;
         for (int d = 0; d < s->dim; d++) most = real_max(most, fabs(a[d]) / size_of(a, s->dim));
@@ -215,6 +228,7 @@ static status match_forced(struct auto_match *m, const struct scene *s)
     return OK;
 }
 
+/* Equilibrium of a plate: the feature is the radius of its hole or the length of its crack. */
 static status match_static(struct auto_match *m, const struct scene *s)
 {
     const struct boundary *load = find_boundary(s, BOUNDARY_TRACTION);
@@ -238,7 +252,7 @@ static status match_static(struct auto_match *m, const struct scene *s)
     return OK;
 }
 
-/* Way of the waves from the loaded face to the crack. */
+/* Suddenly loaded crack: the feature is the distance from the loaded face to the crack. */
 static status match_sudden(struct auto_match *m, const struct scene *s)
 {
     const struct boundary *load = find_boundary(s, BOUNDARY_TRACTION);
@@ -253,23 +267,26 @@ static status match_sudden(struct auto_match *m, const struct scene *s)
     return OK;
 }
 
-/* What flies is as long as its initial velocity's region, or a body that has one; the pulse is twice that. */
+/* Spalling bar: the pulse is twice as long as the flyer, which is the region of an initial velocity or a body that has
+ * one. */
 static status match_spall(struct auto_match *m, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], least = INFINITY, fastest = 0;
     for (int k = 0; k < s->initials; k++)
-        if (s->initial[k].sets_velocity && s->initial[k].region.n > 0 && region_bounds(&s->initial[k].region, 1, from, to))
+        if (s->initial[k].sets_velocity && s->initial[k].region.n > 0 &&
+            region_bounds(&s->initial[k].region, 1, from, to))
             least = real_min(least, to[0] - from[0]), fastest = real_max(fastest, fabs(s->initial[k].velocity[0]));
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].velocity[0] != 0)
             least = real_min(least, auto_extent(s, b, 0)), fastest = real_max(fastest, fabs(s->body[b].velocity[0]));
-    if (!isfinite(least)) return no_match("a bar that may break and nothing that flies; nearest is a spall by an impact");
+    if (!isfinite(least))
+        return no_match("a bar that may break and nothing that flies; nearest is a spall by an impact");
     m->strain = 0.5 * fastest / s->material[0].wave_speed;
     set_kind(m, SPALL, 2 * least, s->material[0].wave_speed * s->duration);
     return OK;
 }
 
-/* Pulled where what drives the plate moves across its cracks, struck where along them. */
+/* Cracking plate: pulled if the load acts across the first crack, struck if it acts along it. */
 static status match_fracture(struct auto_match *m, const struct scene *s)
 {
     const struct boundary *drive = find_boundary(s, BOUNDARY_VELOCITY), *load = find_boundary(s, BOUNDARY_TRACTION);
@@ -282,7 +299,7 @@ static status match_fracture(struct auto_match *m, const struct scene *s)
     return OK;
 }
 
-/* One crack along an axis from the edge of a body that is one box. */
+/* True for one crack along an axis, from the edge of a body that is one box. */
 static bool may_be_gap(const struct scene *s)
 {
     if (s->dim != 2 || s->cracks != 1 || s->bodies != 1 || s->body[0].shape.n != 1 || s->has_pd_region) return false;
@@ -290,8 +307,9 @@ static bool may_be_gap(const struct scene *s)
     return (a[0] == b[0]) != (a[1] == b[1]) && is_inside(s, a) != is_inside(s, b);
 }
 
-/* ---- all ----------------------------------------------------------------------------------------------------------------- */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* REFUSED for what no problem of the table has. */
 static status check_ordinary(const struct scene *s)
 {
     if (s->materials > 1) return no_match("several materials");
@@ -306,7 +324,8 @@ static status check_ordinary(const struct scene *s)
     return OK;
 }
 
-static status find(struct auto_match *m, const struct scene *s, bool at_rest)
+/* Selects the problem by content of the scene. `at_rest`: the scene has a static solver. */
+static status auto_match_problem(struct auto_match *m, const struct scene *s, bool at_rest)
 {
     const struct wave_pulse *pulse = first_pulse(s);
     const bool several = s->bodies > 1 && !(s->dim == 1 && breaks(s));
@@ -316,21 +335,24 @@ static status find(struct auto_match *m, const struct scene *s, bool at_rest)
     if (s->growths == 0 && breaks(s)) return s->dim == 1 ? match_spall(m, s) : match_fracture(m, s);
     if (s->cracks > 0 && s->dim != 2) return no_match("a crack that is loaded in time, not in the plane");
     if (s->cracks > 0) return match_sudden(m, s);
-    if (isfinite(hole_radius(s))) return no_match("a hole that is loaded in time; nearest is one at rest (solver: static)");
+    if (isfinite(hole_radius(s)))
+        return no_match("a hole that is loaded in time; nearest is one at rest (solver: static)");
     if (pulse) return match_pulse(m, s, pulse);
     return s->dim == 1 ? match_bar(m, s) : match_forced(m, s);
 }
 
-/* Nothing else moves it than what moves the chart's. */
+/* REFUSED for loads and initial motion that the matched problem does not have. */
 static status check_loads(const struct auto_match *m, const struct scene *s)
 {
     bool moves = false;
     for (int k = 0; k < s->boundaries; k++)
         if (is_load(&s->boundary[k], s->dim) && !(m->kind->loads >> s->boundary[k].kind & 1))
-            return no_match("a load that its nearest problem does not have (bar and plate waves: initial pulses alone)");
+            return no_match(
+                "a load that its nearest problem does not have (bar and plate waves: initial pulses alone)");
     for (int k = 0; k < s->initials; k++) moves |= s->initial[k].sets_velocity || s->initial[k].sets_strain;
     for (int b = 0; b < s->bodies; b++) moves |= dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0;
-    if (moves && m->kind != &kinds[SPALL]) return no_match("an initial velocity or strain; nearest is a bar that spalls");
+    if (moves && m->kind != &kinds[SPALL])
+        return no_match("an initial velocity or strain; nearest is a bar that spalls");
     return OK;
 }
 
@@ -339,7 +361,7 @@ status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest
     static const bool watches_bonds[PROBES] = {
         [PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
     *m = (struct auto_match){0};
-    TRY(find(m, s, at_rest));
+    TRY(auto_match_problem(m, s, at_rest));
     TRY(check_loads(m, s));
     if (!(m->feature > 0)) return no_match("what its spacing would resolve has no length");
     const struct material *a = &s->material[0];

@@ -1,4 +1,4 @@
-/* floor 0: the one message that goes with a status. */
+/* The one message that goes with a status. */
 #include "base/base.h"
 
 #include <stdarg.h>
@@ -24,9 +24,9 @@ status status_set(status s, const char *format, ...)
 
 const char *status_message(void) { return message; }
 
-/* Bytes of a character that a terminal acts on instead of showing it; 0: it shows it. Control characters: a byte below a blank, 127, and
- * U+0080 to U+009F, in UTF-8 C2 80 to C2 9F. What turns the direction of writing or ends lines: U+200E, U+200F, U+2028 to U+202E and
- * U+2066 to U+2069, in UTF-8 E2 80 8E, and so on. */
+/* Bytes of a character that a terminal acts on instead of showing it; 0: it shows it. Control characters: a byte
+ * below a blank, 127, and U+0080 to U+009F, in UTF-8 C2 80 to C2 9F. What turns the direction of writing or ends
+ * lines: U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, in UTF-8 E2 80 8E, and so on. */
 static int harmful_bytes(const unsigned char *c)
 {
     if (*c < ' ' || *c == 127) return 1;

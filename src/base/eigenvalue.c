@@ -1,4 +1,4 @@
-/* floor 0: Lanczos' iteration for the largest eigenvalue. */
+/* Lanczos' iteration for the largest eigenvalue. */
 #include "base/eigenvalue.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static void overlap_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-static void start(struct lanczos *l)
+static void eigenvalue_start(struct lanczos *l)
 {
     uint64_t seed = 1;
     real sum[2];
@@ -50,7 +50,7 @@ static real next(struct lanczos *l, operator_fn *apply, void *context, real last
 }
 
 /* The newest vector becomes the one before, and w of length `size` the newest. */
-static void turn(struct lanczos *l, real size)
+static void eigenvalue_turn(struct lanczos *l, real size)
 {
     real *spare = l->before;
     l->before = l->v, l->v = l->w, l->w = spare;
@@ -87,15 +87,16 @@ real largest_eigenvalue(int64_t n, operator_fn *apply, void *context)
     const int most = n < ITERATIONS_MOST ? (int)n : ITERATIONS_MOST;
     int k = 0;
     if (n == 0) return 0;
-    struct lanczos l = {n, NEW("eigenvalue.v", n, real), NEW("eigenvalue.before", n, real), NEW("eigenvalue.w", n, real)};
-    start(&l);
+    struct lanczos l = {n, NEW("eigenvalue.v", n, real), NEW("eigenvalue.before", n, real),
+                        NEW("eigenvalue.w", n, real)};
+    eigenvalue_start(&l);
     while (k < most) {
         b[k] = next(&l, apply, context, k > 0 ? b[k - 1] : 0, &a[k]);
         found[k] = largest_of_tridiagonal(a, b, k + 1);
         k++;
         if (!(b[k - 1] > EXHAUSTED * fabs(found[k - 1]))) break;
         if (k > ITERATIONS_LEAST && found[k - 1] - found[k - 1 - ITERATIONS_SEEN] <= STATIONARY * found[k - 1]) break;
-        turn(&l, b[k - 1]);
+        eigenvalue_turn(&l, b[k - 1]);
     }
     memory_free(l.v);
     memory_free(l.before);

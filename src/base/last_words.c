@@ -1,5 +1,5 @@
-/* floor 0: last words of a process that a library ends. HDF5 without memory leaves by exit(-1), or reads through a pointer to nothing, and
- * so it does with some damaged files; it says nothing. */
+/* Last words of a process that a library ends. HDF5 without memory leaves by exit(-1), or reads through a
+ * pointer to nothing, and so it does with some damaged files; it says nothing. */
 #include "base/last_words.h"
 
 #include "base/base.h"
@@ -11,8 +11,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#define OUT_OF_MEMORY "out of memory: a library could not go on; results up to the last checkpoint are whole: go on with --resume where there " \
-                      "is more memory, or with fewer threads (-t), or choose a larger particles.spacing\n"
+static const char out_of_memory[] =
+    "out of memory: a library could not go on; results up to the last checkpoint are whole: go on with --resume where "
+    "there is more memory, or with fewer threads (-t), or choose a larger particles.spacing\n";
 
 /* The file that HDF5 reads, harmless to a terminal; "": none. */
 static char reading[512];
@@ -35,7 +36,7 @@ static void say(const char *text)
 
 static _Noreturn void say_and_leave(void)
 {
-    say(OUT_OF_MEMORY);
+    say(out_of_memory);
     _exit(FAILED);
 }
 
@@ -64,7 +65,7 @@ static void on_crash(int number)
     signal(number, SIG_DFL);                 /* the fault comes again, and ends the process as it should */
 }
 
-/* This program leaves by _exit: whoever calls exit is a library, and -1 is HDF5 without memory. */
+/* This program leaves by _exit: only a library calls exit, and -1 is HDF5 without memory. */
 #ifdef __GLIBC__
 static void on_library_exit(int result, void *unused)
 {

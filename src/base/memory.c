@@ -1,4 +1,4 @@
-/* floor 0: aligned arrays, touched first by their threads; the end of the run where there is no memory. */
+/* Aligned arrays, touched first by their threads; the end of the run where there is no memory. */
 #include "base/memory.h"
 
 #include <malloc.h>
@@ -9,8 +9,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* A cache line and the widest vector [byte]; the pieces in which pages are touched; a page, a large one, and the arrays that
- * lie on such. */
+/* A cache line and the widest vector [byte]; the pieces in which pages are touched; a page, a large one, and the
+ * arrays that lie on such. */
 enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 4 << 20 };
 
 /* Pages of its own: where the system gives them, and not under the address sanitizer, which sees the heap alone. */
@@ -20,11 +20,11 @@ enum { HEAP_ALONE = 1 };
 enum { HEAP_ALONE = 0 };
 #endif
 
-/* From this size on an array has pages of its own: pages used before would lie where somebody else's threads touched them
- * first; and new ones are zero, so that they need not be written twice. */
+/* From this size on an array has pages of its own: reused pages would lie in the memory of the processor whose
+ * threads touched them first; and new pages are zero, so that they need not be written twice. */
 enum { OWN_PAGES = 1 << 20 };
-/* Where asked, some of those that are freed wait for an array of about their size, which is mostly the same one made anew: the system takes
- * longer to give a page than it takes to write one. */
+/* On request some freed blocks wait for an array of about their size, mostly the same array made anew: the system
+ * takes longer to give a page than it takes to write one. */
 enum { KEPT = 64, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
 
 /* Stands before the array. */
@@ -55,8 +55,9 @@ static void zero(char *bytes, size_t length, bool fresh)
     }
 }
 
-/* Large blocks all begin at the same place of a page, and a cache has room for eight or twelve lines of one place: loops that
- * read twenty arrays side by side would push out their own. So each array begins some lines further on than the last. */
+/* Large blocks all begin at the same place of a page, and a cache has room for eight or twelve lines of one place:
+ * loops that read twenty arrays side by side would push out their own. So each array begins some lines further on
+ * than the last. */
 static size_t offset(size_t length)
 {
     static unsigned arrays;
@@ -70,8 +71,8 @@ static int waiting_longest;
 static size_t waiting_bytes;
 static bool reusing;
 
-/* Sizes come in steps of a quarter at most, and with half as much again where blocks wait for others, so that what has grown a
- * little finds its old place; pages beyond an array are never touched. */
+/* Sizes come in steps of a quarter at most, and with half as much again where blocks wait for others, so that what
+ * has grown a little finds its old place; pages beyond an array are never touched. */
 static size_t room_of(size_t length)
 {
     size_t step = OWN_PAGES / 4;
@@ -87,7 +88,8 @@ static struct block take_kept(size_t least)
     {
         int best = -1;
         for (int k = 0; k < KEPT; k++)
-            if (waiting[k].mapped >= least && waiting[k].mapped / 4 <= least && (best < 0 || waiting[k].mapped < waiting[best].mapped))
+            if (waiting[k].mapped >= least && waiting[k].mapped / 4 <= least &&
+                (best < 0 || waiting[k].mapped < waiting[best].mapped))
                 best = k;
         if (best >= 0) block = waiting[best], waiting[best] = (struct block){NULL, 0}, waiting_bytes -= block.mapped;
     }
@@ -95,7 +97,7 @@ static struct block take_kept(size_t least)
 }
 
 /* Lets a block wait in place of the one that has done so longest, and of more if all are too many bytes. */
-static void keep(struct block block)
+static void memory_keep(struct block block)
 {
     if (!reusing || block.mapped > KEPT_MOST) {
         munmap(block.whole, block.mapped);
@@ -125,12 +127,13 @@ static void keep_none(void)
 #endif
 
 /* `length` bytes from an alignment on; `whole` NULL: there are none. `fresh`: they are zero. */
-static char *block_make(struct block *block, size_t length, size_t alignment, bool *fresh)
+static char *memory_block_make(struct block *block, size_t length, size_t alignment, bool *fresh)
 {
     *block = (struct block){NULL, 0}, *fresh = false;
 #ifdef MAP_ANONYMOUS
     if (!HEAP_ALONE && length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
-        const size_t beside = alignment > PAGE ? alignment : 0, room = room_of(reusing ? length + length / 2 : length) + beside;
+        const size_t beside = alignment > PAGE ? alignment : 0,
+                     room = room_of(reusing ? length + length / 2 : length) + beside;
         *block = take_kept(length + beside);
         if (!block->whole) {
             void *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -152,10 +155,11 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
     struct block block;
     if (count < 0 || __builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
         out_of_memory(label, count, size);
-    const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;   /* also for count 0 */
+    /* also for count 0 */
+    const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;
     const bool large = rounded >= LARGE_ARRAY && content != MOSTLY_UNWRITTEN;
     bool fresh;
-    char *from = block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, &fresh);
+    char *from = memory_block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, &fresh);
     if (!block.whole) out_of_memory(label, count, size);
 #ifdef MADV_HUGEPAGE
     if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
@@ -168,8 +172,14 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
 }
 
 void *memory_new(const char *label, int64_t count, size_t size) { return array_make(label, count, size, ZEROED); }
-void *memory_bare(const char *label, int64_t count, size_t size) { return array_make(label, count, size, WRITTEN_SOON); }
-void *memory_sparse(const char *label, int64_t count, size_t size) { return array_make(label, count, size, MOSTLY_UNWRITTEN); }
+void *memory_bare(const char *label, int64_t count, size_t size)
+{
+    return array_make(label, count, size, WRITTEN_SOON);
+}
+void *memory_sparse(const char *label, int64_t count, size_t size)
+{
+    return array_make(label, count, size, MOSTLY_UNWRITTEN);
+}
 
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
 {
@@ -188,7 +198,7 @@ void memory_free(void *pointer)
     memcpy(&block, (char *)pointer - sizeof block, sizeof block);
 #ifdef MAP_ANONYMOUS
     if (block.mapped > 0) {
-        keep(block);
+        memory_keep(block);
         return;
     }
 #endif
@@ -197,7 +207,7 @@ void memory_free(void *pointer)
 
 void memory_reuse(bool reuse)
 {
-#ifdef __GLIBC__                          /* nor does the heap give back pages, or merge small pieces whenever a large one is freed */
+#ifdef __GLIBC__            /* nor does the heap give back pages, or merge small pieces whenever a large one is freed */
     if (reuse) mallopt(M_TRIM_THRESHOLD, KEPT_ALL), mallopt(M_MXFAST, 0);
 #endif
 #ifdef MAP_ANONYMOUS

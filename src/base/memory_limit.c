@@ -1,5 +1,5 @@
-/* floor 0: how much memory this process may take: its own limits, and those of the control groups it is in (containers, batch
- * systems). */
+/* How much memory this process may take: its own limits, and those of the control groups it is in
+ * (containers, batch systems). */
 #include "base/memory.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 
 static int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
 
-/* ---- control groups ------------------------------------------------------------------------------------- */
+/* ---- control groups ---------------------------------------------------------------------------------------------- */
 
 /* The number in a file; INT64_MAX where there is none: no such file, or `max`. */
 static int64_t number_in(const char *path)
@@ -28,7 +28,8 @@ static int64_t group_and_above(const char *base, char *group, const char *file)
     int64_t limit = INT64_MAX;
     char path[2048];
     for (;;) {
-        if (snprintf(path, sizeof path, "%s%s/%s", base, group, file) < (int)sizeof path) limit = least(limit, number_in(path));
+        if (snprintf(path, sizeof path, "%s%s/%s", base, group, file) < (int)sizeof path)
+            limit = least(limit, number_in(path));
         char *slash = strrchr(group, '/');
         if (!slash) return limit;
         *slash = '\0';
@@ -54,7 +55,7 @@ static int64_t groups_limit(void)
     return limit;
 }
 
-/* ---- limits of the process --------------------------------------------------------------------------------- */
+/* ---- limits of the process --------------------------------------------------------------------------------------- */
 
 /* What a limit leaves beside what is taken already [pages]. */
 static int64_t left_of(int resource, long long taken)

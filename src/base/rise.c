@@ -1,4 +1,4 @@
-/* floor 3: how long the last tenfold rise of something took. */
+/* How long the last tenfold rise of something took. */
 #include "base/rise.h"
 
 #include <math.h>
@@ -26,6 +26,7 @@ enum rise_pace rise_pace(const struct rise *r, int64_t step, real value, real *s
         }
         newer = older, least = most;
     }
-    if (least >= RISE_STEPS || (*steps > RISE_STEPS && older >= SOMETHING * value && isfinite(*steps))) return RISE_SLOW;
+    if (least >= RISE_STEPS || (*steps > RISE_STEPS && older >= SOMETHING * value && isfinite(*steps)))
+        return RISE_SLOW;
     return *steps <= RISE_STEPS ? RISE_FAST : RISE_UNSURE;
 }

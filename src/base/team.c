@@ -1,4 +1,4 @@
-/* floor 0: the team of threads on the machine's cores, sums that do not depend on it, and clocks. */
+/* The team of threads on the machine's cores, sums that do not depend on it, and clocks. */
 #include "base/team.h"
 
 #include <hwloc.h>
@@ -16,7 +16,7 @@
 
 #include "base/memory.h"
 
-/* ---- the machine ----------------------------------------------------------------------------------- */
+/* ---- the machine ------------------------------------------------------------------------------------------------- */
 
 /* What hwloc says of the machine and what this process may use of it. */
 struct place {
@@ -24,8 +24,9 @@ struct place {
     hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
 };
 
-/* The machine's memory, or what this process may take of it [byte], noted by whoever looks first; looking takes some 6 ms, a hundred
- * steps of a small scene. In a container hwloc may not see it, in a virtual machine only what that began with: the system says the rest. */
+/* The machine's memory, or what this process may take of it [byte], found once: the search takes some 6 ms, a
+ * hundred steps of a small scene. In a container hwloc may not see it, in a virtual machine only what it began with:
+ * the system supplies the rest. */
 static int64_t memory;
 
 static void note_memory(hwloc_topology_t topology)
@@ -45,9 +46,9 @@ static hwloc_obj_t core_at(const struct place *place, int k)
     return NULL;
 }
 
-/* Looking takes the calling thread to every core in turn and leaves it on the last, where it would share a helper's core for some
- * 20 ms, until the scheduler sees it: it goes to the first, and may go wherever it might. */
-static void come_home(const struct place *place)
+/* Looking takes the calling thread to every core in turn and leaves it on the last, where it would share a helper's
+ * core for some 20 ms, until the scheduler sees it: it goes to the first, and may go wherever it might. */
+static void rebind_main(const struct place *place)
 {
     const hwloc_obj_t core = core_at(place, 0);
     if (!core) return;
@@ -61,7 +62,8 @@ static void come_home(const struct place *place)
 static bool place_make(struct place *place)
 {
     setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
-    setenv("HWLOC_PLUGINS_PATH", "", 0);     /* plugins look for graphics and the like: 3 MB and up to 60 ms for nothing asked here */
+    /* plugins search for graphics and the like: 3 MB and up to 60 ms for nothing needed here */
+    setenv("HWLOC_PLUGINS_PATH", "", 0);
     note_memory(NULL);
     if (hwloc_topology_init(&place->topology) != 0) return false;
     if (hwloc_topology_load(place->topology) != 0) {
@@ -75,7 +77,7 @@ static bool place_make(struct place *place)
         hwloc_bitmap_copy(place->mask, allowed);
     hwloc_bitmap_and(place->mask, place->mask, allowed);
     if (hwloc_bitmap_iszero(place->mask)) hwloc_bitmap_copy(place->mask, allowed);
-    come_home(place);
+    rebind_main(place);
     return true;
 }
 
@@ -127,7 +129,7 @@ struct machine team_machine(void)
 
 int64_t team_memory(void) { return memory > 0 ? memory : team_machine().memory; }
 
-/* ---- the team -------------------------------------------------------------------------------------- */
+/* ---- the team ---------------------------------------------------------------------------------------------------- */
 
 /* Each helper to a core of its own, or back to the whole mask where there are not enough cores. The calling
  * thread stays free: its mask is what tells the next call (another team size) what the process may use, and the
@@ -155,8 +157,8 @@ static int bound_threads(void)
     return held > 0 && held < most ? held : most;
 }
 
-/* Numbers too small to be normal count as 0, in every thread alike: ahead of a wave what is mapped from node to node falls
- * below 1e-308 within some steps, and such numbers would cost a hundred times an ordinary one. */
+/* Numbers too small to be normal count as 0, in every thread alike: ahead of a wave what is mapped from node to node
+ * falls below 1e-308 within some steps, and such numbers would cost a hundred times an ordinary one. */
 static void flush_tiny_numbers(int threads)
 {
 #ifdef __SSE__
@@ -174,12 +176,13 @@ static void *wait_for(void *mutex)
     return NULL;
 }
 
-enum { LIBRARY_ROOM = 16 << 20 };        /* what OpenMP's library may want besides stacks [byte] */
+enum { LIBRARY_ROOM = 16 << 20 };        /* what OpenMP's library may take besides stacks [byte] */
 
 /* Can so many be had at once? OpenMP's library ends the process where they cannot, and not in one line. */
 static bool threads_start(int threads)
 {
-    void *room = threads > 1 ? mmap(NULL, LIBRARY_ROOM, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) : NULL;
+    void *room =
+        threads > 1 ? mmap(NULL, LIBRARY_ROOM, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) : NULL;
     pthread_mutex_t all = PTHREAD_MUTEX_INITIALIZER;
     pthread_t *made = malloc((size_t)threads * sizeof *made);
     int n = 0;
@@ -198,13 +201,16 @@ int team_make(int threads)
     struct place place;
     bool known = place_make(&place);
     if (threads <= 0) {
-        /* a user who binds has left this thread one place of many: the mask does not tell how many threads are wanted */
+        /* a bound process has left this thread one place of many: the mask does not say how many threads are meant */
         if (getenv("OMP_NUM_THREADS") != NULL) threads = omp_get_max_threads();
         else if (user_binds()) threads = bound_threads();
         else threads = known ? core_count(&place) : omp_get_num_procs();
     }
     if (!threads_start(threads)) {
-        fprintf(stderr, "%d threads cannot be started: no memory for their stacks, or a limit of processes; choose fewer with -t\n", threads);
+        fprintf(
+            stderr,
+            "%d threads cannot be started: no memory for their stacks, or a limit of processes; choose fewer with -t\n",
+            threads);
         _exit(FAILED);
     }
     omp_set_dynamic(0);                  /* always this many: partitions must not change between loops */
@@ -217,9 +223,9 @@ int team_make(int threads)
     return threads;
 }
 
-/* ---- sums ------------------------------------------------------------------------------------------ */
+/* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-enum { FEW_BLOCKS = 16 };                /* sums that need no memory of their own: steps ask for short ones several times */
+enum { FEW_BLOCKS = 16 };            /* sums without memory of their own: steps need short ones several times         */
 
 static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                       const void *context, int64_t b, real *part)
@@ -236,7 +242,8 @@ void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t 
     int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
     real few[FEW_BLOCKS * TERMS_MAX], *part = blocks <= FEW_BLOCKS ? few : NEW("team.sums", blocks * terms, real);
     assert(terms <= TERMS_MAX);
-    TEAM_LOOP(blocks > 1, for (int64_t b = 0; b < blocks; b++) sum_block(n, terms, block, context, b, part + b * terms););
+    TEAM_LOOP(blocks > 1,
+              for (int64_t b = 0; b < blocks; b++) sum_block(n, terms, block, context, b, part + b * terms););
     for (int k = 0; k < terms; k++) sum[k] = 0;
     for (int64_t b = 0; b < blocks; b++)
         for (int k = 0; k < terms; k++) sum[k] += part[b * terms + k];
@@ -258,7 +265,7 @@ real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const voi
     return sum;
 }
 
-/* ---- clocks ---------------------------------------------------------------------------------------- */
+/* ---- clocks ------------------------------------------------------------------------------------------------------ */
 
 double team_clock(void)
 {

@@ -1,4 +1,4 @@
-/* floor 0: what a run has to say that is no error. */
+/* What a run has to say that is no error. */
 #include "base/warnings.h"
 
 #include <stdarg.h>
@@ -40,7 +40,8 @@ status warnings_archive(struct warnings *w, struct archive *a)
     char *text = NEW("warnings.all", length + 1, char), *to = text;
     for (int k = 0; k < w->n && a->saving; k++) to = stpcpy(to, w->text[k]) + 1;
     const status s = a->exchange(a, "warnings/text", text, (size_t)length);
-    for (const char *from = text; s == OK && !a->saving && from < text + length; from += strlen(from) + 1) warnings_add(w, "%s", from);
+    for (const char *from = text; s == OK && !a->saving && from < text + length; from += strlen(from) + 1)
+        warnings_add(w, "%s", from);
     memory_free(text);
     return s;
 }

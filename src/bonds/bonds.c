@@ -1,4 +1,4 @@
-/* floor 1: making bond rows: who has one, and their groups of eight. */
+/* Makes bond rows: which particles have one, and their row blocks of eight. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static bool was_whole(const struct bonds *old, const struct bond_source *s, cons
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
-/* Rows made before can be taken over if nobody who held a whole one has turned back into a material point. */
+/* Rows made before can be taken over if no particle with a whole row has become a material point again. */
 static bool rows_last(const struct bonds *old, const struct particles *p)
 {
     if (!old) return false;
@@ -26,16 +26,17 @@ static bool rows_last(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Eight particles of consecutive numbers have rows together: a group is the same eight for as long as it is there, it writes
- * whole vectors, and on a lattice its neighbours are consecutive, too. Rows that nobody asked for have no bonds. */
+/* Eight particles of consecutive numbers have rows together: a row block holds the same eight particles for as long
+ * as it exists, is written as whole vectors, and on a lattice its neighbours are consecutive, too. Rows that were
+ * not marked have no bonds. */
 static void rows_complete(uint8_t *wanted, int64_t n)
 {
     for (int64_t first = 0; first < n; first += LANES)
         if (eight_bytes(wanted + first)) memset(wanted + first, 1, (size_t)eight_at(first, n));
 }
 
-/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` those that have to be
- * searched anew: of who has become peridynamic and whoever is within its reach. */
+/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` marks those
+ * to be searched anew: particles that have become peridynamic and all within their reach. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct lattice *lattice, int room, uint8_t *wanted, uint8_t *fresh)
 {
@@ -58,16 +59,18 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
     rows_complete(wanted, p->n);
 }
 
-/* ---- all rows -------------------------------------------------------------------------------------- */
+/* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
 struct pair_table pairs_make(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
     real *c = NEW("bonds.moduli", s->materials, real);
     for (int m = 0; m < s->materials; m++) c[m] = family_micro_modulus(&s->family, &s->material[m]);
-    for (int a = 0; a < s->materials; a++)       /* springs in series across a material interface; of equal ones no round-off */
+    /* springs in series across a material interface; of equal ones no round-off */
+    for (int a = 0; a < s->materials; a++)
         for (int b = 0; b < s->materials; b++)
-            t.ratio[a * s->materials + b] = s->modulus ? 1 : (c[a] == c[b] ? c[a] : 2 * (c[a] * c[b]) / (c[a] + c[b])) / c[0];
+            t.ratio[a * s->materials + b] =
+                s->modulus ? 1 : (c[a] == c[b] ? c[a] : 2 * (c[a] * c[b]) / (c[a] + c[b])) / c[0];
     memory_free(c);
     return t;
 }
@@ -79,23 +82,23 @@ static void rows_list(struct bonds *b, const struct particles *p, const uint8_t 
     b->rows = 0;
     for (int64_t first = 0; first < p->n; first += LANES)
         if (eight_bytes(wanted + first)) b->rows += eight_at(first, p->n);
-    b->groups = (b->rows + LANES - 1) / LANES;
-    b->particle = NEW("bonds.particle", b->groups * LANES, int32_t);
+    b->row_blocks = (b->rows + LANES - 1) / LANES;
+    b->particle = NEW("bonds.particle", b->row_blocks * LANES, int32_t);
     b->row_of = BARE("bonds.row_of", p->n_all, int32_t);
     memset(b->row_of, 0xff, (size_t)p->n_all * sizeof *b->row_of);                                      /* -1: none */
     for (int64_t first = 0; first < p->n; first += LANES)
         for (int l = 0; eight_bytes(wanted + first) && l < eight_at(first, p->n); l++, row++)
             b->particle[row] = (int32_t)first + l, b->row_of[first + l] = row;
-    for (int64_t r = b->rows; r < b->groups * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
+    for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
 
 static void rows_arrays(struct bonds *b)
 {
-    int64_t padded = b->groups * LANES;
-    b->slot = NEW("bonds.slot", b->groups, int64_t);
-    b->slot_count = NEW("bonds.slot_count", b->groups, int32_t);
-    b->made = NEW("bonds.made", b->groups, int32_t);
-    b->aligned = NEW("bonds.aligned", b->groups, uint8_t);
+    int64_t padded = b->row_blocks * LANES;
+    b->column = NEW("bonds.slot", b->row_blocks, int64_t);
+    b->column_count = NEW("bonds.slot_count", b->row_blocks, int32_t);
+    b->made = NEW("bonds.made", b->row_blocks, int32_t);
+    b->aligned = NEW("bonds.aligned", b->row_blocks, uint8_t);
     b->whole = NEW("bonds.whole", padded, uint8_t);
     b->trigger = NEW("bonds.trigger", padded, real);
     b->family_volume = NEW("bonds.family_volume", padded, float);
@@ -103,23 +106,23 @@ static void rows_arrays(struct bonds *b)
     b->fracture_energy = NEW("bonds.fracture_energy", padded, real);
     b->plastic_work = NEW("bonds.plastic_work", padded, real);
     b->broken = NEW("bonds.broken", padded, int32_t);
-    b->pattern = NEW("bonds.pattern", b->groups, const struct pattern *);
-    b->folded = NEW("bonds.folded", b->groups, uint8_t);
-    b->changed = NEW("bonds.changed", b->groups, uint8_t);
-    rest_make(&b->rest, b->groups);
+    b->stencil = NEW("bonds.pattern", b->row_blocks, const struct stencil *);
+    b->implicit = NEW("bonds.folded", b->row_blocks, uint8_t);
+    b->changed = NEW("bonds.changed", b->row_blocks, uint8_t);
+    active_set_make(&b->active, b->row_blocks);
 }
 
-/* Who does the two passes over the groups. */
+/* Does the two passes over the row blocks. */
 struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
-    struct group_found **found;          /* [groups] of those that are searched, NULL: not kept   */
-    int64_t *kept;                       /* [groups] of old rows whose group is taken over, -1: made; NULL: all are */
-    bool count;                          /* the first pass: slots are counted                     */
+    struct row_block_found **found;          /* [row blocks] of those that are searched, NULL: not kept   */
+    int64_t *kept;                 /* [row blocks] of old rows whose row block is taken over, -1: made; NULL: all are */
+    bool count;                          /* the first pass: columns are counted                     */
 };
 
-/* What has changed a row has changed every group that it is in. */
-static bool group_inherits(const struct bonds *old, const int32_t *particle, int rows)
+/* What has changed a row has changed every row block that it is in. */
+static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
     for (int l = 0; old && l < rows; l++) {
@@ -130,12 +133,13 @@ static bool group_inherits(const struct bonds *old, const int32_t *particle, int
 }
 
 /* Are its bonds those that its place on the lattice tells, as new? */
-static bool is_regular(const struct rows_pass *pass, struct group_room *room, int64_t g)
+static bool is_regular(const struct rows_pass *pass, struct row_block_room *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;
     const int32_t *particle = pass->b->particle + g * LANES;
-    return m->lattice->at && !pass->b->changed[g] && group_rows(pass->b, g) == LANES && particle[LANES - 1] - particle[0] == LANES - 1 &&
-           group_regular(m->lattice, m->source, m->p, particle[0], &room->regular);
+    return m->lattice->at && !pass->b->changed[g] && row_block_rows(pass->b, g) == LANES &&
+           particle[LANES - 1] - particle[0] == LANES - 1 &&
+           row_block_regular(m->lattice, m->source, m->p, particle[0], &room->regular);
 }
 
 static void reach_widen(int32_t *reach, int32_t distance)
@@ -143,42 +147,43 @@ static void reach_widen(int32_t *reach, int32_t distance)
     if (abs(distance) > *reach) *reach = abs(distance);
 }
 
-/* How far in the list of particles a group's rows look; images have no rows. */
-static void note_reach(const struct rows_pass *pass, struct group_room *room, int64_t g, bool regular)
+/* How far in the list of particles a row block's rows look; images have no rows. */
+static void note_reach(const struct rows_pass *pass, struct row_block_room *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
     for (int k = 0; regular && k < room->regular.n; k++)
         if (particle[0] + room->regular.offset[k] < n) reach_widen(&room->reach, room->regular.offset[k]);
-    for (int l = 0; !regular && l < group_rows(pass->b, g); l++)
+    for (int l = 0; !regular && l < row_block_rows(pass->b, g); l++)
         for (int k = 0; k < room->row[l].n; k++)
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
 
-/* Counts the slots of a group, or fills them; returns its bonds. */
-static int64_t group_pass(const struct rows_pass *pass, struct group_room *room, int64_t g)
+/* Counts the columns of a row block, or fills them; returns its bonds. */
+static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_room *room, int64_t g)
 {
     struct bonds *b = pass->b;
     const struct row_maker *m = &pass->maker;
-    const int rows = group_rows(b, g);
+    const int rows = row_block_rows(b, g);
     const int32_t *particle = b->particle + g * LANES;
     int64_t made = 0;
     bool by_offset;
-    if (pass->count) b->changed[g] = group_inherits(m->old, particle, rows);
+    if (pass->count) b->changed[g] = row_block_inherits(m->old, particle, rows);
     if (is_regular(pass, room, g)) {
-        if (pass->count) b->slot_count[g] = group_regular_slots(&room->regular), note_reach(pass, room, g, true);
-        else group_fill_regular(b, room, g, m);
-        return group_regular_bonds(&room->regular);
+        if (pass->count)
+            b->column_count[g] = row_block_regular_columns(&room->regular), note_reach(pass, room, g, true);
+        else row_block_fill_regular(b, room, g, m);
+        return row_block_regular_bonds(&room->regular);
     }
-    if (pass->found && pass->found[g]) group_found_take(pass->found[g], room->row, rows);
+    if (pass->found && pass->found[g]) row_block_found_take(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
         if (!pass->found || !pass->found[g]) row_find(&room->row[l], m, particle[l]);
         if (!pass->count) row_finish(&room->row[l], m, particle[l]);
         made += room->row[l].n;
     }
-    const int slots = group_slots(room, particle, rows, &by_offset);
-    if (pass->count) b->slot_count[g] = slots, note_reach(pass, room, g, false);
-    else group_fill(b, room, g, rows, by_offset, m->p);
-    if (pass->count && pass->found) pass->found[g] = group_found_make(room->row, rows);
+    const int columns = row_block_columns(room, particle, rows, &by_offset);
+    if (pass->count) b->column_count[g] = columns, note_reach(pass, room, g, false);
+    else row_block_fill(b, room, g, rows, by_offset, m->p);
+    if (pass->count && pass->found) pass->found[g] = row_block_found_make(room->row, rows);
     return made;
 }
 
@@ -191,27 +196,27 @@ static int64_t rows_pass(const struct rows_pass *pass)
     int32_t reach = 0;
 #pragma omp parallel reduction(+ : made) reduction(max : reach)
     {
-        struct group_room room = {0};
-        group_room_make(&room, m->room, m->lattice);
+        struct row_block_room room = {0};
+        row_block_room_make(&room, m->room, m->lattice);
 #pragma omp for schedule(static)
-        for (int64_t g = 0; g < pass->b->groups; g++) {
-            if (pass->kept && pass->count) pass->kept[g] = group_kept(pass->b, m, g);
+        for (int64_t g = 0; g < pass->b->row_blocks; g++) {
+            if (pass->kept && pass->count) pass->kept[g] = row_block_kept(pass->b, m, g);
             const int64_t from = pass->kept ? pass->kept[g] : -1;
-            if (from < 0) pass->b->made[g] = (int32_t)group_pass(pass, &room, g);
-            else if (pass->count) pass->b->slot_count[g] = m->old->slot_count[from];
-            else group_keep(pass->b, m->old, g, from);
+            if (from < 0) pass->b->made[g] = (int32_t)row_block_pass(pass, &room, g);
+            else if (pass->count) pass->b->column_count[g] = m->old->column_count[from];
+            else row_block_keep(pass->b, m->old, g, from);
             made += pass->b->made[g];
         }
         reach = room.reach;
-        group_room_free(&room);
+        row_block_room_free(&room);
     }
-    const int32_t groups = (reach + LANES - 1) / LANES;
-    if (groups > pass->b->reach) pass->b->reach = groups;
+    const int32_t row_blocks = (reach + LANES - 1) / LANES;
+    if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
     return made;
 }
 
-/* Groups write all of their slots, padding included, or none: on a lattice most. */
-static void slots_arrays(struct bonds *b, const struct bond_source *s, bool lattice)
+/* Row blocks write all of their columns, padding included, or none: on a lattice most. */
+static void columns_arrays(struct bonds *b, const struct bond_source *s, bool lattice)
 {
     void *(*make)(const char *, int64_t, size_t) = lattice ? memory_sparse : memory_bare;
     b->first = make("bonds.first", b->room, sizeof *b->first);
@@ -226,63 +231,68 @@ static void slots_arrays(struct bonds *b, const struct bond_source *s, bool latt
     b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
 }
 
-/* Is there room behind what old rows have stored for all groups that they do not have? Plastic strain stays in the order of its
- * groups (bonds_archive.c). */
-static bool slots_fit(const struct bonds *b, const struct bonds *old, const int64_t *kept)
+/* Is there room behind what old rows have stored for all row blocks that they do not have? Plastic strain stays in
+ * the order of its row blocks (bonds_archive.c). */
+static bool columns_fit(const struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
     if (!old || old->plastic_stretch) return false;
     int64_t made = 0;
-    for (int64_t g = 0; g < b->groups; g++) made += kept[g] < 0 ? b->slot_count[g] : 0;
+    for (int64_t g = 0; g < b->row_blocks; g++) made += kept[g] < 0 ? b->column_count[g] : 0;
     return made <= old->room - old->used;
 }
 
-/* Where each group is stored: kept ones where they are, others behind them; or all anew, side by side, and where that will
- * happen again, with room for as much. Until old rows are left they and the new ones share what was taken over. */
-static void slots_place(struct bonds *b, const struct rows_pass *pass)
+/* Where each row block is stored: kept ones where they are, others behind them; or all anew, side by side, and where
+ * that will happen again, with room for as much. Until old rows are left they and the new ones share what was taken
+ * over. */
+static void columns_place(struct bonds *b, const struct rows_pass *pass)
 {
     const struct bonds *old = pass->maker.old;
-    const bool fit = slots_fit(b, old, pass->kept);
+    const bool fit = columns_fit(b, old, pass->kept);
     if (fit) {
         b->used = old->used, b->room = old->room;
-        b->first = old->first, b->nbr = old->nbr, b->inverse_length = old->inverse_length, b->w = old->w, b->common = old->common;
+        b->first = old->first, b->nbr = old->nbr, b->inverse_length = old->inverse_length, b->w = old->w,
+        b->common = old->common;
     }
-    for (int64_t g = 0; g < b->groups; g++) {
+    for (int64_t g = 0; g < b->row_blocks; g++) {
         const bool stays = fit && pass->kept[g] >= 0;
-        b->slot[g] = stays ? old->slot[pass->kept[g]] : b->used;
-        b->used += stays ? 0 : b->slot_count[g];
-        b->slots += b->slot_count[g];
+        b->column[g] = stays ? old->column[pass->kept[g]] : b->used;
+        b->used += stays ? 0 : b->column_count[g];
+        b->columns += b->column_count[g];
     }
     lattice_lengths(b, pass->maker.source->family.spacing);
     if (fit) return;
-    b->room = old ? 2 * b->slots : b->slots;
-    slots_arrays(b, pass->maker.source, pass->maker.lattice->at != NULL);
+    b->room = old ? 2 * b->columns : b->columns;
+    columns_arrays(b, pass->maker.source, pass->maker.lattice->at != NULL);
 }
 
 /* What new rows have taken over is not the old ones' any more. */
-static void slots_leave(struct bonds *old, const struct bonds *b)
+static void columns_leave(struct bonds *old, const struct bonds *b)
 {
     if (!old || old->w != b->w) return;
     old->first = old->nbr = NULL, old->inverse_length = old->w = NULL, old->common = NULL;
 }
 
-/* With old rows few groups change, and what is searched for them is kept. */
-static void rows_make(struct bonds *b, struct row_maker maker)
+/* With old rows few row blocks change, and what is searched for them is kept. */
+static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = pairs_make(maker.source);
     maker.pairs = &pairs;
-    struct rows_pass pass = {.b = b, .maker = maker, .count = true, .kept = maker.old ? BARE("bonds.kept", b->groups, int64_t) : NULL,
-                             .found = maker.old ? NEW("bonds.found", b->groups, struct group_found *) : NULL};
+    struct rows_pass pass = {.b = b,
+                             .maker = maker,
+                             .count = true,
+                             .kept = maker.old ? BARE("bonds.kept", b->row_blocks, int64_t) : NULL,
+                             .found = maker.old ? NEW("bonds.found", b->row_blocks, struct row_block_found *) : NULL};
     rows_pass(&pass);
-    slots_place(b, &pass);
+    columns_place(b, &pass);
     pass.count = false;
     b->n = rows_pass(&pass);
-    for (int64_t g = 0; g < b->groups && pass.found; g++) memory_free(pass.found[g]);
+    for (int64_t g = 0; g < b->row_blocks && pass.found; g++) memory_free(pass.found[g]);
     memory_free(pass.found);
     memory_free(pass.kept);
     memory_free(pairs.ratio);
 }
 
-static void rows_carry(struct bonds *b, const struct bonds *old)
+static void rows_inherit(struct bonds *b, const struct bonds *old)
 {
     for (int64_t r = 0; r < b->rows; r++) {
         int32_t before = old->row_of[b->particle[r]];
@@ -297,10 +307,10 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
 {
     memset(b, 0, sizeof *b);
     if (old) b->reach = old->reach;              /* rows that are kept were looked at then */
-    b->patterns = patterns_make(old ? old->patterns : NULL);
-    struct lattice *lattice = lattice_keep(old ? old->sites : NULL, s, p);
+    b->stencils = stencils_make(old ? old->stencils : NULL);
+    struct lattice *lattice = lattice_keep(old ? old->site_map : NULL, s, p);
     int most = bonds_room(s);
-    uint8_t *wanted = NEW("bonds.wanted", p->n + LANES, uint8_t);          /* nobody wants who is behind the body */
+    uint8_t *wanted = NEW("bonds.wanted", p->n + LANES, uint8_t); /* particles behind the body are not marked */
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
     mark_rows(s, p, old, lattice, most, wanted, fresh);
     rows_list(b, p, wanted);
@@ -308,12 +318,13 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     rows_arrays(b);
     state_start(b, s);
 
-    rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .lattice = lattice, .room = most});
+    bonds_rows_make(
+        b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .lattice = lattice, .room = most});
     memory_free(fresh);
-    if (old) rows_carry(b, old);
-    if (p->n_of[KIND_PD] < p->n) b->sites = lattice;
+    if (old) rows_inherit(b, old);
+    if (p->n_of[KIND_PD] < p->n) b->site_map = lattice;
     else lattice_leave(lattice);
-    slots_leave(old, b);
+    columns_leave(old, b);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
 #pragma omp parallel for schedule(static)
@@ -348,8 +359,8 @@ void bonds_free(struct bonds *b)
 {
     memory_free(b->particle);
     memory_free(b->row_of);
-    memory_free(b->slot);
-    memory_free(b->slot_count);
+    memory_free(b->column);
+    memory_free(b->column_count);
     memory_free(b->made);
     memory_free(b->aligned);
     memory_free(b->whole);
@@ -359,18 +370,18 @@ void bonds_free(struct bonds *b)
     memory_free(b->w);
     memory_free(b->common);
     memory_free(b->lattice);
-    memory_free(b->pattern);
-    memory_free(b->folded);
+    memory_free(b->stencil);
+    memory_free(b->implicit);
     memory_free(b->changed);
-    patterns_free(b->patterns);
-    lattice_leave(b->sites);
+    stencils_free(b->stencils);
+    lattice_leave(b->site_map);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
     memory_free(b->pair);
     memory_free(b->plastic_work);
     state_free(b);
     clamped_free(b);
-    rest_free(&b->rest);
+    active_set_free(&b->active);
     memory_free(b->trigger);
     memory_free(b->family_volume);
     memory_free(b->broken_volume);

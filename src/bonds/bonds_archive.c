@@ -1,35 +1,37 @@
-/* floor 1: what of the bonds survives a restart. */
+/* What of the bonds survives a restart. */
 #include <math.h>
 #include <string.h>
 
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Weights of the groups that have changed, side by side, there or back; the others have those that they are made with. */
+/* Weights of the row blocks that have changed, side by side, there or back; the others have those that they are made
+ * with. */
 static void changed_weights(struct bonds *b, real *w, bool saving)
 {
-    for (int64_t g = 0; g < b->groups; g++) {
+    for (int64_t g = 0; g < b->row_blocks; g++) {
         if (!b->changed[g]) continue;
-        const int64_t from = bond_index(b, g, 0, 0), n = b->slot_count[g] * LANES;
+        const int64_t from = bond_to_write(b, g, 0, 0), n = b->column_count[g] * LANES;
         memcpy(saving ? w : b->w + from, saving ? b->w + from : w, (size_t)n * sizeof *w);
         w += n;
         if (saving) continue;
         for (int64_t q = from; q < from + n; q++)
             if (b->w[q] == 0) b->inverse_length[q] = -fabs(b->inverse_length[q]);
-        for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g]; slot++) bonds_share(b, slot);
-        b->pattern[g] = NULL;
+        for (int64_t column = b->column[g]; column < b->column[g] + b->column_count[g]; column++)
+            bonds_share(b, column);
+        b->stencil[g] = NULL;
     }
 }
 
 static status weights_archive(struct bonds *b, struct archive *a)
 {
-    int64_t slots = 0;
-    TRY(a->exchange(a, "bonds/changed", b->changed, (size_t)b->groups * sizeof *b->changed));
-    for (int64_t g = 0; g < b->groups; g++) slots += b->changed[g] ? b->slot_count[g] : 0;
-    if (slots == 0) return OK;
-    real *w = NEW("bonds.changed_w", slots * LANES, real);
+    int64_t columns = 0;
+    TRY(a->exchange(a, "bonds/changed", b->changed, (size_t)b->row_blocks * sizeof *b->changed));
+    for (int64_t g = 0; g < b->row_blocks; g++) columns += b->changed[g] ? b->column_count[g] : 0;
+    if (columns == 0) return OK;
+    real *w = NEW("bonds.changed_w", columns * LANES, real);
     if (a->saving) changed_weights(b, w, true);
-    const status s = a->exchange(a, "bonds/w", w, (size_t)slots * LANES * sizeof *w);
+    const status s = a->exchange(a, "bonds/w", w, (size_t)columns * LANES * sizeof *w);
     if (s == OK && !a->saving) changed_weights(b, w, false);
     memory_free(w);
     return s;
@@ -37,11 +39,11 @@ static status weights_archive(struct bonds *b, struct archive *a)
 
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a)
 {
-    size_t padded = (size_t)(b->groups * LANES);
+    size_t padded = (size_t)(b->row_blocks * LANES);
     TRY(weights_archive(b, a));
     b->clamped.stale = true;
     if (b->plastic_stretch) {
-        size_t stored = (size_t)b->slots * LANES * sizeof(real);
+        size_t stored = (size_t)b->columns * LANES * sizeof(real);
         TRY(a->exchange(a, "bonds/plastic_stretch", b->plastic_stretch, stored));
         TRY(a->exchange(a, "bonds/plastic_path", b->plastic_path, stored));
         TRY(a->exchange(a, "bonds/plastic_work", b->plastic_work, padded * sizeof *b->plastic_work));

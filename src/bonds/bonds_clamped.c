@@ -1,4 +1,4 @@
-/* floor 1: bonds to images in clamped planes, and the particles that they pull at: made with the rows. */
+/* Bonds to images in clamped planes, and the particles that they pull at: made with the rows. */
 #include "bonds_parts.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 
 /* P of an image: how the displacement of its root turns round on the way. True if a clamped plane is on it. */
-static bool image_turns(const struct bond_source *s, const struct particles *p, int64_t j, int8_t *sign)
+static bool image_rotates(const struct bond_source *s, const struct particles *p, int64_t j, int8_t *sign)
 {
     bool clamp = false;
     memset(sign, 1, DIM_MAX);
@@ -26,20 +26,21 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     int8_t sign[DIM_MAX];
     if (!s->mirror_axis || p->n_all == p->n) return NULL;
     uint8_t *is = NEW("clamped.images", p->n_all - p->n, uint8_t);
-    for (int64_t k = 0; k < p->n_all - p->n; k++) any |= is[k] = image_turns(s, p, p->n + k, sign);
+    for (int64_t k = 0; k < p->n_all - p->n; k++) any |= is[k] = image_rotates(s, p, p->n + k, sign);
     if (any) return is;
     memory_free(is);
     return NULL;
 }
 
-/* Counts the intact bonds of slot k of a group to such images, or notes them. */
-static void slot_note(struct clamped *c, const struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g, int64_t k)
+/* Counts the intact bonds of column k of a row block to such images, or notes them. */
+static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is,
+                        int64_t g, int64_t k)
 {
-    for (int l = 0; l < group_rows(b, g); l++) {
+    for (int l = 0; l < row_block_rows(b, g); l++) {
         const struct bond bond = bond_read(b, g, k, l);
         if (bond.w == 0 || bond.nbr < p->n || !is[bond.nbr - p->n]) continue;
         if (c->entry) {
-            c->entry[c->n] = bond_index(b, g, k, l);
+            c->entry[c->n] = bond_to_write(b, g, k, l);
             c->from[c->n] = b->particle[g * LANES + l], c->to[c->n] = bond.nbr;
             c->inverse_length[c->n] = bond.inverse_length, c->w[c->n] = bond.w;
         }
@@ -47,15 +48,16 @@ static void slot_note(struct clamped *c, const struct bonds *b, const struct par
     }
 }
 
-/* Images come behind the body: of most slots one look tells that they have none. */
-static void bonds_note(struct clamped *c, const struct bonds *b, const struct particles *p, const uint8_t *is)
+/* Images come behind the body: of most columns one look tells that they have none. */
+static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;
-    for (int64_t g = 0; g < b->groups; g++)
-        for (int64_t k = 0; k < b->slot_count[g]; k++) {
-            const struct pattern *pattern = b->pattern[g];
-            const int64_t first = pattern ? b->particle[g * LANES] + pattern->slot[k].offset : b->first[b->slot[g] + k];
-            if (first < 0 || first + LANES > p->n) slot_note(c, b, p, is, g, k);
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        for (int64_t k = 0; k < b->column_count[g]; k++) {
+            const struct stencil *stencil = b->stencil[g];
+            const int64_t first =
+                stencil ? b->particle[g * LANES] + stencil->column[k].offset : b->first[b->column[g] + k];
+            if (first < 0 || first + LANES > p->n) column_note(c, b, p, is, g, k);
         }
 }
 
@@ -77,15 +79,16 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Bonds that know but themselves have in their row the force of both its ends: the half that belongs to the image's row leaves it.
- * Of state-based ones the row has its own half only (clamped images know nothing), but for the source there is nothing yet. */
-static void ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
+/* Bonds that know but themselves have in their row the force of both its ends: the half that belongs to the image's
+ * row leaves it. Of state-based ones the row has its own half only (clamped images know nothing), but for the source
+ * there is nothing yet. */
+static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;
     struct clamp_end *end = NEW("clamped.unsorted", each * c->n, struct clamp_end);
     int32_t *of = NEW("clamped.of", each * c->n, int32_t);
     for (int64_t k = 0; k < c->n; k++) {
-        image_turns(s, p, c->to[k], end[k].sign);
+        image_rotates(s, p, c->to[k], end[k].sign);
         end[k].bond = (int32_t)k, of[k] = (int32_t)image_root(p, s->image, c->to[k]);
         if (each == 1) continue;
         end[c->n + k] = (struct clamp_end){(int32_t)k, {1, 1, 1}};
@@ -112,7 +115,7 @@ void clamped_make(struct bonds *b, const struct particles *p, const struct bond_
         c->w = NEW("clamped.w", room, real);
         for (int d = 0; d < p->dim; d++) c->reaction[d] = NEW("clamped.reaction", room, real);
         bonds_note(c, b, p, is);
-        ends_make(c, p, s);
+        bonds_clamped_ends_make(c, p, s);
     }
     memory_free(is);
 }

@@ -1,60 +1,62 @@
-/* floor 1: what rows made anew take over as it is: groups in which nothing has changed, and what was found while counting. */
+/* What rows made anew take over as it is: row blocks in which nothing has changed, and what was found while
+ * counting. */
 #include <string.h>
 
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-int64_t group_kept(const struct bonds *b, const struct row_maker *m, int64_t g)
+int64_t row_block_kept(const struct bonds *b, const struct row_maker *m, int64_t g)
 {
     const int32_t *particle = b->particle + g * LANES;
     const int64_t first = m->old ? m->old->row_of[particle[0]] : -1;
-    const int rows = group_rows(b, g);
-    if (first < 0 || first % LANES != 0 || group_rows(m->old, first / LANES) != rows) return -1;
+    const int rows = row_block_rows(b, g);
+    if (first < 0 || first % LANES != 0 || row_block_rows(m->old, first / LANES) != rows) return -1;
     for (int l = 0; l < rows; l++)
         if (m->old->row_of[particle[l]] != first + l || !row_lasts(m, particle[l])) return -1;
     return first / LANES;
 }
 
-/* Numbers of `each` bytes of the slots of a group. */
-static void slots_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old, int64_t g,
-                       int64_t of)
+/* Numbers of `each` bytes of the columns of a row block. */
+static void columns_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old,
+                         int64_t g, int64_t of)
 {
-    memcpy((char *)to + (size_t)b->slot[g] * each, (const char *)from + (size_t)old->slot[of] * each,
-           (size_t)b->slot_count[g] * each);
+    memcpy((char *)to + (size_t)b->column[g] * each, (const char *)from + (size_t)old->column[of] * each,
+           (size_t)b->column_count[g] * each);
 }
 
-static void slots_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
+static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
-    slots_copy(b->first, old->first, sizeof *b->first, b, old, g, from);
-    slots_copy(b->common, old->common, sizeof *b->common, b, old, g, from);
-    slots_copy(b->nbr, old->nbr, LANES * sizeof *b->nbr, b, old, g, from);
-    slots_copy(b->inverse_length, old->inverse_length, LANES * sizeof(real), b, old, g, from);
-    slots_copy(b->w, old->w, LANES * sizeof(real), b, old, g, from);
+    columns_copy(b->first, old->first, sizeof *b->first, b, old, g, from);
+    columns_copy(b->common, old->common, sizeof *b->common, b, old, g, from);
+    columns_copy(b->nbr, old->nbr, LANES * sizeof *b->nbr, b, old, g, from);
+    columns_copy(b->inverse_length, old->inverse_length, LANES * sizeof(real), b, old, g, from);
+    columns_copy(b->w, old->w, LANES * sizeof(real), b, old, g, from);
     if (b->plastic_stretch) {
-        slots_copy(b->plastic_stretch, old->plastic_stretch, LANES * sizeof(real), b, old, g, from);
-        slots_copy(b->plastic_path, old->plastic_path, LANES * sizeof(real), b, old, g, from);
-        slots_copy(b->pair, old->pair, LANES * sizeof *b->pair, b, old, g, from);
+        columns_copy(b->plastic_stretch, old->plastic_stretch, LANES * sizeof(real), b, old, g, from);
+        columns_copy(b->plastic_path, old->plastic_path, LANES * sizeof(real), b, old, g, from);
+        columns_copy(b->pair, old->pair, LANES * sizeof *b->pair, b, old, g, from);
     }
 }
 
-void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
+void row_block_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
-    b->pattern[g] = old->pattern[from];
-    b->folded[g] = old->folded[from], b->changed[g] = old->changed[from];
-    if (!b->folded[g] && b->w != old->w) slots_keep(b, old, g, from);
+    b->stencil[g] = old->stencil[from];
+    b->implicit[g] = old->implicit[from], b->changed[g] = old->changed[from];
+    if (!b->implicit[g] && b->w != old->w) columns_keep(b, old, g, from);
     b->made[g] = old->made[from];
     b->aligned[g] = old->aligned[from];
-    if (b->state.weighted) memcpy(b->state.weighted + g * LANES, old->state.weighted + from * LANES, LANES * sizeof(real));
+    if (b->state.weighted)
+        memcpy(b->state.weighted + g * LANES, old->state.weighted + from * LANES, LANES * sizeof(real));
     memcpy(b->trigger + g * LANES, old->trigger + from * LANES, LANES * sizeof *b->trigger);
     memcpy(b->family_volume + g * LANES, old->family_volume + from * LANES, LANES * sizeof *b->family_volume);
     memcpy(b->broken_volume + g * LANES, old->broken_volume + from * LANES, LANES * sizeof *b->broken_volume);
 }
 
-struct group_found *group_found_make(const struct row *row, int rows)
+struct row_block_found *row_block_found_make(const struct row *row, int rows)
 {
     int64_t n = 0;
     for (int l = 0; l < rows; l++) n += row[l].n;
-    struct group_found *found = memory_bare("bonds.group_found", 1, sizeof *found + (size_t)n * sizeof *found->nbr);
+    struct row_block_found *found = memory_bare("bonds.group_found", 1, sizeof *found + (size_t)n * sizeof *found->nbr);
     int32_t *to = found->nbr;
     for (int l = 0; l < rows; l++) {
         found->n[l] = row[l].n, found->family_volume[l] = row[l].family_volume;
@@ -64,7 +66,7 @@ struct group_found *group_found_make(const struct row *row, int rows)
     return found;
 }
 
-void group_found_take(const struct group_found *found, struct row *row, int rows)
+void row_block_found_take(const struct row_block_found *found, struct row *row, int rows)
 {
     const int32_t *from = found->nbr;
     for (int l = 0; l < rows; l++) {

@@ -1,6 +1,6 @@
-/* floor 1: what the files bonds*.c share: one row of bonds while it is made. */
-#ifndef CLEAVE_BONDS_PARTS_H
-#define CLEAVE_BONDS_PARTS_H
+/* What the files bonds*.c share: one row of bonds while it is made. */
+#ifndef CLEAVE_BONDS_PARTS
+#define CLEAVE_BONDS_PARTS
 
 #include "bonds/bonds.h"
 
@@ -25,7 +25,8 @@ void row_room_free(struct row *row);
 int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room);
 
 /* The same, by the map of sites (NULL: none) where it can tell. */
-int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room);
+int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i,
+              int32_t *found, int room);
 
 /* What rows are made of. `fresh`: particles whose neighbours may be others than they were in `old`. */
 struct row_maker {
@@ -45,33 +46,33 @@ static inline bool row_lasts(const struct row_maker *m, int64_t i)
     return before >= 0 && ((m->old->whole[before] && m->p->kind[i] == KIND_PD) || !m->fresh[i]);
 }
 
-/* Who the neighbours of particle i are; then their lengths and weights, and what load has done to the bonds that it held. */
+/* The neighbours of particle i; then their lengths and weights, and what load has done to the bonds it held. */
 void row_find(struct row *row, const struct row_maker *m, int32_t i);
 void row_finish(struct row *row, const struct row_maker *m, int32_t i);
 
-/* The group of old rows that group g is, as it was, -1: it has changed (bonds_keep.c). */
-int64_t group_kept(const struct bonds *b, const struct row_maker *m, int64_t g);
-void group_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from);
-/* Neighbours found for the rows of a group, kept from one pass to the next. */
-struct group_found { real family_volume[LANES]; int32_t n[LANES], nbr[]; };
-struct group_found *group_found_make(const struct row *row, int rows);
-void group_found_take(const struct group_found *found, struct row *row, int rows);
+/* The row block of old rows that row block g is, as it was, -1: it has changed (bonds_keep.c). */
+int64_t row_block_kept(const struct bonds *b, const struct row_maker *m, int64_t g);
+void row_block_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from);
+/* Neighbours found for the rows of a row block, kept from one pass to the next. */
+struct row_block_found { real family_volume[LANES]; int32_t n[LANES], nbr[]; };
+struct row_block_found *row_block_found_make(const struct row *row, int rows);
+void row_block_found_take(const struct row_block_found *found, struct row *row, int rows);
 
 /* Can a crack cut any bond of particle i? */
 bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i);
 /* No bond of these materials breaks below this stretch. */
 real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
-/* Is one index distance to a slot (a lattice) worth its padding? Else the rows are simply packed. */
-static inline bool slots_by_offset(int offsets, int longest) { return offsets <= longest + longest / 3; }
+/* Is one index distance to a column (a lattice) worth its padding? Else the rows are simply packed. */
+static inline bool columns_by_offset(int offsets, int longest) { return offsets <= longest + longest / 3; }
 
-/* Sites of a lattice that all particles and images stand on (bonds_lattice.c). */
+/* Sites of a lattice that all particles and images stand on (bonds_site_map.c). */
 struct stencil_row { int64_t site; int half; };  /* its middle from a site; bonds reach that far either side */
 struct lattice {
     int32_t *at;                         /* [sites] particle + 1, 0 without; NULL: no lattice               */
     real low[DIM_MAX], spacing;
     int64_t stride[DIM_MAX];
     struct stencil_row *row;
-    int reach, rows, most;               /* most bonds that eight particles in a row can have slots for      */
+    int reach, rows, most;               /* most bonds that eight particles in a row can have columns for      */
     int users;                           /* of one that is kept: rows, and rows made anew from them          */
     bool uniform;                        /* exact places, one volume, mass and material: bonds follow from sites */
 };
@@ -86,79 +87,91 @@ void lattice_leave(struct lattice *l);
 /* family_search by the map; -1: an image is among them, which would come out of order. */
 int lattice_family(const struct lattice *l, const struct particles *p, int32_t i, int32_t *found);
 
-/* Families of eight consecutive particles: lanes `from` to `to` have a neighbour at this index distance; distances ascend.
- * `full`: every lane has one at every distance. `bonds`: bit l is set where lane l has a bond to it, one end of which is
- * peridynamic (group_regular). */
-struct lattice_bonds { int n; bool full; int32_t *offset; uint8_t *from, *to, *bonds; struct twins *twins; };
+/* Families of eight consecutive particles: lanes `from` to `to` have a neighbour at this index distance; distances
+ * ascend. `full`: every lane has one at every distance. `bonds`: bit l is set where lane l has a bond to it, one end
+ * of which is peridynamic (row_block_regular). */
+struct lattice_bonds {
+    int n;
+    bool full;
+    int32_t *offset;
+    uint8_t *from, *to, *bonds;
+    struct stencil_cache *stencil_cache;
+};
 void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l);
 void lattice_bonds_free(struct lattice_bonds *to);
 /* Those of particles i .. i + 7, all of which may be read at each distance. False where they are to be searched. */
 bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to);
-/* A thread's memory of such (bonds_twins.c). */
-struct twins *twins_make(const struct lattice *l);
-void twins_free(struct twins *t);
-/* First particle of eight seen before whose bonds are those of i .. i + 7 to the last bit: lengths, weights and what is
- * summed over them, if none is cut. -1: none, and these are remembered. `around`: of particles, what weights follow from beside
- * them (neighbour_volume), NULL: nothing. */
-int64_t twin_of(const struct lattice_bonds *b, const real *around, int64_t i);
+/* A thread's memory of such (bonds_stencil_cache.c). */
+struct stencil_cache *stencil_cache_make(const struct lattice *l);
+void stencil_cache_free(struct stencil_cache *t);
+/* First particle of eight seen before whose bonds are those of i .. i + 7 to the last bit: lengths, weights and what
+ * is summed over them, if none is cut. -1: none, and these are remembered. `around`: of particles, what weights
+ * follow from beside them (neighbour_volume), NULL: nothing. */
+int64_t stencil_cache_find_row(const struct lattice_bonds *b, const real *around, int64_t i);
 /* 1/length and weight of the bonds from particles i .. i + 7 to j .. j + 7, none of them cut. */
-void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i, int64_t j,
-                   real *inverse, real *w);
+void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
+                   int64_t j, real *inverse, real *w);
 
 /* Can the map of sites tell the bonds of particles i .. i + 7, none of them cut? Then `to` has them. */
-bool group_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
+bool row_block_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
                    struct lattice_bonds *to);
-int group_regular_slots(const struct lattice_bonds *bonds);
-int group_regular_bonds(const struct lattice_bonds *bonds);
+int row_block_regular_columns(const struct lattice_bonds *bonds);
+int row_block_regular_bonds(const struct lattice_bonds *bonds);
 struct pair_table pairs_make(const struct bond_source *s);
-static inline int group_rows(const struct bonds *b, int64_t g)
+static inline int row_block_rows(const struct bonds *b, int64_t g)
 {
     return eight_at(g * LANES, b->rows);
 }
 
-/* A thread's room for the eight rows of a group. */
-struct group_room {
+/* A thread's room for the eight rows of a row block. */
+struct row_block_room {
     struct lattice_bonds regular;        /* without a search                   */
     int room;                            /* bonds a row may have */
     struct row row[LANES];
     int32_t *offset;                     /* [LANES room] distinct index distances */
-    struct slot_copy *slot;              /* [LANES room] of a group            */
-    struct pattern pattern;              /* what they make                     */
-    const struct pattern *likely;        /* that of the group before           */
+    struct column_copy *column;              /* [LANES room] of a row block            */
+    struct stencil stencil;              /* what they make                     */
+    const struct stencil *likely;        /* that of the row block before           */
     int32_t reach;                       /* farthest index distance so far     */
 };
-void group_room_make(struct group_room *g, int room, const struct lattice *lattice);
-void group_room_free(struct group_room *g);
-/* Slots the group needs, by index distance or simply packed; then fills them, and notes what is known of its rows. */
-int group_slots(struct group_room *g, const int32_t *particle, int rows, bool *by_offset);
-void group_fill(struct bonds *b, struct group_room *room, int64_t g, int rows, bool by_offset, const struct particles *p);
+void row_block_room_make(struct row_block_room *g, int room, const struct lattice *lattice);
+void row_block_room_free(struct row_block_room *g);
+/* Slots the row block needs, by index distance or simply packed; then fills them, and notes what is known of its
+ * rows. */
+int row_block_columns(struct row_block_room *g, const int32_t *particle, int rows, bool *by_offset);
+void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int rows, bool by_offset,
+                    const struct particles *p);
 /* The same of whole rows on a lattice. */
-void group_fill_regular(struct bonds *b, struct group_room *room, int64_t g, const struct row_maker *m);
-/* The last of both: the group follows the pattern that the slots in its room make, or stores them. */
-void group_store(struct bonds *b, struct group_room *room, int64_t g, const struct particles *p);
+void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m);
+/* The last of both: the row block follows the stencil that the columns in its room make, or stores them. */
+void row_block_store(struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p);
 
 /* Makes b->lattice. */
 void lattice_lengths(struct bonds *b, real spacing);
-/* Which of the lattice's lengths eight bonds have, up to the round-off of positions, which goes to `excess`; 0: none. */
+/* Which of the lattice's lengths eight bonds have, up to the round-off of positions, which goes to `excess`; 0:
+ * none. */
 int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess);
 
-/* Patterns (bonds_patterns.c). */
+/* Patterns (bonds_stencils.c). */
 /* New ones, or those of rows made before. */
-struct patterns *patterns_make(struct patterns *of);
-void patterns_free(struct patterns *p);
-void pattern_make(struct pattern *p, int slots);
-void pattern_free(struct pattern *p);
-/* One slot more, of a group that begins with particle i; those of its bonds without w and inverse length are none. False: its
- * neighbours are not in a row, or bonds differ in length, or are cut. */
-bool pattern_add(struct pattern *to, const struct bonds *b, const struct particles *p, int64_t i, const struct slot_copy *from);
+struct stencils *stencils_make(struct stencils *of);
+void stencils_free(struct stencils *p);
+void stencil_make(struct stencil *p, int columns);
+void stencil_free(struct stencil *p);
+/* One column more, of a row block that begins with particle i; those of its bonds without w and inverse length are
+ * none. False: its neighbours are not in a row, or bonds differ in length, or are cut. */
+bool stencil_add(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
+                 const struct column_copy *from);
 /* The one among all that is equal, the likely one first; NULL: there are too many to take it in. */
-const struct pattern *pattern_known(struct patterns *all, const struct pattern *pattern, const struct pattern *likely);
-/* Group g follows what its twin follows, the group of particle `twin`, -1: it has none. False: nothing is followed. */
-bool group_follow(struct bonds *b, int64_t g, int64_t twin);
+const struct stencil *stencil_find(struct stencils *all, const struct stencil *stencil, const struct stencil *likely);
+/* Group g follows what its twin follows, the row block of particle `twin`, -1: it has none. False: nothing is
+ * followed. */
+bool row_block_follow(struct bonds *b, int64_t g, int64_t cached);
 /* Into memory. */
-void slot_write(const struct bonds *b, int64_t slot, const struct slot_copy *from);
+void column_write(const struct bonds *b, int64_t column, const struct column_copy *from);
 
-/* What state-based models keep: before rows are filled; then the rest, after the rows and their `whole` (bonds_state.c). */
+/* What state-based models keep: before rows are filled; then the rest, after the rows and their `whole`
+ * (bonds_state.c). */
 void state_start(struct bonds *b, const struct bond_source *s);
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
 void state_free(struct bonds *b);

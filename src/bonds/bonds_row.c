@@ -1,4 +1,4 @@
-/* floor 1: one row of bonds while it is made: search, weigh, carry over what load has done to it. */
+/* One row of bonds while it is made: search, weigh, carry over what load has done to it. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ void row_room_free(struct row *row)
     memory_free(row->plastic);
 }
 
-/* ---- who is whose neighbour ------------------------------------------------------------------------ */
+/* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
 int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
 {
@@ -37,7 +37,8 @@ int family_search(const struct bond_source *s, const struct particles *p, int32_
     return kept;
 }
 
-int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
+int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i,
+              int32_t *found, int room)
 {
     const int n = l && l->at && i < p->n ? lattice_family(l, p, i, found) : -1;
     return n >= 0 ? n : family_search(s, p, i, found, room);
@@ -68,7 +69,7 @@ bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t
     return false;
 }
 
-/* ---- one row --------------------------------------------------------------------------------------- */
+/* ---- one row ----------------------------------------------------------------------------------------------------- */
 
 static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                          int32_t i, int32_t j, const real *xi, real r)
@@ -82,8 +83,8 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
 }
 
 /* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */
-static void row_search(struct row *row, const struct lattice *lattice, const struct bond_source *s, const struct particles *p,
-                       int32_t i, int room)
+static void row_search(struct row *row, const struct lattice *lattice, const struct bond_source *s,
+                       const struct particles *p, int32_t i, int room)
 {
     int n = family_of(lattice, s, p, i, row->nbr, room), kept = 0;
     row->family_volume = 0;
@@ -117,12 +118,14 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
 {
     const int32_t other = j < p->n ? j : i;      /* an image holds no stress of its own */
     real e[DIM_MAX], length2 = 0;
-    if (!p->plastic_strain || p->plastic_strain[i] + p->plastic_strain[other] <= 0) return (struct bond_plasticity){0, 0};
+    if (!p->plastic_strain || p->plastic_strain[i] + p->plastic_strain[other] <= 0)
+        return (struct bond_plasticity){0, 0};
     for (int d = 0; d < p->dim; d++) e[d] = p->x[d][j] - p->x[d][i], length2 += square(e[d]);
     const real length = sqrt(length2);
     for (int d = 0; d < p->dim; d++) e[d] /= length;
     const real elastic = elastic_strain_along(p, s->material, i, e) + elastic_strain_along(p, s->material, other, e);
-    return (struct bond_plasticity){length / r - 1 - 0.5 * elastic, 0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
+    return (struct bond_plasticity){length / r - 1 - 0.5 * elastic,
+                                    0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
 /* Vectors look for bonds above this, a margin below their limit. */
@@ -151,24 +154,24 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
-static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t group, int64_t k, int lane)
+static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
-    const int64_t q = (b->slot[group] + k) * LANES + lane;
+    const int64_t q = (b->column[row_block] + k) * LANES + lane;
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
 /* What load had done to the bonds of the row before stays: broken ones stay broken, yielded ones yielded. */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
-    int64_t group = old_row / LANES;
+    int64_t row_block = old_row / LANES;
     int lane = (int)(old_row % LANES);
     int m = 0;                           /* neighbours ascend in both */
-    for (int64_t k = 0; k < old->slot_count[group]; k++) {
-        const struct bond bond = bond_read(old, group, k, lane);
+    for (int64_t k = 0; k < old->column_count[row_block]; k++) {
+        const struct bond bond = bond_read(old, row_block, k, lane);
         if (bond.inverse_length == 0) continue;
         while (m < row->n && row->nbr[m] < bond.nbr) m++;
         if (m == row->n || row->nbr[m] != bond.nbr || row->w[m] == 0) continue;
-        if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, group, k, lane);
+        if (old->plastic_stretch) row->plastic[m] = stored_plasticity(old, row_block, k, lane);
         if (bond.w != 0) continue;
         row->w[m] = 0, row->inverse_length[m] = -fabs(row->inverse_length[m]);
         row->cut_volume += p->volume0[row->nbr[m]];
@@ -177,10 +180,10 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
 
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    const int64_t group = old_row / LANES, slots = old->slot_count[group];
+    const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
     row->n = 0;
-    for (int64_t k = 0; k < slots; k++) {        /* padding is written over */
-        const struct bond bond = bond_read(old, group, k, (int)(old_row % LANES));
+    for (int64_t k = 0; k < columns; k++) {        /* padding is written over */
+        const struct bond bond = bond_read(old, row_block, k, (int)(old_row % LANES));
         row->nbr[row->n] = bond.nbr;
         row->n += bond.inverse_length != 0;
     }
@@ -188,13 +191,13 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
 
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
-    const int64_t group = old_row / LANES, slots = old->slot_count[group];
+    const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
     int n = 0;
-    for (int64_t k = 0; k < slots; k++) {
-        const struct bond bond = bond_read(old, group, k, (int)(old_row % LANES));
+    for (int64_t k = 0; k < columns; k++) {
+        const struct bond bond = bond_read(old, row_block, k, (int)(old_row % LANES));
         row->inverse_length[n] = bond.inverse_length;
         row->w[n] = bond.w;
-        if (old->plastic_stretch) row->plastic[n] = stored_plasticity(old, group, k, (int)(old_row % LANES));
+        if (old->plastic_stretch) row->plastic[n] = stored_plasticity(old, row_block, k, (int)(old_row % LANES));
         n += bond.inverse_length != 0;
     }
     row->trigger = old->trigger[old_row];

@@ -1,4 +1,4 @@
-/* floor 1: what the eight bonds of a slot have in common, so that the hot loops need not read it eight times. */
+/* What the eight bonds of a column have in common, so that the hot loops need not read it eight times. */
 #include <math.h>
 #include <string.h>
 
@@ -16,7 +16,8 @@ static int64_t bits_of(real a)
 void lattice_lengths(struct bonds *b, real spacing)
 {
     b->lattice = NEW("bonds.lattice", BOND_LATTICE, struct bond_length);
-    for (int k = 1; k < BOND_LATTICE; k++) b->lattice[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
+    for (int k = 1; k < BOND_LATTICE; k++)
+        b->lattice[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
 }
 
 int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess)
@@ -36,16 +37,16 @@ int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess)
     return outside ? 0 : lattice;
 }
 
-void bonds_share(const struct bonds *b, int64_t slot)
+void bonds_share(const struct bonds *b, int64_t column)
 {
-    const real *w = b->w + slot * LANES;
-    struct bond_slot *c = &b->common[slot];
-    *c = (struct bond_slot){.first = b->first[slot]};
-    if (c->first >= 0) c->lattice = (uint8_t)lattice_length(b, b->inverse_length + slot * LANES, c->excess);
+    const real *w = b->w + column * LANES;
+    struct bond_column *c = &b->common[column];
+    *c = (struct bond_column){.first = b->first[column]};
+    if (c->first >= 0) c->lattice = (uint8_t)lattice_length(b, b->inverse_length + column * LANES, c->excess);
     c->alike = c->lattice != 0;
     bool same = w[0] != 0;
     for (int l = 1; l < LANES; l++) same &= w[l] == w[0];
-    if (same) {                          /* most slots */
+    if (same) {                          /* most columns */
         c->w = w[0], c->intact = UINT8_MAX;
         return;
     }

@@ -1,4 +1,4 @@
-/* floor 1: what state-based models keep beside their bonds: made with the rows. */
+/* What state-based models keep beside their bonds: made with the rows. */
 #include "bonds_parts.h"
 
 #include "base/memory.h"
@@ -6,23 +6,21 @@
 real state_weight_left(const struct bonds *b, int64_t row)
 {
     real Q = 0;
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        if (b->w[q] != 0) Q += b->w[q] / square(b->inverse_length[q]);
-    }
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+        if (it.bond.w != 0) Q += it.bond.w / square(it.bond.inverse_length);
     return Q;
 }
 
-/* Q of the rows of a group: of all bonds they have, or of a full family on the lattice [m^2]. */
-static void group_weigh(struct bonds *b, const struct particles *p, const struct family *f, int64_t g)
+/* Q of the rows of a row block: of all bonds they have, or of a full family on the lattice [m^2]. */
+static void row_block_weigh(struct bonds *b, const struct particles *p, const struct family *f, int64_t g)
 {
     real *Q = b->state.weighted + g * LANES;
-    struct slot_copy slot;
+    struct column_copy column;
     for (int l = 0; l < LANES; l++) Q[l] = 0;
-    for (int64_t k = 0; b->state.local && k < b->slot_count[g]; k++) {
-        slot_read(&slot, b, g, k);
+    for (int64_t k = 0; b->state.local && k < b->column_count[g]; k++) {
+        column_read(&column, b, g, k);
         for (int l = 0; l < LANES; l++)
-            if (slot.w[l] != 0) Q[l] += slot.w[l] / square(slot.inverse_length[l]);
+            if (column.w[l] != 0) Q[l] += column.w[l] / square(column.inverse_length[l]);
     }
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
         if (!b->state.local || !b->whole[g * LANES + l])
@@ -33,15 +31,15 @@ void state_weigh(struct bonds *b, const struct particles *p, const struct family
 {
     if (!b->state.modulus) return;
 #pragma omp parallel for schedule(static)
-    for (int64_t g = 0; g < b->groups; g++) group_weigh(b, p, f, g);
+    for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, f, g);
 }
 
-/* Groups that rows made anew have taken over keep their Q; those of others are still 0. */
+/* Row blocks that rows made anew have taken over keep their Q; those of others are still 0. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct family *f)
 {
 #pragma omp parallel for schedule(static)
-    for (int64_t g = 0; g < b->groups; g++)
-        if (b->state.weighted[g * LANES] == 0) group_weigh(b, p, f, g);
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        if (b->state.weighted[g * LANES] == 0) row_block_weigh(b, p, f, g);
 }
 
 void state_start(struct bonds *b, const struct bond_source *s)
@@ -49,17 +47,17 @@ void state_start(struct bonds *b, const struct bond_source *s)
     if (!s->modulus) return;
     b->state.modulus = s->modulus;
     b->state.local = s->local;
-    b->state.weighted = NEW("state.weighted", b->groups * LANES, real);
+    b->state.weighted = NEW("state.weighted", b->row_blocks * LANES, real);
 }
 
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     if (!s->modulus) return;
     const int64_t room = p->n_all + LANES;
-    b->state.past = NEW("state.past", b->groups, uint8_t);
+    b->state.past = NEW("state.past", b->row_blocks, uint8_t);
     b->state.pressure = NEW("state.pressure", room, real);
     b->state.spring = NEW("state.spring", room, real);
-    for (int c = 0; s->turns && c < TURN; c++) b->state.turn[c] = NEW("state.turn", room, real);
+    for (int c = 0; s->rotates && c < ROTATION_NUMBERS; c++) b->state.rotation[c] = NEW("state.turn", room, real);
     b->state.image = NEW("state.image", p->n_all - p->n, struct state_image);
     for (int64_t k = 0; k < p->n_all - p->n; k++)
         b->state.image[k] = (struct state_image){s->image[k].source, s->mirror_axis[s->image[k].load]};
@@ -72,6 +70,6 @@ void state_free(struct bonds *b)
     memory_free(b->state.past);
     memory_free(b->state.pressure);
     memory_free(b->state.spring);
-    for (int c = 0; c < TURN; c++) memory_free(b->state.turn[c]);
+    for (int c = 0; c < ROTATION_NUMBERS; c++) memory_free(b->state.rotation[c]);
     memory_free(b->state.image);
 }

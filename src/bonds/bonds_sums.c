@@ -1,4 +1,5 @@
-/* floor 1: sums over the bonds of all particles as if all were peridynamic: volumes of neighbours, and the critical step. */
+/* Sums over the bonds of all particles as if all were peridynamic: volumes of neighbours, and the critical
+ * step. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -23,7 +24,8 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
 }
 
 /* Of particles i .. i + 7 whose bonds the map of sites knows, where all neighbours count as much. */
-static void volumes_near(real *volume, const struct particles *p, const struct lattice_bonds *bonds, real weight, int64_t i)
+static void volumes_near(real *volume, const struct particles *p, const struct lattice_bonds *bonds, real weight,
+                         int64_t i)
 {
     real sum[LANES] = {0};
     for (int k = 0; k < bonds->n; k++)
@@ -32,8 +34,8 @@ static void volumes_near(real *volume, const struct particles *p, const struct l
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
 }
 
-/* Whole families have the volume of the lattice's to the last bit, in whatever order it was added up: inside a body weights are 1
- * then, and slots need none (kernels/pd/bond_slot.h). */
+/* Whole families have the volume of the lattice's to the last bit, in whatever order it was added up: inside a body
+ * weights are 1 then, and columns need none (kernels/pd/bond_column.h). */
 static void whole_volumes(real *volume, int64_t n, real full)
 {
 #pragma omp parallel for schedule(static)
@@ -57,8 +59,8 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
             if (lattice.at && first + LANES <= p->n && lattice_bonds(&lattice, p, first, &bonds)) {
-                const int64_t twin = twin_of(&bonds, NULL, first);
-                if (twin >= 0) memcpy(volume + first, volume + twin, LANES * sizeof *volume);
+                const int64_t cached = stencil_cache_find_row(&bonds, NULL, first);
+                if (cached >= 0) memcpy(volume + first, volume + cached, LANES * sizeof *volume);
                 else volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
                 continue;
             }
@@ -87,10 +89,10 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
 
 real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row)
 {
-    const int64_t g = row / LANES, i = b->particle[row];
+    const int64_t i = b->particle[row];
     struct spring_bound bound = {{{0}}, 0};
-    for (int64_t k = 0; k < b->slot_count[g]; k++) {
-        const struct bond bond = bond_read(b, g, k, (int)(row % LANES));
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        const struct bond bond = it.bond;
         real n[DIM_MAX] = {0};
         if (bond.w == 0) continue;
         for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond.nbr] - p->X[d][i]) * bond.inverse_length;
@@ -99,8 +101,8 @@ real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t r
     return spring_bound_of(&bound, p->dim);
 }
 
-/* The same of eight consecutive particles side by side: springs to eight consecutive others, of those there are none where
- * w = 0. Zeros added leave the bits alone. */
+/* The same of eight consecutive particles side by side: springs to eight consecutive others, of those there are none
+ * where w = 0. Zeros added leave the bits alone. */
 struct eight_bounds { real block[DIM_MAX][DIM_MAX][LANES], total[LANES]; };
 
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
@@ -116,8 +118,8 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
     for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
 }
 
-static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j, const real *inverse,
-                           const real *w, real stiffness)
+static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
+                           const real *inverse, const real *w, real stiffness)
 {
     switch (p->dim) {
     case 1: bounds_add(bound, p, i, j, inverse, w, stiffness, 1); break;
@@ -139,9 +141,9 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
     return largest;
 }
 
-/* Of a regular group whose rows are not made. */
-static real group_frequency(const struct lattice_bonds *bonds, const struct bond_source *s, const struct particles *p,
-                            const struct pair_table *pairs, int64_t i, real stiffness)
+/* Of a regular row block whose rows are not made. */
+static real row_block_frequency(const struct lattice_bonds *bonds, const struct bond_source *s,
+                                const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
     struct eight_bounds bounds = {0};
     for (int k = 0; k < bonds->n; k++) {
@@ -154,23 +156,23 @@ static real group_frequency(const struct lattice_bonds *bonds, const struct bond
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Of group g, as it is made. */
-static real group_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
+/* Of row block g, as it is made. */
+static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
-    const int64_t slots = b->slot_count[g];
+    const int64_t columns = b->column_count[g];
     bool regular = b->aligned[g];
     real largest = 0;
-    for (int64_t k = 0; k < slots && regular && !b->pattern[g]; k++) regular = b->first[b->slot[g] + k] >= 0;
+    for (int64_t k = 0; k < columns && regular && !b->stencil[g]; k++) regular = b->first[b->column[g] + k] >= 0;
     if (!regular) {
-        for (int64_t r = g * LANES; r < g * LANES + group_rows(b, g); r++)
+        for (int64_t r = g * LANES; r < g * LANES + row_block_rows(b, g); r++)
             largest = real_max(largest, bonds_row_bound(b, p, r) / p->mass[b->particle[r]]);
         return largest;
     }
     struct eight_bounds bounds = {0};
-    struct slot_copy slot;
-    for (int64_t k = 0; k < slots; k++) {
-        slot_read(&slot, b, g, k);
-        bounds_add_any(&bounds, p, b->particle[g * LANES], slot.first, slot.inverse_length, slot.w, b->stiffness);
+    struct column_copy column;
+    for (int64_t k = 0; k < columns; k++) {
+        column_read(&column, b, g, k);
+        bounds_add_any(&bounds, p, b->particle[g * LANES], column.first, column.inverse_length, column.w, b->stiffness);
     }
     return bounds_frequency(&bounds, p, b->particle[g * LANES]);
 }
@@ -179,7 +181,7 @@ real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
 {
     real largest = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest)
-    for (int64_t g = 0; g < b->groups; g++) largest = real_max(largest, group_frequency_made(b, p, g));
+    for (int64_t g = 0; g < b->row_blocks; g++) largest = real_max(largest, row_block_frequency_made(b, p, g));
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
@@ -192,7 +194,8 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     memset(kind, KIND_PD, (size_t)p->n_all);
     all.kind = kind;
     struct lattice lattice;
-    const struct row_maker maker = {.source = s, .p = &all, .pairs = &pairs, .lattice = &lattice, .room = bonds_room(s)};
+    const struct row_maker maker = {
+        .source = s, .p = &all, .pairs = &pairs, .lattice = &lattice, .room = bonds_room(s)};
     lattice_make(&lattice, s, p);
 #pragma omp parallel reduction(max : largest)
     {
@@ -202,9 +205,10 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
         lattice_bonds_make(&regular, &lattice);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
-            if (lattice.at && first + LANES <= p->n && group_regular(&lattice, s, &all, first, &regular)) {
-                if (twin_of(&regular, s->neighbour_volume, first) < 0)     /* that of a twin is in `largest` */
-                    largest = real_max(largest, group_frequency(&regular, s, p, &pairs, first, stiffness));
+            if (lattice.at && first + LANES <= p->n && row_block_regular(&lattice, s, &all, first, &regular)) {
+                /* that of a twin is in `largest` */
+                if (stencil_cache_find_row(&regular, s->neighbour_volume, first) < 0)
+                    largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {

@@ -1,5 +1,5 @@
-/* floor 1: the family of a peridynamic particle: who belongs to it, with what weight, and the sums over a full
- * family on the lattice that calibrate the micro-modulus (Silling & Askari 2005; partial volumes: Seleson 2014). */
+/* The family of a peridynamic particle: members, weights, and the sums over a full family on the lattice that
+ * calibrate the micro-modulus (Silling & Askari 2005; partial volumes: Seleson 2014). */
 #include <math.h>
 #include <string.h>
 
@@ -30,8 +30,8 @@ static real influence(const struct family *f, real r)
     }
 }
 
-/* Neighbours on a lattice have the length that they would have without the round-off of positions: like bonds weigh alike, to
- * the last bit. */
+/* Neighbours on a lattice have the length that they would have without the round-off of positions: like bonds weigh
+ * alike, to the last bit. */
 static real true_length(const struct family *f, real r)
 {
     const real squares = square(r / f->spacing), whole = floor(squares + 0.5);
@@ -108,7 +108,7 @@ void family_make(struct family *f, enum space space, real spacing, real horizon_
     f->cell_volume = lattice_volume(section, spacing, space_dim(space));
     f->horizon = horizon_in_spacings * spacing;
     f->shell_weight[0] = f->shell_weight[1] = 1;
-    if (f->calibration == CALIBRATION_VMPD)      /* whole neighbours cover (m + 1/2) spacings exactly (Zeng et al. 2021) */
+    if (f->calibration == CALIBRATION_VMPD)   /* whole neighbours cover (m + 1/2) spacings exactly (Zeng et al. 2021) */
         f->horizon = (floor(horizon_in_spacings * (1 + DISTANCE_TOLERANCE)) + 0.5) * spacing;
     f->cutoff = f->volume == VOLUME_RAMP ? f->horizon + 0.5 * spacing : f->horizon;
     f->cutoff *= 1 + DISTANCE_TOLERANCE;

@@ -1,13 +1,14 @@
-/* floor 1: the work that separates a lattice, and the critical stretch that makes it the energy release rate.
+/* The work that separates a lattice, and the critical stretch that makes it the energy release rate.
  *
- * Both halves of a full lattice move apart, normal to a plane between two of its layers. A bond that crosses the plane
- * with the part z of its length r normal to it has the extension e = D z/r at the opening D and breaks at D = s_c r^2/z.
- * With the energy density W of a particle (kernels/pd/state_laws.h, no rotation: the halves stay straight) the work per area is
+ * Both halves of a full lattice move apart, normal to a plane between two of its layers. A bond that crosses the
+ * plane with the part z of its length r normal to it has the extension e = D z/r at the opening D and breaks at D =
+ * s_c r^2/z. With the energy density W of a particle (kernels/pd/state_laws.h, no rotation: the halves stay
+ * straight) the work per area is
  *     G = 2 sum_layers h int (dW/dD) dD = K s_c^2,   W = [A S^2 + B/Q sum w |eta|^2]/2,  S = sum w r e/Q,  eta: D
- * exactly, as W is quadratic in D between two breaks. Bonds that resist by eta, not by e, store the more the
- * more oblique they are, before they are as long as s_c allows: their G grows with the logarithm of the horizon over the
- * spacing and has no continuum limit, and the count of crossing bonds that are all stretched by s_c (Madenci & Oterkus
- * 2014, right for e) misses it: 1.7 of that in the plane, 2.7 in space at m = 3.015, omega = delta/r. */
+ * exactly, as W is quadratic in D between two breaks. Bonds that resist by eta, not by e, store the more the more
+ * oblique they are, before they are as long as s_c allows: their G grows with the logarithm of the horizon over the
+ * spacing and has no continuum limit, and the count of crossing bonds that are all stretched by s_c (Madenci &
+ * Oterkus 2014, right for e) misses it: 1.7 of that in the plane, 2.7 in space at m = 3.015, omega = delta/r. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -41,7 +42,8 @@ static int crossings(const struct family *f, real height, struct crossing *c)
 }
 
 /* int dW of one layer for s_c = 1, from the last break back to the first. */
-static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local, struct crossing *c)
+static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
+                       struct crossing *c)
 {
     const int n = crossings(f, height, c);
     real Q = f->weighted, sum = 0, energy = 0, work = 0;

@@ -1,6 +1,6 @@
-/* floor 3: geometry of bonds that cross the cell of a particle, shared by partial stress and return. */
-#ifndef CLEAVE_PARTIAL_PARTS_H
-#define CLEAVE_PARTIAL_PARTS_H
+/* Geometry of bonds that cross the cell of a particle, shared by partial stress and return. */
+#ifndef CLEAVE_PARTIAL_PARTS
+#define CLEAVE_PARTIAL_PARTS
 
 #include "bonds/bonds.h"
 
@@ -16,21 +16,24 @@ struct reflection reflection_of(const struct bond_source *s, const struct partic
 struct response { real central, pressure, vector; };
 struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
                             const struct bond *bond);
-/* Adds the part of one bond, from p (a material point) to m, in the cell round X: T_abcd = l e_b dF_a/deps_cd, symmetric in cd. */
+/* Adds the part of one bond, from p (a material point) to m, in the cell round X: T_abcd = l e_b dF_a/deps_cd,
+ * symmetric in cd. */
 void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim);
 
-/* Of a point under state-based bonds: T [J] becomes the symmetric T' of partial_stress.c, L [symmetric] what its own bonds do not see of
- * its mean strain, 0 where it has none; returns whether it has (partial_positive.c). */
-bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i);
+/* Of a point under state-based bonds: T [J] becomes the symmetric T' of partial_stress.c, L [symmetric] what its own
+ * bonds do not see of its mean strain, 0 where it has none; returns whether it has (partial_positive.c). */
+bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                      int64_t i);
 
-/* The same under bonds: T stays below the point's own stiffness V C. On lattices it is; where particles stand irregularly, or bonds are
- * stiffer than their material, a cell would push what it should pull, and gains energy at any step. */
+/* The same under bonds: T stays below the point's own stiffness V C. On lattices it is; where particles stand
+ * irregularly, or bonds are stiffer than their material, a cell would push what it should pull, and gains energy at
+ * any step. */
 void partial_positive_bonds(real *T, const struct particles *p, const struct bond_source *s, int64_t i);
 
 /* Half the edge of a particle's cell [m]. */
 real half_edge(const struct particles *p, const struct bond_source *s, int64_t i);
 
-/* The sums on a lattice (partial_table.c); `size`: numbers of a tensor. One that serves nobody where particles do not stand on
+/* The sums on a lattice (partial_table.c); `size`: numbers of a tensor. Empty where particles do not stand on
  * lattices. */
 struct partial_table;
 struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size);
@@ -38,10 +41,11 @@ void partial_table_free(struct partial_table *t);
 bool partial_table_serves(const struct partial_table *t);
 bool partial_table_serves_all(const struct partial_table *t);
 /* Is the cell of this particle one of the lattice? */
-bool partial_table_knows(const struct particles *p, const struct bond_source *s, int64_t i);
-/* Asks the rows of the listed particles (NULL: of all material points) anew what their bonds answer; those of others keep it. */
-void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       const int32_t *list, int64_t n);
+bool partial_table_has(const struct particles *p, const struct bond_source *s, int64_t i);
+/* Computes the bond responses of the rows of the listed particles anew (NULL: of all material points); other
+ * particles keep theirs. */
+void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b,
+                       const struct bond_source *s, const int32_t *list, int64_t n);
 /* T of point i from the answers of the rows round it. */
 void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                        const struct bond_source *s, int64_t i, struct near *near, real *T);

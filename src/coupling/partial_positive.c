@@ -1,9 +1,11 @@
-/* floor 3: what the cell of a point at the end of state-based bonds keeps of its stiffness (partial_stress.c): symmetric, and as
- * near to what the patch test asks as the energy of the point stays positive.
+/* What the cell of a point at the end of state-based bonds keeps of its stiffness (partial_stress.c):
+ * symmetric, and as near to the patch test as a positive energy of the point allows.
  *
- * With X = (1/Q) sum w r e of the point's own bonds, these hold at least 1/2 V kappa X^2, kappa = B/tr zeta, by Cauchy & Schwarz, and
+ * With X = (1/Q) sum w r e of the point's own bonds, these hold at least 1/2 V kappa X^2, kappa = B/tr zeta, by
+ * Cauchy & Schwarz, and
  *     1/2 V [A (L : eps + X)^2 + kappa X^2 + eps : K eps] >= 1/2 V eps : (K + q L L) eps,   q = A kappa/(A + kappa).
- * Negative eigenvalues of K + q L L are set to 0: at a Poisson's ratio of 0.45 and more in plane strain and in space some are. */
+ * Negative eigenvalues of K + q L L are set to 0: at a Poisson's ratio of 0.45 and more in plane strain and in space
+ * some are. */
 #include <math.h>
 #include <string.h>
 
@@ -14,20 +16,21 @@ static bool own_bonds(real *zeta, const struct particles *p, const struct bonds 
 {
     const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;
     bool any = false;
-    for (int64_t k = 0; row >= 0 && k < b->slot_count[row / LANES]; k++) {
-        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        const struct bond bond = it.bond;
         if (bond.w == 0) continue;
         for (int c = 0; c < symmetric_count(p->dim); c++) {
             int a, d;
             symmetric_axes(p->dim, c, &a, &d);
-            zeta[c] += bond.w * (p->X[a][bond.nbr] - p->X[a][i]) * (p->X[d][bond.nbr] - p->X[d][i]) / b->state.weighted[row];
+            zeta[c] +=
+                bond.w * (p->X[a][bond.nbr] - p->X[a][i]) * (p->X[d][bond.nbr] - p->X[d][i]) / b->state.weighted[row];
         }
         any = true;
     }
     return any;
 }
 
-/* ---- eigenvalues ------------------------------------------------------------------------------------------------ */
+/* ---- eigenvalues ------------------------------------------------------------------------------------------------- */
 
 /* One rotation of Jacobi: entry pq of the symmetric M becomes 0; columns of Z follow. */
 static void rotate(real *M, real *Z, int n, int p, int q)
@@ -62,10 +65,11 @@ static void make_positive(real *M, int n)
             for (int b = 0; b < n; b++) M[a * n + b] -= D[k * n + k] * Z[a * n + k] * Z[b * n + k];
 }
 
-/* ---- one point ---------------------------------------------------------------------------------------------------- */
+/* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Symmetric components count twice off the diagonal: a matrix over them has the eigenvalues of its tensor with a root of that. */
-static real root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
+/* Symmetric components count twice off the diagonal: a matrix over them has the eigenvalues of its tensor with a
+ * root of that. */
+static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
 /* Takes from T what makes an eigenvalue of V C + q L L - T negative. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
@@ -75,15 +79,19 @@ static void stay_below(real *T, const struct material *m, int dim, real V, real 
     for (int c = 0; c < n; c++)
         for (int d = 0; d < n; d++) {
             const real C = c < dim && d < dim ? (c == d ? m->c11 : m->c12) : c == d ? m->shear : 0;
-            H[c * n + d] = root_of(c, dim) * root_of(d, dim) * (V * C - 0.5 * (T[c * n + d] + T[d * n + c]) + q * L[c] * L[d]);
+            H[c * n + d] = partial_positive_root_of(c, dim) * partial_positive_root_of(d, dim) *
+                           (V * C - 0.5 * (T[c * n + d] + T[d * n + c]) + q * L[c] * L[d]);
         }
     memcpy(kept, H, sizeof kept);
     make_positive(H, n);
     for (int c = 0; c < n; c++)
-        for (int d = 0; d < n; d++) T[c * n + d] -= (H[c * n + d] - kept[c * n + d]) / (root_of(c, dim) * root_of(d, dim));
+        for (int d = 0; d < n; d++)
+            T[c * n + d] -= (H[c * n + d] - kept[c * n + d]) /
+                            (partial_positive_root_of(c, dim) * partial_positive_root_of(d, dim));
 }
 
-bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
+bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                      int64_t i)
 {
     const int dim = p->dim, n = symmetric_count(dim);
     const struct state_modulus *m = &s->modulus[p->material[i]];

@@ -1,27 +1,29 @@
-/* floor 3: partial stress: the share of its stress that a material point leaves to the bonds that cross its cell.
+/* Partial stress: the share of its stress that a material point leaves to the bonds that cross its cell.
  * The bonds between a peridynamic particle and a material point already carry, in uniform strain,
  *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
- * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives the
- * grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Geometric, exact in one dimension, and the Hessian of an
- * energy: C - T_q is the stiffness of the bonds that cells stand for.
+ * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives
+ * the grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Geometric, exact in one dimension, and the
+ * Hessian of an energy: C - T_q is the stiffness of the bonds that cells stand for.
  *
- * State-based bonds answer to the strain's trace and in other directions, too (struct response): their T_q is not symmetric, and
- * taken as it is it flutters at every time step. So a point j at the end of such bonds has the energy of one family,
+ * State-based bonds answer to the strain's trace and in other directions, too (struct response): their T_q is not
+ * symmetric, and taken as it is it flutters at every time step. So a point j at the end of such bonds has the energy
+ * of one family,
  *     E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q) sum w xi (x) xi
- * of whose mean strain S its own bonds know a part and its cell the rest; R is the cell's rotation (kernels/mesh/mesh_law.h), for ordinary
- * models the second term is that of the bonds' stretch. What S and R owe to the cell acts back on it (particles.end_pull, end_moment).
- * Its cell keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which leaves of the patch test the part of T that no energy has:
- * 1 to 4 % of S h at flat interfaces. T' is taken as far as the energy of the point stays positive (partial_positive.c). */
+ * of whose mean strain S its own bonds know a part and its cell the rest; R is the cell's rotation
+ * (kernels/mesh/mesh_law.h), for ordinary models the second term is that of the bonds' stretch. What S and R owe to
+ * the cell acts back on it (particles.end_pull, end_moment). Its cell keeps K = C - T', T' = sym T + A sym (L (x)
+ * 1/D), which leaves of the patch test the part of T that no energy has: 1 to 4 % of S h at flat interfaces. T' is
+ * taken as far as the energy of the point stays positive (partial_positive.c). */
 #include <math.h>
 #include <string.h>
 
-#include "coupling/convert.h"
+#include "coupling/conversion.h"
 #include "base/memory.h"
 #include "partial_parts.h"
 
 enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
-/* ---- geometry ---------------------------------------------------------------------------------------- */
+/* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
 real segment_share(const real *a, const real *b, const real *X, real half, int dim)
 {
@@ -54,7 +56,7 @@ struct reflection reflection_of(const struct bond_source *s, const struct partic
     return r;
 }
 
-/* ---- the tensor -------------------------------------------------------------------------------------- */
+/* ---- the tensor -------------------------------------------------------------------------------------------------- */
 
 static bool same(int a, int b) { return a == b; }
 
@@ -95,7 +97,7 @@ struct response response_of(const struct particles *p, const struct bonds *b, co
     const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = bond->w * r * r;
     const real spring = scale * (m->B * first + n->B * second);
     return (struct response){.pressure = scale * (m->A * first + n->A * second) / D,
-                             .central = s->turns ? 0 : spring, .vector = s->turns ? spring : 0};
+                             .central = s->rotates ? 0 : spring, .vector = s->rotates ? spring : 0};
 }
 
 /* What all bonds of a row lie in; rows are far longer than the few cells that one of them crosses. */
@@ -103,12 +105,12 @@ struct box { real low[DIM_MAX], high[DIM_MAX]; };
 
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
 {
-    struct box box;
+    struct box box = {{0}, {0}};
     for (int d = 0; d < p->dim; d++) {
         const real *X = p->X[d];
         box.low[d] = box.high[d] = X[b->particle[row]];
-        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-            const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+            const struct bond bond = it.bond;
             if (bond.w == 0) continue;
             box.low[d] = real_min(box.low[d], X[bond.nbr]);
             box.high[d] = real_max(box.high[d], X[bond.nbr]);
@@ -134,8 +136,8 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     if (row < 0 || p->kind[r.root] != KIND_MPM) return;
     real xp[DIM_MAX], xm[DIM_MAX];
     for (int d = 0; d < p->dim; d++) xp[d] = p->X[d][j];
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        const struct bond bond = it.bond;
         if (bond.w == 0) continue;
         bool apart = false;                      /* most bonds of a row pass by: seen without a division */
         for (int d = 0; d < p->dim; d++) {
@@ -183,20 +185,21 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
 }
 
 /* Numbers of an entry: M, and L of state-based models. */
-static int entry_size(const struct bond_source *s, int dim)
+static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
     const int n = symmetric_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
-/* An entry of state-based models from T V. Hand-shake leaves nothing, but an entry tells that a point is an end of bonds. */
-static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p, const struct bonds *b,
-                        const struct bond_source *s, int64_t i)
+/* An entry of state-based models from T V. Hand-shake leaves nothing, but an entry tells that a point is an end of
+ * bonds. */
+static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
+                        const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int n = symmetric_count(p->dim);
     const bool end = partial_positive(T, entry + n * n, p, b, s, i);
     if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
-    memset(entry, 0, sizeof *entry * (size_t)entry_size(s, p->dim));
+    memset(entry, 0, sizeof *entry * (size_t)partial_stress_entry_size(s, p->dim));
     return end;
 }
 
@@ -206,20 +209,21 @@ static bool bond_entry(real *entry, real *T, const struct particles *p, const st
     return partial_matrix(entry, T, p, s, i);
 }
 
-/* ---- who needs one ----------------------------------------------------------------------------------- */
+/* ---- marks ------------------------------------------------------------------------------------------------------- */
 
 /* What is made anew: points around what has changed; and the rows whose bonds may cross their cells. */
 struct renewal {
     int32_t *list;                       /* points and others there, ascending                              */
     int64_t n;
-    int32_t *row;                        /* rows of material points, where there are cells that the table does not know */
+    int32_t *row;                      /* rows of material points, where there are cells that the table does not know */
     int64_t rows;
     bool *own;                           /* [n] has changed itself                                          */
 };
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
-/* Marks who is within the radius of what has changed, and who within `reach` of those; NULL: all peridynamic particles. */
+/* Marks particles within the radius of what has changed, and those within `reach` of them; NULL: all peridynamic
+ * particles. */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
                        const int32_t *changed, int64_t n)
 {
@@ -237,7 +241,7 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     memory_free(near.at);
 }
 
-/* Lists who has a mark, ascending, and returns how many; `list` NULL: only that. */
+/* Lists marked particles, ascending, and returns their number; `list` NULL: only the number. */
 static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 {
     int64_t found = 0;
@@ -251,23 +255,26 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                         const struct partial_table *table, const int32_t *changed, int64_t n)
+static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
+                         const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
+                         int64_t n)
 {
-    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice, within its
-     * own length: the middle of the cell lies in the box that it spans */
+    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice,
+     * within its own length: the middle of the cell lies in the box that it spans */
     const bool strange = !partial_table_serves_all(table);
     const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
-    uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t);            /* nobody marks who is behind the body */
+    uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t); /* particles behind the body are not marked */
     mark_dirty(mark, p, s, radius, strange ? radius : 0, changed, n);
     const int64_t most = marked(mark, p->n, NULL);
     int32_t *list = NEW("partial.marked", most, int32_t);
     marked(mark, p->n, list);
-    *r = (struct renewal){.list = NEW("partial.list", most, int32_t), .row = NEW("partial.row", strange ? most : 0, int32_t),
+    *r = (struct renewal){.list = NEW("partial.list", most, int32_t),
+                          .row = NEW("partial.row", strange ? most : 0, int32_t),
                           .own = NEW("partial.own", most, bool)};
     for (int64_t k = 0; k < most; k++) {
         const int32_t i = list[k], row = b->row_of[i];
-        if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->made[row / LANES] > 0) r->row[r->rows++] = row;
+        if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->made[row / LANES] > 0)
+            r->row[r->rows++] = row;
         if (!(mark[i] & DIRTY)) continue;
         r->own[r->n] = !changed || mark[i] & OWN;
         r->list[r->n++] = i;
@@ -283,7 +290,7 @@ static void renewal_free(struct renewal *r)
     memory_free(r->own);
 }
 
-/* ---- entries ----------------------------------------------------------------------------------------- */
+/* ---- entries ----------------------------------------------------------------------------------------------------- */
 
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
@@ -291,7 +298,9 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
         if (partial->entries == partial->room) {
             const int64_t had = partial->room, room = had ? 2 * had : 256;
             partial->matrix = memory_resize("partial.matrix", partial->matrix, had * size, room * size, sizeof(real));
-            if (local) partial->local = memory_resize("partial.local", partial->local, had * local, room * local, sizeof(real));
+            if (local)
+                partial->local =
+                    memory_resize("partial.local", partial->local, had * local, room * local, sizeof(real));
             partial->room = room;
         }
         partial->index[i] = (int32_t)partial->entries++;
@@ -300,7 +309,7 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     if (local) memcpy(partial->local + (int64_t)partial->index[i] * local, M + size, (size_t)local * sizeof *M);
 }
 
-/* Entries that nobody has any more are squeezed out once they are the most: points that return come and go. */
+/* Unused entries are squeezed out once they are the majority: points that revert come and go. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
@@ -334,7 +343,8 @@ static void touch(struct partial_stress *partial, int64_t i)
 {
     if (partial->touches == partial->touched_room) {
         const int64_t more = partial->touched_room ? 2 * partial->touched_room : 256;
-        partial->touched = memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *partial->touched);
+        partial->touched =
+            memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *partial->touched);
         partial->touched_room = more;
     }
     partial->touched[partial->touches++] = (int32_t)i;
@@ -345,7 +355,7 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
     const bool served = partial_table_serves(partial->table);
-    const int each = entry_size(s, p->dim);
+    const int each = partial_stress_entry_size(s, p->dim);
     struct box *box = NEW("partial.box", r->rows > 0 ? b->rows : 0, struct box);
 #pragma omp parallel
     {
@@ -357,9 +367,10 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
             const int64_t i = r->list[k];
             real T[SYM_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
-            if (served && partial_table_knows(p, s, i)) partial_table_sum(partial->table, p, b, s, i, &near, T);
+            if (served && partial_table_has(p, s, i)) partial_table_sum(partial->table, p, b, s, i, &near, T);
             else tensor_sum(T, p, b, s, box, i, &near);
-            crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i) : bond_entry(entry + k * each, T, p, s, i);
+            crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i)
+                                    : bond_entry(entry + k * each, T, p, s, i);
         }
         memory_free(near.at);
     }
@@ -370,7 +381,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
                          const struct bond_source *source, const int32_t *changed, int64_t n)
 {
     const int n_symmetric = symmetric_count(p->dim), size = n_symmetric * n_symmetric;
-    const int whole = entry_size(source, p->dim), local = whole - size;
+    const int whole = partial_stress_entry_size(source, p->dim), local = whole - size;
     const bool all = !changed || !partial->index;
     struct renewal r;
     if (!partial->index) {
@@ -397,7 +408,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     renewal_free(&r);
 }
 
-void partial_ends_know(const struct partial_stress *partial, struct particles *p, const struct material *material)
+void partial_ends_update(const struct partial_stress *partial, struct particles *p, const struct material *material)
 {
     const int dim = p->dim, n = symmetric_count(dim);
     real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];
@@ -411,7 +422,8 @@ void partial_ends_know(const struct partial_stress *partial, struct particles *p
         p->end_strain[i] = 0;
         for (int c = 0; c < n; c++)
             for (int d = 0; d < n; d++)
-                p->end_strain[i] += partial->local[entry * n + c] * (c < dim ? 1 : 2) * compliance[m][c * n + d] * p->stress[d][i];
+                p->end_strain[i] +=
+                    partial->local[entry * n + c] * (c < dim ? 1 : 2) * compliance[m][c * n + d] * p->stress[d][i];
     }
 }
 

@@ -1,6 +1,6 @@
-/* floor 3: partial stress on a lattice. Which share of a bond lies in the cell of a point depends only on where the bond starts
- * from the point and on the bond's vector: found once for all, and so is the tensor of every direction. What remains to be
- * done for a point is a sum of responses by direction, and one of a few dozen tensors. */
+/* Partial stress on a lattice. Which share of a bond lies in the cell of a point depends only on where the
+ * bond starts from the point and on the bond's vector: found once for all, and so is the tensor of every direction.
+ * What remains to be done for a point is a sum of responses by direction, and one of a few dozen tensors. */
 #include <math.h>
 #include <string.h>
 
@@ -19,11 +19,11 @@ struct crossing { int16_t vector, direction; real share; };
 struct near_place { int16_t place, at[DIM_MAX]; };
 
 /* What rows of material points answer, which lasts until something changes within their reach. */
-struct answers {
+struct responses {
     int32_t *of;                         /* [n] of a particle, -1: none of its bonds counts                    */
-    real *answer;                        /* [room][vectors][parts]                                             */
+    real *response;                        /* [room][vectors][parts]                                             */
     int64_t n, room, frees;
-    int32_t *free;                       /* [room] those of nobody, `frees` of them                            */
+    int32_t *free;                       /* [room] unused entries, `frees` of them                             */
 };
 
 /* Places are numbered like the cells of a cube; `reach` cells to either side of the middle. */
@@ -38,12 +38,12 @@ struct partial_table {
     struct crossing *crossing;
     real *tensor;                        /* [directions][parts][size]                                          */
     bool uniform;                        /* knows all cells                                                    */
-    struct answers answers;
+    struct responses responses;
 };
 
-/* ---- places ------------------------------------------------------------------------------------------ */
+/* ---- places ------------------------------------------------------------------------------------------------------ */
 
-static int64_t places_of(const struct partial_table *t)
+static int64_t partial_table_places_of(const struct partial_table *t)
 {
     int64_t n = 1;
     for (int d = 0; d < t->dim; d++) n *= 2 * t->reach + 1;
@@ -70,18 +70,19 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 {
     int64_t place = 0;
     for (int d = t->dim - 1; d >= 0; d--) {
-        const int k = (int)((to[d] - from[d]) * t->per_spacing + (t->reach + 1.5)) - 1;     /* rounded, and counted from the reach on */
+        /* rounded, and counted from the reach on */
+        const int k = (int)((to[d] - from[d]) * t->per_spacing + (t->reach + 1.5)) - 1;
         if (k < 0 || k > 2 * t->reach) return -1;
         place = place * (2 * t->reach + 1) + k;
     }
     return place;
 }
 
-/* ---- making it --------------------------------------------------------------------------------------- */
+/* ---- making it --------------------------------------------------------------------------------------------------- */
 
 static void vectors_make(struct partial_table *t, real cutoff)
 {
-    const int64_t places = places_of(t), middle = (places - 1) / 2;
+    const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
     t->vector = NEW("partial.vector", places, int16_t);
     for (int64_t k = 0; k < places; k++) {
         int at[DIM_MAX];
@@ -109,7 +110,7 @@ static int direction_of(const struct partial_table *t, int vector)
 static void mirrors_make(struct partial_table *t)
 {
     t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
-    for (int64_t k = 0; k < places_of(t); k++)
+    for (int64_t k = 0; k < partial_table_places_of(t); k++)
         for (int signs = 0; signs < 1 << t->dim && t->vector[k] >= 0; signs++) {
             int at[DIM_MAX];
             place_to(t, k, at);
@@ -135,13 +136,15 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
                 const int64_t place = place_from(t, start);
                 if (share <= 0) continue;
                 if (count) next[place + 1]++;
-                else t->crossing[next[place]++] = (struct crossing){t->vector[k], (int16_t)direction_of(t, t->vector[k]), share};
+                else
+                    t->crossing[next[place]++] =
+                        (struct crossing){t->vector[k], (int16_t)direction_of(t, t->vector[k]), share};
             }
 }
 
 static void crossings_make(struct partial_table *t)
 {
-    const int64_t places = places_of(t);
+    const int64_t places = partial_table_places_of(t);
     int64_t *next = NEW("partial.next", places + 1, int64_t);
     for (int64_t k = 0; k < places; k++)
         if (t->vector[k] >= 0) crossings_of(t, k, next, true);
@@ -158,7 +161,7 @@ static void crossings_make(struct partial_table *t)
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
-    for (int64_t k = 0; k < places_of(t); k++) {
+    for (int64_t k = 0; k < partial_table_places_of(t); k++) {
         const real from[DIM_MAX] = {0};
         real to[DIM_MAX];
         int at[DIM_MAX];
@@ -166,8 +169,10 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
         place_to(t, k, at);
         for (int d = 0; d < t->dim; d++) to[d] = at[d];
         for (int part = 0; part < t->parts; part++) {
-            const struct response one = {.central = part == 0 && !s->turns, .vector = part == 0 && s->turns, .pressure = part == 1};
-            tensor_add(t->tensor + ((int64_t)t->vector[k] * t->parts + part) * t->size, from, to, from, 2 * t->reach + 1, one, t->dim);
+            const struct response one = {
+                .central = part == 0 && !s->rotates, .vector = part == 0 && s->rotates, .pressure = part == 1};
+            tensor_add(t->tensor + ((int64_t)t->vector[k] * t->parts + part) * t->size, from, to, from,
+                       2 * t->reach + 1, one, t->dim);
         }
     }
 }
@@ -193,7 +198,7 @@ static bool all_known(const struct particles *p, const struct bond_source *s)
 {
     bool known = true;
 #pragma omp parallel for schedule(static) reduction(&& : known)
-    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_knows(p, s, i);
+    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_has(p, s, i);
     return known;
 }
 
@@ -201,8 +206,12 @@ struct partial_table *partial_table_make(const struct particles *p, const struct
 {
     const struct family *f = &s->family;
     struct partial_table *t = NEW("partial.table", 1, struct partial_table);
-    *t = (struct partial_table){.dim = p->dim, .reach = (int)floor(f->cutoff / f->spacing * (1 + LATTICE_NEAR)),
-                                .parts = s->modulus ? 2 : 1, .size = size, .spacing = f->spacing, .per_spacing = 1 / f->spacing};
+    *t = (struct partial_table){.dim = p->dim,
+                                .reach = (int)floor(f->cutoff / f->spacing * (1 + LATTICE_NEAR)),
+                                .parts = s->modulus ? 2 : 1,
+                                .size = size,
+                                .spacing = f->spacing,
+                                .per_spacing = 1 / f->spacing};
     if (!on_lattice(p, f->spacing)) return t;
     vectors_make(t, f->cutoff);
     if (t->vectors * t->parts > VECTORS_MOST) t->vectors = 0;
@@ -211,7 +220,7 @@ struct partial_table *partial_table_make(const struct particles *p, const struct
     mirrors_make(t);
     crossings_make(t);
     tensors_make(t, s);
-    t->answers.of = NEW("partial.answer_of", p->n, int32_t);
+    t->responses.of = NEW("partial.answer_of", p->n, int32_t);
     return t;
 }
 
@@ -224,85 +233,89 @@ void partial_table_free(struct partial_table *t)
     memory_free(t->start);
     memory_free(t->crossing);
     memory_free(t->tensor);
-    memory_free(t->answers.of);
-    memory_free(t->answers.answer);
-    memory_free(t->answers.free);
+    memory_free(t->responses.of);
+    memory_free(t->responses.response);
+    memory_free(t->responses.free);
     memory_free(t);
 }
 
-/* ---- what the bonds of rows answer ------------------------------------------------------------------- */
+/* ---- what the bonds of rows answer ------------------------------------------------------------------------------- */
 
 bool partial_table_serves(const struct partial_table *t) { return t->vectors > 0; }
 bool partial_table_serves_all(const struct partial_table *t) { return t->uniform; }
 
-static real *answer_at(const struct partial_table *t, int64_t k) { return t->answers.answer + k * t->vectors * t->parts; }
+static real *response_at(const struct partial_table *t, int64_t k)
+{
+    return t->responses.response + k * t->vectors * t->parts;
+}
 
 /* Room for so many that are open at once. */
-static void answers_room(struct partial_table *t, int64_t open)
+static void responses_room(struct partial_table *t, int64_t open)
 {
-    struct answers *a = &t->answers;
+    struct responses *a = &t->responses;
     const int64_t each = (int64_t)t->vectors * t->parts;
     if (open <= a->room) return;
     const int64_t room = open + open / 4;
-    real *answer = BARE("partial.answer", room * each, real);
-    if (a->n > 0) memcpy(answer, a->answer, (size_t)(a->n * each) * sizeof *answer);
-    memory_free(a->answer);
-    a->answer = answer;
+    real *response = BARE("partial.answer", room * each, real);
+    if (a->n > 0) memcpy(response, a->response, (size_t)(a->n * each) * sizeof *response);
+    memory_free(a->response);
+    a->response = response;
     a->free = memory_resize("partial.free", a->free, a->room, room, sizeof *a->free);
     a->room = room;
 }
 
-static void answer_open(struct partial_table *t, int64_t i)
+static void response_open(struct partial_table *t, int64_t i)
 {
-    struct answers *a = &t->answers;
+    struct responses *a = &t->responses;
     if (a->of[i] < 0) a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
 }
 
-static void answer_close(struct partial_table *t, int64_t i)
+static void response_close(struct partial_table *t, int64_t i)
 {
-    struct answers *a = &t->answers;
+    struct responses *a = &t->responses;
     if (a->of[i] < 0) return;
     a->free[a->frees++] = a->of[i];
     a->of[i] = -1;
 }
 
 /* By vector. */
-static void answer_make(const struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                        int64_t row, real *answer)
+static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
+                          const struct bond_source *s, int64_t row, real *response)
 {
     real X[DIM_MAX];
-    memset(answer, 0, sizeof *answer * (size_t)(t->vectors * t->parts));
+    memset(response, 0, sizeof *response * (size_t)(t->vectors * t->parts));
     particle_place(p, b->particle[row], X);
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        const struct bond bond = it.bond;
         real to[DIM_MAX];
         if (bond.w == 0) continue;
         particle_place(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         assert(place >= 0 && t->vector[place] >= 0);
         const struct response r = response_of(p, b, s, b->particle[row], &bond);
-        real *part = answer + t->vector[place] * t->parts;
-        part[0] = s->turns ? r.vector : r.central;
+        real *part = response + t->vector[place] * t->parts;
+        part[0] = s->rotates ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
     }
 }
 
-/* Rows of a group with an intact bond: who is asked next is mostly of the same group. */
-struct group_intact { int64_t group; unsigned rows; };
+/* Rows of a row block with an intact bond: consecutive queries mostly concern the same row block. */
+struct row_block_intact { int64_t row_block; unsigned rows; };
 
-static bool has_bonds(struct group_intact *last, const struct particles *p, const struct bonds *b, int64_t i)
+static bool partial_table_has_bonds(struct row_block_intact *last, const struct particles *p, const struct bonds *b,
+                                    int64_t i)
 {
-    const int64_t row = b->row_of[i], group = row / LANES;
+    const int64_t row = b->row_of[i], row_block = row / LANES;
     if (p->kind[i] != KIND_MPM || row < 0) return false;
-    if (last->group != group) *last = (struct group_intact){group, bonds_intact(b, group)};
+    if (last->row_block != row_block) *last = (struct row_block_intact){row_block, bonds_intact(b, row_block)};
     return last->rows >> row % LANES & 1;
 }
 
-void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                       const int32_t *list, int64_t n)
+void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b,
+                       const struct bond_source *s, const int32_t *list, int64_t n)
 {
-    struct answers *a = &t->answers;
-    struct group_intact last = {.group = -1};
+    struct responses *a = &t->responses;
+    struct row_block_intact last = {.row_block = -1};
     if (!list) {
         a->n = a->frees = 0;
         for (int64_t i = 0; i < p->n; i++) a->of[i] = -1;
@@ -311,42 +324,43 @@ void partial_table_ask(struct partial_table *t, const struct particles *p, const
     int64_t more = 0;
     bool *has = NEW("partial.has", n, bool);
     for (int64_t k = 0; k < n; k++) {
-        has[k] = has_bonds(&last, p, b, list[k]);
-        if (!has[k]) answer_close(t, list[k]);
+        has[k] = partial_table_has_bonds(&last, p, b, list[k]);
+        if (!has[k]) response_close(t, list[k]);
         else more += a->of[list[k]] < 0;
     }
-    answers_room(t, a->n - a->frees + more);
+    responses_room(t, a->n - a->frees + more);
     for (int64_t k = 0; k < n; k++)
-        if (has[k]) answer_open(t, list[k]);
+        if (has[k]) response_open(t, list[k]);
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t k = 0; k < n; k++)
-        if (has[k]) answer_make(t, p, b, s, b->row_of[list[k]], answer_at(t, a->of[list[k]]));
+        if (has[k]) response_make(t, p, b, s, b->row_of[list[k]], response_at(t, a->of[list[k]]));
     memory_free(has);
 }
 
-/* ---- one point --------------------------------------------------------------------------------------- */
+/* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* A row that may cross the cell of a point: of a particle or an image, its place, and what it answers. A bond starts within its
- * length of any cell that it crosses. */
-struct crosser { int32_t j, place, answer; };
+/* A row that may cross the cell of a point: of a particle or an image, its place, and what it answers. A bond starts
+ * within its length of any cell that it crosses. */
+struct crossing_row { int32_t j, place, response; };
 
 /* Adds what the row of a point or image at a place leaves in the cell, by direction. */
-static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *answer, int signs, const int parts)
+static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
+                                  int signs, const int parts)
 {
     const int16_t *mirror = t->mirror + signs * t->vectors;
     for (int32_t c = t->start[place]; c < t->start[place + 1]; c++) {
         const struct crossing *x = &t->crossing[c];
-        const real *part = answer + mirror[x->vector] * parts;
+        const real *part = response + mirror[x->vector] * parts;
         for (int k = 0; k < parts; k++) sum[x->direction * parts + k] += x->share * part[k];
     }
 }
 
-/* Asks memory for what sum_row will read. */
-static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crosser *row)
+/* Prefetches what sum_row will read. */
+static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crossing_row *row)
 {
-    const real *answer = answer_at(t, row->answer);
+    const real *response = response_at(t, row->response);
     for (int32_t c = t->start[row->place]; c < t->start[row->place + 1]; c++)
-        __builtin_prefetch(answer + t->crossing[c].vector * t->parts);
+        __builtin_prefetch(response + t->crossing[c].vector * t->parts);
 }
 
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
@@ -358,40 +372,40 @@ static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
     }
 }
 
-bool partial_table_knows(const struct particles *p, const struct bond_source *s, int64_t i)
+bool partial_table_has(const struct particles *p, const struct bond_source *s, int64_t i)
 {
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
 /* Puts j among n others, ascending, if it is a material point's and answers; returns how many there are. */
-static int crosser_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int32_t j,
-                       int64_t place, struct crosser *to, int n)
+static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
+                            int32_t j, int64_t place, struct crossing_row *to, int n)
 {
-    const int32_t answer = p->kind[j] == KIND_MPM ? t->answers.of[image_root(p, s->image, j)] : -1;
+    const int32_t response = p->kind[j] == KIND_MPM ? t->responses.of[image_root(p, s->image, j)] : -1;
     int at = n;
-    if (answer < 0) return n;
+    if (response < 0) return n;
     for (; at > 0 && to[at - 1].j > j; at--) to[at] = to[at - 1];
-    to[at] = (struct crosser){j, (int32_t)place, answer};
+    to[at] = (struct crossing_row){j, (int32_t)place, response};
     return n + 1;
 }
 
 /* By the map of sites: particles stand in their order, images, which come last of all, anywhere. */
-static int crossers_by_site(const struct partial_table *t, const struct lattice *l, const struct particles *p,
-                            const struct bond_source *s, int64_t i, struct crosser *to)
+static int crossing_rows_by_site(const struct partial_table *t, const struct lattice *l, const struct particles *p,
+                            const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
     const int32_t *own = l->at + lattice_site_of(l, p, i);
     int n = 0;
     for (int k = 0; k <= t->vectors; k++) {
         const struct near_place *near = &t->near[k];
         const int32_t j = own[near->at[0] + near->at[1] * l->stride[1] + near->at[2] * l->stride[2]] - 1;
-        if (j >= 0) n = crosser_add(t, p, s, j, near->place, to, n);
+        if (j >= 0) n = crossing_row_add(t, p, s, j, near->place, to, n);
     }
     return n;
 }
 
 /* The same in the same order. */
-static int crossers_by_search(const struct partial_table *t, const struct particles *p, const struct bond_source *s, int64_t i,
-                              struct near *near, struct crosser *to)
+static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
+                                   const struct bond_source *s, int64_t i, struct near *near, struct crossing_row *to)
 {
     real X[DIM_MAX], Y[DIM_MAX];
     int n = 0;
@@ -401,7 +415,7 @@ static int crossers_by_search(const struct partial_table *t, const struct partic
         const int32_t j = near->at[k];
         if (p->body[j] != p->body[i]) continue;
         particle_place(p, j, Y);
-        n = crosser_add(t, p, s, j, place_between(t, X, Y), to, n);
+        n = crossing_row_add(t, p, s, j, place_between(t, X, Y), to, n);
     }
     return n;
 }
@@ -410,20 +424,21 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
                        const struct bond_source *s, int64_t i, struct near *near, real *T)
 {
     real sum[VECTORS_MOST];
-    struct crosser row[VECTORS_MOST + 1];
-    const bool mapped = b->sites && b->sites->at;
-    const int rows = mapped ? crossers_by_site(t, b->sites, p, s, i, row) : crossers_by_search(t, p, s, i, near, row);
+    struct crossing_row row[VECTORS_MOST + 1];
+    const bool mapped = b->site_map && b->site_map->at;
+    const int rows =
+        mapped ? crossing_rows_by_site(t, b->site_map, p, s, i, row) : crossing_rows_by_search(t, p, s, i, near, row);
     memset(sum, 0, sizeof *sum * (size_t)(t->directions * t->parts));
     for (int k = 0; k < rows; k++) {
-        const real *answer = answer_at(t, row[k].answer);
+        const real *response = response_at(t, row[k].response);
         if (k + ROWS_AHEAD < rows) row_fetch(t, &row[k + ROWS_AHEAD]);
         int signs = 0;
         if (row[k].j >= p->n) {
             const struct reflection r = reflection_of(s, p, row[k].j);
             for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         }
-        if (t->parts == 1) sum_row(t, sum, row[k].place, answer, signs, 1);
-        else sum_row(t, sum, row[k].place, answer, signs, 2);
+        if (t->parts == 1) sum_row(t, sum, row[k].place, response, signs, 1);
+        else sum_row(t, sum, row[k].place, response, signs, 2);
     }
     sum_tensors(t, sum, T);
 }

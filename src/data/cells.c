@@ -1,4 +1,4 @@
-/* floor 1: linked cells over reference positions. */
+/* Linked cells over reference positions. */
 #include "data/cells.h"
 
 #include <math.h>
@@ -6,9 +6,9 @@
 
 #include "base/memory.h"
 
-/* ---- reference search ------------------------------------------------------------------------------ */
+/* ---- reference search -------------------------------------------------------------------------------------------- */
 
-static int64_t cell_of(const struct cells *c, const real *X)
+static int64_t cells_cell_of(const struct cells *c, const real *X)
 {
     int64_t index = 0;
     for (int d = c->dim - 1; d >= 0; d--) {
@@ -54,7 +54,7 @@ void cells_make(struct cells *c, const struct particles *p, real edge)
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[DIM_MAX];
         particle_place(p, i, X);
-        cell[i] = (int32_t)cell_of(c, X);
+        cell[i] = (int32_t)cells_cell_of(c, X);
     }
     for (int64_t i = 0; i < p->n_all; i++) c->start[cell[i] + 2]++;
     for (int64_t k = 0; k < c->n; k++) c->start[k + 2] += c->start[k + 1];
@@ -194,14 +194,20 @@ int cells_most(const struct cells *c, real radius)
     return (int)most;
 }
 
-static void find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself,
-                 bool any_order)
+static void cells_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
+                       bool itself, bool any_order)
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
     for (;;) {
-        struct search s = {.c = c, .X = X, .radius = radius, .skip = itself ? -1 : (int32_t)i, .found = near->at, .room = near->room,
-                           .ascending = true, .any_order = any_order};
+        struct search s = {.c = c,
+                           .X = X,
+                           .radius = radius,
+                           .skip = itself ? -1 : (int32_t)i,
+                           .found = near->at,
+                           .room = near->room,
+                           .ascending = true,
+                           .any_order = any_order};
         near->n = search(&s, p);
         if (near->n <= near->room) return;
         near->at = memory_resize("cells.near", near->at, near->room, 2 * near->n, sizeof *near->at);
@@ -211,10 +217,11 @@ static void find(struct near *near, const struct cells *c, const struct particle
 
 void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
 {
-    find(near, c, p, i, radius, itself, false);
+    cells_find(near, c, p, i, radius, itself, false);
 }
 
-void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
+                   bool itself)
 {
-    find(near, c, p, i, radius, itself, true);
+    cells_find(near, c, p, i, radius, itself, true);
 }

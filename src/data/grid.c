@@ -1,4 +1,4 @@
-/* floor 1: the background grid: a box of nodes that grows with its material points. */
+/* The background grid: a box of nodes that grows with its material points. */
 #include "data/grid.h"
 
 #include <math.h>
@@ -42,7 +42,10 @@ static void grid_arrays_make(struct grid *g)
 
 /* Boxes grow by steps of this many nodes. */
 enum { BOX_STEP = 4 };
-static int64_t box_floor(int64_t k) { return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP; }
+static int64_t box_floor(int64_t k)
+{
+    return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP;
+}
 
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
 {
@@ -52,8 +55,9 @@ status grid_cover(struct grid *g, const real *from, const real *to, int64_t most
     for (int d = 0; d < g->dim; d++) {
         low[d] = floor((from[d] - g->anchor[d]) / g->h), high[d] = floor((to[d] - g->anchor[d]) / g->h);
         if (!(fabs(low[d]) < NODE_FARTHEST && fabs(high[d]) < NODE_FARTHEST))
-            return status_set(FAILED, "a material point is at %.3g m, %.3g cells from where the grid begins; is the run unstable?",
-                              fabs(low[d]) < NODE_FARTHEST ? to[d] : from[d], real_max(fabs(low[d]), fabs(high[d])));
+            return status_set(
+                FAILED, "a material point is at %.3g m, %.3g cells from where the grid begins; is the run unstable?",
+                fabs(low[d]) < NODE_FARTHEST ? to[d] : from[d], real_max(fabs(low[d]), fabs(high[d])));
     }
     for (int d = 0; d < g->dim; d++) {
         first[d] = box_floor((int64_t)low[d] - MARGIN);
@@ -85,26 +89,27 @@ void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, r
     g->wall[g->walls++] = (struct wall){(int32_t)node, (int16_t)component, (int16_t)load, velocity, change, 0};
 }
 
-void grid_add_fold(struct grid *g, const struct fold *fold)
+void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node)
 {
-    if (g->folds == g->folds_room) {
-        int64_t room = g->folds_room ? 2 * g->folds_room : 256;
-        g->fold = memory_resize("grid.fold", g->fold, g->folds_room, room, sizeof *g->fold);
-        g->folds_room = room;
+    if (g->mirror_nodes == g->mirror_nodes_room) {
+        int64_t room = g->mirror_nodes_room ? 2 * g->mirror_nodes_room : 256;
+        g->mirror_node = memory_resize("grid.fold", g->mirror_node, g->mirror_nodes_room, room, sizeof *g->mirror_node);
+        g->mirror_nodes_room = room;
     }
-    g->fold[g->folds++] = *fold;
+    g->mirror_node[g->mirror_nodes++] = *mirror_node;
 }
 
 void grid_idle(struct grid *g)
 {
     g->walls = 0;
-    for (int64_t k = 0; k < g->folds; k++) memset(g->fold[k].reaction, 0, sizeof g->fold[k].reaction);
+    for (int64_t k = 0; k < g->mirror_nodes; k++)
+        memset(g->mirror_node[k].reaction, 0, sizeof g->mirror_node[k].reaction);
 }
 
 void grid_free(struct grid *g)
 {
     if (g->n > 0) grid_arrays_free(g);
-    memory_free(g->fold);
+    memory_free(g->mirror_node);
     memory_free(g->wall);
     memset(g, 0, sizeof *g);
 }

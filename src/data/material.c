@@ -1,4 +1,4 @@
-/* floor 1: elastic constants of a material in its space, and what bond-based peridynamics makes of them. */
+/* Elastic constants of a material in its space, and what bond-based peridynamics makes of them. */
 #include "data/material.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* floor 1: the table of the particles' arrays, and the loops over it that make, grow, sort and free them. */
+/* The table of the particles' arrays, and the loops over it that make, grow, sort and free them. */
 #include "data/particles.h"
 
 #include <math.h>
@@ -16,8 +16,8 @@ static int if_plastic(int dim, int optional) { return (void)dim, optional & WITH
 static int if_out_of_plane(int dim, int optional) { return (void)dim, optional & WITH_OUT_OF_PLANE ? 1 : 0; }
 
 static int if_ends(int dim, int optional) { return (void)dim, optional & WITH_ENDS ? 1 : 0; }
-static int if_turns(int dim, int optional) { return optional & WITH_TURNS ? (dim > 2 ? ROTATION : 2) : 0; }
-static int if_moment(int dim, int optional) { return optional & WITH_TURNS ? (dim > 2 ? 3 : 1) : 0; }
+static int if_rotates(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? ROTATION : 2) : 0; }
+static int if_moment(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? 3 : 1) : 0; }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_RETURN ? 1 : 0; }
 
 #define FIELD(member, type, count, unit, meaning) \
@@ -37,23 +37,24 @@ const struct particle_field particle_fields[] = {
     FIELD(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
     FIELD(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
     FIELD(end_strain, real, if_ends, "1", "what cells add to the mean strain of a point at the end of bonds"),
-    FIELD(end_turn, real, if_turns, "1", "rotation of a point at the end of bonds"),
+    FIELD(end_rotation, real, if_rotates, "1", "rotation of a point at the end of bonds"),
     FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),
     FIELD(end_moment, real, if_moment, "N m", "moment of its bonds about it"),
-    FIELD(quiet, real, if_return, "s", "since when the stress of a peridynamic particle is low"),
+    FIELD(low_since, real, if_return, "s", "since when the stress of a peridynamic particle is low"),
     FIELD(damage, real, one, "1", "share of broken bonds"),
     FIELD(kind, uint8_t, one, "1", "0 material point, 1 peridynamic"),
     FIELD(material, uint8_t, one, "1", "index of the material"),
     FIELD(body, uint8_t, one, "1", "index of the body"),
     FIELD(flag, uint8_t, one, "1", "sum of flags"),
-    FIELD(returns, uint8_t, if_return, "1", "how often it became a material point again"),
+    FIELD(reversions, uint8_t, if_return, "1", "how often it became a material point again"),
     FIELD(id, int32_t, one, "1", "order in which the scene made them"),
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, damage, 4 indices, id;
- * 2 scalars, a rotation and a moment of ends. */
-_Static_assert(sizeof(struct particles) == offsetof(struct particles, X) + (5 * DIM_MAX + 33 + ROTATION) * sizeof(void *),
+/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, damage, 4
+ * indices, id; 2 scalars, a rotation and a moment of ends. */
+_Static_assert(sizeof(struct particles) ==
+                   offsetof(struct particles, X) + (5 * DIM_MAX + 33 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
 /* Through bytes: a `real *` must not be read as a `void *`. */
@@ -64,7 +65,7 @@ static void *get(const struct particles *p, const struct particle_field *f, int 
     return array;
 }
 
-static void put(struct particles *p, const struct particle_field *f, int k, void *array)
+static void particles_put(struct particles *p, const struct particle_field *f, int k, void *array)
 {
     memcpy((char *)p + f->offset + (size_t)k * sizeof array, &array, sizeof array);
 }
@@ -81,7 +82,8 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional)
     *p = (struct particles){.n = n, .n_all = n, .dim = dim};
     p->n_of[KIND_MPM] = n;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
-        for (int k = 0; k < f->count(dim, optional); k++) put(p, f, k, memory_new(f->name, n + LANES, f->size));
+        for (int k = 0; k < f->count(dim, optional); k++)
+            particles_put(p, f, k, memory_new(f->name, n + LANES, f->size));
     for (int kind = 0; kind < KINDS; kind++) p->list[kind] = NEW("particles.list", n, int32_t);
     p->list_free = NEW("particles.list_free", n, int32_t);
     particles_list(p);
@@ -93,7 +95,7 @@ void particles_add_images(struct particles *p, int64_t images, int optional)
     int64_t old = p->n_all + LANES, count = old + images;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional); k++)
-            put(p, f, k, memory_resize(f->name, get(p, f, k), old, count, f->size));
+            particles_put(p, f, k, memory_resize(f->name, get(p, f, k), old, count, f->size));
     p->n_all += images;
 }
 
@@ -106,7 +108,7 @@ void particles_free(struct particles *p)
     *p = (struct particles){0};
 }
 
-/* ---- sorting --------------------------------------------------------------------------------------- */
+/* ---- sorting ----------------------------------------------------------------------------------------------------- */
 
 /* Where a particle stands: layer (z) and row (y) in steps of the spacing, place along x, and what breaks ties. */
 struct place {

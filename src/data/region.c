@@ -1,11 +1,11 @@
-/* floor 1: constructive geometry by signed distances, functions of time, and which bonds a crack cuts. */
+/* Constructive geometry by signed distances, functions of time, and which bonds a crack cuts. */
 #include "data/region.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
-/* ---- regions --------------------------------------------------------------------------------------- */
+/* ---- regions ----------------------------------------------------------------------------------------------------- */
 
 static real distance_to(const real *a, const real *b, int dim)
 {
@@ -110,7 +110,7 @@ void region_free(struct region *r)
     *r = (struct region){0};
 }
 
-/* ---- functions of time ----------------------------------------------------------------------------- */
+/* ---- functions of time ------------------------------------------------------------------------------------------- */
 
 static real table_at(const struct time_function *f, real t)
 {
@@ -160,7 +160,8 @@ real time_function_integral(const struct time_function *f, real t)
     switch (f->kind) {
     case TIME_STEP: return past - before;
     case TIME_PULSE:
-        return 0.5 * (past - before) - length / (4 * pi) * (sin(2 * pi * past / length) - sin(2 * pi * before / length));
+        return 0.5 * (past - before) -
+               length / (4 * pi) * (sin(2 * pi * past / length) - sin(2 * pi * before / length));
     case TIME_RAMP:
         return (square(past) - square(before)) / (2 * length) + real_max(t - real_max(f->until, 0), 0);
     case TIME_TABLE: return table_integral(f, t);
@@ -168,7 +169,7 @@ real time_function_integral(const struct time_function *f, real t)
     }
 }
 
-/* ---- cracks ---------------------------------------------------------------------------------------- */
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 /* What counts as touching, in lengths of the crack. */
 static const real touch = 1e-9;
@@ -239,7 +240,7 @@ static bool segment_holds(const struct crack *c, const struct crack_plane *plane
 }
 
 /* Height above the crack's plane [m]. */
-static real height(const struct crack *c, const struct crack_plane *plane, const real *X, int dim)
+static real region_height(const struct crack *c, const struct crack_plane *plane, const real *X, int dim)
 {
     real sum = 0;
     for (int d = 0; d < dim; d++) sum += plane->normal[d] * (X[d] - c->corner[0][d]);
@@ -252,7 +253,8 @@ static bool far_apart(const struct crack *c, const real *a, const real *b, int d
     real low[DIM_MAX], high[DIM_MAX], size = 0;
     for (int d = 0; d < dim; d++) {
         low[d] = high[d] = c->corner[0][d];
-        for (int k = 1; k < c->n; k++) low[d] = real_min(low[d], c->corner[k][d]), high[d] = real_max(high[d], c->corner[k][d]);
+        for (int k = 1; k < c->n; k++)
+            low[d] = real_min(low[d], c->corner[k][d]), high[d] = real_max(high[d], c->corner[k][d]);
         size += fabs(a[d] - b[d]) + high[d] - low[d];
     }
     for (int d = 0; d < dim && dim > 1; d++)
@@ -272,7 +274,8 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
         a = b, b = other;
     }
     if (!crack_plane(c, a, b, dim, &plane)) return false;
-    real above_a = height(c, &plane, a, dim), above_b = height(c, &plane, b, dim), snap = touch * plane.length;
+    real above_a = region_height(c, &plane, a, dim), above_b = region_height(c, &plane, b, dim),
+         snap = touch * plane.length;
     if ((above_a >= -snap) == (above_b >= -snap)) return false;
     if (dim == 1) return true;
     real share = real_min(1, real_max(0, above_a / (above_a - above_b))), P[DIM_MAX];   /* snapped ends: stay between */
@@ -282,7 +285,7 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
 
 bool crack_near(const struct crack *c, const real *X, real reach, int dim)
 {
-    real far = -INFINITY, size = 0;      /* from the box round its corners; no tolerance above is larger than size/1e9 */
+    real far = -INFINITY, size = 0;     /* from the box round its corners; no tolerance above is larger than size/1e9 */
     for (int d = 0; d < dim; d++) {
         real low = INFINITY, high = -INFINITY;
         for (int k = 0; k < c->n; k++) low = real_min(low, c->corner[k][d]), high = real_max(high, c->corner[k][d]);
@@ -292,10 +295,10 @@ bool crack_near(const struct crack *c, const real *X, real reach, int dim)
     const real most = reach * (1 + 1e-6) + 1e-6 * size;
     struct crack_plane plane;
     if (far > most) return false;
-    return dim == 1 || (crack_plane(c, X, X, dim, &plane) && fabs(height(c, &plane, X, dim)) <= most);
+    return dim == 1 || (crack_plane(c, X, X, dim, &plane) && fabs(region_height(c, &plane, X, dim)) <= most);
 }
 
-/* ---- waves ---------------------------------------------------------------------------------------- */
+/* ---- waves ------------------------------------------------------------------------------------------------------- */
 
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim)
 {

@@ -1,4 +1,4 @@
-/* floor 1: the coloured order of transfers. */
+/* The coloured order of transfers. */
 #include "data/transfer_order.h"
 
 #include <omp.h>
@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* ---- blocks --------------------------------------------------------------------------------------------- */
+/* ---- blocks ------------------------------------------------------------------------------------------------------ */
 
 /* Block of cell k in a direction where blocks are `edge` cells long. */
 static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k >= 0 ? k : k - edge + 1) / edge; }
@@ -52,7 +52,7 @@ static void rank_blocks(struct transfer_order *o, const struct block_shape *s, i
     o->blocks = next;
 }
 
-/* ---- room ----------------------------------------------------------------------------------------------- */
+/* ---- room -------------------------------------------------------------------------------------------------------- */
 
 /* Cells are known last, and grow little from time to time. */
 static void cells_room(struct transfer_order *o, int32_t cells)
@@ -77,10 +77,10 @@ void transfer_order_room(struct transfer_order *o, int64_t n, int64_t blocks, in
     cells_room(o, cells);
 }
 
-/* ---- sorting -------------------------------------------------------------------------------------------- */
+/* ---- sorting ----------------------------------------------------------------------------------------------------- */
 
-/* A counting sort by the ranks of blocks, each thread its chunk of the list, then by cell inside each block. Points of a
- * cell keep the order of the list, so that how many chunks there are shows nowhere. */
+/* A counting sort by the ranks of blocks, each thread its chunk of the list, then by cell inside each block. Points
+ * of a cell keep the order of the list, so that how many chunks there are shows nowhere. */
 struct sorting {
     const struct particles *p;
     const struct grid *g;
@@ -110,8 +110,8 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint
     return s->rank[block];
 }
 
-/* Blocks and cells of a chunk's points, and how many there are of each block: those that follow one another in one block are
- * counted before they are added. */
+/* Blocks and cells of a chunk's points, and how many there are of each block: those that follow one another in one
+ * block are counted before they are added. */
 static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
 {
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
@@ -204,7 +204,8 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
 static void sorting_make(struct sorting *s)
 {
     s->chunks = omp_get_max_threads();
-    s->rank = BARE("transfer.rank", s->shape.n, int32_t), s->fill = BARE("transfer.fill", s->chunks * s->shape.n, int32_t);
+    s->rank = BARE("transfer.rank", s->shape.n, int32_t),
+    s->fill = BARE("transfer.fill", s->chunks * s->shape.n, int32_t);
     s->key = BARE("transfer.key", s->n, int32_t), s->bucket = BARE("transfer.bucket", s->n, int32_t);
     s->inside = BARE("transfer.inside", s->n, uint16_t), s->sorted = BARE("transfer.sorted", s->n, uint16_t);
 }

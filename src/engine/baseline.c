@@ -1,10 +1,11 @@
-/* floor 5: the run that a pulse probe is compared with: the same scene on material points alone, so that what the
- * interface did is told from what every discretisation does. */
+/* Reference run of pulse probes: the same scene on material points alone, which separates the effect of the interface
+ * from that of the discretisation. */
 #include <string.h>
 
 #include "engine/engine.h"
 #include "base/memory.h"
 
+/* True if the scene has a pulse probe and is not itself on material points alone. */
 static bool wanted(const struct engine *e)
 {
     for (int k = 0; k < e->scene->probes; k++)
@@ -12,8 +13,9 @@ static bool wanted(const struct engine *e)
     return false;
 }
 
-/* Particles are made and sorted before anyone is peridynamic, so both runs number them alike. */
-static void keep(struct engine *e, const struct engine *twin)
+/* Copies velocities and energy change of the finished reference run `twin`. Both runs number their particles alike,
+ * since these are made and sorted before any becomes peridynamic. */
+static void baseline_keep(struct engine *e, const struct engine *twin)
 {
     const struct particles *p = &twin->part;
     for (int d = 0; d < p->dim; d++) {
@@ -35,7 +37,7 @@ status engine_baseline(struct engine *e)
     status s = engine_make(&twin, &scene, NULL);
     twin.quiet = true;
     if (s == OK) s = engine_run(&twin);
-    if (s == OK) keep(e, &twin);
+    if (s == OK) baseline_keep(e, &twin);
     engine_free(&twin);
     return s;
 }

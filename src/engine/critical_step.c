@@ -1,4 +1,4 @@
-/* floor 3: the largest frequency of bodies of bonds. */
+/* Critical time step of bodies of bonds, from their largest frequency. */
 #include "engine/critical_step.h"
 
 #include <math.h>
@@ -7,9 +7,10 @@
 #include "base/eigenvalue.h"
 #include "base/memory.h"
 
-#define STRAIN 1e-7                      /* of the trial motion: its square is not seen, round-off is 1e-9 of it */
-#define MARGIN 0.98                      /* the iteration ends some parts in a thousand below omega_max^2, blocks of lattice
-                                          * are 1 or 2 % slower than more of it */
+#define STRAIN 1e-7                  /* strain of the trial motion: its square is negligible, round-off is 1e-9 of it */
+/* The iteration ends some parts in a thousand below omega_max^2, and blocks of lattice have 1 or 2 % less than larger
+ * blocks. */
+#define MARGIN 0.98
 
 struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
                                 real spacing)
@@ -21,6 +22,7 @@ struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force
 
 void bond_body_free(struct bond_body *body) { memory_free(body->root); }
 
+/* Largest component of a displacement u / sqrt(m), u: [dim n]. */
 static real largest_motion(const struct bond_body *body, const real *u)
 {
     const struct particles *p = body->p;
@@ -47,7 +49,8 @@ void bond_body_stiffness(void *context, const real *u, real *y)
             y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
 }
 
-real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads, real spacing)
+real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
+                      real spacing)
 {
     struct bond_body body = bond_body_make(b, p, force, loads, spacing);
     real *x[DIM_MAX];
@@ -64,9 +67,10 @@ real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force
     return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
 }
 
-#define BONDS_DEAR 1e7                   /* of a block: from there on it is no larger than the body */
+#define BONDS_DEAR 1e7                   /* [bonds] of a block: larger blocks are cut to the size of the body */
 
-/* Particles along the edges of a block: some that have all their neighbours, and as long waves as cost little. Returns how many in all. */
+/* Particles along the edges of a block of lattice: enough for particles with full families and for waves as long as a
+ * small cost allows. longest: extent of the body [m]. Returns the number of particles of the block. */
 static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};
@@ -82,7 +86,8 @@ static int64_t edges_of(const struct family *f, const real *longest, int64_t edg
     return n;
 }
 
-real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest, real *bound)
+real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest,
+                              real *bound)
 {
     const struct family *f = &source->family;
     const int dim = space_dim(f->space);

@@ -1,12 +1,13 @@
-/* floor 5: what of the engine survives a restart. */
+/* State of the engine in checkpoints: what is saved and restored, and what is made again. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "engine/engine.h"
 #include "base/memory.h"
-#include "engine/simd.h"
+#include "simd/simd.h"
 
+/* Saves or restores all fields of the particles, images included. */
 static status particles_archive(struct particles *p, struct archive *a, int optional)
 {
     for (int f = 0; f < particle_fields_count; f++) {
@@ -20,29 +21,33 @@ static status particles_archive(struct particles *p, struct archive *a, int opti
     return OK;
 }
 
-#define FAR_AWAY 1e7                     /* spacings, as fill.c */
+#define FAR_AWAY 1e7                     /* [spacings], as too_far in fill.c */
 
-/* A checkpoint of whole bytes may still hold no sound state: what indexes arrays, and places, are looked at before they are used. */
+/* FAILED for a state that no run can have: a checkpoint with intact bytes may still hold one. Indices into arrays and
+ * positions are checked before use. */
 static status particles_check(const struct engine *e)
 {
     const struct particles *p = &e->part;
     const struct scene *s = e->scene;
     for (int64_t i = 0; i < p->n_all; i++) {
         real sum = 0;
-        bool good = p->kind[i] < KINDS && p->material[i] < s->materials && p->body[i] < s->bodies && p->mass[i] > 0 && isfinite(p->mass[i]);
+        bool good = p->kind[i] < KINDS && p->material[i] < s->materials && p->body[i] < s->bodies && p->mass[i] > 0 &&
+                    isfinite(p->mass[i]);
         good = good && (i >= p->n || (p->id[i] >= 0 && p->id[i] < p->n));
         for (int d = 0; d < p->dim; d++) {
             good = good && (i >= p->n || fabs(p->X[d][i]) <= FAR_AWAY * s->spacing || !(s->spacing > 0));
             sum += 0 * (p->X[d][i] + p->x[d][i] + p->v[d][i]);
         }
         if (!good || !(sum == 0))
-            return status_set(FAILED, "cannot resume: particle %lld of the checkpoint is in no state that a run can be in", (long long)i);
+            return status_set(FAILED,
+                              "cannot resume: particle %lld of the checkpoint is in no state that a run can be in",
+                              (long long)i);
     }
     return OK;
 }
 
-/* Everything that follows from the particles is made again; the rest is read back. */
-static void rebuild(struct engine *e)
+/* Makes again all that follows from the particles; the rest is read back. */
+static void engine_archive_rebuild(struct engine *e)
 {
     particles_list(&e->part);
     bonds_free(&e->bonds);
@@ -51,7 +56,7 @@ static void rebuild(struct engine *e)
     e->sort_needed = true;
 }
 
-/* Sets of kernels agree to round-off only: whoever counts on the bits must hear of it. */
+/* Warns if a checkpoint was written with another set of kernels: sets agree to round-off only. */
 static status kernels_archive(struct engine *e, struct archive *a)
 {
     char text[256];
@@ -62,8 +67,10 @@ static status kernels_archive(struct engine *e, struct archive *a)
     then[sizeof then - 1] = 0;
     if (strcmp(then, now->name) == 0) return OK;
     snprintf(text, sizeof text,
-             "the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, not to the last bit; "
-             "CLEAVE_SIMD=%s keeps the bits, where the processor runs them", then, now->name, then);
+             "the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, not to "
+             "the last bit; "
+             "CLEAVE_SIMD=%s keeps the bits, where the processor runs them",
+             then, now->name, then);
     engine_say(e, text);
     return OK;
 }
@@ -74,7 +81,7 @@ status engine_archive(void *engine, struct archive *a)
     TRY(kernels_archive(e, a));
     TRY(particles_archive(&e->part, a, e->optional));
     if (!a->saving) TRY(particles_check(e));
-    if (!a->saving) rebuild(e);
+    if (!a->saving) engine_archive_rebuild(e);
     TRY(bonds_archive(&e->bonds, &e->part, a));
     if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
     if (!a->saving) {
@@ -84,7 +91,7 @@ status engine_archive(void *engine, struct archive *a)
         TRY(engine_mesh_make(e));
     }
     TRY(mesh_archive(&e->mesh, a));
-    if (!a->saving) engine_ends_know(e);
+    if (!a->saving) engine_ends_update(e);
     ARCHIVE_VALUE(a, "engine/t", e->t);
     ARCHIVE_VALUE(a, "engine/step", e->step);
     ARCHIVE_VALUE(a, "engine/steps", e->steps);
@@ -93,15 +100,15 @@ status engine_archive(void *engine, struct archive *a)
     ARCHIVE_VALUE(a, "engine/residual_step0", e->residual_step0);
     ARCHIVE_VALUE(a, "engine/particle_steps", e->particle_steps);
     ARCHIVE_VALUE(a, "engine/bond_visits", e->bond_visits);
-    ARCHIVE_VALUE(a, "engine/rested", e->rested);
+    ARCHIVE_VALUE(a, "engine/rested", e->inactive);
     ARCHIVE_VALUE(a, "engine/sampled", e->sampled);
-    TRY(rest_archive(&e->bonds.rest, "bonds", a));
-    TRY(rest_archive(&e->mesh.rest, "mesh", a));
+    TRY(active_set_archive(&e->bonds.active, "bonds", a));
+    TRY(active_set_archive(&e->mesh.active, "mesh", a));
     ARCHIVE_VALUE(a, "engine/loop_seconds", e->loop_seconds);
     TRY(loads_archive(&e->loads, a));
     TRY(solver_archive(&e->solver, a));
     TRY(conversion_archive(&e->conversion, a));
-    TRY(watch_archive(&e->watch, a));
+    TRY(diagnostics_archive(&e->diagnostics, a));
     ARCHIVE_VALUE(a, "engine/speed_rise", e->speed_rise);
     ARCHIVE_VALUE(a, "engine/excess_rise", e->excess_rise);
     TRY(tips_archive(&e->tips, a));

@@ -1,4 +1,4 @@
-/* floor 5: the engine before its first step: scene -> particles -> loads -> bonds -> grid -> time step. */
+/* The engine before its first step: scene -> particles -> loads -> bonds -> grid -> time step. */
 #include <math.h>
 #include <string.h>
 
@@ -7,22 +7,22 @@
 
 static bool has_peridynamics(const struct scene *s) { return s->method != METHOD_MPM; }
 
-/* ---- materials -------------------------------------------------------------------------------------- */
+/* ---- materials --------------------------------------------------------------------------------------------------- */
 
 static void make_limits(struct engine *e)
 {
     const struct scene *s = e->scene;
     e->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
-    for (int a = 0; a < s->materials; a++)       /* a bond between two materials breaks as the weaker of them does */
+    for (int a = 0; a < s->materials; a++)       /* a bond between two materials has the strength of the weaker one */
         for (int b = 0; b < s->materials; b++)
             e->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
     e->source.limit = (struct bond_limit){e->pair_stretch, s->materials, s->whole_force};
-    if (s->solver != SOLVER_EXPLICIT) e->source.limit = bond_limit_never;    /* while an equilibrium is sought */
+    if (s->solver != SOLVER_EXPLICIT) e->source.limit = bond_limit_never;    /* no bond breaks in a static solution */
 }
 
-/* A bond yields where the softer of its materials does: s_y = sigma_y/E and H_b/k_e = H/E, which is the material's own
- * curve in a bar. */
+/* Yield of bonds by the material that yields at the smaller strain: s_y = sigma_y/E and H_b/k_e = H/E, which is the
+ * material's own curve in a bar. */
 static void make_yields(struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -43,7 +43,7 @@ static void make_yields(struct engine *e)
     e->source.yield = (struct bond_yield){e->pair_yield, e->pair_hardening, s->materials};
 }
 
-/* A and B of kernels/pd/state_laws.h. */
+/* Moduli of state-based models: A and B of kernels/pd/state_laws.h. */
 static void make_states(struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -52,11 +52,12 @@ static void make_states(struct engine *e)
     for (int k = 0; k < s->materials; k++)
         e->modulus[k] = state_modulus_of(&s->material[k], s->space, s->model == MODEL_MOSPD);
     e->source.modulus = e->modulus;
-    e->source.local = !s->bulk, e->source.turns = s->model == MODEL_MOSPD;
+    e->source.local = !s->bulk, e->source.rotates = s->model == MODEL_MOSPD;
 }
 
-/* sigma_max is the stress at s_c, E s_c where nothing yields, unless the scene says otherwise: a larger one lets points
- * pass the strain at which bonds break. Only adaptive runs convert. */
+/* Principal stress at which material points convert [Pa]: alpha times conversion.stress, by default the stress at s_c
+ * (E s_c where nothing yields). With a larger stress points may pass the strain at which bonds break. INFINITY: no
+ * conversion; only adaptive runs convert. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
@@ -64,6 +65,7 @@ static real conversion_trigger(const struct scene *s, const struct material *m)
     return s->conversion.alpha * most;
 }
 
+/* Constants of the materials for the kernels, and limits of their bonds. */
 static void make_materials(struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -82,7 +84,7 @@ static void make_materials(struct engine *e)
     make_states(e);
 }
 
-/* ---- peridynamics ----------------------------------------------------------------------------------- */
+/* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
 static void make_family(struct engine *e)
 {
@@ -105,6 +107,7 @@ static void make_mirrors(struct engine *e)
     e->source.mirror_axis = e->mirror_axis;
 }
 
+/* Converts the initial peridynamic particles and makes the bonds. */
 static void make_bonds(struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -133,20 +136,21 @@ void engine_partial_make(struct engine *e)
     e->partial.gives_all = e->coupling != COUPLING_PARTIAL_STRESS;
     e->uses_partial = !e->partial.gives_all || e->part.end_strain;
     if (e->uses_partial) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    engine_rim_make(e);
+    engine_interface_make(e);
 }
 
-#define RIM_SHARE_MOST (1.0 / 16)        /* rim.h */
+#define DAMPING_SHARE_MOST (1.0 / 16)        /* interface_zone.h */
 
-static void make_rim_share(struct engine *e)
+static void make_interface_damping_share(struct engine *e)
 {
-    e->rim_share = real_min(e->scene->rim_damping * e->wave_speed * e->dt / e->grid.h, RIM_SHARE_MOST);
+    e->interface_damping_share =
+        real_min(e->scene->interface_damping * e->wave_speed * e->dt / e->grid.h, DAMPING_SHARE_MOST);
 }
 
-/* ---- grid --------------------------------------------------------------------------------------------- */
+/* ---- grid -------------------------------------------------------------------------------------------------------- */
 
-/* Where a node lies unless the scene names a place: on the first mirror across this axis, which moves nodes beyond it as
- * their images only there or half-way between two; without one at the body's lower corner. */
+/* Coordinate of a node [m]: mpm.origin, else the first mirror across this axis, else the lower corner of the body.
+ * Nodes beyond a mirror move as exact images only if the mirror is on a node or half-way between two. */
 static real node_place(const struct scene *s, int axis, real corner)
 {
     if (s->has_grid_origin) return s->grid_origin[axis];
@@ -155,14 +159,14 @@ static real node_place(const struct scene *s, int axis, real corner)
     return corner;
 }
 
-/* The corner moved by less than half a spacing, to where it lies midway between particles of a lattice. */
+/* The anchor, moved by at most half a spacing to lie midway between particles of a lattice [m]. */
 static real between_particles(const struct engine *e, int axis)
 {
     const real steps = (e->part.X[axis][0] - e->grid.anchor[axis]) / e->scene->spacing - 0.5;
     return e->grid.anchor[axis] + (steps - nearbyint(steps)) * e->scene->spacing;
 }
 
-/* The lower corner is that of the first body's shape, of the particles if it comes from a file. */
+/* The lower corner of the body is that of the first shape, or of the particles of a list. */
 void engine_grid_make(struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -187,14 +191,15 @@ void engine_grid_make(struct engine *e)
     e->sort_needed = true;
 }
 
-/* ---- what the machine can hold -------------------------------------------------------------------------- */
+/* ---- memory ------------------------------------------------------------------------------------------------------ */
 
 /* As measured on blocks of 10^6 particles: */
-#define BYTES_PER_PARTICLE 320.0         /* fields, cells, lists, its part of the grid, a frame on its way              */
-#define BYTES_PER_BOND_LATTICE 3.0       /* of patterns: those of surfaces, and what cracks and ends of lines still store */
-#define EXACT_MOST 6000.0                /* spacings; places of longer bodies may be rounded (fill.c), bonds are stored */
+#define BYTES_PER_PARTICLE 320.0         /* fields, cells, lists, its part of the grid, a frame being written */
+/* implicit bonds: stencils at surfaces; bonds at cracks and at ends of lines are stored */
+#define BYTES_PER_BOND_LATTICE 3.0
+#define EXACT_MOST 6000.0             /* [spacings] places of longer bodies may be rounded (fill.c): bonds are stored */
 
-/* Share of a body's box that it fills, by places spread evenly in it. */
+/* Share of its box from..to [m] that a shape fills, by evenly spaced places. */
 static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
 {
     enum { ACROSS = 24 };
@@ -202,13 +207,14 @@ static real share_filled(const struct region *shape, const real *from, const rea
     for (int d = 0; d < dim; d++) all *= ACROSS;
     for (int k = 0; k < all; k++) {
         real X[DIM_MAX] = {0};
-        for (int d = 0, rest = k; d < dim; d++, rest /= ACROSS) X[d] = from[d] + (rest % ACROSS + 0.5) / ACROSS * (to[d] - from[d]);
+        for (int d = 0, rest = k; d < dim; d++, rest /= ACROSS)
+            X[d] = from[d] + (rest % ACROSS + 0.5) / ACROSS * (to[d] - from[d]);
         inside += region_contains(shape, X, dim, 0);
     }
     return real_max(inside, 1) / all;
 }
 
-/* Lattice particles, about, before there are any. The longest edge of all boxes round bodies goes to `longest` [spacings]. */
+/* Expected number of lattice particles. *longest: the longest edge of the boxes of all bodies [spacings]. */
 static real particles_expected(const struct scene *s, real *longest)
 {
     real n = 0, from[DIM_MAX], to[DIM_MAX];
@@ -242,18 +248,20 @@ real engine_memory(const struct engine *e)
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
 }
 
-/* A scene beyond what there is to be had is refused before it fills the memory. */
+/* REFUSED if a run needs more memory than is available. */
 static status make_affordable(const struct engine *e)
 {
     const real memory = (real)team_memory(), bytes = engine_memory(e);
     real longest;
     if (memory <= 0 || bytes <= memory) return OK;
-    return status_set(REFUSED, "about %.2g particles would need some %.2g GB, and %.2g can be had (memory of the machine, or a limit set by "
-                               "ulimit or a control group); choose a larger particles.spacing", particles_now(e, &longest), bytes * 1e-9,
-                      memory * 1e-9);
+    return status_set(
+        REFUSED,
+        "about %.2g particles would need some %.2g GB, and %.2g can be had (memory of the machine, or a limit set by "
+        "ulimit or a control group); choose a larger particles.spacing",
+        particles_now(e, &longest), bytes * 1e-9, memory * 1e-9);
 }
 
-/* ---- all ------------------------------------------------------------------------------------------------ */
+/* ---- all --------------------------------------------------------------------------------------------------------- */
 
 static real largest_stress(const struct particles *p)
 {
@@ -266,15 +274,30 @@ static real largest_stress(const struct particles *p)
 struct observed engine_observed(const struct engine *e)
 {
     const struct scene *s = e->scene;
-    return (struct observed){
-        .part = &e->part, .cells = &e->cells, .bonds = &e->bonds, .loads = &e->loads, .grid = &e->grid, .tips = &e->tips,
-        .material = s->material, .partial = &e->partial, .spacing = s->spacing, .thickness = e->source.family.section,
-        .strain_stress = e->strain_stress, .residual_step0 = e->residual_step0, .t = e->t,
-        .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
-        .pulse = e->pulse, .pulses = e->pulses,
-        .space = s->space, .horizon = e->source.family.horizon, .crack = s->crack, .cracks = s->cracks,
-        .energy_change = watch_energy_change(&e->watch), .growth = e->growth, .growths = s->growths,
-        .baseline = e->has_baseline ? &e->baseline : NULL};
+    return (struct observed){.part = &e->part,
+                             .cells = &e->cells,
+                             .bonds = &e->bonds,
+                             .loads = &e->loads,
+                             .grid = &e->grid,
+                             .tips = &e->tips,
+                             .material = s->material,
+                             .partial = &e->partial,
+                             .spacing = s->spacing,
+                             .thickness = e->source.family.section,
+                             .strain_stress = e->strain_stress,
+                             .residual_step0 = e->residual_step0,
+                             .t = e->t,
+                             .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
+                             .pulse = e->pulse,
+                             .pulses = e->pulses,
+                             .space = s->space,
+                             .horizon = e->source.family.horizon,
+                             .crack = s->crack,
+                             .cracks = s->cracks,
+                             .energy_change = diagnostics_energy_change(&e->diagnostics),
+                             .growth = e->growth,
+                             .growths = s->growths,
+                             .baseline = e->has_baseline ? &e->baseline : NULL};
 }
 
 static void make_pulses(struct engine *e)
@@ -285,7 +308,8 @@ static void make_pulses(struct engine *e)
         if (s->initial[k].sets_pulse) e->pulse[e->pulses++] = s->initial[k].pulse;
 }
 
-/* What shows only with particles has no line, but it has a file; fill_particles names its own. */
+/* Puts the scene file in front of a refusal that has no line, since it was found after the reading; fill_particles
+ * names the file itself. */
 static status named(const struct scene *s, status made)
 {
     if (made != REFUSED) return made;
@@ -302,7 +326,8 @@ static int optional_arrays(const struct scene *s)
         if (material_yields(&s->material[m]))
             optional |= WITH_PLASTIC | (s->space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0);
     if (s->method == METHOD_ADAPTIVE && s->conversion.back) optional |= WITH_RETURN;
-    if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND) optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_TURNS : 0);
+    if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND)
+        optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_ROTATIONS : 0);
     return optional;
 }
 
@@ -325,8 +350,8 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     kernels_choose(&e->kernels, s->dim, law_of(e), s->shape, s->transfer);
     TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
-    TRY(named(s, make_affordable(e)));       /* of those there are */
-    TRY(named(s, engine_return_check(e)));
+    TRY(named(s, make_affordable(e)));       /* with the actual number of particles */
+    TRY(named(s, engine_reversion_check(e)));
     TRY(named(s, engine_frames(e)));
     if (s->solver != SOLVER_EXPLICIT) {
         e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
@@ -339,18 +364,19 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     make_bonds(e);
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
-    engine_ends_know(e);
-    engine_alarm_make(e);
+    engine_ends_update(e);
+    engine_stability_check_make(e);
     TRY(named(s, engine_time_make(e)));
-    make_rim_share(e);
-    e->transfer = (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false, NULL};
+    make_interface_damping_share(e);
+    e->transfer =
+        (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false, NULL};
     e->strain_stress = largest_stress(&e->part);
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     e->growth = NEW("engine.growth", s->growths, struct growth);
     for (int k = 0; k < s->growths; k++) growth_make(&e->growth[k], &s->growth[k]);
     if (s->solver != SOLVER_EXPLICIT) TRY(named(s, solver_make(e)));
-    watch_make(&e->watch);
+    diagnostics_make(&e->diagnostics);
     make_pulses(e);
     struct observed o = engine_observed(e);
     return named(s, probes_make(&e->probes, s->probe, s->probes, &o));
@@ -359,18 +385,18 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
 void engine_free(struct engine *e)
 {
     memory_reuse(false);
-    if (e->out) (void)output_wait(e->out);   /* a frame on its way still reads the particles */
+    if (e->out) (void)output_wait(e->out);   /* a frame being written still reads the particles */
     probes_free(&e->probes);
     for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]), memory_free(e->sampling.before[d]);
     tips_free(&e->tips);
     for (int k = 0; e->growth && k < e->scene->growths; k++) growth_free(&e->growth[k]);
     memory_free(e->growth);
     partial_stress_free(&e->partial);
-    rim_free(&e->rim);
+    interface_zone_free(&e->zone);
     memory_free(e->bonded);
     transfer_order_free(&e->order);
-    rest_points_free(&e->rest_points);
-    carry_free(&e->carried);
+    active_points_free(&e->active_points);
+    grid_coupled_free(&e->grid_coupled);
     grid_free(&e->grid);
     bonds_free(&e->bonds);
     cells_free(&e->cells);

@@ -1,11 +1,11 @@
-/* floor 5: the csv files of line and exact probes: beside every frame, and what of them a run finds again or removes. */
+/* The csv files of line and exact probes: written with every frame, checked on a restart, removed before a new run. */
 #include <stdio.h>
 #include <unistd.h>
 
 #include "engine_report.h"
 #include "output/output_files.h"
 
-static status put(void *folder, const char *name, const char *text, size_t length)
+static status engine_profiles_put(void *folder, const char *name, const char *text, size_t length)
 {
     return file_put_unsettled(path_join(folder, name).text, text, length);
 }
@@ -14,7 +14,7 @@ status engine_profiles_write(struct engine *e)
 {
     const struct observed o = engine_observed(e);
     if (probes_profiled(&e->probes) == 0) return OK;
-    TRY(probes_profiles(&e->probes, &o, put, e->out->folder, e->out->frames - 1));
+    TRY(probes_profiles(&e->probes, &o, engine_profiles_put, e->out->folder, e->out->frames - 1));
     return file_settle(path_join(e->out->folder, "history.csv").text);
 }
 

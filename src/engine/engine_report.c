@@ -1,4 +1,4 @@
-/* floor 5: samples, frames, checkpoints and the progress line of a run. */
+/* Samples, frames, checkpoints and the progress line of a run. */
 #include "engine_report.h"
 
 #include <math.h>
@@ -10,9 +10,9 @@
 #include "output/output_files.h"
 
 #define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
-#define PROGRESS_SECONDS_FILE 60.0       /* and elsewhere                        */
+#define PROGRESS_SECONDS_FILE 60.0       /* and in files                         */
 
-/* ---- when ------------------------------------------------------------------------------------------------ */
+/* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
 /* Step of event k of n evenly spread over the run. */
 static int64_t due_step(const struct engine *e, int64_t k, int64_t n)
@@ -20,8 +20,8 @@ static int64_t due_step(const struct engine *e, int64_t k, int64_t n)
     return n > 0 ? (k * e->steps + n / 2) / n : e->steps;
 }
 
-/* Step of frame k after the one at t = 0: that nearest to its time, or evenly spread. Every step writes one frame at the
- * most, so that frames closer than a step keep their number. */
+/* Step of frame k after the one at t = 0: nearest to its time, or evenly spread. A step writes one frame at the most,
+ * so frames closer than a step are moved apart and keep their number. */
 static int64_t frame_step(const struct engine *e, int64_t k, int64_t n)
 {
     const struct number_list *times = &e->scene->times;
@@ -37,7 +37,7 @@ static bool sample_due(const struct engine *e)
     return due_step(e, (e->step * n + e->steps / 2) / e->steps, n) == e->step;
 }
 
-/* ---- columns ----------------------------------------------------------------------------------------------- */
+/* ---- columns ----------------------------------------------------------------------------------------------------- */
 
 enum { RECORD_FIXED = 22 };
 
@@ -48,18 +48,19 @@ static const struct column fixed_columns[RECORD_FIXED] = {
     {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}, {"mpm_share", ""},
     {"rest_share", ""}};
 
-/* Mean share of the body at rest over the steps since the last sample; 0 where there was none. */
-static real rest_since_sample(struct engine *e)
+/* Mean inactive share of the body over the steps since the last sample; 0 where there was none. */
+static real inactive_since_sample(struct engine *e)
 {
     const int64_t steps = e->step - e->sampled.step;
-    const real share = steps > 0 ? (e->rested - e->sampled.rested) / (real)steps : 0;
-    e->sampled.rested = e->rested, e->sampled.step = e->step;
+    const real share = steps > 0 ? (e->inactive - e->sampled.inactive) / (real)steps : 0;
+    e->sampled.inactive = e->inactive, e->sampled.step = e->step;
     return share;
 }
 
+/* Fills one line of history.csv, e->record [RECORD_FIXED + columns of probes]. */
 static void fill_record(struct engine *e)
 {
-    const struct ledger *l = &e->watch.now;
+    const struct energy_balance *l = &e->diagnostics.now;
     const struct energy *u = &l->energy;
     const struct tip *tip = tips_longest(&e->tips);
     real *r = e->record;
@@ -69,7 +70,7 @@ static void fill_record(struct engine *e)
         (real)e->part.n_of[KIND_PD] / (real)e->part.n, (real)e->bonds.n, tip ? tip->growth : 0,
         tip ? tip->place[0] : NAN, tip && e->part.dim > 1 ? tip->place[1] : NAN,
         tip && e->part.dim > 2 ? tip->place[2] : NAN, u->damped,
-        (real)e->part.n_of[KIND_MPM] / (real)e->part.n, rest_since_sample(e)};
+        (real)e->part.n_of[KIND_MPM] / (real)e->part.n, inactive_since_sample(e)};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probes.columns; c++) r[RECORD_FIXED + c] = e->probes.value[c];
 }
@@ -85,9 +86,9 @@ static status history_start(struct engine *e, bool resume)
     return s;
 }
 
-/* ---- samples ------------------------------------------------------------------------------------------------ */
+/* ---- samples ----------------------------------------------------------------------------------------------------- */
 
-/* Stresses of peridynamic particles are made only where somebody looks. */
+/* True if a probe uses stresses of peridynamic particles, which are computed only then. */
 static bool wants_stress(const struct engine *e)
 {
     for (int k = 0; k < e->scene->probes; k++) {
@@ -98,11 +99,11 @@ static bool wants_stress(const struct engine *e)
     return false;
 }
 
-/* Families as they are now: a step moves particles after its forces, and a body that turns would show the stress of a
- * step's rotation. */
+/* State precompute at the current positions. A step moves particles after its forces, so that stresses in a turning
+ * body would else include the rotation of a step. */
 static void refresh_states(struct engine *e)
 {
-    families_know(&e->bonds, &e->part, &e->source);
+    states_precompute(&e->bonds, &e->part, &e->source);
 }
 
 void engine_stress(struct engine *e)
@@ -111,86 +112,94 @@ void engine_stress(struct engine *e)
     e->kernels.bond_stress(&e->bonds, &e->part);
 }
 
-/* Points of a mesh are brought up to date for probes that look at particles; damage and bonds always are. */
-static void show_probes(struct engine *e)
+void engine_sync(struct engine *e)
+{
+    engine_mesh_sync(e);
+    engine_stress(e);
+}
+
+/* Updates the points of a mesh for probes of the motion of particles; damage and bonds are always up to date. */
+static void sync_probes(struct engine *e)
 {
     bool motion = false;
     for (int k = 0; k < e->scene->probes; k++) {
         const enum probe_kind kind = e->scene->probe[k].kind;
         motion |= kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION && kind != PROBE_GROWTH;
     }
-    if (motion) engine_mesh_show(e);
+    if (motion) engine_mesh_sync(e);
 }
 
-static real kinetic_now(const struct engine *e) { return watch_kinetic(&e->part) + mesh_kinetic(&e->mesh); }
+static real kinetic_now(const struct engine *e) { return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->mesh); }
 
-/* What stands still while the energies of a sample are gathered. */
+/* Samples all quantities but energies: stress, momentum, tips, probes. */
 static void sample_state(struct engine *e)
 {
     if (wants_stress(e)) engine_stress(e);
-    watch_momentum(&e->watch, &e->part, &e->mesh.grid, e->loads.impulse);
+    diagnostics_momentum(&e->diagnostics, &e->part, &e->mesh.grid, e->loads.impulse);
     tips_sample(&e->tips, &e->part, &e->cells, e->t);
     struct observed o = engine_observed(e);
     probes_sample(&e->probes, &o);
 }
 
-static void sample_energy(struct engine *e)
+/* Energies of a sample at the current positions, but the kinetic energy [J]. */
+static void engine_report_sample_energy(struct engine *e)
 {
     const struct material *m = e->scene->material;
     e->sampling.energy = (struct energy){
-        .strain = e->kernels.bond_energy(&e->bonds, &e->part) + watch_strain(&e->part, m, &e->partial) +
+        .strain = e->kernels.bond_energy(&e->bonds, &e->part) + diagnostics_strain(&e->part, m, &e->partial) +
                   mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain),
-        .plastic = bond_plastic_work(&e->bonds) + watch_plastic(&e->part, m, &e->partial),
+        .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .damped = e->damped,
     };
 }
 
-/* t_velocity: when the velocities of now are known [s]. */
+/* Completes a sample and writes its line. t_velocity: time of the current velocities [s]; kinetic, work [J]. */
 static void sample_write(struct engine *e, real t_velocity, real kinetic, real work)
 {
-    show_probes(e);
+    sync_probes(e);
     struct observed o = engine_observed(e);
     probes_sample_end(&e->probes, &o, t_velocity);
     e->sampling.energy.kinetic = kinetic;
     const struct energy *u = &e->sampling.energy;
     e->lost = !isfinite(kinetic + u->strain + u->plastic + u->fracture + u->damped + work);
-    if (e->lost) return;                         /* energy_alarm says so; nothing of it is written */
-    watch_ledger(&e->watch, e->t, &e->sampling.energy, work);
+    if (e->lost) return;                         /* engine_energy_check reports it; nothing is written */
+    diagnostics_balance(&e->diagnostics, e->t, &e->sampling.energy, work);
     fill_record(e);
     if (e->out && e->history_status == OK) e->history_status = output_history(e->out, e->record);
 }
 
-/* Of a force on the grid points know but what it did to their velocity. */
+/* Keeps the velocities before a step: forces on the grid appear at points only as a change of their velocity. */
 static void keep_velocities(struct engine *e)
 {
     const struct particles *p = &e->part;
-    if (p->n_free == 0 && !coupling_carries(e->coupling)) return;
+    if (p->n_free == 0 && !coupling_moves_by_grid(e->coupling)) return;
     for (int d = 0; d < p->dim; d++) {
         if (!e->sampling.before[d]) e->sampling.before[d] = BARE("report.before", p->n, real);
         memcpy(e->sampling.before[d], p->v[d], (size_t)p->n * sizeof(real));
     }
 }
 
-/* What the mean of two kinetic energies, of before and after a step of velocities, has too much. */
+/* Excess of the mean of the kinetic energies before and after a step over 1/2 m v_before . v_after [J]
+ * (diagnostics_kick). */
 static real kick_now(const struct engine *e)
 {
-    const bool grid = e->part.n_free > 0 || coupling_carries(e->coupling);
+    const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling);
     const real dt = e->transfer.dt_velocity;
-    return watch_kick(&e->part, grid ? e->sampling.before : NULL, dt) + mesh_kick(&e->mesh, dt);
+    return diagnostics_kick(&e->part, grid ? e->sampling.before : NULL, dt) + mesh_kick(&e->mesh, dt);
 }
 
 void engine_sample_begin(struct engine *e)
 {
     e->sampling.due = sample_due(e);
     e->sampling.work = e->loads.work;
-    e->sampling.held_work = e->loads.held_work;
+    e->sampling.constraint_work = e->loads.constraint_work;
     if (e->sampling.due) {
-        show_probes(e);
+        sync_probes(e);
         sample_state(e);
     }
     if (!e->sampling.due && e->step < e->steps - 1) return;
-    if (!e->sampling.due) show_probes(e);
+    if (!e->sampling.due) sync_probes(e);
     if (!e->sampling.due && wants_stress(e)) engine_stress(e);
     struct observed o = engine_observed(e);
     probes_keep(&e->probes, &o);
@@ -200,20 +209,22 @@ void engine_sample_begin(struct engine *e)
 
 void engine_sample_energy(struct engine *e)
 {
-    if (e->sampling.due) sample_energy(e);
+    if (e->sampling.due) engine_report_sample_energy(e);
 }
 
-/* Is anything driven from the start, so that its first step is a jump? */
+/* True if a boundary drives particles at a speed, so that velocities jump in the first step. */
 static bool sets_out(const struct scene *s)
 {
     bool drives = false;
     for (int b = 0; b < s->boundaries; b++)
-        drives |= s->boundary[b].kind == BOUNDARY_VELOCITY && dot(s->boundary[b].value, s->boundary[b].value, s->dim) > 0;
+        drives |=
+            s->boundary[b].kind == BOUNDARY_VELOCITY && dot(s->boundary[b].value, s->boundary[b].value, s->dim) > 0;
     return drives;
 }
 
-/* Leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the start. APIC's first step changes velocities by more
- * than forces do, and so does that of points beside what is driven: their jump is not told apart. */
+/* Twice the excess of the start [J]: leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the
+ * start. 0 where the first step changes velocities by more than forces do and the two cannot be separated: with APIC,
+ * and for points beside driven ones. */
 static real start_excess(const struct engine *e)
 {
     const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !sets_out(e->scene));
@@ -223,24 +234,25 @@ static real start_excess(const struct engine *e)
 void engine_sample_end(struct engine *e)
 {
     if (!e->sampling.due) return;
-    if (e->step == 0) {                      /* velocities of t = 0, not of half a step before, that nothing has damped yet */
+    if (e->step == 0) {                /* velocities of t = 0, not of half a step before; nothing is damped yet */
         e->sampling.energy.damped = 0;
         sample_write(e, e->t + 0.5 * e->dt, e->sampling.kinetic, e->sampling.work);
-        e->watch.energy_start -= start_excess(e);
+        e->diagnostics.energy_start -= start_excess(e);
         return;
     }
     real kinetic = 0.5 * (e->sampling.kinetic + kinetic_now(e)) - kick_now(e);
-    sample_write(e, e->t + 0.5 * e->dt, kinetic, e->sampling.work + 0.5 * (e->sampling.held_work + e->loads.held_work));
+    sample_write(e, e->t + 0.5 * e->dt, kinetic,
+                 e->sampling.work + 0.5 * (e->sampling.constraint_work + e->loads.constraint_work));
 }
 
 void engine_sample_rest(struct engine *e)
 {
     sample_state(e);
-    sample_energy(e);
+    engine_report_sample_energy(e);
     sample_write(e, e->t, 0, 0);
 }
 
-/* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; few calls: serial, in order. */
+/* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; serial, as calls are few. */
 static real power_now(const struct engine *e)
 {
     const struct particles *p = &e->part;
@@ -255,8 +267,9 @@ static real power_now(const struct engine *e)
     return power;
 }
 
-/* Sum of v . f by the forces after the last step, which no motion follows: bonds stay, and accounts of loads are put back [W]. `held`:
- * the work of walls of the grid in that step [J]; driven particles and nodes of a mesh have theirs in the power. */
+/* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of
+ * loads are restored. *held: work of walls of the grid in that step [J]; the work of driven particles and of nodes of a
+ * mesh is part of the power. */
 static real power_last(struct engine *e, real *held)
 {
     const struct loads account = e->loads;
@@ -267,31 +280,31 @@ static real power_last(struct engine *e, real *held)
     loads_apply(&e->loads, &e->part, e->t + 0.5 * e->dt, e->dt, e->dt);
     if (e->mesh.points > 0) engine_nodes_force(e);
     const real power = power_now(e) + engine_grid_power(e, e->t + 0.5 * e->dt);
-    *held = e->loads.held_work - account.held_work;
+    *held = e->loads.constraint_work - account.constraint_work;
     if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
     memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
-    e->loads.work = account.work, e->loads.held_work = account.held_work;
+    e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
     memory_free(own);
     return power;
 }
 
-/* After the last step no force follows: kinetic energy is, as at all samples before, 1/2 m v- . v+, v+ after the kick that the forces
- * there would give. */
+/* The last sample. No force follows the last step: kinetic energy is 1/2 m v- . v+, as in all samples before, with v+
+ * after the kick of the forces at the end. */
 static void sample_last(struct engine *e)
 {
     real held = 0;
     refresh_states(e);
-    engine_mesh_show(e);                         /* whoever holds the engine may look at it now */
+    engine_mesh_sync(e);                         /* callers may read the particles from here on */
     sample_state(e);
-    sample_energy(e);
+    engine_report_sample_energy(e);
     real kinetic = kinetic_now(e);
     if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * e->dt * power_last(e, &held);
-    sample_write(e, e->t - 0.5 * e->dt, kinetic, e->loads.work + e->loads.held_work + 0.5 * held);
+    sample_write(e, e->t - 0.5 * e->dt, kinetic, e->loads.work + e->loads.constraint_work + 0.5 * held);
 }
 
 void engine_breaks(struct engine *e, int64_t broken)
 {
-    if (broken > 0) watch_breaks(&e->watch, &e->part, broken, e->t);
+    if (broken > 0) diagnostics_breaks(&e->diagnostics, &e->part, broken, e->t);
     struct observed o = engine_observed(e);
     probes_step(&e->probes, &o);
 }
@@ -337,9 +350,10 @@ void engine_residual(struct engine *e)
     }
 }
 
-/* ---- frames and checkpoints ------------------------------------------------------------------------------- */
+/* ---- frames and checkpoints -------------------------------------------------------------------------------------- */
 
-/* The alarm looks at places and speeds of every step, the ledger at energies of samples; this at what else a frame holds. */
+/* FAILED if a frame would hold a number that is not finite. The stability check covers positions and speeds of every
+ * step, the energy check the energies of samples; this check covers stresses and the rest of a frame. */
 static status frame_sound(const struct engine *e)
 {
     const struct particles *p = &e->part;
@@ -352,15 +366,16 @@ static status frame_sound(const struct engine *e)
         if (!(sum == 0) && i < first) first = i;
     }
     if (first == p->n) return OK;
-    return status_set(FAILED, "step %lld, t = %.4g s: particle %d has a stress, place or velocity that is no finite number; see whether "
-                              "material, supports and initial state are meant (`cleave check`)", (long long)e->step, e->t,
-                      (int)p->id[first]);
+    return status_set(
+        FAILED,
+        "step %lld, t = %.4g s: particle %d has a stress, place or velocity that is no finite number; see whether "
+        "material, supports and initial state are meant (`cleave check`)",
+        (long long)e->step, e->t, (int)p->id[first]);
 }
 
 static status write_frame(struct engine *e)
 {
-    engine_mesh_show(e);
-    engine_stress(e);
+    engine_sync(e);
     TRY(frame_sound(e));
     TRY(output_frame_begin(e->out, &e->part, e->t, e->step, e->scene->text));
     return engine_profiles_write(e);
@@ -368,20 +383,20 @@ static status write_frame(struct engine *e)
 
 static status write_checkpoint(struct engine *e)
 {
-    engine_mesh_show(e);
+    engine_mesh_sync(e);
     e->last_checkpoint = team_clock();
     TRY(checkpoint_write(e->out, e->scene->text, engine_archive, e));
     e->checkpoint_seconds = real_max(e->checkpoint_seconds, team_clock() - e->last_checkpoint);
     return OK;
 }
 
-/* Is there just time left for another checkpoint, and for one that takes twice as long as any before? */
+/* True if the wall time left is at most twice that of the longest checkpoint so far. */
 static bool wall_is_over(const struct engine *e)
 {
     return team_clock() - e->began + 2 * e->checkpoint_seconds >= e->scene->wall;
 }
 
-/* What a run that goes on finds no more of what it had written. */
+/* Warns of frames and profiles that a resumed run had written and that are lost. */
 static status say_lost(struct engine *e)
 {
     char text[PATH_NAME_ROOM + 200];
@@ -407,7 +422,7 @@ status engine_report_start(struct engine *e)
     return write_checkpoint(e);
 }
 
-/* ---- progress ------------------------------------------------------------------------------------------------ */
+/* ---- progress ---------------------------------------------------------------------------------------------------- */
 
 static void duration_text(char *text, size_t size, double seconds)
 {
@@ -416,6 +431,7 @@ static void duration_text(char *text, size_t size, double seconds)
     else snprintf(text, size, "%.1f h", seconds / 3600);
 }
 
+/* Prints the progress line if it is due; `last`: after the last step. */
 static void progress(struct engine *e, bool last)
 {
     bool terminal = isatty(STDERR_FILENO);
@@ -434,12 +450,12 @@ static void progress(struct engine *e, bool last)
     fflush(stderr);
 }
 
-/* ---- after a step ---------------------------------------------------------------------------------------------- */
+/* ---- after a step ------------------------------------------------------------------------------------------------ */
 
-real engine_rest(const struct engine *e)
+real engine_inactive_share(const struct engine *e)
 {
-    real at_rest = rest_share(&e->bonds.rest) * (real)e->part.n_of[KIND_PD];
-    if (e->mesh.points > 0) at_rest += rest_share(&e->mesh.rest) * (real)e->mesh.points;
+    real at_rest = inactive_share(&e->bonds.active) * (real)e->part.n_of[KIND_PD];
+    if (e->mesh.points > 0) at_rest += inactive_share(&e->mesh.active) * (real)e->mesh.points;
     return at_rest / (real)e->part.n;
 }
 
@@ -448,21 +464,23 @@ status engine_report(struct engine *e)
     e->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
     e->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
     e->bond_visits += e->bonds.n;
-    e->rested += engine_rest(e);
+    e->inactive += engine_inactive_share(e);
     lap(&e->laps, LAP_WATCH);
-    if (e->step == e->steps) sample_last(e);     /* before any checkpoint: a finished run has nothing left to write */
+    /* before any checkpoint, so that a finished run has nothing left to write */
+    if (e->step == e->steps) sample_last(e);
     TRY(e->history_status);
-    TRY(engine_energy_alarm(e));
+    TRY(engine_energy_check(e));
     if (e->step == e->steps) engine_say_balance(e);
     if (e->out) {
         const bool between = e->scene->solver != SOLVER_EXPLICIT && e->step < e->steps;
         const int64_t frames = e->scene->frames < e->steps ? e->scene->frames : e->steps;
-        if (!between && e->out->frames <= frames && e->step >= frame_step(e, e->out->frames, frames)) TRY(write_frame(e));
+        if (!between && e->out->frames <= frames && e->step >= frame_step(e, e->out->frames, frames))
+            TRY(write_frame(e));
         const bool late = wall_is_over(e), stop = late || (e->stop && *e->stop);
         if (stop || team_clock() - e->last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
         if (stop && e->step < e->steps)
-            return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume", late ? "time.wall is over" : "interrupted",
-                              (long long)e->step, (long long)e->steps);
+            return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume",
+                              late ? "time.wall is over" : "interrupted", (long long)e->step, (long long)e->steps);
     }
     progress(e, false);
     lap(&e->laps, LAP_OUTPUT);

@@ -1,17 +1,17 @@
-/* floor 5: the critical time step of a scene, and the step that is taken.
+/* The critical time step of a scene, and the step that is taken.
  *
- * What `bench stability` observes beside it: growth of the largest mode under the step itself. */
+ * `bench stability` observes the limits independently, by the growth of the largest mode under the step itself. */
 #include <math.h>
 
 #include "engine/engine.h"
 
-/* ---- material points -------------------------------------------------------------------------------------- */
+/* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Critical steps in h/(c + |v|) for n points a cell and direction: a little below the least that is observed wherever the
- * points stand in their cells, since a body that moves brings them everywhere. Strains of re-mapped momentum (FLIP, MUSL)
- * hardly feel how little mass the nodes beyond an edge have, strains of the updated velocity (APIC) do: its share falls with
- * the points' size. Linear shapes are worst where points stand on nodes, where round-off decides to which cell they belong: of
- * 1500 steps; elsewhere they would allow three times as much. */
+/* Critical steps in h/(c + |v|) for n points per cell and direction: slightly below the least that is observed over all
+ * positions of the points in their cells, which a moving body passes through. Strains of re-mapped momentum (FLIP,
+ * MUSL) hardly depend on how little mass the nodes beyond an edge have; strains of the updated velocity (APIC) do:
+ * their share falls with the size of the points. Linear shapes are worst where points are on nodes and round-off
+ * decides their cell (observed over 1500 steps); elsewhere they would allow three times as much. */
 static real points_share(const struct scene *s)
 {
     const real n = s->cell;
@@ -26,9 +26,10 @@ static real points_share(const struct scene *s)
     }
 }
 
-/* Nodes that move against each other in all directions at once feel c11 + (dim - 1) c12 where a wave feels c11: near nu = 1/2
- * twice as much in the plane, three times in space. The shares above were observed up to 5/3, nu 1/4 in space; beyond, limits
- * fall with the root: from nu 0.25 to 0.499 in space by 0.80 (FLIP) and 0.76 (APIC) where the root says 0.75. */
+/* Factor for nearly incompressible materials. Nodes that move against each other in all directions have the stiffness
+ * c11 + (dim - 1) c12, waves c11: near nu = 1/2 the ratio is 2 in the plane and 3 in space. The shares above were
+ * observed up to a ratio of 5/3 (nu 1/4 in space); beyond, limits fall with its root: from nu 0.25 to 0.499 in space by
+ * 0.80 (FLIP) and 0.76 (APIC), where the root gives 0.75. */
 static real volume_share(const struct engine *e)
 {
     const real observed = 5.0 / 3;
@@ -38,7 +39,7 @@ static real volume_share(const struct engine *e)
     return sqrt(observed / most);
 }
 
-static real fastest(const struct engine *e)
+static real engine_time_fastest(const struct engine *e)
 {
     real speed = e->start_speed;
     for (int b = 0; b < e->scene->boundaries; b++)
@@ -49,32 +50,35 @@ static real fastest(const struct engine *e)
 
 static real critical_of_points(const struct engine *e)
 {
-    if (e->part.n_free + e->part.n_carried == 0) return INFINITY;
-    return points_share(e->scene) * volume_share(e) * e->grid.h / (e->wave_speed + fastest(e));
+    if (e->part.n_free + e->part.n_grid_coupled == 0) return INFINITY;
+    return points_share(e->scene) * volume_share(e) * e->grid.h / (e->wave_speed + engine_time_fastest(e));
 }
 
-/* ---- bonds -------------------------------------------------------------------------------------------------- */
+/* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* Waves as short as the bonds' stiffest are unknown to a grid that moves all particles (pmg, pgg): shares of the observed
- * limits of bodies in one, two and three dimensions, with cells of one spacing and of two (`bench stability`). */
-static const real carried_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4, 2.5}};
-/* The same where it moves those near points (pm, pg) and FLIP keeps what it cannot see; worst where few share a node. */
+/* Shares for a grid that moves all particles (pmg, pgg) and does not resolve the shortest waves of the bonds: of the
+ * observed limits of bodies in one, two and three dimensions, with cells of one spacing and of two (`bench
+ * stability`). */
+static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4, 2.5}};
+/* Shares for a grid that moves particles near points (pm, pg), where FLIP keeps motion that the grid does not resolve;
+ * worst where few particles share a node. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
 static real share_of_coupling(const struct engine *e)
 {
     const bool two = e->scene->cell >= 2;
-    if (coupling_unified(e->coupling)) return carried_by_grid[two][e->scene->dim];
-    return coupling_carries(e->coupling) && e->scene->transfer == TRANSFER_FLIP ? met_by_grid[two][e->scene->dim] : 1;
+    if (coupling_unified(e->coupling)) return moved_by_grid[two][e->scene->dim];
+    return coupling_moves_by_grid(e->coupling) && e->scene->transfer == TRANSFER_FLIP ? met_by_grid[two][e->scene->dim]
+                                                                                      : 1;
 }
 
-/* Of elastic bonds: yielding ones are no stiffer. */
+/* Force kernel of elastic bonds: yielding bonds are no stiffer. */
 static bond_force_fn *elastic_force(const struct engine *e)
 {
     return e->scene->model == MODEL_BOND ? bond_force_table[e->part.dim][PD_BOND] : e->kernels.bond_force;
 }
 
-/* The smallest of all materials' lattices, and of the bounds on which they rest. */
+/* Smallest critical step of the lattices of all materials [s]; *bound: the smallest of their bounds [s]. */
 static real critical_of_lattices(struct engine *e, real *bound)
 {
     const struct scene *s = e->scene;
@@ -90,17 +94,18 @@ static real critical_of_lattices(struct engine *e, real *bound)
         one.material = &s->material[m], one.materials = 1;
         if (e->modulus) one.modulus = &e->modulus[m];
         one.yield = (struct bond_yield){0};
-        step = real_min(step, critical_step_of_lattice(&one, elastic_force(e), s->material[m].density, longest, &its_bound));
+        step = real_min(step,
+                        critical_step_of_lattice(&one, elastic_force(e), s->material[m].density, longest, &its_bound));
         *bound = real_min(*bound, its_bound);
     }
     return step;
 }
 
-enum { ITERATED_MOST = 15000 };          /* particles: an iteration is some steps, and takes some 30 rounds */
+enum { ITERATED_MOST = 15000 };          /* particles: an iteration has some 30 rounds of a few steps each */
 
-/* Iterated on the body itself where all of it is peridynamic. Where particles become so later, or are many on a lattice, on a
- * block of that, less as the bound over all of them is smaller than the block's: scattered particles, corrected surfaces,
- * heavy neighbours. */
+/* Critical step of bonds [s]. By iteration on the body where all of it is peridynamic. Where particles convert later,
+ * or are many on a lattice, by iteration on a block of this lattice, reduced as the bound over all particles is smaller
+ * than that of the block: scattered particles, corrected surfaces, heavy neighbours. */
 static real critical_of_bonds(struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -108,16 +113,16 @@ static real critical_of_bonds(struct engine *e)
     if (s->method == METHOD_MPM) return INFINITY;
     if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
         const real step = critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
-        return isfinite(step) ? step : s->spacing / e->wave_speed;   /* no bond: whatever loads want */
+        return isfinite(step) ? step : s->spacing / e->wave_speed;   /* no bond: any step that the loads allow */
     }
     const real step = critical_of_lattices(e, &bound);
     const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
     return share * step * share_of_coupling(e);
 }
 
-/* ---- the step --------------------------------------------------------------------------------------------------- */
+/* ---- the step ---------------------------------------------------------------------------------------------------- */
 
-#define STEPS_MOST 1e12                  /* as scene_check.c: more than any machine will ever do */
+#define STEPS_MOST 1e12                  /* as in scene_check.c: more than any machine can do */
 
 static status make_steps(struct engine *e, real dt)
 {
@@ -125,13 +130,14 @@ static status make_steps(struct engine *e, real dt)
     if (!(s->duration / dt <= STEPS_MOST))
         return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
                           s->duration / dt, dt);
-    e->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a hair less: round-off adds no step */
+    e->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a little less: round-off adds no step */
     if (e->steps < 1) e->steps = 1;
     e->dt = s->duration / (real)e->steps;
     return OK;
 }
 
-/* The smallest of all methods' limits, whichever kinds are present now: particles convert. */
+/* The critical step is the smallest limit of all methods, whichever kinds are present at the start, since particles
+ * convert. */
 status engine_time_make(struct engine *e)
 {
     const struct scene *s = e->scene;

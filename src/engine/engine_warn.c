@@ -1,4 +1,4 @@
-/* floor 5: what a person would want to hear before a run, with the numbers it rests on. */
+/* Warnings before a run, with the numbers they rest on. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,12 +6,13 @@
 #include "base/memory.h"
 #include "solver_parts.h"
 
+/* Number of directed bonds cut at the start. */
 static int64_t bonds_cut(const struct engine *e)
 {
     const struct bonds *b = &e->bonds;
     int64_t cut = 0;
-    for (int64_t g = 0; g < b->groups; g++)
-        for (int64_t q = b->slot[g] * LANES; q < (b->slot[g] + b->slot_count[g]) * LANES && !b->pattern[g]; q++)
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        for (int64_t q = b->column[g] * LANES; q < (b->column[g] + b->column_count[g]) * LANES && !b->stencil[g]; q++)
             cut += b->inverse_length[q] < 0;
     return cut;
 }
@@ -19,14 +20,16 @@ static int64_t bonds_cut(const struct engine *e)
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
 
-/* Does no support keep it from turning? */
-static bool may_turn(const struct scene *s)
+/* True if no support keeps the body from rotating. */
+static bool may_rotate(const struct scene *s)
 {
     bool held = s->dim == 1;
-    for (int b = 0; b < s->boundaries; b++) held |= s->boundary[b].kind == BOUNDARY_MIRROR || s->boundary[b].kind == BOUNDARY_VELOCITY;
+    for (int b = 0; b < s->boundaries; b++)
+        held |= s->boundary[b].kind == BOUNDARY_MIRROR || s->boundary[b].kind == BOUNDARY_VELOCITY;
     return !held;
 }
 
+/* Method, coupling, transfer and time step. */
 static void warn_of_method(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -35,16 +38,23 @@ static void warn_of_method(const struct engine *e, struct warnings *to)
     if (s->method == METHOD_MPM && s->cracks > 0)
         warnings_add(to, "method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them");
     if ((e->coupling == COUPLING_PM || e->coupling == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
-        warnings_add(to, "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
-    if (coupling_carries(e->coupling))
-        warnings_add(to, "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
-                         "energy.balance_error, or use partial stress", coupling_name[e->coupling]);
-    if (s->method == METHOD_ADAPTIVE && may_turn(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && e->part.n_of[KIND_PD] > 0)
-        warnings_add(to, "in bodies that turn, FLIP points beside bonds gain energy (2 to 6 %% in four turns) and rim_damping brakes "
+        warnings_add(to,
+                     "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
+    if (coupling_moves_by_grid(e->coupling))
+        warnings_add(
+            to,
+            "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
+            "energy.balance_error, or use partial stress",
+            coupling_name[e->coupling]);
+    if (s->method == METHOD_ADAPTIVE && may_rotate(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 &&
+        e->part.n_of[KIND_PD] > 0)
+        warnings_add(to, "in bodies that turn, FLIP points beside bonds gain energy (2 to 6 %% in four turns) and "
+                         "rim_damping brakes "
                          "slow turns; mpm.transfer apic and the reference frame do neither");
     if (s->method != METHOD_PD && s->cell < 1.5)
-        warnings_add(to, "one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual",
-                     s->cell);
+        warnings_add(
+            to, "one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual",
+            s->cell);
 }
 
 static void warn_of_materials(const struct engine *e, struct warnings *to)
@@ -79,8 +89,8 @@ static void warn_of_empty(const struct engine *e, struct warnings *to)
         warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
 }
 
-/* Measured in inputs/bar_converge.yaml: mirrors 0.15 and 0.25 of a cell from a node give way so much that displacements
- * are 11 to 24 % off with 50 to 200 points a metre; halving the spacing takes away a third of that at the most. */
+/* Measured in inputs/bar_converge.yaml: with mirrors 0.15 and 0.25 of a cell from a node displacements are 11 to 24 %
+ * off with 50 to 200 points per metre; halving the spacing removes at most a third of that. */
 static void warn_of_mirrors(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -93,9 +103,10 @@ static void warn_of_mirrors(const struct engine *e, struct warnings *to)
                          s->boundary[b].name);
 }
 
-/* ---- several bodies ------------------------------------------------------------------------------------------- */
+/* ---- several bodies ---------------------------------------------------------------------------------------------- */
 
-/* Adds a name to a list of them in words, `a`, `a and b`, `a, b and c`; all beyond a few are counted. */
+/* A list of names in words, `a`, `a and b`, `a, b and c`; names beyond the first few are counted. all: number of names
+ * to come. */
 struct name_list { int n, all; char text[320]; };
 
 static void name_add(struct name_list *l, const char *name)
@@ -104,10 +115,12 @@ static void name_add(struct name_list *l, const char *name)
     const size_t used = strlen(l->text);
     const bool last = ++l->n == l->all;
     if (l->n > NAMED && !last) return;
-    if (l->n > NAMED && l->all > NAMED + 1) snprintf(l->text + used, sizeof l->text - used, " and %d more", l->all - NAMED);
+    if (l->n > NAMED && l->all > NAMED + 1)
+        snprintf(l->text + used, sizeof l->text - used, " and %d more", l->all - NAMED);
     else snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
 }
 
+/* Several bodies of which some are in the reference frame. */
 static void warn_of_reference(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -116,10 +129,14 @@ static void warn_of_reference(const struct engine *e, struct warnings *to)
     if (names.all == 0) return;
     for (int b = 0; b < s->bodies; b++)
         if (e->frame[b].reference) name_add(&names, s->body[b].name);
-    warnings_add(to, "%s %s in the reference frame and meet%s no other body: they pass through each other; in mpm.frame current "
-                     "bodies meet on the grid, and stick", names.text, names.all > 1 ? "are" : "is", names.all > 1 ? "" : "s");
+    warnings_add(
+        to,
+        "%s %s in the reference frame and meet%s no other body: they pass through each other; in mpm.frame current "
+        "bodies meet on the grid, and stick",
+        names.text, names.all > 1 ? "are" : "is", names.all > 1 ? "" : "s");
 }
 
+/* Contact between several bodies, by method. */
 static void warn_of_contact(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -127,16 +144,18 @@ static void warn_of_contact(const struct engine *e, struct warnings *to)
     for (int b = 0; b < s->bodies; b++) current |= !e->frame[b].reference;
     if (s->bodies < 2) return;
     if (s->method == METHOD_PD)
-        warnings_add(to, "peridynamic bodies do not meet in this version: they pass through each other; with mpm and adaptive "
-                         "material points meet through the grid");
+        warnings_add(
+            to, "peridynamic bodies do not meet in this version: they pass through each other; with mpm and adaptive "
+                "material points meet through the grid");
     else warn_of_reference(e, to);
     if (s->method == METHOD_ADAPTIVE && current && !coupling_unified(e->coupling))
-        warnings_add(to, "what is or becomes peridynamic meets no other body and passes through it; material points meet on "
-                         "the grid, and stick");
+        warnings_add(
+            to, "what is or becomes peridynamic meets no other body and passes through it; material points meet on "
+                "the grid, and stick");
 }
 
-/* Do two particles start as parts of one thing, side by side and with one velocity? Bodies about to hit each other do not. */
-static bool at_rest(const struct particles *p, int64_t i, int64_t j)
+/* True if two particles start with one velocity, as parts of joined bodies; bodies about to collide do not. */
+static bool engine_warn_at_rest(const struct particles *p, int64_t i, int64_t j)
 {
     real apart2 = 0, most2 = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -146,7 +165,8 @@ static bool at_rest(const struct particles *p, int64_t i, int64_t j)
     return apart2 <= 1e-6 * most2;
 }
 
-/* touch[a bodies + b], a < b: some of their particles are neighbours at the start. Returns how many pairs of bodies do. */
+/* Sets touch[a * bodies + b], a < b, if particles of bodies a and b are neighbours at the start and move together.
+ * Returns the number of such pairs of bodies. */
 static int touching(const struct engine *e, bool *touch)
 {
     const struct particles *p = &e->part;
@@ -158,7 +178,7 @@ static int touching(const struct engine *e, bool *touch)
         near_find(&near, &e->cells, p, i, reach, false);
         for (int k = 0; k < near.n; k++) {
             const int32_t j = near.at[k];
-            if (j >= p->n || p->body[j] <= p->body[i] || !at_rest(p, i, j)) continue;
+            if (j >= p->n || p->body[j] <= p->body[i] || !engine_warn_at_rest(p, i, j)) continue;
             bool *pair = &touch[p->body[i] * bodies + p->body[j]];
             pairs += !*pair;
             *pair = true;
@@ -168,6 +188,7 @@ static int touching(const struct engine *e, bool *touch)
     return pairs;
 }
 
+/* Bodies that touch at the start. */
 static void warn_of_touch(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -182,9 +203,11 @@ static void warn_of_touch(const struct engine *e, struct warnings *to)
     }
     memory_free(touch);
     if (names.all > 0)
-        warnings_add(to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s", names.text,
-                     s->method == METHOD_PD ? "" : "; on the grid of mpm.frame current they stick until a gap of two cells "
-                                                   "opens");
+        warnings_add(to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s",
+                     names.text,
+                     s->method == METHOD_PD ? ""
+                                            : "; on the grid of mpm.frame current they stick until a gap of two cells "
+                                              "opens");
 }
 
 void engine_warn(struct engine *e)

@@ -1,4 +1,4 @@
-/* floor 5: static equilibrium: what its solvers share, and the loop round them. */
+/* Static equilibrium: functions that its solvers share, and the loop round them. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,9 +10,10 @@
 #include "base/memory.h"
 #include "solver_parts.h"
 
-#define TURNING_MOST 0.05                /* moment of loads over what they could make that scattered particles explain */
+/* Largest moment of loads, relative to what they could make, that scattered particles explain. */
+#define TURNING_MOST 0.05
 
-/* ---- forces ----------------------------------------------------------------------------------------------- */
+/* ---- forces ------------------------------------------------------------------------------------------------------ */
 
 void solver_bond_force(struct engine *e)
 {
@@ -31,8 +32,8 @@ real solver_largest(const struct field *v, int dim, int64_t n)
     return most;
 }
 
-/* Bond forces come from positions, whose last bit is a strain of eps |x|/dx, 1e-14 in a body of 100 spacings: at strains
- * of 3e-6 that is 1e-8 of a force. The second-order error of central differences is below 1e-10 there. */
+/* Bond forces come from positions, whose last bit is a strain of eps |x|/dx, 1e-14 in a body of 100 spacings: at
+ * strains of 3e-6 that is 1e-8 of a force. The second-order error of central differences is below 1e-10 there. */
 #define TANGENT_STRAIN 3e-6
 
 void solver_tangent(struct engine *e, const struct field *in, struct field *out, real strain_ratio)
@@ -52,8 +53,8 @@ void solver_tangent(struct engine *e, const struct field *in, struct field *out,
     }
 }
 
-/* Squares of forces on free and on held components. */
-static void force_block(const void *context, int64_t first, int64_t end, real *sum)
+/* Sums of squares of forces on free components, sum[0], and on constrained ones, sum[1]. */
+static void solver_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct engine *e = context;
     for (int d = 0; d < e->part.dim; d++)
@@ -63,7 +64,7 @@ static void force_block(const void *context, int64_t first, int64_t end, real *s
 void solver_scale(struct solver *s, real reaction, real left)
 {
     s->scale = real_max(s->applied, reaction);
-    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, left);    /* no load: what there was at first */
+    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, left);   /* no load: the residual of the start */
     const bool rests = left == 0 || (s->scale == s->first && left <= s->noise);
     s->residual = rests ? 0 : left / s->scale;
 }
@@ -72,11 +73,11 @@ void solver_measure(struct engine *e)
 {
     struct solver *s = &e->solver;
     real sum[2];
-    team_sums(e->part.n, 2, force_block, e, sum);
+    team_sums(e->part.n, 2, solver_force_block, e, sum);
     solver_scale(s, sqrt(sum[1]), sqrt(sum[0]));
 }
 
-/* ---- set-up ----------------------------------------------------------------------------------------------- */
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
 static void field_make(struct field *v, int dim, int64_t n)
 {
@@ -88,8 +89,8 @@ static void field_free(struct field *v)
     for (int d = 0; d < DIM_MAX; d++) memory_free(v->of[d]);
 }
 
-/* y = Lambda^-1/2 K Lambda^-1/2 x; `before` and v are its scratch. */
-static void scaled_stiffness(void *engine, const real *x, real *y)
+/* y = Lambda^-1/2 K Lambda^-1/2 x, both [dim n]; `before` and v are scratch arrays. */
+static void solver_scaled_stiffness(void *engine, const real *x, real *y)
 {
     struct engine *e = engine;
     struct solver *s = &e->solver;
@@ -102,10 +103,10 @@ static void scaled_stiffness(void *engine, const real *x, real *y)
         for (int64_t i = 0; i < n; i++) y[d * n + i] = out.of[d][i] / sqrt(s->diagonal[i]);
 }
 
-#define MARGIN_OF_EIGENVALUE 1.02        /* the iteration comes from below */
+#define MARGIN_OF_EIGENVALUE 1.02        /* the iteration converges from below */
 
-/* Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci 2010), of the bonds as springs; where the model is stiffer
- * than that, as many times as much. */
+/* Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci 2010), of the bonds as springs; scaled up by the largest
+ * eigenvalue where the model is stiffer than its springs. */
 static void make_diagonal(struct engine *e)
 {
     struct solver *s = &e->solver;
@@ -120,10 +121,10 @@ static void make_diagonal(struct engine *e)
         if (s->diagonal[i] < 1e-6 * most || most == 0) s->diagonal[i] = most > 0 ? 1e-6 * most : 1;
     field_make(&kept, p->dim, p->n);
     for (int d = 0; d < p->dim; d++) memcpy(kept.of[d], p->x[d], (size_t)p->n * sizeof(real));
-    const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, scaled_stiffness, e) / 4;
+    const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, solver_scaled_stiffness, e) / 4;
     for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
     for (int d = 0; d < p->dim; d++) memcpy(p->x[d], kept.of[d], (size_t)p->n * sizeof(real));
-    solver_bond_force(e);                /* what energies of state-based models rest on */
+    solver_bond_force(e);                /* energies of state-based models use it */
     for (int d = 0; d < p->dim; d++) {
         memset(p->v[d], 0, (size_t)p->n * sizeof(real));
         memset(p->f[d], 0, (size_t)p->n * sizeof(real));
@@ -131,7 +132,8 @@ static void make_diagonal(struct engine *e)
     field_free(&kept);
 }
 
-/* Particles on planes of symmetry: no force takes them off it, and only half of each belongs to the body. */
+/* Weights and constraints of particles on planes of symmetry: no force takes them off the plane, and only half of each
+ * belongs to the body. */
 static void make_weights(struct engine *e)
 {
     struct solver *s = &e->solver;
@@ -147,8 +149,8 @@ static void make_weights(struct engine *e)
     }
 }
 
-/* A wave of relaxation goes a spacing in a step at the most: supports that take as many steps as the body is long strain
- * bonds about as much as the body. */
+/* Steps in which supports reach their place. Relaxation spreads by one spacing per step at the most: over as many steps
+ * as the body has spacings, supports strain bonds about as much as the body. */
 static int64_t supports_ramp(const struct engine *e)
 {
     const struct particles *p = &e->part;
@@ -156,18 +158,19 @@ static int64_t supports_ramp(const struct engine *e)
     return most > 0 ? 1 + (int64_t)(particles_longest(p) / e->scene->spacing) : 0;
 }
 
+/* Norm of the applied forces on free components, s->applied [N]. */
 static void make_applied(struct engine *e)
 {
     struct particles *p = &e->part;
     for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
     loads_static_force(&e->loads, p);
     real sum[2];
-    team_sums(p->n, 2, force_block, e, sum);
+    team_sums(p->n, 2, solver_force_block, e, sum);
     e->solver.applied = sqrt(sum[0]);
     for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
 }
 
-/* Forces that the round-off of positions makes in a body at rest, with a margin of ten. */
+/* Norm of the forces that the round-off of positions makes in a body at rest [N], with a margin of ten. */
 static void make_noise(struct engine *e)
 {
     struct solver *s = &e->solver;
@@ -177,8 +180,8 @@ static void make_noise(struct engine *e)
     s->noise = 10 * sqrt(sum);
 }
 
-/* Does a support or a plane of symmetry hold component d of anything? */
-static bool component_held(const struct engine *e, int d)
+/* True if a support or a plane of symmetry constrains component d of any particle. */
+static bool component_constrained(const struct engine *e, int d)
 {
     for (int b = 0; b < e->loads.n; b++) {
         const struct boundary *c = e->loads.load[b].boundary;
@@ -188,7 +191,7 @@ static bool component_held(const struct engine *e, int d)
     return false;
 }
 
-/* Loads that nothing balances have no equilibrium. */
+/* REFUSED for loads without equilibrium: neither balanced nor carried by supports. */
 static status balance_checked(struct engine *e)
 {
     for (int d = 0; d < e->part.dim; d++) {
@@ -201,15 +204,20 @@ static status balance_checked(struct engine *e)
                 size += fabs(l->share[d][k] * l->boundary->value[d]);
             }
         }
-        if (fabs(sum) > 1e-9 * size && !component_held(e, d))
-            return status_set(REFUSED, "nothing holds the body along %c against an applied force of %.4g N; balance the "
-                                       "loads, or hold that component somewhere", "xyz"[d], sum);
+        if (fabs(sum) > 1e-9 * size && !component_constrained(e, d))
+            return status_set(REFUSED,
+                              "nothing holds the body along %c against an applied force of %.4g N; balance the "
+                              "loads, or hold that component somewhere",
+                              "xyz"[d], sum);
     }
-    if (e->part.dim != 2 || e->scene->bodies != 1 || component_held(e, 0) || component_held(e, 1)) return OK;
+    if (e->part.dim != 2 || e->scene->bodies != 1 || component_constrained(e, 0) || component_constrained(e, 1))
+        return OK;
     const real turning = loads_static_balance(&e->loads, &e->part);
     if (turning > TURNING_MOST)
-        return status_set(REFUSED, "nothing keeps the body from turning under loads whose moment is %.3g of what they could "
-                                   "make; balance the loads, or hold the body somewhere", turning);
+        return status_set(REFUSED,
+                          "nothing keeps the body from turning under loads whose moment is %.3g of what they could "
+                          "make; balance the loads, or hold the body somewhere",
+                          turning);
     return OK;
 }
 
@@ -228,7 +236,7 @@ status solver_make(struct engine *e)
     TRY(balance_checked(e));
     make_applied(e);
     if (c->method != METHOD_PD) {
-        for (int b = 0; b < e->loads.n; b++)     /* added up step by step there */
+        for (int b = 0; b < e->loads.n; b++)     /* the steps of these solvers add it up */
             memset(e->loads.load[b].displacement, 0, sizeof e->loads.load[b].displacement);
         return OK;
     }
@@ -291,7 +299,7 @@ status solver_archive(struct solver *s, struct archive *a)
     return field_archive(&s->d, a, "d", s);
 }
 
-/* ---- the loop ----------------------------------------------------------------------------------------------- */
+/* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
 /* Intact bonds beyond the stretch at which a run in time would break them. */
 static int64_t bonds_past_limit(const struct engine *e)
@@ -300,11 +308,10 @@ static int64_t bonds_past_limit(const struct engine *e)
     const struct particles *p = &e->part;
     int64_t past = 0;
     for (int64_t r = 0; r < b->rows; r++)
-        for (int64_t k = 0; k < b->slot_count[r / LANES]; k++) {
-            const int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES));
-            const int32_t i = b->particle[r], j = b->nbr[q];
+        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
+            const int32_t i = b->particle[r], j = it.bond.nbr;
             const real limit = e->pair_stretch[p->material[i] * e->scene->materials + p->material[j]];
-            past += b->w[q] != 0 && j > i && bond_elastic_stored(b, p, q, i) > limit;
+            past += it.bond.w != 0 && j > i && bond_elastic_of(b, p, &it.bond, i) > limit;
         }
     return past;
 }
@@ -312,14 +319,16 @@ static int64_t bonds_past_limit(const struct engine *e)
 static void say_past_limit(struct engine *e)
 {
     char text[160];
-    snprintf(text, sizeof text, "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
-                                "solver explicit", (long long)e->solver.past_limit);
+    snprintf(text, sizeof text,
+             "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
+             "solver explicit",
+             (long long)e->solver.past_limit);
     if (e->solver.past_limit > 0) engine_say(e, text);
 }
 
-#define STRAIN_LARGE 0.1                 /* beyond it neither straight bonds nor Hooke's law are what a solid does */
+#define STRAIN_LARGE 0.1                 /* beyond it neither straight bonds nor Hooke's law describe a solid */
 
-/* Hooke's law has an equilibrium under any load. */
+/* Warns of stresses that no solid bears: Hooke's law has an equilibrium under any load. */
 static void say_large_strain(struct engine *e)
 {
     const struct particles *p = &e->part;
@@ -329,13 +338,15 @@ static void say_large_strain(struct engine *e)
     for (int64_t i = 0; i < p->n; i++)
         for (int k = 0; k < symmetric_count(p->dim); k++)
             most = real_max(most, fabs(p->stress[k][i]) / e->scene->material[p->material[i]].young);
-    snprintf(text, sizeof text, "stresses of the solution reach %.2g times Young's modulus: no solid bears that, and elasticity of small "
-                                "strains does not describe it; see whether loads are meant, and in which unit", most);
+    snprintf(text, sizeof text,
+             "stresses of the solution reach %.2g times Young's modulus: no solid bears that, and elasticity of small "
+             "strains does not describe it; see whether loads are meant, and in which unit",
+             most);
     if (!(most <= STRAIN_LARGE)) engine_say(e, text);
 }
 
-/* The body at rest at the end of the duration. */
-static void finish(struct engine *e)
+/* Completes a solution: the body at rest at the end of the duration. */
+static void solver_finish(struct engine *e)
 {
     struct particles *p = &e->part;
     for (int d = 0; d < p->dim; d++) memset(p->v[d], 0, (size_t)p->n_all * sizeof(real));
@@ -347,25 +358,30 @@ static void finish(struct engine *e)
     e->t = e->scene->duration;
     e->steps = e->step;
     e->sampling.due = false;
-    e->sampling.kinetic = 0, e->sampling.held_work = e->loads.held_work;
+    e->sampling.kinetic = 0, e->sampling.constraint_work = e->loads.constraint_work;
     engine_breaks(e, 0);
     e->solver.past_limit = bonds_past_limit(e);
     say_past_limit(e);
     say_large_strain(e);
 }
 
+/* FAILED with the reason why no equilibrium was found. */
 static status not_converged(const struct engine *e)
 {
     const struct solver *s = &e->solver;
     if (!(s->residual < INFINITY))
-        return status_set(FAILED, "the solver diverged at step %lld; smaller loads are expected, or solver relaxation in "
-                                  "place of cg, or explicit", (long long)e->step);
+        return status_set(FAILED,
+                          "the solver diverged at step %lld; smaller loads are expected, or solver relaxation in "
+                          "place of cg, or explicit",
+                          (long long)e->step);
     if (s->residual * s->scale <= s->noise)
-        return status_set(FAILED, "the residual stays at %.3g of the load, %.3g is wanted: strains are so small that the "
-                                  "round-off of positions shows; a larger solver_tolerance is expected", s->residual,
-                          e->scene->solver_tolerance);
-    return status_set(FAILED, "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is wanted; raise "
-                              "solver_steps, or see whether every part of the body is held and its loads are balanced",
+        return status_set(FAILED,
+                          "the residual stays at %.3g of the load, %.3g is wanted: strains are so small that the "
+                          "round-off of positions shows; a larger solver_tolerance is expected",
+                          s->residual, e->scene->solver_tolerance);
+    return status_set(FAILED,
+                      "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is wanted; raise "
+                      "solver_steps, or see whether every part of the body is held and its loads are balanced",
                       (long long)e->step, s->residual, e->scene->solver_tolerance);
 }
 
@@ -383,7 +399,7 @@ status engine_solve(struct engine *e)
         bool done = false;
         TRY(step(e, &done));
         if (s->method == METHOD_PD) e->step++;
-        if (done) finish(e);
+        if (done) solver_finish(e);
         else if (e->step >= e->steps || isnan(e->solver.residual)) return not_converged(e);
         TRY(engine_report(e));
     }

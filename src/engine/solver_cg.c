@@ -1,17 +1,17 @@
-/* floor 5: conjugate gradients for K u = b (Hestenes & Stiefel 1952), without a matrix: K of the bonds at the reference
- * positions by differences of their forces, preconditioned with Lambda. Self-adjoint in the sum that counts a particle on
- * a plane of symmetry by half: the body beyond the plane has the other half. */
+/* Conjugate gradients for K u = b (Hestenes & Stiefel 1952), without a matrix: K of the bonds at the reference
+ * positions by differences of their forces, preconditioned with Lambda. K is self-adjoint in the inner product that
+ * counts a particle on a plane of symmetry by half: the other half belongs to the body beyond the plane. */
 #include <math.h>
 
 #include "solver_parts.h"
 
-#define CHECK_STEPS 50                   /* between looks at the true residual, which says the reactions, too */
+#define CHECK_STEPS 50              /* steps between evaluations of the true residual, which gives the reactions, too */
 
-#define STALLS_MOST 5                    /* restarts that do not halve the residual: round-off has the rest */
+#define STALLS_MOST 5                    /* restarts that do not halve the residual: the rest is round-off */
 
-/* ---- sums ----------------------------------------------------------------------------------------------------- */
+/* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-static bool is_held(const struct solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
+static bool is_constrained(const struct solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
 
 /* d . K d of free components. */
 static void curvature_block(const void *context, int64_t first, int64_t end, real *sum)
@@ -19,7 +19,7 @@ static void curvature_block(const void *context, int64_t first, int64_t end, rea
     const struct solver *s = context;
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = first; i < end; i++)
-            if (!is_held(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
+            if (!is_constrained(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
 }
 
 /* u . K u. */
@@ -51,9 +51,9 @@ static real unit_energy(const struct engine *e)
     return sum;
 }
 
-/* ---- parts of a step ------------------------------------------------------------------------------------------ */
+/* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* part.f = b - K u; reactions on held components are measured and leave it. */
+/* part.f = b - K u. Reactions on constrained components are measured, then removed. */
 static void true_residual(struct engine *e)
 {
     struct solver *s = &e->solver;
@@ -69,21 +69,21 @@ static void true_residual(struct engine *e)
     loads_static_hold(&e->loads, p);
 }
 
-/* r = part.f, and the direction anew. */
+/* r = part.f, and a new search direction. */
 static void restart(struct engine *e)
 {
     struct solver *s = &e->solver;
     real sum[2];
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < s->n; i++) {
-            s->r.of[d][i] = is_held(s, i, d) ? 0 : e->part.f[d][i];
+            s->r.of[d][i] = is_constrained(s, i, d) ? 0 : e->part.f[d][i];
             s->d.of[d][i] = s->r.of[d][i] / s->diagonal[i];
         }
     team_sums(s->n, 2, residual_block, s, sum);
     s->rz = sum[0];
 }
 
-static void start(struct engine *e)
+static void solver_cg_start(struct engine *e)
 {
     struct solver *s = &e->solver;
     for (int d = 0; d < s->dim; d++)
@@ -96,7 +96,7 @@ static void start(struct engine *e)
 }
 
 /* u += alpha d, r -= alpha K d; returns r . r. */
-static real advance(struct engine *e, real alpha)
+static real solver_cg_advance(struct engine *e, real alpha)
 {
     struct solver *s = &e->solver;
     real sum[2];
@@ -104,7 +104,7 @@ static real advance(struct engine *e, real alpha)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < s->n; i++) {
             s->u.of[d][i] += alpha * s->d.of[d][i];
-            if (!is_held(s, i, d)) s->r.of[d][i] -= alpha * s->q.of[d][i];
+            if (!is_constrained(s, i, d)) s->r.of[d][i] -= alpha * s->q.of[d][i];
         }
     }
     team_sums(s->n, 2, residual_block, s, sum);
@@ -117,8 +117,8 @@ static real advance(struct engine *e, real alpha)
     return sum[1];
 }
 
-/* x = X + u; forces once more, for what energies and stresses of state-based models rest on. */
-static void place(struct engine *e)
+/* x = X + u, and the bond forces there, which energies and stresses of state-based models use. */
+static void solver_cg_place(struct engine *e)
 {
     struct particles *p = &e->part;
     for (int d = 0; d < p->dim; d++)
@@ -126,21 +126,24 @@ static void place(struct engine *e)
     solver_bond_force(e);
 }
 
-/* Does the true residual suffice? The recurrence's drifts off it by round-off; then it is replaced. */
+/* *done if the true residual is small enough. Where the residual of the recurrence (`by_recurrence` [N]) has drifted
+ * off it by round-off, the iteration restarts; FAILED after STALLS_MOST restarts without gain. */
 static status check(struct engine *e, real by_recurrence, bool *done)
 {
     struct solver *s = &e->solver;
     true_residual(e);
     *done = s->residual <= e->scene->solver_tolerance;
-    if (*done) place(e);
+    if (*done) solver_cg_place(e);
     if (*done || s->residual * s->scale <= 2 * by_recurrence) return OK;
     s->stalls = s->residual < 0.5 * s->least ? 0 : s->stalls + 1;
     s->least = real_min(s->least, s->residual);
     restart(e);
     if (s->stalls < STALLS_MOST) return OK;
-    return status_set(FAILED, "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
-                              "wanted; choose a larger solver_tolerance (below 1e-8 it is round-off), or see whether "
-                              "moments of the loads are balanced", (long long)e->step, s->least, e->scene->solver_tolerance);
+    return status_set(FAILED,
+                      "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
+                      "wanted; choose a larger solver_tolerance (below 1e-8 it is round-off), or see whether "
+                      "moments of the loads are balanced",
+                      (long long)e->step, s->least, e->scene->solver_tolerance);
 }
 
 status cg_step(struct engine *e, bool *done)
@@ -148,7 +151,7 @@ status cg_step(struct engine *e, bool *done)
     struct solver *s = &e->solver;
     real curvature;
     if (e->step == 0) {
-        start(e);
+        solver_cg_start(e);
         if (s->rz == 0) return check(e, 0, done);
     }
     solver_tangent(e, &s->d, &s->q, s->strain_ratio);
@@ -158,7 +161,7 @@ status cg_step(struct engine *e, bool *done)
         return status_set(FAILED, "conjugate gradients at step %lld: the body gives way without a force; is every "
                                   "part of it held, or bonded to one that is?", (long long)e->step);
     s->strain_ratio = sqrt(curvature / unit_energy(e)) / solver_largest(&s->d, s->dim, s->n);
-    const real left = sqrt(advance(e, s->rz / curvature));
+    const real left = sqrt(solver_cg_advance(e, s->rz / curvature));
     s->residual = left / s->scale;
     lap(&e->laps, LAP_WATCH);
     const bool claimed = left <= 0.9 * e->scene->solver_tolerance * s->scale;

@@ -1,12 +1,12 @@
-/* floor 5: equilibrium of bodies with material points: steps in time as ever, on the same grid, with loads that grow and
- * then stay, and velocities damped near the critical damping of the body's slowest motion. */
+/* Equilibrium of bodies with material points: ordinary steps in time on the grid, with loads that grow and then stay,
+ * and velocities damped near the critical damping of the slowest motion of the body. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "solver_parts.h"
 
-#define LOOK_STEPS 10                    /* between estimates of the damping and looks at the residual */
-#define CALM 1e-6                        /* kinetic over strain energy of a body that does not swing */
+#define LOOK_STEPS 10                    /* steps between estimates of damping and residual */
+#define CALM 1e-6                        /* kinetic over strain energy of a body at rest */
 
 void grid_relaxation_make(struct engine *e)
 {
@@ -26,7 +26,7 @@ static void motion_block(const void *context, int64_t first, int64_t end, real *
         }
 }
 
-/* Forces that still accelerate nodes, and particles that are not on the grid. */
+/* Squares of the forces that still accelerate nodes, and of those on particles that are not on the grid. */
 static void node_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct engine *e = context;
@@ -42,8 +42,8 @@ static void particle_block(const void *context, int64_t first, int64_t end, real
         for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) sum[0] += square(p->f[d][i]);
 }
 
-/* Norm of the reactions as if each were shared evenly by its particles. */
-static real reactions(const struct engine *e)
+/* Norm of the reactions, each shared evenly by its particles [N]. */
+static real solver_grid_reactions(const struct engine *e)
 {
     real sum = 0;
     for (int b = 0; b < e->loads.n; b++) {
@@ -54,23 +54,24 @@ static real reactions(const struct engine *e)
     return sqrt(sum);
 }
 
-/* The slowest motion has nearly the form of the deflection, so its frequency is omega^2 = 2 U/sum m u^2 (Rayleigh), of
- * the strain energy U; critical damping takes 2 omega. */
+/* Updates damping and residual; *done at equilibrium. The slowest motion has nearly the form of the deflection, so its
+ * frequency is omega^2 = 2 U/sum m u^2 (Rayleigh), with the strain energy U; critical damping is 2 omega. */
 static void look(struct engine *e, bool *done)
 {
     struct solver *s = &e->solver;
     real nodes = 0, particles, motion[2];
     const real strain = e->kernels.bond_energy(&e->bonds, &e->part) +
-                        watch_strain(&e->part, e->scene->material, &e->partial);
+                        diagnostics_strain(&e->part, e->scene->material, &e->partial);
     team_sums(e->part.n, 2, motion_block, &e->part, motion);
     s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->dt, 1) : 0;
-    if (e->part.n_of[KIND_MPM] + e->part.n_carried > 0) team_sums(e->grid.n, 1, node_block, e, &nodes);
+    if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0) team_sums(e->grid.n, 1, node_block, e, &nodes);
     team_sums(e->part.n, 1, particle_block, &e->part, &particles);
-    solver_scale(s, reactions(e), sqrt(nodes + particles));
+    solver_scale(s, solver_grid_reactions(e), sqrt(nodes + particles));
     *done = e->t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
             0.5 * motion[1] <= CALM * strain;
 }
 
+/* Damps the velocities, and their gradients (APIC), by one step. */
 static void slow_down(struct engine *e)
 {
     struct particles *p = &e->part;
@@ -90,7 +91,7 @@ static void slow_down(struct engine *e)
 status grid_relaxation_step(struct engine *e, bool *done)
 {
     TRY(engine_step(e));
-    TRY(engine_alarm(e));
+    TRY(engine_stability_check(e));
     if (e->step % LOOK_STEPS == 0) look(e, done);
     slow_down(e);
     return OK;

@@ -1,6 +1,6 @@
-/* floor 5: what the static solvers share. */
-#ifndef CLEAVE_SOLVER_PARTS_H
-#define CLEAVE_SOLVER_PARTS_H
+/* Functions that the static solvers share. */
+#ifndef CLEAVE_SOLVER_PARTS
+#define CLEAVE_SOLVER_PARTS
 
 #include "engine/engine.h"
 
@@ -8,22 +8,23 @@
 typedef status solver_step_fn(struct engine *e, bool *done);
 solver_step_fn relaxation_step, cg_step, grid_relaxation_step;
 
-/* Forces of bonds at the positions that are there, into part.f. */
+/* Forces of bonds at the current positions, into part.f. */
 void solver_bond_force(struct engine *e);
 
 /* Largest |entry|. */
 real solver_largest(const struct field *v, int dim, int64_t n);
 
-/* out = K in: what the forces of bonds lose from the reference positions along `in`. */
+/* out = K in: the decrease of bond forces along `in` from the reference positions, by central differences.
+ * strain_ratio: largest strain of `in` over its largest component [1/m]. */
 void solver_tangent(struct engine *e, const struct field *in, struct field *out, real strain_ratio);
 
-/* Norms of part.f on free components (as residual) and on held ones: sets residual and scale. */
+/* Residual and scale from the norms of part.f on free components (residual) and on constrained ones (reactions). */
 void solver_measure(struct engine *e);
-/* The same from the norms [N]. */
+/* Residual and scale from the norms of reactions and of residual forces `left` [N]. */
 void solver_scale(struct solver *s, real reaction, real left);
 
 
-/* How long loads grow: on the grid whole steps in which a wave crosses the body twice. */
+/* Sets ramp_time, in which loads grow: on the grid the whole steps in which a wave crosses the body twice. */
 void grid_relaxation_make(struct engine *e);
 
 #endif

@@ -1,10 +1,10 @@
-/* floor 5: adaptive dynamic relaxation (Kilic & Madenci 2010): motion in a time of unit steps with a mass and a damping
- * of its own choice, until nothing moves. */
+/* Adaptive dynamic relaxation (Kilic & Madenci 2010): motion in pseudo-time of unit steps, with artificial mass and
+ * damping, until the body is at rest. */
 #include <math.h>
 
 #include "solver_parts.h"
 
-/* Supports go a part of their way. */
+/* Moves supports by one step of their ramp. */
 static void supports_move(struct engine *e)
 {
     const struct solver *s = &e->solver;
@@ -35,6 +35,7 @@ static void damping_block(const void *context, int64_t first, int64_t end, real 
 
 #define DAMPING_MOST 1.9                 /* 2 stops the motion */
 
+/* Damping coefficient c = 2 sqrt(u^T k u / u^T u), from the sums of damping_block. */
 static real damping(const real *sum)
 {
     const real ratio = sum[1] > 0 ? sum[0] / sum[1] : 0;
@@ -69,7 +70,7 @@ status relaxation_step(struct engine *e, bool *done)
     solver_measure(e);
     loads_static_hold(&e->loads, &e->part);
     team_sums(e->part.n, 3, damping_block, e, sum);
-    /* small forces alone may be those of a body that swings through its equilibrium */
+    /* small forces alone also occur in a body that swings through its equilibrium */
     s->way = real_max(s->way, sqrt(sum[1]));
     *done = e->step >= s->ramp && s->residual <= e->scene->solver_tolerance &&
             (s->residual == 0 || sqrt(sum[2]) <= 10 * e->scene->solver_tolerance * s->way);

@@ -1,14 +1,14 @@
-/* floor 5: summary.json: the figures of a run that scripts rely on. Physical figures come first and are the same
- * for any number of threads; what depends on the machine stands behind them. */
+/* Writes summary.json: the figures of a run, for scripts. Physical figures come first and do not depend on the number
+ * of threads; figures that depend on the machine follow. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "engine/engine.h"
 #include "base/memory.h"
-#include "engine/simd.h"
+#include "simd/simd.h"
 
-/* ---- JSON ------------------------------------------------------------------------------------------ */
+/* ---- JSON -------------------------------------------------------------------------------------------------------- */
 
 enum { DIGITS_EXACT = 17, DIGITS_TIMING = 9 };   /* 17 digits give back the same double */
 
@@ -84,7 +84,7 @@ static void json_point(struct json *j, const char *prefix, const real *x, int di
     }
 }
 
-/* ---- physical figures ------------------------------------------------------------------------------ */
+/* ---- physical figures -------------------------------------------------------------------------------------------- */
 
 static void put_run(struct json *j, const struct engine *e, status s, const char *message)
 {
@@ -123,7 +123,7 @@ static void put_solver(struct json *j, const struct engine *e)
     json_close(j, '}');
 }
 
-/* What `method: auto` chose, and what it expected. */
+/* The choice of `method: auto`, and the error and time that it expects. */
 static void put_choice(struct json *j, const struct scene_choice *c)
 {
     if (!c->made) return;
@@ -144,7 +144,7 @@ static void put_choice(struct json *j, const struct scene_choice *c)
     json_close(j, '}');
 }
 
-static void put_ledger(struct json *j, const struct ledger *l)
+static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
     json_real(j, "kinetic", l->energy.kinetic);
@@ -178,7 +178,7 @@ static void put_crack(struct json *j, const struct engine *e)
     const struct tip *longest = tips_longest(&e->tips);
     int dim = e->part.dim;
     json_open(j, "crack", '{');
-    json_real(j, "start_time", e->watch.break_time);
+    json_real(j, "start_time", e->diagnostics.break_time);
     if (longest) {
         json_real(j, "tip_start_time", longest->start_time);
         json_real(j, "arrest_time", longest->arrest_time);
@@ -193,11 +193,11 @@ static void put_crack(struct json *j, const struct engine *e)
     json_close(j, '}');
 }
 
-/* Of one particle. */
-static int returns_most(const struct particles *p)
+/* Most reversions of one particle. */
+static int reversions_most(const struct particles *p)
 {
     int most = 0;
-    for (int64_t i = 0; i < p->n; i++) most = p->returns[i] > most ? p->returns[i] : most;
+    for (int64_t i = 0; i < p->n; i++) most = p->reversions[i] > most ? p->reversions[i] : most;
     return most;
 }
 
@@ -213,18 +213,19 @@ static void put_conversion(struct json *j, const struct engine *e)
     json_real(j, "pd_share_start", start);
     json_real(j, "pd_share_end", end);
     json_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
-    if (e->part.quiet) {
+    if (e->part.low_since) {
         json_count(j, "converted", c->converted);
-        json_count(j, "returned", c->returned);
-        json_count(j, "returns_most", returns_most(&e->part));
-        json_real(j, "return_energy", c->return_energy);
+        json_count(j, "returned", c->reverted);
+        json_count(j, "returns_most", reversions_most(&e->part));
+        json_real(j, "return_energy", c->reversion_energy);
     }
     json_close(j, '}');
 }
 
-/* Figures of one probe come one after the other: a new name ends the object of the last. */
+/* Figures of one probe follow each other: a new name closes the object of the probe before. */
 struct probe_sink { struct json *json; char name[NAME_MAX_LENGTH]; bool open; };
 
+/* Sink of the figures of probes; `context`: struct probe_sink. */
 static void put_figure(void *context, const char *probe, const char *quantity, real value)
 {
     struct probe_sink *sink = context;
@@ -248,8 +249,9 @@ static void put_probes(struct json *j, const struct engine *e)
     json_close(j, '}');
 }
 
-/* ---- figures of the machine ------------------------------------------------------------------------ */
+/* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
+/* Figures that depend on the machine: threads, kernels, times, memory. */
 static void put_machine(struct json *j, const struct engine *e, int threads, double wall_seconds)
 {
     real steps = 0, ns = 1e9 * e->loop_seconds;
@@ -261,7 +263,7 @@ static void put_machine(struct json *j, const struct engine *e, int threads, dou
     json_count(j, "memory_peak_bytes", memory_peak());
     json_number(j, "ns_per_particle_step", ns / steps, DIGITS_TIMING);
     json_number(j, "ns_per_bond_step", ns / (real)e->bond_visits, DIGITS_TIMING);
-    json_number(j, "rest_share", e->rested / (real)(e->step > 0 ? e->step : 1), DIGITS_TIMING);
+    json_number(j, "rest_share", e->inactive / (real)(e->step > 0 ? e->step : 1), DIGITS_TIMING);
 }
 
 static void summary_print(FILE *file, const struct engine *e, status s, const char *message, int threads,
@@ -273,7 +275,7 @@ static void summary_print(FILE *file, const struct engine *e, status s, const ch
     put_warnings(&j, &e->warnings);
     put_solver(&j, e);
     put_choice(&j, &e->scene->choice);
-    put_ledger(&j, &e->watch.now);
+    put_energy_balance(&j, &e->diagnostics.now);
     put_crack(&j, e);
     put_conversion(&j, e);
     put_probes(&j, e);
@@ -295,7 +297,7 @@ status summary_write(const struct engine *e, status s, int threads, double wall_
     status written = whole ? output_text(e->out, "summary.json", text, length)
                            : status_set(FAILED, "cannot write summary.json: out of memory");
     free(text);
-    /* Why the run failed matters more than that the same full disk refuses its summary. */
+    /* The cause of a failed run has precedence over a fault of writing its summary. */
     if (written != OK && s != OK) return status_set(s, "%s", message);
     return written;
 }

@@ -1,4 +1,4 @@
-/* floor 3: prescribed and ruled growth of cracks, and the bonds that fade behind their tips. */
+/* Prescribed and ruled growth of cracks, and the bonds that fade behind their tips. */
 #include "fracture/growth.h"
 
 #include <math.h>
@@ -26,57 +26,58 @@ void growth_free(struct growth *g)
 
 bool growth_follows(const struct growth_rule *rule) { return isnan(rule->speed); }
 
-/* ---- how fast a crack is that follows its toughness -------------------------------------------------------- */
+/* ---- how fast a crack is that follows its toughness -------------------------------------------------------------- */
 
-/* One step of the law in the header: the speed that the last factors ask for, once for each of them. */
-static void pace_find(struct growth *g, const struct ruling *ruling, real settling)
+/* One step of the law in the header: the speed that the last factors require, once for each set of factors. */
+static void target_speed_find(struct growth *g, const struct control *control, real settling)
 {
-    const struct crack_medium *m = &ruling->medium;
-    const real bound = FASTEST * m->rayleigh, most = isnan(g->rule->fastest) ? bound : real_min(g->rule->fastest, bound);
+    const struct crack_medium *m = &control->medium;
+    const real bound = FASTEST * m->rayleigh,
+               most = isnan(g->rule->fastest) ? bound : real_min(g->rule->fastest, bound);
     real wanted = 0;
     if (g->intensity > 0) {
-        const real felt = crack_speed_factor(m, SPEED_EXACT, g->felt);
-        wanted = crack_speed_of_factor(m, felt * g->rule->toughness / g->intensity, most);
+        const real filtered_speed = crack_speed_factor(m, SPEED_EXACT, g->filtered_speed);
+        wanted = crack_speed_of_factor(m, filtered_speed * g->rule->toughness / g->intensity, most);
     }
-    g->pace += (wanted - g->pace) * -expm1(-(ruling->time - g->asked) / (SMOOTHING * settling));
-    if (wanted == 0 && g->pace < SLOWEST * m->rayleigh) g->pace = 0;
+    g->target_speed += (wanted - g->target_speed) * -expm1(-(control->time - g->asked) / (SMOOTHING * settling));
+    if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
 /* Before g->speed, the speed of the last step, is forgotten. */
-static void pace_update(struct growth *g, const struct ruling *ruling, real horizon, real t, real dt)
+static void target_speed_update(struct growth *g, const struct control *control, real horizon, real t, real dt)
 {
     if (!growth_follows(g->rule)) return;
-    if (!ruling) {
-        g->pace = 0;
+    if (!control) {
+        g->target_speed = 0;
         return;
     }
-    const real settling = horizon / ruling->medium.rayleigh;
-    g->felt += (g->speed - g->felt) * -expm1(-dt / settling);
-    if (t >= g->rule->start && ruling->time > g->asked) pace_find(g, ruling, settling);
-    g->asked = ruling->time;
+    const real settling = horizon / control->medium.rayleigh;
+    g->filtered_speed += (g->speed - g->filtered_speed) * -expm1(-dt / settling);
+    if (t >= g->rule->start && control->time > g->asked) target_speed_find(g, control, settling);
+    g->asked = control->time;
 }
 
-/* ---- does it grow, and where to --------------------------------------------------------------------------- */
+/* ---- does it grow, and where to ---------------------------------------------------------------------------------- */
 
 static bool grows(const struct growth *g, real t)
 {
     const struct growth_rule *r = g->rule;
     if (t < r->start || g->grown >= r->length) return false;
     if (!r->probe[0]) return true;
-    if (growth_follows(r)) return g->pace > 0;
+    if (growth_follows(r)) return g->target_speed > 0;
     return g->intensity >= r->toughness;
 }
 
 /* To the direction of the largest hoop stress. */
-static void turn(struct growth *g, const struct ruling *ruling)
+static void growth_turn(struct growth *g, const struct control *control)
 {
-    const real angle = crack_direction(ruling->factors.K), c = cos(angle), s = sin(angle);
-    const real x = ruling->along[0], y = ruling->along[1];
+    const real angle = crack_direction(control->factors.K), c = cos(angle), s = sin(angle);
+    const real x = control->along[0], y = control->along[1];
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
 
 /* `along` follows the heading over the smoothing length. */
-static void advance(struct growth *g, real way, real horizon)
+static void growth_advance(struct growth *g, real way, real horizon)
 {
     const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
     const real share = way < smoothing ? way / smoothing : 1;
@@ -90,7 +91,7 @@ static void advance(struct growth *g, real way, real horizon)
     g->grown += way;
 }
 
-/* ---- bonds that the tip crosses --------------------------------------------------------------------------- */
+/* ---- bonds that the tip crosses ---------------------------------------------------------------------------------- */
 
 static bool fades(const struct growth *g, int32_t i, int32_t j)
 {
@@ -113,14 +114,13 @@ static void fading_add(struct growth *g, int32_t i, int32_t j, real w, real leng
 static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way,
                       int32_t i)
 {
-    const int64_t row = b->row_of[i];
     real X[DIM_MAX], Y[DIM_MAX];
     particle_place(p, i, X);
-    for (int64_t k = 0; row >= 0 && k < b->slot_count[row / LANES]; k++) {
-        const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-        if (b->w[q] == 0) continue;
-        particle_place(p, b->nbr[q], Y);
-        if (crack_cuts(way, X, Y, 2) && !fades(g, i, b->nbr[q])) fading_add(g, i, b->nbr[q], b->w[q], g->grown);
+    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);) {
+        const int32_t j = it.bond.nbr;
+        if (it.bond.w == 0) continue;
+        particle_place(p, j, Y);
+        if (crack_cuts(way, X, Y, 2) && !fades(g, i, j)) fading_add(g, i, j, it.bond.w, g->grown);
     }
 }
 
@@ -162,16 +162,14 @@ static void cross(struct growth *g, const struct bonds *b, struct particles *p, 
     memory_free(found);
 }
 
-/* ---- fading ----------------------------------------------------------------------------------------------- */
+/* ---- fading ------------------------------------------------------------------------------------------------------ */
 
 /* Entry of bond i-j; -1: its row does not hold it any more. */
-static int64_t entry_of(const struct bonds *b, int32_t i, int32_t j, int64_t *row)
+static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
-    for (int64_t k = 0; *row >= 0 && k < b->slot_count[*row / LANES]; k++) {
-        const int64_t q = bond_index(b, *row / LANES, k, (int)(*row % LANES));
-        if (b->nbr[q] == j && b->inverse_length[q] != 0) return q;
-    }
+    for (struct bond_iterator it = bonds_of_row(b, *row); bond_next(&it);)
+        if (it.bond.nbr == j) return bond_to_write(b, it.row_block, it.k - 1, it.lane);
     return -1;
 }
 
@@ -181,7 +179,7 @@ static void step_back(struct growth *g, struct bonds *b)
     int64_t kept = 0, row;
     for (int64_t k = 0; k < g->n; k++) {
         struct fading *bond = &g->fading[k];
-        const int64_t q = entry_of(b, bond->i, bond->j, &row);
+        const int64_t q = growth_entry_of(b, bond->i, bond->j, &row);
         if (q < 0 || (b->w[q] == 0 && bond->now > 0)) continue;
         b->w[q] = bond->before;
         bonds_changed(b, row, q);
@@ -190,8 +188,9 @@ static void step_back(struct growth *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Weights lost in the last step and in this one, half of both at the places of now (bond_fade). Rows change one after the
- * other from what they were to what they will be, so their losses add up to the whole. Returns bonds released. */
+/* Weights lost in the last step and in this one, half of both at the places of now (bond_fade). Rows change one
+ * after the other from what they were to what they will be, so their losses add up to the whole. Returns bonds
+ * released. */
 static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
@@ -203,7 +202,7 @@ static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, cons
         const real grown = g->grown - bond.length;
         const real share = grown < damping ? pow(1 - grown / damping, r->exponent) : 0;
         const real next = bond.whole * share;
-        const int64_t q = entry_of(b, bond.i, bond.j, &row);
+        const int64_t q = growth_entry_of(b, bond.i, bond.j, &row);
         if (next != bond.before) bond_fade(b, p, row, q, next);
         released += bond.now > 0 && next == 0;
         bond.before = bond.now, bond.now = next;
@@ -213,21 +212,21 @@ static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, cons
     return released;
 }
 
-/* ---- a step ----------------------------------------------------------------------------------------------- */
+/* ---- a step ------------------------------------------------------------------------------------------------------ */
 
 int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
-                    const struct ruling *ruling, real t, real dt)
+                    const struct control *control, real t, real dt)
 {
     const real from[2] = {g->place[0], g->place[1]};
-    g->intensity = ruling ? crack_equivalent(ruling->factors.K) : NAN;
-    pace_update(g, ruling, source->family.horizon, t, dt);
+    g->intensity = control ? crack_equivalent(control->factors.K) : NAN;
+    target_speed_update(g, control, source->family.horizon, t, dt);
     g->speed = 0;
     /* where the crack begins among material points, it waits a step for the bonds that it is to cross */
     if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
-        if (g->rule->probe[0]) turn(g, ruling);
-        g->speed = growth_follows(g->rule) ? g->pace : g->rule->speed;
+        if (g->rule->probe[0]) growth_turn(g, control);
+        g->speed = growth_follows(g->rule) ? g->target_speed : g->rule->speed;
         if (isnan(g->start_time)) g->start_time = t;
-        advance(g, real_min(g->speed * dt, g->rule->length - g->grown), source->family.horizon);
+        growth_advance(g, real_min(g->speed * dt, g->rule->length - g->grown), source->family.horizon);
         cross(g, b, p, source, from);
         claim(g, p, source);
     }
@@ -244,14 +243,26 @@ real growth_angle(const struct growth *g)
 status growth_archive(struct growth *g, int which, struct archive *a)
 {
     char name[64];
-    struct { real place[2], along[2], heading[2], speed, grown, start_time, intensity, pace, felt, asked; int64_t n; } s = {
-        {g->place[0], g->place[1]}, {g->along[0], g->along[1]}, {g->heading[0], g->heading[1]},
-        g->speed, g->grown, g->start_time, g->intensity, g->pace, g->felt, g->asked, g->n};
+    struct {
+        real place[2], along[2], heading[2], speed, grown, start_time, intensity, target_speed, filtered_speed, asked;
+        int64_t n;
+    } s = {{g->place[0], g->place[1]},
+           {g->along[0], g->along[1]},
+           {g->heading[0], g->heading[1]},
+           g->speed,
+           g->grown,
+           g->start_time,
+           g->intensity,
+           g->target_speed,
+           g->filtered_speed,
+           g->asked,
+           g->n};
     snprintf(name, sizeof name, "growth/%d", which);
     ARCHIVE_VALUE(a, name, s);
     for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->heading[d] = s.heading[d];
     g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
-    g->intensity = s.intensity, g->pace = s.pace, g->felt = s.felt, g->asked = s.asked;
+    g->intensity = s.intensity, g->target_speed = s.target_speed, g->filtered_speed = s.filtered_speed,
+    g->asked = s.asked;
     if (!a->saving) {
         memory_free(g->fading);
         g->n = g->room = s.n;

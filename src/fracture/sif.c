@@ -1,4 +1,4 @@
-/* floor 3: the interaction integral over the particles round a crack tip. */
+/* The interaction integral over the particles round a crack tip. */
 #include "fracture/sif.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, 
     *slope = ramp ? *slope / width : 0;
 }
 
-/* ---- one point -------------------------------------------------------------------------------------------------- */
+/* ---- one point --------------------------------------------------------------------------------------------------- */
 
 /* sum_j q_j [sigma_ij w_i,1 + ...]: what crosses the ring, without q_,j's length; n is its direction. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
@@ -95,7 +95,8 @@ static void local_place(const struct sif_tip *tip, const struct particles *p, in
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Particles of the body within the largest contour; in equilibrium those within the smallest inner circle add nothing. */
+/* Particles of the body within the largest contour; in equilibrium those within the smallest inner circle add
+ * nothing. */
 static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
 {
     real least = INFINITY, most = 0, x[2];
@@ -110,7 +111,8 @@ static void points_find(struct sif_points *s, const struct contour *contour, int
     s->point = memory_new("sif.point", s->n, sizeof *s->point);
 }
 
-static void point_stress(const struct sif_tip *tip, const struct sif_motion *m, int64_t i, struct crack_state *state)
+static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion *m, int64_t i,
+                             struct crack_state *state)
 {
     if (tip->stress == SIF_HOOKE) {
         crack_hooke(&tip->medium, state->gradient, state->stress);
@@ -121,7 +123,7 @@ static void point_stress(const struct sif_tip *tip, const struct sif_motion *m, 
 }
 
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
-                       const struct gradient_stencil *stencil, const struct particles *p)
+                       const struct gradient_stencil *cell_stencil, const struct particles *p)
 {
     const int32_t i = s->particle[k];
     const struct sif_tip *tip = s->tip;
@@ -130,11 +132,11 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     point->area = p->volume0[i] / tip->thickness;
     local_place(tip, p, i, point->x);
     if (fabs(point->x[1]) <= AT_THE_TIP * fabs(point->x[0])) point->x[1] = copysign(0, tip->face);
-    gradient_of(stencil, i, m->displacement, global);
+    gradient_of(cell_stencil, i, m->displacement, global);
     local_tensor(tip, global, point->state.gradient);
-    point_stress(tip, m, i, &point->state);
+    sif_point_stress(tip, m, i, &point->state);
     if (!s->inertia) return;
-    gradient_of(stencil, i, m->velocity, global);
+    gradient_of(cell_stencil, i, m->velocity, global);
     local_tensor(tip, global, local);
     for (int d = 0; d < 2; d++) point->state.velocity_along[d] = local[d][0];
     local_vector(tip, (real[2]){m->velocity[0][i], m->velocity[1][i]}, point->state.velocity);
@@ -146,18 +148,18 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
 {
 #pragma omp parallel
     {
-        struct gradient_stencil stencil = {0};
+        struct gradient_stencil cell_stencil = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < s->n; k++) {
-            gradient_stencil_at(&stencil, rule, p, c, s->particle[k]);
-            point_make(s, k, m, &stencil, p);
+            gradient_stencil_at(&cell_stencil, rule, p, c, s->particle[k]);
+            point_make(s, k, m, &cell_stencil, p);
         }
-        gradient_stencil_free(&stencil);
+        gradient_stencil_free(&cell_stencil);
     }
 }
 
-/* How much of the second sum counts at distance r of the tip. It fades over particles: those that a sharp edge let in and
- * out as the tip passes them would ring with it, once a spacing. */
+/* How much of the second sum counts at distance r of the tip. It fades over particles: those that a sharp edge let
+ * in and out as the tip passes them would ring with it, once a spacing. */
 static real core_share(const struct sif_tip *tip, real r)
 {
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
@@ -187,7 +189,8 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
 }
 
 void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int n, const struct sif_motion *motion,
-                   const struct gradient_rule *rule, const struct particles *p, const struct cells *c, struct sif *found)
+                   const struct gradient_rule *rule, const struct particles *p, const struct cells *c,
+                   struct sif *found)
 {
     struct sif_points s = {.tip = tip, .inertia = motion->velocity[0] != NULL};
     points_find(&s, contour, n, p);
@@ -204,7 +207,7 @@ void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int
     memory_free(s.point);
 }
 
-/* ---- path independence --------------------------------------------------------------------------------------------- */
+/* ---- path independence ------------------------------------------------------------------------------------------- */
 
 real sif_spread(const struct sif *found, int n)
 {

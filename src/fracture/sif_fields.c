@@ -1,4 +1,4 @@
-/* floor 1: crack-tip fields at rest and in motion, universal functions and speed factors. */
+/* Crack-tip fields at rest and in motion, universal functions and speed factors. */
 #include "fracture/sif_fields.h"
 
 #include <complex.h>
@@ -29,7 +29,7 @@ void crack_hooke(const struct crack_medium *m, real gradient[2][2], real stress[
             stress[i][j] = m->shear * (gradient[i][j] + gradient[j][i]) + (i == j ? m->lambda * dilatation : 0);
 }
 
-/* ---- a crack at rest ----------------------------------------------------------------------------------- */
+/* ---- a crack at rest --------------------------------------------------------------------------------------------- */
 
 /* u = sqrt(r/(2 pi))/(2 G) g(theta): g and its derivative. */
 static void williams_angular(real kappa, enum crack_mode mode, real theta, real g[2], real slope[2])
@@ -59,7 +59,7 @@ void crack_field_at_rest(const struct crack_medium *m, enum crack_mode mode, con
     crack_hooke(m, f->state.gradient, f->state.stress);
 }
 
-/* ---- a moving crack -------------------------------------------------------------------------------------- */
+/* ---- a moving crack ---------------------------------------------------------------------------------------------- */
 
 /* a_d and a_s. */
 static void slownesses(const struct crack_medium *m, real v, real a[2])
@@ -93,7 +93,8 @@ void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real
     wave_weights(m, mode, v, a, weight);
     memset(f, 0, sizeof *f);
     for (int w = 0; w < 2; w++) {
-        const double complex z = x[0] + I * (a[w] * x[1]), root = csqrt(z), slope = 0.5 / root, bend = -0.25 / (root * z);
+        const double complex z = x[0] + I * (a[w] * x[1]), root = csqrt(z), slope = 0.5 / root,
+                             bend = -0.25 / (root * z);
         for (int i = 0; i < 2; i++) {
             const bool real_part = (mode == MODE_I) == (i == 0);
             const double complex unit = weight[i][w] * (real_part ? 1 : -I);     /* Im z = Re(-i z) */
@@ -125,7 +126,7 @@ real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v)
     return 4 * a[mode] * (1 - a[1] * a[1]) / ((m->kappa + 1) * crack_rayleigh_function(m, v));
 }
 
-/* ---- growth at constant speed ---------------------------------------------------------------------------- */
+/* ---- growth at constant speed ------------------------------------------------------------------------------------ */
 
 /* Angle of the factor's integrand at slowness z between 1/c_d and 1/c_s. */
 static real factor_angle(const struct crack_medium *m, real z)
@@ -175,7 +176,7 @@ real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age)
     return age > 0 ? 2 * stress * sqrt(m->longitudinal * age * (1 - 2 * nu) / pi) / (1 - nu) : 0;
 }
 
-/* ---- where it goes ------------------------------------------------------------------------------------------ */
+/* ---- where it goes ----------------------------------------------------------------------------------------------- */
 
 real crack_direction(const real K[MODES])
 {

@@ -1,4 +1,4 @@
-/* floor 3: gradients at particles by moving least squares and by the first-order peridynamic differential operator. */
+/* Gradients at particles by moving least squares and by the first-order peridynamic differential operator. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -8,18 +8,14 @@ enum { QUADRATIC = 6, LINEAR = 3 };      /* terms of the complete polynomials in
 
 #define SINGULAR 1e-10                   /* pivot over the diagonal's entry: neighbours on a line, or on a conic */
 
-/* ---- who is seen ------------------------------------------------------------------------------------------- */
+/* ---- visibility across cracks ------------------------------------------------------------------------------------ */
 
 /* Has load broken the bond of particles i and j? */
 static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
 {
-    const int64_t row = b && b->rows > 0 ? b->row_of[i] : -1;
-    if (row < 0) return false;
-    const int64_t group = row / LANES, slots = b->slot_count[group];
-    for (int64_t k = 0; k < slots; k++) {
-        const int64_t q = bond_index(b, group, k, (int)(row % LANES));
-        if (b->nbr[q] == j && b->inverse_length[q] != 0) return b->inverse_length[q] < 0;
-    }
+    if (!b || b->rows == 0) return false;
+    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
+        if (it.bond.nbr == j) return it.bond.inverse_length < 0;
     return false;
 }
 
@@ -28,22 +24,22 @@ static bool hidden(const struct sight *s, const struct particles *p, int64_t i, 
     return cracks_part(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
 }
 
-static real between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
+static real sif_gradient_between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
 /* Distance by which a neighbour counts, from i: round the tip where a crack hides it; INFINITY: not at all. */
-static real distance_seen(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
+static real distance_round_cracks(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
 {
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
     particle_place(p, i, from);
     particle_place(p, j, to);
-    const real straight = between(from, to);
+    const real straight = sif_gradient_between(from, to);
     if (j == i || !hidden(&rule->sight, p, i, j)) return straight;
     if (rule->diffraction == 0) return INFINITY;
-    const real round = between(from, rule->tip) + between(rule->tip, to);
+    const real round = sif_gradient_between(from, rule->tip) + sif_gradient_between(rule->tip, to);
     return straight * pow(round / straight, rule->diffraction);
 }
 
-/* ---- small symmetric systems -------------------------------------------------------------------------------- */
+/* ---- small symmetric systems ------------------------------------------------------------------------------------- */
 
 /* A = L D L^T in place of A's lower triangle; false: singular. */
 static bool factor(real A[QUADRATIC][QUADRATIC], int n)
@@ -60,7 +56,7 @@ static bool factor(real A[QUADRATIC][QUADRATIC], int n)
     return true;
 }
 
-static void solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADRATIC])
+static void sif_gradient_solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADRATIC])
 {
     for (int k = 0; k < n; k++)
         for (int m = 0; m < k; m++) y[k] -= A[k][m] * y[m];
@@ -69,7 +65,7 @@ static void solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADRATIC])
         for (int m = k + 1; m < n; m++) y[k] -= A[m][k] * y[m];
 }
 
-/* ---- moving least squares ------------------------------------------------------------------------------------ */
+/* ---- moving least squares ---------------------------------------------------------------------------------------- */
 
 /* Cubic spline of s = distance over rho_m, 0 from 2 on. */
 static real spline(real s)
@@ -96,7 +92,7 @@ static bool least_squares(struct gradient_stencil *s, const struct particles *p,
             for (int l = 0; l <= m; l++) A[m][l] += s->weight[k][0] * b[m] * b[l];
     }
     if (!factor(A, terms)) return false;
-    for (int d = 0; d < 2; d++) solve(A, terms, y[d]);
+    for (int d = 0; d < 2; d++) sif_gradient_solve(A, terms, y[d]);
     for (int k = 0; k < s->n; k++) {
         const real w = s->weight[k][0] / scale;
         basis(p, i, s->particle[k], scale, b);
@@ -113,7 +109,7 @@ static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *
     s->n = 0;
     for (int k = 0; k < found; k++) {
         const int32_t j = s->particle[k];
-        const real w = spline(distance_seen(rule, p, i, j) / rule->reach);
+        const real w = spline(distance_round_cracks(rule, p, i, j) / rule->reach);
         if (!(w > 0)) continue;
         s->particle[s->n] = j;
         s->weight[s->n++][0] = w;
@@ -123,7 +119,7 @@ static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *
                                                                                    : 0;
 }
 
-/* ---- peridynamic differential operator ------------------------------------------------------------------------ */
+/* ---- peridynamic differential operator --------------------------------------------------------------------------- */
 
 /* g_ij V_j = omega K_i^-1 xi_ij V_j, K_i = sum omega xi xi^T V_j, omega = delta/r (Madenci, Barut & Futch 2016). */
 static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
@@ -134,7 +130,7 @@ static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule 
     s->n = 0;
     for (int k = 0; k < found; k++) {
         const int32_t j = s->particle[k];
-        const real r = distance_seen(rule, p, i, j), x = p->X[0][j] - p->X[0][i], y = p->X[1][j] - p->X[1][i];
+        const real r = distance_round_cracks(rule, p, i, j), x = p->X[0][j] - p->X[0][i], y = p->X[1][j] - p->X[1][i];
         if (j == i || !(r <= 2 * rule->reach)) continue;
         const real w = rule->reach / r * p->volume0[j] / p->volume0[i];
         A[0][0] += w * x * x, A[1][0] += w * x * y, A[1][1] += w * y * y;
@@ -146,7 +142,7 @@ static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule 
         const int32_t j = s->particle[k];
         real y[QUADRATIC] = {p->X[0][j] - p->X[0][i], p->X[1][j] - p->X[1][i]};
         const real w = s->weight[k][0];
-        solve(A, 2, y);
+        sif_gradient_solve(A, 2, y);
         s->weight[k][0] = w * y[0], s->weight[k][1] = w * y[1];
     }
 }

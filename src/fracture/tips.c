@@ -1,4 +1,4 @@
-/* floor 3: crack tips: which damaged particles belong to which crack, how far it has grown, and how fast. */
+/* Crack tips: which damaged particles belong to which crack, how far it has grown, and how fast. */
 #include "fracture/tips.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ void tips_free(struct tips *t)
     memset(t, 0, sizeof *t);
 }
 
-/* ---- who belongs to which crack ---------------------------------------------------------------------- */
+/* ---- particles of each crack ------------------------------------------------------------------------------------- */
 
 /* The work of one sample. */
 struct flood {
@@ -37,13 +37,16 @@ static bool can_belong(const struct tips *t, const struct particles *p, int64_t 
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
 }
 
-/* Most particles are neither damaged nor of a crack, and are passed by a block at a time: the next block from `first` on that has
- * one, n if none has. */
+/* Most particles are neither damaged nor of a crack, and are passed by a block at a time: the next block from
+ * `first` on that has one, n if none has. */
 enum { BLOCK = 64 };
 
-static int64_t block_end(const struct particles *p, int64_t first) { return first + BLOCK < p->n ? first + BLOCK : p->n; }
+static int64_t block_end(const struct particles *p, int64_t first)
+{
+    return first + BLOCK < p->n ? first + BLOCK : p->n;
+}
 
-/* Has somebody lost a bond? No comparison of numbers: their bits. */
+/* True if a particle has lost a bond. Bits are compared, not numbers. */
 static bool any_damage(const struct particles *p, int64_t first, int64_t end)
 {
     uint64_t any = 0;
@@ -87,7 +90,7 @@ static void flood_label(struct flood *f, int32_t i, int tip)
     f->queue[f->queued++] = i;
 }
 
-static int root_of(const struct flood *f, int tip)
+static int tips_root_of(const struct flood *f, int tip)
 {
     while (f->into[tip] != tip) tip = f->into[tip];
     return tip;
@@ -96,7 +99,7 @@ static int root_of(const struct flood *f, int tip)
 /* Two cracks touch. Those from ends of pre-cracks stay apart; others become part of what they touch. */
 static void flood_join(struct flood *f, int a, int b)
 {
-    a = root_of(f, a), b = root_of(f, b);
+    a = tips_root_of(f, a), b = tips_root_of(f, b);
     bool a_fixed = f->t->tip[a].from_crack, b_fixed = f->t->tip[b].from_crack;
     if (a == b || (a_fixed && b_fixed)) return;
     int keep = a_fixed || (!b_fixed && a < b) ? a : b;
@@ -186,7 +189,7 @@ static bool flood_nucleate(struct flood *f)
         f->into[tip] = tip, f->grown_by[tip] = false;
     } else {
         tip = tip_nearest(f->t, p, best);
-        f->grown_by[root_of(f, tip)] = true;
+        f->grown_by[tips_root_of(f, tip)] = true;
     }
     flood_label(f, best, tip);
     flood_run(f);
@@ -202,7 +205,7 @@ static void flood_close_ranks(struct flood *f)
     for (int k = 0; k < t->n; k++)
         if (f->into[k] == k) place[k] = kept++;
     if (kept == t->n) return;
-    for (int k = 0; k < t->n; k++) label[k + 1] = (uint8_t)(place[root_of(f, k)] + 1);
+    for (int k = 0; k < t->n; k++) label[k + 1] = (uint8_t)(place[tips_root_of(f, k)] + 1);
     for (int64_t i = 0; i < t->count; i++) t->label[i] = label[t->label[i]];
     for (int k = 0; k < t->n; k++) {
         if (f->into[k] != k) continue;
@@ -251,10 +254,10 @@ static void flood_all(struct flood *f)
     flood_close_ranks(f);
 }
 
-/* ---- how far and how fast ---------------------------------------------------------------------------- */
+/* ---- how far and how fast ---------------------------------------------------------------------------------------- */
 
 /* Distance of particle i from the start of its crack; -1 beside the pre-crack's own end. */
-static real reach_of(const struct tips *t, const struct particles *p, int64_t i)
+static real tips_reach_of(const struct tips *t, const struct particles *p, int64_t i)
 {
     const struct tip *tip = &t->tip[t->label[i] - 1];
     real X[DIM_MAX], offset[DIM_MAX];
@@ -273,13 +276,13 @@ static void reach_measure(const struct tips *t, const struct particles *p, struc
             if (!is_of_crack(t->label[i])) continue;
             struct reach *r = &reach[t->label[i] - 1];
             r->particles++;
-            r->farthest = real_max(r->farthest, reach_of(t, p, i));
+            r->farthest = real_max(r->farthest, tips_reach_of(t, p, i));
         }
     for (int64_t b = next_of_crack(t, p, 0); b < p->n; b = next_of_crack(t, p, b + BLOCK))
         for (int64_t i = b; i < block_end(p, b); i++) {
             if (!is_of_crack(t->label[i])) continue;
             struct reach *r = &reach[t->label[i] - 1];
-            if (r->farthest <= 0 || reach_of(t, p, i) < r->farthest - EQUAL * t->spacing) continue;
+            if (r->farthest <= 0 || tips_reach_of(t, p, i) < r->farthest - EQUAL * t->spacing) continue;
             for (int d = 0; d < t->dim; d++) r->place[d] += p->X[d][i];
             r->equals++;
         }
@@ -373,7 +376,7 @@ void tips_sample(struct tips *t, const struct particles *p, const struct cells *
     }
 }
 
-/* ---- what others ask --------------------------------------------------------------------------------- */
+/* ---- queries ----------------------------------------------------------------------------------------------------- */
 
 real tip_angle(const struct tip *tip, int dim)
 {

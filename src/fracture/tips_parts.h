@@ -1,6 +1,6 @@
-/* floor 3: what the files of the crack tips share. */
-#ifndef CLEAVE_TIPS_PARTS_H
-#define CLEAVE_TIPS_PARTS_H
+/* What the files of the crack tips share. */
+#ifndef CLEAVE_TIPS_PARTS
+#define CLEAVE_TIPS_PARTS
 
 #include "fracture/tips.h"
 

@@ -1,4 +1,4 @@
-/* floor 3: where crack tips start: the ends of pre-cracks inside the body. */
+/* Where crack tips start: the ends of pre-cracks inside the body. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 #define AHEAD_REACH 1.2                  /* the body goes on: particles round the place   [spacings]  */
 
-/* ---- search ----------------------------------------------------------------------------------------- */
+/* ---- search ------------------------------------------------------------------------------------------------------ */
 
 int tip_search_near(struct tip_search *s, const real *X, real radius)
 {
@@ -21,7 +21,7 @@ int tip_search_near(struct tip_search *s, const real *X, real radius)
     return cells_near(s->c, s->p, X, radius, -1, s->found, s->room);
 }
 
-/* ---- starts: the ends of pre-cracks ------------------------------------------------------------------ */
+/* ---- starts: the ends of pre-cracks ------------------------------------------------------------------------------ */
 
 real tip_offset(const real *centre, const real *half, const real *X, int dim, real *offset)
 {

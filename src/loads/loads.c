@@ -1,4 +1,4 @@
-/* floor 3: boundary conditions at work: mirror images, forces, walls, and their impulse and work. */
+/* Application of boundary conditions: mirror images, forces, walls, and their impulse and work. */
 #include "loads/loads.h"
 
 #include <math.h>
@@ -8,9 +8,9 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* ---- set-up ---------------------------------------------------------------------------------------- */
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Particles that are loaded, and those that wait for what bonds across clamped planes do to others. */
+/* Lists the particles that are loaded (LOADED) or have to wait for reactions of bonds across clamped planes (WAITS). */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
@@ -50,14 +50,14 @@ void loads_free(struct loads *l)
     memory_free(l->image);
     memory_free(l->share);
     memory_free(l->held.held);
-    memory_free(l->held_mesh.held);
+    memory_free(l->constrained_mesh.held);
     memset(l, 0, sizeof *l);
 }
 
-/* ---- forces on particles --------------------------------------------------------------------------- */
+/* ---- forces on particles ----------------------------------------------------------------------------------------- */
 
-/* Driven peridynamic particles get the force that gives them their velocity; what it differs from the bonds' is the
- * reaction of the support. */
+/* Replaces the force on driven peridynamic particles by the force that gives them their velocity; its difference from
+ * the bond force is the reaction of the support. Books impulse and work. */
 static void drive(struct loads *l, struct load *load, struct particles *p, real factor, real dt_velocity)
 {
     const struct boundary *b = load->boundary;
@@ -77,13 +77,13 @@ static void drive(struct loads *l, struct load *load, struct particles *p, real 
         }
     }
     for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d];
-    l->held_work += work;
+    l->constraint_work += work;
 }
 
 struct force_sum { const struct particles *p; int component; };
 
-/* In eight sums side by side: one alone would wait for itself. */
-static void force_block(const void *context, int64_t first, int64_t end, real *sum)
+/* Sum of a force component over a block, in eight partial sums: additions to a single sum would wait for each other. */
+static void loads_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct force_sum *s = context;
     const real *f = s->p->f[s->component];
@@ -95,9 +95,9 @@ static void force_block(const void *context, int64_t first, int64_t end, real *s
     for (int l = 0; l < LANES; l++) *sum += part[l];
 }
 
-/* Bonds between particles add up to no force; what is left across a mirror is what its images gave, the support's
- * impulse. Along a mirror that leaves tangential motion free the images' forces cancel in pairs, so there the
- * account of momentum stays a check. */
+/* Books the impulse of mirrors. Forces of bonds between particles add up to 0, so the sum of all forces across a mirror
+ * is that of its images, the reaction of the support. Along a mirror that leaves tangential motion free the forces of
+ * images cancel in pairs and nothing is booked: the momentum balance remains a check there. */
 static void mirror_impulse(struct loads *l, const struct particles *p, real dt_velocity)
 {
     bool held[DIM_MAX] = {false};
@@ -108,7 +108,7 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     for (int d = 0; d < p->dim; d++) {
         real sum;
         if (!held[d]) continue;
-        team_sums(p->n, 1, force_block, &(struct force_sum){p, d}, &sum);
+        team_sums(p->n, 1, loads_force_block, &(struct force_sum){p, d}, &sum);
         l->impulse[d] += dt_velocity * sum;
     }
 }
@@ -121,7 +121,7 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
         memset(load->reaction, 0, sizeof load->reaction);
     }
     loads_push(l, p, t, dt_velocity);
-    for (int c = 0; c < l->n; c++) {         /* after all forces: what holds a particle sees them */
+    for (int c = 0; c < l->n; c++) {         /* after all forces, which reactions contain */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
         real factor = time_function_at(&load->boundary->time, t);
@@ -131,19 +131,20 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
     }
 }
 
-/* ---- after the gather ------------------------------------------------------------------------------- */
+/* ---- after the gather -------------------------------------------------------------------------------------------- */
 
+/* Gives driven material points on the grid their velocity exactly; books impulse and work. */
 static void hold(struct loads *l, const struct load *load, struct particles *p, real factor)
 {
     const struct boundary *b = load->boundary;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
-        if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED) continue;      /* the mesh holds its nodes */
+        if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED) continue;      /* the mesh constrains nodes */
         for (int d = 0; d < p->dim; d++) {
             if (!(b->components >> d & 1)) continue;
             real target = factor * b->value[d], given = p->mass[i] * (target - p->v[d][i]);
             l->impulse[d] += given;
-            l->held_work += given * 0.5 * (target + p->v[d][i]);
+            l->constraint_work += given * 0.5 * (target + p->v[d][i]);
             p->v[d][i] = target;
         }
     }
@@ -152,16 +153,16 @@ static void hold(struct loads *l, const struct load *load, struct particles *p, 
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
-    for (int64_t q = 0; q < g->walls;) {         /* walls of one load and component follow each other */
+    for (int64_t q = 0; q < g->walls;) {         /* walls of one load and component are consecutive */
         const struct wall first = g->wall[q];
         real sum = 0;
         for (; q < g->walls && g->wall[q].load == first.load && g->wall[q].component == first.component; q++)
             sum += g->wall[q].reaction;
         l->load[first.load].reaction[first.component] += sum * inverse;
     }
-    for (int64_t q = 0; q < g->folds; q++)
+    for (int64_t q = 0; q < g->mirror_nodes; q++)
         for (int d = 0; d < g->dim; d++)
-            l->load[g->fold[q].load].reaction[d] += g->fold[q].reaction[d] / dt_velocity;
+            l->load[g->mirror_node[q].load].reaction[d] += g->mirror_node[q].reaction[d] / dt_velocity;
 }
 
 void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt, real dt_velocity)
@@ -179,13 +180,13 @@ status loads_archive(struct loads *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "loads/impulse", l->impulse);
     ARCHIVE_VALUE(a, "loads/work", l->work);
-    ARCHIVE_VALUE(a, "loads/held_work", l->held_work);
+    ARCHIVE_VALUE(a, "loads/held_work", l->constraint_work);
     for (int b = 0; b < l->n; b++) {
         char name[48];
         snprintf(name, sizeof name, "loads/displacement%d", b);
         ARCHIVE_VALUE(a, name, l->load[b].displacement);
         snprintf(name, sizeof name, "loads/reaction%d", b);
-        ARCHIVE_VALUE(a, name, l->load[b].reaction);         /* of the last step: a sample before the next one shows it */
+        ARCHIVE_VALUE(a, name, l->load[b].reaction);   /* reaction of the last step, for samples before the next step */
     }
     return OK;
 }

@@ -1,7 +1,6 @@
-/* floor 3: applied forces: tractions and body forces on their particles, with their impulse and work.
- *
- * What a load asks is a function of time times a share for each particle, which never changes. Loads of the same particles go
- * together: the first of them, the leader, visits its particles once for all; those of the same shares are one term. */
+/* Applied forces: tractions and body forces on their particles, with their impulse and work. A load is a function of
+ * time times a constant share for each particle. Loads on identical lists of particles are combined: the first of them,
+ * the leader, visits its particles once for all; loads with equal shares are one term. */
 #include <math.h>
 #include <string.h>
 
@@ -9,9 +8,9 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* ---- set-up ---------------------------------------------------------------------------------------- */
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-static bool is_force(const struct load *load)
+static bool loads_applied_is_force(const struct load *load)
 {
     return load->boundary->kind == BOUNDARY_TRACTION || load->boundary->kind == BOUNDARY_BODY_FORCE;
 }
@@ -21,7 +20,8 @@ static bool same_particles(const struct load *a, const struct load *b)
     return a->n == b->n && memcmp(a->particle, b->particle, (size_t)a->n * sizeof *a->particle) == 0;
 }
 
-/* The share of component d of load b becomes one that the loads before it have, if one is equal. */
+/* Replaces the share of component d of load b by an equal one that the same leader's earlier loads have, if there is
+ * one. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
     struct load *load = &l->load[b];
@@ -35,6 +35,7 @@ static void share_join(struct loads *l, int b, int d, int dim)
         }
 }
 
+/* Finds the leader of load b, joins equal shares, and makes room for the positions that the leader stores. */
 static void load_join(struct loads *l, int b, int dim)
 {
     struct load *load = &l->load[b];
@@ -55,11 +56,11 @@ void loads_join(struct loads *l, int dim)
 {
     for (int b = 0; b < l->n; b++) {
         l->load[b].leader = -1;
-        if (is_force(&l->load[b]) && l->load[b].n > 0) load_join(l, b, dim);
+        if (loads_applied_is_force(&l->load[b]) && l->load[b].n > 0) load_join(l, b, dim);
     }
 }
 
-/* Has a share before this one, in the order of loads and components, the same array? */
+/* Is the share of component d of load b the array of an earlier component or load? */
 static bool is_borrowed(const struct loads *l, int b, int d)
 {
     for (int c = 0; c <= b; c++)
@@ -77,7 +78,7 @@ void loads_applied_free(struct loads *l)
         }
 }
 
-/* ---- a component of all loads of a leader -------------------------------------------------------------- */
+/* ---- one component of all loads of a leader ---------------------------------------------------------------------- */
 
 struct push {
     const int32_t *particle;
@@ -86,7 +87,7 @@ struct push {
     real value[BOUNDARIES_MAX], *f, *before;
 };
 
-/* False where none of them has that component. */
+/* Collects component d of all loads of a leader, times their factors [loads]; false: none has that component. */
 static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
 {
     const struct load *first = &l->load[leader];
@@ -103,8 +104,8 @@ static bool push_make(struct push *a, const struct loads *l, int leader, struct 
     return a->terms > 0;
 }
 
-/* Forces of a block of particles. */
-static void forces(const struct push *a, int64_t first, int64_t end, real *restrict force)
+/* Forces on particles first .. end - 1 of the leader [N]. */
+static void loads_applied_forces(const struct push *a, int64_t first, int64_t end, real *restrict force)
 {
     for (int b = 0; b < a->terms; b++) {
         const real *restrict share = a->share[b] + first, value = a->value[b];
@@ -112,7 +113,8 @@ static void forces(const struct push *a, int64_t first, int64_t end, real *restr
     }
 }
 
-/* Adds to f, notes where the particle is, and returns the force; or what the force does on the way since then. */
+/* Adds the force [N] to f, stores the coordinate of the particle and returns the force; and below, the work of the
+ * force over the displacement since then [J]. */
 static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     a->before[k] = a->x[i];
@@ -125,15 +127,16 @@ static ALWAYS_INLINE real work_one(const struct push *a, int64_t k, int64_t i, r
     return force * (a->x[i] - a->before[k]);
 }
 
+/* Do the listed particles first .. end - 1 have consecutive indices? */
 static bool follow_each_other(const int32_t *particle, int64_t first, int64_t end)
 {
     return particle[end - 1] - particle[first] == end - 1 - first;
 }
 
-/* Adds `one` of a block in eight sums side by side. Particles that follow each other, as in a body loaded everywhere, are
- * dense: they need no index. */
-static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64_t, real), const struct push *a, int64_t first,
-                                    int64_t end, const real *force, const bool dense)
+/* Sum of `one` over a block, in eight partial sums. Particles with consecutive indices, as in a body loaded everywhere,
+ * are `dense`: they need no index. */
+static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64_t, real), const struct push *a,
+                                    int64_t first, int64_t end, const real *force, const bool dense)
 {
     const int64_t shift = a->particle[first] - first;
     real part[LANES] = {0}, sum = 0;
@@ -151,7 +154,7 @@ static void push_block(const void *context, int64_t first, int64_t end, real *su
 {
     const struct push *a = context;
     real force[SUM_BLOCK];
-    forces(a, first, end, force);
+    loads_applied_forces(a, first, end, force);
     *sum += follow_each_other(a->particle, first, end) ? block_sum(push_one, a, first, end, force, true)
                                                        : block_sum(push_one, a, first, end, force, false);
 }
@@ -160,23 +163,23 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
 {
     const struct push *a = context;
     real force[SUM_BLOCK];
-    forces(a, first, end, force);
+    loads_applied_forces(a, first, end, force);
     *sum += follow_each_other(a->particle, first, end) ? block_sum(work_one, a, first, end, force, true)
                                                        : block_sum(work_one, a, first, end, force, false);
 }
 
-/* ---- in a step --------------------------------------------------------------------------------------- */
+/* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Mean over the kick that ends at t, by the trapezoidal rule: the kick lies round the instant of the forces, and the
- * value at its end alone would be half a step late, an error of first order. What switches at a whole step then gives
- * its full impulse, too: half of it in the kick that the switch divides. */
+/* Mean of a time function over the kick that ends at t, by the trapezoidal rule [1]. The kick is centred on the instant
+ * of the forces; the value at its end alone would be half a step late, an error of first order. A load that switches at
+ * a whole step then gives its full impulse, too: half of it in the kick that the switch divides. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_at(f, t - dt_velocity) + time_function_at(f, t));
 }
 
-/* What a step gives is summed before it joins what all steps gave: round-off then grows with the number of steps, not of
- * steps times particles. */
+/* The impulse of a step is summed before it is added to that of all steps: round-off then grows with the number of
+ * steps, not of steps times particles. */
 void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
 {
     real factor[BOUNDARIES_MAX], given;
@@ -190,11 +193,13 @@ void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
         }
 }
 
-/* Mean of the kicks before and after the way of a step, t in its middle: kicks F at places x_n and ways v dt between them give
- * 1/2 m v- . v+ what sum 1/2 (F_n + F_n+1) . v dt books, to the last digit, however short a load is. */
+/* Mean of the factors of the kicks before and after the drift of a step, t in its middle [1]. With kicks F_n at
+ * positions x_n and drifts v dt between them, the change of 1/2 m v- . v+ equals sum 1/2 (F_n + F_n+1) . v dt to the
+ * last digit, however short a load is. */
 static real way_factor(const struct time_function *f, real t, real dt)
 {
-    return 0.5 * time_function_at(f, t) + 0.25 * (time_function_at(f, real_max(0, t - dt)) + time_function_at(f, t + dt));
+    return 0.5 * time_function_at(f, t) +
+           0.25 * (time_function_at(f, real_max(0, t - dt)) + time_function_at(f, t + dt));
 }
 
 void loads_push_work(struct loads *l, struct particles *p, real t, real dt)
@@ -210,6 +215,7 @@ void loads_push_work(struct loads *l, struct particles *p, real t, real dt)
         }
 }
 
+/* Sets the force on the listed particles first .. end - 1 to 0. */
 static void clear_run(const struct load *load, struct particles *p, int64_t first, int64_t end)
 {
     const bool dense = follow_each_other(load->particle, first, end);
@@ -224,7 +230,7 @@ void loads_clear(struct loads *l, struct particles *p)
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         const int64_t n = load->n;
-        if (is_force(load) && load->leader != b) continue;
+        if (loads_applied_is_force(load) && load->leader != b) continue;
         TEAM_LOOP(n > SUM_BLOCK, for (int64_t first = 0; first < n; first += SUM_BLOCK)
             clear_run(load, p, first, first + SUM_BLOCK < n ? first + SUM_BLOCK : n););
     }

@@ -1,31 +1,32 @@
-/* floor 3: the face that bodies show along an axis, column by column.
+/* The exposed face of bodies along an axis, column by column, which bears tractions.
  *
- * Columns stand along the face's normal. A particle is a cube, or a square, of its volume, and in every column whose middle
- * goes through it. A column shows the first particle of the region that has none within GAP widths before it; particles of
- * all bodies that the boundary acts on hide what is behind them. So steps and curved faces are seen; what an overhang hides
- * and walls of holes are not, unless the region leaves out what stands before them.
+ * Columns run along the normal of the face. A particle is a cube (a square in the plane) of its volume and lies in
+ * every column whose middle passes through it. The exposed particle of a column is the first particle of the region
+ * that has no particle within GAP widths in front of it; particles of all bodies that the boundary acts on hide those
+ * behind them. Steps and curved faces are thus found; particles below an overhang and walls of holes are not, unless
+ * the region leaves out the particles in front of them.
  *
- * A lattice, shaken or not, tells where its columns are: its sites are where particles are on average, and each column is
- * one of it. Particles in no order are looked at through FINE columns across the mean particle. */
+ * A lattice, exact or shaken, determines its columns: its sites are the mean positions of particles, and each site has
+ * one column. Disordered particles are sampled by FINE columns across the mean particle. */
 #include <math.h>
 
 #include "loads/loads.h"
 #include "base/memory.h"
 
-#define GAP 1.75                         /* a particle farther before is beyond a hole: those of a lattice are at 1 or 2 [widths] */
-#define BENEATH 0.25                     /* so far behind the first at least is the next               [widths] */
-#define EVEN 1e-4                        /* volumes this close are one, of lattices written out in decimals */
-#define TO_ONE_SIDE 1e-6                 /* cubes that end at the middles of columns take those of one end [widths] */
-#define ORDER_LEAST 0.05                 /* share of particles that agree on where sites are: 0 without order, 1 on a lattice, */
-#define ORDER_CHANCE 3.0                 /* sin(2 pi s)/(2 pi s) if shaken by s spacings; over sqrt(n): what n disordered reach */
+#define GAP 1.75         /* a particle farther in front is beyond a hole: on a lattice at 1, across one at 2 [widths] */
+#define BENEATH 0.25                     /* least distance from the first to the next particle [widths] */
+#define EVEN 1e-4                        /* relative difference of equal volumes: lattices may be written in decimals */
+#define TO_ONE_SIDE 1e-6           /* shift of cubes that end at column middles: each counts at one end only [widths] */
+#define ORDER_LEAST 0.05        /* share of particles that agree on where sites are: 0 without order, 1 on a lattice, */
+#define ORDER_CHANCE 3.0       /* ... and over sqrt(n): order that n disordered particles may reach by chance */
 enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
 
 struct columns {
-    int body, axes, axis[DIM_MAX - 1];   /* made for that body, across these axes                      */
+    int body, axes, axis[DIM_MAX - 1];   /* the body, and the axes across its columns                  */
     real middle[DIM_MAX - 1];            /* of column 0                            [m]                 */
     real spacing;                        /* of the scene                           [m]                 */
     real width, step;                    /* of the body's mean particle; from column to column [m]     */
-    bool even;                           /* its particles have one volume                              */
+    bool even;                           /* all particles of the body have one volume                  */
     int64_t n, room;                     /* columns; places in the table, a power of two               */
     int64_t *key;                        /* [room] -1: free                                            */
     int32_t *number;                     /* [room] 0 .. n-1                                            */
@@ -34,7 +35,7 @@ struct columns {
     int32_t *order;                      /*    order[start[c] .. start[c+1]-1]                         */
 };
 
-/* ---- where columns are -------------------------------------------------------------------------------- */
+/* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
 /* Edge of a particle's cube [m]. */
 static real width_of(const struct columns *c, const struct boundary *b, const struct particles *p, int64_t i)
@@ -43,6 +44,7 @@ static real width_of(const struct columns *c, const struct boundary *b, const st
     return b->section > 0 ? pow(p->volume0[i] / b->section, 1.0 / p->dim) : c->spacing;
 }
 
+/* Mean width of the particles of the body, and whether all have one volume. */
 static void find_width(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real mean = 0, least = INFINITY, most = 0;
@@ -58,8 +60,8 @@ static void find_width(struct columns *c, const struct boundary *b, const struct
     if (fabs(c->width - c->spacing) <= EVEN * c->spacing) c->width = c->spacing;
 }
 
-/* A site of the lattice from `low` on, by the mean direction of particles on a circle of one width; false: they agree on
- * none. */
+/* Coordinate of a lattice site along d from `low` on, by the mean direction of the particles on a circle of one width
+ * [m]; false: the particles have no order. */
 static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
 {
     const int64_t stride = p->n / SITES_SAMPLED + 1;
@@ -71,9 +73,11 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
         along += cos(angle), across += sin(angle), n++;
     }
     *site = low + atan2(across, along) / (2 * M_PI) * c->width;
-    return hypot(along, across) > real_max(ORDER_LEAST * (real)n, ORDER_CHANCE * sqrt((real)n)) || along > (1 - EVEN) * (real)n;
+    return hypot(along, across) > real_max(ORDER_LEAST * (real)n, ORDER_CHANCE * sqrt((real)n)) ||
+           along > (1 - EVEN) * (real)n;
 }
 
+/* Middle of column 0 and step of the columns, by axis. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];
@@ -91,9 +95,10 @@ static void find_middles(struct columns *c, const struct boundary *b, const stru
     for (int k = 0; k < c->axes && !ordered; k++) c->middle[k] = low[k] - 0.5 * c->width + 0.5 * c->step;
 }
 
-/* ---- particles in columns ----------------------------------------------------------------------------------- */
+/* ---- particles in columns ---------------------------------------------------------------------------------------- */
 
-/* Place of a key in the table, or where it is to go; the multiplier is that of Fibonacci hashing (Knuth, vol. 3). */
+/* Index of a key in the table, or the free index where it belongs; the multiplier is that of Fibonacci hashing (Knuth,
+ * vol. 3). */
 static int64_t table_place(const struct columns *c, int64_t key)
 {
     const int64_t last = c->room - 1;
@@ -119,7 +124,7 @@ static void table_grow(struct columns *c)
     memory_free(old.number);
 }
 
-/* Number of a column; -1: there is none, which is made where asked. */
+/* Number of the column of a key; if there is none, a new one with `make`, else -1. */
 static int32_t column_number(struct columns *c, int64_t key, bool make)
 {
     if (make && 2 * c->n >= c->room) table_grow(c);
@@ -129,7 +134,7 @@ static int32_t column_number(struct columns *c, int64_t key, bool make)
     return c->number[place];
 }
 
-/* The rows of columns whose middles go through a particle's cube: from .. to - 1 across each axis. */
+/* The columns whose middles pass through a particle's cube: from .. to - 1 along each axis across. */
 struct span { int64_t from[DIM_MAX - 1], to[DIM_MAX - 1]; };
 
 static struct span span_of(const struct columns *c, const struct particles *p, int64_t i, real width)
@@ -142,7 +147,8 @@ static struct span span_of(const struct columns *c, const struct particles *p, i
     return s;
 }
 
-/* Counts a particle in its columns, or puts it there. The body's own make columns, others only stand in them. */
+/* Counts particle i in its columns, or with `put` stores it there. Particles of the body make columns; those of other
+ * bodies only enter columns that exist. */
 static void particle_enter(struct columns *c, const struct boundary *b, const struct particles *p, int64_t i, bool put)
 {
     const bool make = p->body[i] == c->body && !put;
@@ -157,15 +163,21 @@ static void particle_enter(struct columns *c, const struct boundary *b, const st
         }
 }
 
-static real height(const struct boundary *b, const struct particles *p, int32_t i) { return b->side * p->X[b->face][i]; }
-
-/* Of equal ones the first is lower. */
-static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
+/* Coordinate of particle i along the outward normal [m]. */
+static real loads_columns_height(const struct boundary *b, const struct particles *p, int32_t i)
 {
-    return height(b, p, i) < height(b, p, j) || (height(b, p, i) == height(b, p, j) && i < j);
+    return b->side * p->X[b->face][i];
 }
 
-/* Shell's sort with Knuth's gaps: of a lattice's columns, which are in order, little is asked. */
+/* Is particle i below particle j? Equal heights are ordered by index. */
+static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
+{
+    return loads_columns_height(b, p, i) < loads_columns_height(b, p, j) ||
+           (loads_columns_height(b, p, i) == loads_columns_height(b, p, j) && i < j);
+}
+
+/* Sorts a column of n particles by height. Shell's sort with Knuth's gaps: columns of a lattice are in order
+ * already. */
 static void sort_column(const struct boundary *b, const struct particles *p, int32_t *order, int64_t n)
 {
     int64_t gap = 1;
@@ -179,6 +191,7 @@ static void sort_column(const struct boundary *b, const struct particles *p, int
         }
 }
 
+/* Makes the columns and stores the particles in them, ascending. */
 static void columns_fill(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     for (int others = 0; others < (b->body < 0 ? 2 : 1); others++)
@@ -194,7 +207,8 @@ static void columns_fill(struct columns *c, const struct boundary *b, const stru
     for (int64_t k = 0; k < c->n; k++) sort_column(b, p, c->order + c->start[k], c->start[k + 1] - c->start[k]);
 }
 
-static void columns_make(struct columns *c, const struct boundary *b, const struct particles *p, int body, real spacing)
+static void loads_columns_make(struct columns *c, const struct boundary *b, const struct particles *p, int body,
+                               real spacing)
 {
     *c = (struct columns){.body = body, .spacing = spacing};
     find_width(c, b, p);
@@ -202,7 +216,7 @@ static void columns_make(struct columns *c, const struct boundary *b, const stru
     columns_fill(c, b, p);
 }
 
-static void columns_free(struct columns *c)
+static void loads_columns_free(struct columns *c)
 {
     memory_free(c->key);
     memory_free(c->number);
@@ -211,17 +225,19 @@ static void columns_free(struct columns *c)
     memory_free(c->order);
 }
 
-/* ---- what they show ----------------------------------------------------------------------------------- */
+/* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* How far j is behind i [mean of their widths]. */
+/* Distance of particle j behind particle i [mean of their widths]. */
 static real behind(const struct columns *c, const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
-    return (height(b, p, i) - height(b, p, j)) / (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
+    return (loads_columns_height(b, p, i) - loads_columns_height(b, p, j)) /
+           (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
 }
 
-/* Place in a column of what it shows, -1: nothing of this body; another body's belongs to that body's columns. */
-static int64_t shown(const struct columns *c, int64_t column, const struct boundary *b, const struct particles *p,
-                     const uint8_t *selected)
+/* Index in c->order of the exposed particle of a column, -1: none of this body. An exposed particle of another body
+ * belongs to the columns of that body. */
+static int64_t loads_columns_shown(const struct columns *c, int64_t column, const struct boundary *b,
+                                   const struct particles *p, const uint8_t *selected)
 {
     const int32_t *order = c->order;
     const int64_t end = c->start[column + 1];
@@ -232,8 +248,9 @@ static int64_t shown(const struct columns *c, int64_t column, const struct bound
     return -1;
 }
 
-/* The next of the same body behind place k, -1: none. */
-static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b, const struct particles *p)
+/* Index in c->order of the next particle of the body behind the one at k, -1: none. */
+static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b,
+                       const struct particles *p)
 {
     for (int64_t m = k; m-- > c->start[column];) {
         const real depth = behind(c, b, p, c->order[k], c->order[m]);
@@ -243,14 +260,16 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
     return -1;
 }
 
-/* A traction acts on the face, half a spacing outside a column's first particle. For its normal part that makes no
- * difference; what it has along the face would make a moment: a plate of n particles a side in shear would bear
- * 1 + 1.3/n of the stress. So 3/2 of it act on the first particle and -1/2 on the next: linearly extrapolated, force
- * and first moment are those of the face. One particle bears all where the column has no other. */
-static void show(struct face *f, const struct columns *c, int64_t column, const struct boundary *b, const struct particles *p,
-                 const uint8_t *selected, real area, bool two)
+/* Adds the area of a column to its exposed particles. A traction acts on the face, half a spacing outside the first
+ * particle of the column. This makes no difference for the normal component, but for the tangential ones it would cause
+ * a moment: a plate of n particles a side in shear would bear 1 + 1.3/n of the stress. So 3/2 of the tangential
+ * components act on the first particle and -1/2 on the next: by this linear extrapolation force and first moment are
+ * those of the face. The first particle bears all where the column has no next one. */
+static void show(struct face *f, const struct columns *c, int64_t column, const struct boundary *b,
+                 const struct particles *p, const uint8_t *selected, real area, bool two)
 {
-    const int64_t k = shown(c, column, b, p, selected), m = k >= 0 && two ? beneath(c, column, k, b, p) : -1;
+    const int64_t k = loads_columns_shown(c, column, b, p, selected),
+                  m = k >= 0 && two ? beneath(c, column, k, b, p) : -1;
     if (k < 0) return;
     const int32_t first = c->order[k];
     if (!(area > 0)) area = p->volume0[first] / c->width;
@@ -259,7 +278,8 @@ static void show(struct face *f, const struct columns *c, int64_t column, const 
     if (m >= 0) f->along[c->order[m]] += area * -0.5;
 }
 
-/* A column's area is the volume of a particle as high as wide over that height, as that of a lattice has it. */
+/* Area of a column [m^2]: the volume of a cubic particle over its height, as on a lattice; 0: the boundary has no
+ * section. */
 static real column_area(const struct columns *c, const struct boundary *b, int dim)
 {
     if (!(b->section > 0)) return 0;
@@ -267,8 +287,8 @@ static real column_area(const struct columns *c, const struct boundary *b, int d
     return c->step == c->width ? area : area * pow(c->step / c->width, dim - 1);
 }
 
-void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-               bool two)
+void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
+               real spacing, bool two)
 {
     bool has[UINT8_MAX + 1] = {false};
     *f = (struct face){NEW("loads.normal", p->n, real), NEW("loads.along", p->n, real)};
@@ -276,9 +296,9 @@ void face_make(struct face *f, const struct boundary *b, const struct particles 
     for (int body = 0; body <= UINT8_MAX; body++) {
         struct columns c;
         if (!has[body]) continue;
-        columns_make(&c, b, p, body, spacing);
+        loads_columns_make(&c, b, p, body, spacing);
         for (int64_t k = 0; k < c.n; k++) show(f, &c, k, b, p, selected, column_area(&c, b, p->dim), two);
-        columns_free(&c);
+        loads_columns_free(&c);
     }
 }
 

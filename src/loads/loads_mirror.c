@@ -1,4 +1,4 @@
-/* floor 3: mirror images of particles: who has them, and where they are. */
+/* Mirror images of particles: which particles have images, and the motion of images. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -6,10 +6,11 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* Along a mirror the forces of i on the image of j and of j on the image of i cancel if both bonds are the same to the
- * last bit, so if reflecting rounds nothing; else the round-off of their lengths moves slow bodies. Places across mirrors
- * of what has images are therefore multiples of one step: the last bit of twice the farthest place there is. Mirrors at 0 only
- * change a sign and need none. */
+/* Step of the positions along `axis` of particles with images [m]; 0: positions stay as they are. Along a mirror the
+ * force of i on the image of j cancels that of j on the image of i if both bonds are equal to the last bit, that is if
+ * reflection causes no rounding; else the round-off of bond lengths moves slow bodies. Positions across mirrors are
+ * therefore multiples of one step, the last bit of twice the farthest position. Mirrors at 0 only change a sign and
+ * need no step. */
 static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
 {
     real farthest = 0;
@@ -21,14 +22,15 @@ static real place_step(const struct boundary *boundary, int n, const struct part
     return scalbn(1, ilogb(farthest + reach) + 2 - DBL_MANT_DIG);
 }
 
+/* Nearest multiple of the step along `axis` [m]. */
 static real stepped(const struct loads *l, int axis, real place)
 {
     const real step = l->place_step[axis];
     return step > 0 ? step * nearbyint(place / step) : place;
 }
 
-/* Adds the images of one mirror: of everything near its plane, images of earlier mirrors included, so that corners get
- * theirs. Nothing on the plane itself: such a particle is its own image. */
+/* Adds the images of mirror `which`: of all particles within `reach` [m] of its plane, images of earlier mirrors
+ * included, for corners. Particles on the plane have none: each is its own image. */
 static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
 {
     const struct boundary *b = l->load[which].boundary;
@@ -59,7 +61,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
 
 void loads_mirror(const struct loads *l, struct particles *p)
 {
-    for (int64_t k = 0; k < l->images; k++) {                /* all first: corners have images of images */
+    for (int64_t k = 0; k < l->images; k++) {                /* all sources first: corners have images of images */
         const int axis = l->load[l->image[k].load].boundary->axis;
         const int64_t i = l->image[k].source;
         if (i < p->n) p->x[axis][i] = stepped(l, axis, p->x[axis][i]);
@@ -77,7 +79,7 @@ void loads_mirror(const struct loads *l, struct particles *p)
     }
 }
 
-/* A mirror with body on both sides would lay images upon particles. */
+/* REFUSED for a mirror with body on both sides: images would coincide with particles. */
 static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
 {
     bool below = false, above = false;
@@ -100,8 +102,9 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
     return sum > 0 ? -1 : 1;
 }
 
-/* Between parallel mirrors a particle would see images of images on both sides, of which there is but one: forces without a
- * potential, and no time step that is small enough. */
+/* REFUSED for parallel mirrors closer than bonds reach: a particle between them would have bonds to images of images on
+ * both sides, of which there is only one. The forces would have no potential, and no time step would be small
+ * enough. */
 static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
 {
     for (int k = 0; k < n; k++)
@@ -110,11 +113,15 @@ static status mirrors_apart(const struct boundary *b, int n, real reach, real sp
             if (b[k].body >= 0 && b[m].body >= 0 && b[k].body != b[m].body) continue;
             const real apart = fabs(b[k].at - b[m].at);
             if (apart <= 1e-6 * spacing)
-                return status_set(REFUSED, "boundary %s: its mirror stands where that of %s does; one of them is enough", b[k].name,
-                                  b[m].name);
+                return status_set(REFUSED,
+                                  "boundary %s: its mirror stands where that of %s does; one of them is enough",
+                                  b[k].name, b[m].name);
             if (apart + spacing <= reach)
-                return status_set(REFUSED, "boundary %s: the mirror is %.6g m from that of %s; bonds that reach %.6g m want them "
-                                           "farther apart than %.6g m", b[k].name, apart, b[m].name, reach, reach - spacing);
+                return status_set(
+                    REFUSED,
+                    "boundary %s: the mirror is %.6g m from that of %s; bonds that reach %.6g m want them "
+                    "farther apart than %.6g m",
+                    b[k].name, apart, b[m].name, reach, reach - spacing);
         }
     return OK;
 }

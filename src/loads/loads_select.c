@@ -1,4 +1,4 @@
-/* floor 3: whom a boundary condition acts on, and with which share of its value. */
+/* The particles on which a boundary condition acts, and their shares of its value. */
 #include <math.h>
 
 #include "loads/loads.h"
@@ -19,8 +19,9 @@ static bool has_tangential(const struct boundary *b, int dim)
     return found;
 }
 
-/* ---- shares ------------------------------------------------------------------------------------------- */
+/* ---- shares ------------------------------------------------------------------------------------------------------ */
 
+/* Factor of the profile at particle i [1]. */
 static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX], along = 0;
@@ -43,8 +44,12 @@ static void shares_allocate(struct load *l, int dim)
     for (int d = 0; d < dim; d++) l->share[d] = d > 0 && alike ? l->share[0] : NEW("loads.share", l->n, real);
 }
 
-static bool bears_force(const struct boundary *b) { return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE; }
+static bool bears_force(const struct boundary *b)
+{
+    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE;
+}
 
+/* Lists the particles with taken[i] > 0, marks driven ones, and makes room for shares. */
 static void take_particles(struct load *l, const uint8_t *taken, struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) l->n += taken[i] > 0;
@@ -71,7 +76,7 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     face_free(&face);
 }
 
-/* A particle in a clamped plane is its own image: it stays. */
+/* Does particle i lie in the plane of a clamped mirror? Such a particle is its own image and stays at rest. */
 static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;
@@ -95,7 +100,8 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
     if (!any && bears_force(b))
         return status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
     if (l->n > 0 || b->kind != BOUNDARY_TRACTION) return OK;
-    return status_set(REFUSED, "boundary %s: every particle in its region has one of its body before it towards %c%c; let the "
-                               "region hold the body's outside there, or the wall of a hole", b->name, 'x' + b->face,
-                      b->side > 0 ? '+' : '-');
+    return status_set(REFUSED,
+                      "boundary %s: every particle in its region has one of its body before it towards %c%c; let the "
+                      "region hold the body's outside there, or the wall of a hole",
+                      b->name, 'x' + b->face, b->side > 0 ? '+' : '-');
 }

@@ -1,12 +1,12 @@
-/* floor 3: boundary conditions of a static problem: what time makes of them is only where they end. */
+/* Boundary conditions of a static problem: only their values at the end matter. */
 #include "loads/loads.h"
 
 #include <math.h>
 #include <string.h>
 
-#define ROUND_OFF 1e-12                  /* of the moment that forces could make: less is none */
+#define ROUND_OFF 1e-12                  /* share of the largest possible moment; smaller moments count as 0 */
 
-static bool is_force(const struct boundary *b)
+static bool loads_static_is_force(const struct boundary *b)
 {
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE;
 }
@@ -16,7 +16,7 @@ void loads_static_boundaries(struct boundary *to, const struct boundary *from, i
     for (int b = 0; b < n; b++) {
         real factor = 1;
         to[b] = from[b];
-        if (is_force(&from[b])) {
+        if (loads_static_is_force(&from[b])) {
             factor = time_function_at(&from[b].time, duration);
             to[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp};
         } else if (from[b].kind == BOUNDARY_VELOCITY) {
@@ -27,7 +27,8 @@ void loads_static_boundaries(struct boundary *to, const struct boundary *from, i
     }
 }
 
-void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement, uint8_t *held)
+void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
+                         uint8_t *held)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
@@ -44,13 +45,14 @@ void loads_static_driven(struct loads *l, const struct particles *p, real ramp, 
     }
 }
 
-/* Moment of the applied forces about the centre of mass in the plane, and the largest that they could make. */
+/* Moment of the applied forces about the centre of mass in the plane, and the largest that forces of their size could
+ * make there [N m]. */
 static void moment(const struct loads *l, const struct particles *p, real *turning, real *most)
 {
     *turning = *most = 0;
     for (int c = 0; c < l->n; c++) {
         const struct load *load = &l->load[c];
-        if (!is_force(load->boundary)) continue;
+        if (!loads_static_is_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++) {
             const real *value = load->boundary->value;
             const real x = p->X[0][load->particle[k]] - l->centre[0], y = p->X[1][load->particle[k]] - l->centre[1];
@@ -85,7 +87,7 @@ void loads_static_force(const struct loads *l, struct particles *p)
     }
     for (int c = 0; c < l->n; c++) {
         const struct load *load = &l->load[c];
-        if (!is_force(load->boundary)) continue;
+        if (!loads_static_is_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++)
                 p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[d][k];
@@ -109,13 +111,13 @@ void loads_static_hold(struct loads *l, struct particles *p)
 
 void loads_static_work(struct loads *l, const struct particles *p)
 {
-    l->work = l->held_work = 0;
+    l->work = l->constraint_work = 0;
     for (int c = 0; c < l->n; c++) {
         const struct load *load = &l->load[c];
         const struct boundary *b = load->boundary;
         for (int d = 0; d < p->dim; d++)
-            if (b->kind == BOUNDARY_VELOCITY) l->held_work += 0.5 * load->reaction[d] * load->displacement[d];
-        if (!is_force(b)) continue;
+            if (b->kind == BOUNDARY_VELOCITY) l->constraint_work += 0.5 * load->reaction[d] * load->displacement[d];
+        if (!loads_static_is_force(b)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
                 const int32_t i = load->particle[k];

@@ -1,13 +1,14 @@
-/* floor 3: nodes that boundary conditions hold: of the grid, found anew in every step, and of the mesh, which never moves. */
+/* Nodes constrained by boundary conditions: of the grid, found anew in every step, and of the mesh, whose box of nodes
+ * never changes. */
 #include <math.h>
 #include <string.h>
 
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* ---- walls of the grid ----------------------------------------------------------------------------- */
+/* ---- walls of the grid ------------------------------------------------------------------------------------------- */
 
-static void held_add(struct held_set *s, int64_t node, int component, int load)
+static void constrained_add(struct constrained_set *s, int64_t node, int component, int load)
 {
     if (s->n == s->room) {
         int64_t room = s->room ? 2 * s->room : 256;
@@ -17,7 +18,9 @@ static void held_add(struct held_set *s, int64_t node, int component, int load)
     s->held[s->n++] = (struct held){(int32_t)node, (uint8_t)component, (uint8_t)load};
 }
 
-static bool node_held(const struct load *load, const real *x, int dim, real tolerance, int component)
+/* Does a load constrain this component of any node at position x: in a driven region, on a mirror plane or beyond
+ * it? */
+static bool node_constrained(const struct load *load, const real *x, int dim, real tolerance, int component)
 {
     const struct boundary *b = load->boundary;
     if (b->kind == BOUNDARY_VELOCITY)
@@ -32,9 +35,9 @@ bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacin
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
-/* Node k of the box reflected in a mirror that it lies beyond, within reach of the widest shape: places and components
- * turn round. False if it lies beyond but has no image. */
-static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct fold *f)
+/* Reflects node k (indices in the box) at a mirror plane that it lies beyond, within reach of the widest shape, and
+ * changes the signs of its components in f. False if it lies beyond the plane but has no image. */
+static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct mirror_node *f)
 {
     const struct boundary *b = load->boundary;
     if (b->kind != BOUNDARY_MIRROR) return true;
@@ -48,19 +51,19 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
 }
 
-/* Does a node beyond mirrors move as the image of another? */
-static bool node_folded(const struct loads *l, const struct grid *g, int64_t I, struct fold *f)
+/* Does node I lie beyond mirrors and move as the mirror image of another node? Fills f if so. */
+static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I, struct mirror_node *f)
 {
     int64_t k[DIM_MAX] = {0}, image = 0;
-    *f = (struct fold){.node = (int32_t)I, .sign = {1, 1, 1}};
+    *f = (struct mirror_node){.node = (int32_t)I, .sign = {1, 1, 1}};
     for (int d = 0; d < g->dim; d++) k[d] = I / g->stride[d] % g->count[d];
     for (int b = 0; b < l->n; b++) {
         const int64_t before = k[l->load[b].boundary->axis];
         if (!node_reflect(&l->load[b], g, l->spacing, k, f)) return false;
         if (k[l->load[b].boundary->axis] != before) f->load = (uint8_t)b;
     }
-    for (int b = 0; b < l->n; b++) {             /* between two mirrors an image may lie beyond the other one */
-        struct fold none = *f;
+    for (int b = 0; b < l->n; b++) {             /* between two mirrors an image may lie beyond one of them */
+        struct mirror_node none = *f;
         int64_t again[DIM_MAX];
         memcpy(again, k, sizeof k);
         if (!node_reflect(&l->load[b], g, l->spacing, again, &none) || memcmp(again, k, sizeof k) != 0) return false;
@@ -70,42 +73,46 @@ static bool node_folded(const struct loads *l, const struct grid *g, int64_t I, 
     return image != I;
 }
 
-/* Nodes held wherever the body is, and nodes that follow their images: found once for each box of the grid. */
-static void held_find(const struct loads *l, struct held_set *s, struct grid *g)
+/* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. */
+static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g)
 {
-    struct fold fold;
+    struct mirror_node mirror_node;
     s->n = 0;
-    g->folds = 0;
+    g->mirror_nodes = 0;
     for (int d = 0; d < g->dim; d++) s->first[d] = g->first[d], s->count[d] = g->count[d];
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
-        if (node_folded(l, g, I, &fold)) {
-            grid_add_fold(g, &fold);
+        if (node_mirrored(l, g, I, &mirror_node)) {
+            grid_add_mirror_node(g, &mirror_node);
             continue;
         }
         for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
         for (int b = 0; b < l->n; b++)
             for (int d = 0; d < g->dim; d++)
-                if (node_held(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d)) held_add(s, I, d, b);
+                if (node_constrained(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d))
+                    constrained_add(s, I, d, b);
     }
 }
 
-/* Is it among those of held_find already? */
-static bool held_by_region(const struct loads *l, const struct load *load, const struct grid *g, int64_t I, int component)
+/* Has constrained_find listed this component of node I already? */
+static bool constrained_by_region(const struct loads *l, const struct load *load, const struct grid *g, int64_t I,
+                                  int component)
 {
     real x[DIM_MAX];
     for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
-    return node_held(load, x, g->dim, LOADS_TOLERANCE * l->spacing, component);
+    return node_constrained(load, x, g->dim, LOADS_TOLERANCE * l->spacing, component);
 }
 
-static bool held_is_current(const struct held_set *s, const struct grid *g)
+/* Was the set found for the present box of nodes? */
+static bool constrained_is_current(const struct constrained_set *s, const struct grid *g)
 {
     for (int d = 0; d < g->dim; d++)
         if (s->first[d] != g->first[d] || s->count[d] != g->count[d]) return false;
     return true;
 }
 
-/* Mass that a load's driven material points give to the nodes; returns their number. */
+/* Maps the mass of a load's driven material points to the nodes, into l->share [kg]; returns the number of these
+ * points. */
 static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
                             const struct kernels *k, real half_width)
 {
@@ -130,6 +137,7 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
     return n;
 }
 
+/* Adds walls at the nodes that have at least half of their mass from driven points. */
 static void driven_walls(struct loads *l, int which, struct grid *g, real velocity_factor, real change_factor)
 {
     const struct boundary *b = l->load[which].boundary;
@@ -141,7 +149,7 @@ static void driven_walls(struct loads *l, int which, struct grid *g, real veloci
     }
 }
 
-/* Factors of all loads at time t, and what they have changed by since a step before. */
+/* Time factors of all loads at time t, and their change since the step before, both [loads] [1]. */
 static void factors_at(const struct loads *l, real t, real dt, real *velocity, real *change)
 {
     for (int b = 0; b < l->n; b++) {
@@ -150,7 +158,9 @@ static void factors_at(const struct loads *l, real t, real dt, real *velocity, r
     }
 }
 
-static void held_walls(const struct loads *l, const struct held_set *s, struct grid *g, const real *velocity, const real *change)
+/* Adds walls at the nodes of a constrained set that have mass. */
+static void constrained_walls(const struct loads *l, const struct constrained_set *s, struct grid *g,
+                              const real *velocity, const real *change)
 {
     for (int64_t q = 0; q < s->n; q++) {
         const struct held *h = &s->held[q];
@@ -167,17 +177,17 @@ void loads_walls(struct loads *l, struct grid *g, const struct particles *p, con
     real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
     g->walls = 0;
     if (l->n == 0) return;
-    if (!held_is_current(&l->held, g)) held_find(l, &l->held, g);
+    if (!constrained_is_current(&l->held, g)) constrained_find(l, &l->held, g);
     factors_at(l, t, dt, velocity, change);
-    held_walls(l, &l->held, g, velocity, change);
+    constrained_walls(l, &l->held, g, velocity, change);
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
             driven_walls(l, b, g, velocity[b], change[b]);
 }
 
-/* ---- walls of the mesh ------------------------------------------------------------------------------- */
+/* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Nodes that have at least half of their mass from points that a load drives. */
+/* Constrains the nodes of the mesh that have at least half of their mass from points that a load drives. */
 static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
 {
     const struct load *load = &l->load[which];
@@ -190,19 +200,21 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
     }
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int d = 0; d < p->dim; d++)
-            if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] && load->boundary->components >> d & 1 &&
-                !held_by_region(l, load, &mesh->grid, I, d)) held_add(&l->held_mesh, I, d, which);
+            if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] &&
+                load->boundary->components >> d & 1 && !constrained_by_region(l, load, &mesh->grid, I, d))
+                constrained_add(&l->constrained_mesh, I, d, which);
     memory_free(share);
 }
 
 void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p)
 {
     if (mesh->points == 0) return;
-    if (!held_is_current(&l->held_mesh, &mesh->grid)) {      /* regions and mirrors stay; what is driven hangs on mass */
-        held_find(l, &l->held_mesh, &mesh->grid);
-        l->held_mesh.lasting = l->held_mesh.n;
+    /* regions and mirrors are constant; driven nodes depend on masses */
+    if (!constrained_is_current(&l->constrained_mesh, &mesh->grid)) {
+        constrained_find(l, &l->constrained_mesh, &mesh->grid);
+        l->constrained_mesh.lasting = l->constrained_mesh.n;
     }
-    l->held_mesh.n = l->held_mesh.lasting;
+    l->constrained_mesh.n = l->constrained_mesh.lasting;
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY) mesh_driven(l, b, mesh, p);
 }
@@ -212,5 +224,5 @@ void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
     real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
     mesh->grid.walls = 0;
     factors_at(l, t, dt, velocity, change);
-    held_walls(l, &l->held_mesh, &mesh->grid, velocity, change);
+    constrained_walls(l, &l->constrained_mesh, &mesh->grid, velocity, change);
 }

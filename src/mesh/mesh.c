@@ -1,23 +1,27 @@
-/* floor 3: the mesh of the reference frame: who lies where, masses, runs of whole cells, cut cells, and conversion. */
+/* The mesh of the reference frame: places of points, masses, runs of whole cells, partial cells, and conversion. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "mesh/active_nodes.h"
 #include "base/memory.h"
 #include "mesh_parts.h"
 #include "base/team.h"
 
 #define PLACE_TOLERANCE 1e-6             /* of a cell */
 #define VOLUME_TOLERANCE 1e-9
-#define DISPLACEMENT_BITS 60             /* displacements are multiples of 2^-60 cells: far below the last bit of a place, and what
-                                          * runs ahead of a wave ends somewhere */
+/* displacements are multiples of 2^-60 cells: far below the last bit of a position, and tiny precursors of a wave are
+ * rounded to 0 */
+#define DISPLACEMENT_BITS 60
 
-/* ---- who lies where ---------------------------------------------------------------------------------------- */
+/* ---- places of points -------------------------------------------------------------------------------------------- */
 
+/* Refusal that names the place of particle i; `what` is the reason. */
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
 {
-    return status_set(REFUSED, "mpm.frame reference: the particle at (%.6g, %.6g, %.6g) m %s; frame current is expected",
+    return status_set(REFUSED,
+                      "mpm.frame reference: the particle at (%.6g, %.6g, %.6g) m %s; frame current is expected",
                       p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
@@ -37,6 +41,7 @@ int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_
     return (cell << p->dim) + q;
 }
 
+/* Finds the place in the mesh of all particles with FLAG_MESHED. REFUSED where mesh_make says so. */
 static status points_place(struct mesh *mesh, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -56,7 +61,7 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     return OK;
 }
 
-/* Cells round a node hold its points: visits them in a fixed order. */
+/* Mass of node I from the points of the cells around it, added in a fixed order [kg]. */
 static real node_mass(const struct mesh *mesh, const struct particles *p, int64_t I)
 {
     const int dim = p->dim;
@@ -77,7 +82,7 @@ void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I)
     mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
 }
 
-/* Two bodies on one node would be glued together. */
+/* REFUSED where two bodies share a node: they would move as one. */
 static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 {
     uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t);      /* 1 + body of the node's points */
@@ -93,9 +98,11 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
     return s;
 }
 
-/* ---- cells -------------------------------------------------------------------------------------------------- */
+/* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I)
+/* Whole: all points exist, of one material, and none leaves stress to bonds. */
+static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                                int64_t I)
 {
     const int dim = p->dim;
     int there = 0;
@@ -110,6 +117,7 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
     return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_CUT;
 }
 
+/* Adds whole cell I to the last run of the band, or starts a run. */
 static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 {
     struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
@@ -125,10 +133,10 @@ static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
     mesh->run[mesh->runs++] = (struct mesh_run){(int32_t)I, 1, material, false};
 }
 
-/* Layers of cells (last direction) in a band: two bands apart share no node. */
+/* Layers of cells (along the last axis) in a band: bands that are not neighbours share no node. */
 static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
 
-/* Where each row of nodes has mass. */
+/* Finds the span of nodes with mass in each row of nodes. */
 static void rows_span(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
@@ -141,7 +149,7 @@ static void rows_span(struct mesh *mesh)
     }
 }
 
-/* Runs of whole cells band by band, and the list of cut cells. */
+/* Makes the runs of whole cells, band by band, and the list of partial cells. */
 static void cells_list(struct mesh *mesh, const struct particles *p)
 {
     const struct grid *g = &mesh->grid;
@@ -161,7 +169,9 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+/* Finds the kinds of the cells marked in `dirty` (NULL: of all), and makes runs and partial cells anew. */
+static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                           const uint8_t *dirty)
 {
     struct mesh_cuts old = mesh_cuts_keep(mesh);
 #pragma omp parallel for schedule(static)
@@ -172,8 +182,9 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
     mesh_cuts_make(mesh, p, s, dirty, &old);
 }
 
-/* ---- set-up ------------------------------------------------------------------------------------------------- */
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
+/* Makes the nodes and all arrays of the mesh. */
 static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like)
 {
     struct grid *g = &mesh->grid;
@@ -184,7 +195,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
         g->anchor[d] = like->anchor[d];
         particles_extent(p, p->n, d, &from[d], &to[d]);
     }
-    to[0] += LANES * g->h;                       /* whole vectors may be read and added to behind the last cell of a row */
+    to[0] += LANES * g->h;                    /* whole vectors are read and added to beyond the last cell of a row */
     TRY(grid_cover(g, from, to, INT32_MAX >> p->dim, &changed));
     for (int d = 0; d < p->dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
     mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
@@ -197,13 +208,14 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
-    rest_make(&mesh->rest, mesh->rows * mesh->segments);
+    active_set_make(&mesh->active, mesh->rows * mesh->segments);
     mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
     return OK;
 }
 
-static void nodes_start(struct mesh *mesh, const struct particles *p)
+/* Projects displacement and velocity of the points to the nodes. */
+static void mesh_nodes_start(struct mesh *mesh, const struct particles *p)
 {
     real *u[DIM_MAX];
     for (int d = 0; d < p->dim; d++) {
@@ -231,7 +243,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_weigh(mesh, p, I);
     cells_sort_out(mesh, p, source, NULL);
-    nodes_start(mesh, p);
+    mesh_nodes_start(mesh, p);
     return OK;
 }
 
@@ -246,16 +258,16 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->band);
     memory_free(mesh->run);
     mesh_cuts_free(mesh);
-    memory_free(mesh->see);
+    memory_free(mesh->exposed_list);
     memory_free(mesh->span);
-    rest_free(&mesh->rest);
+    active_set_free(&mesh->active);
     memset(mesh, 0, sizeof *mesh);
 }
 
-/* ---- conversion ------------------------------------------------------------------------------------------------ */
+/* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Returns the energy that its motion at the nodes had over its own. */
-static real release(struct mesh *mesh, struct particles *p, int64_t i)
+/* Takes particle i out of the mesh. Returns the kinetic energy of its share of the nodes less its own [J]. */
+static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
 {
     const int64_t place = mesh->place[i];
     real energy = 0;
@@ -272,7 +284,7 @@ static real release(struct mesh *mesh, struct particles *p, int64_t i)
     return energy;
 }
 
-/* Nodes of the marked cells lose what left them. */
+/* Computes the masses of the nodes of the cells marked in `left` anew; nodes without mass are set to rest. */
 static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
 {
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);
@@ -288,18 +300,20 @@ static void nodes_lighten(struct mesh *mesh, const struct particles *p, const ui
     memory_free(done);
 }
 
-real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n)
+real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed,
+                 int64_t n)
 {
     real energy = 0;
     if (!mesh->place) return 0;
-    uint8_t *left = NEW("mesh.left", mesh->grid.n, uint8_t), *dirty = changed ? NEW("mesh.dirty", mesh->grid.n, uint8_t) : NULL;
+    uint8_t *left = NEW("mesh.left", mesh->grid.n, uint8_t),
+            *dirty = changed ? NEW("mesh.dirty", mesh->grid.n, uint8_t) : NULL;
     for (int64_t k = 0; k < n && changed; k++)
         if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
     for (int64_t i = 0; i < p->n; i++)
         if (mesh->place[i] >= 0 && p->kind[i] != KIND_MPM) {
             left[mesh->place[i] >> p->dim] = 1;
             if (dirty) dirty[mesh->place[i] >> p->dim] = 1;
-            energy += release(mesh, p, i);
+            energy += mesh_release(mesh, p, i);
         }
     nodes_lighten(mesh, p, left);
     particles_list(p);
@@ -309,7 +323,8 @@ real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_sourc
     return energy;
 }
 
-bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const int32_t *changed, int64_t n)
+bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                  const int32_t *changed, int64_t n)
 {
     uint8_t *dirty = NEW("mesh.dirty", mesh->grid.n, uint8_t);
     bool same = true;
@@ -324,61 +339,65 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
     return same;
 }
 
-/* Images that bonds look at move as their sources; of the bonds of a slot most have none. */
-static void images_see(uint8_t *seen, const struct particles *p, const struct image *image, const int32_t *nbr)
+/* Marks the particles whose images are among the neighbours nbr [LANES] of a column of bonds: images move as their
+ * sources. Most columns lead to no image. */
+static void images_see(uint8_t *exposed, const struct particles *p, const struct image *image, const int32_t *nbr)
 {
     int32_t most = nbr[0];
     for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
     for (int l = 0; l < LANES && most >= p->n; l++)
-        if (nbr[l] >= p->n) seen[image_root(p, image, nbr[l])] = 1;
+        if (nbr[l] >= p->n) exposed[image_root(p, image, nbr[l])] = 1;
 }
 
-/* May a bond of slot k of a group have an image at its end? */
+/* May a bond in column k of row block g lead to an image? */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
-    const struct pattern *pattern = b->pattern[g];
-    const int64_t first = pattern ? b->particle[g * LANES] + pattern->slot[k].offset : b->first[b->slot[g] + k];
+    const struct stencil *stencil = b->stencil[g];
+    const int64_t first = stencil ? b->particle[g * LANES] + stencil->column[k].offset : b->first[b->column[g] + k];
     return first < 0 || first + LANES > p->n;
 }
 
-static void cell_see(struct mesh *mesh, const uint8_t *seen, int64_t I)
+/* Adds cell I to the exposed cells if one of its points is marked in `exposed`. */
+static void cell_see(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
     unsigned places = 0;
     for (int q = 0; q < corners; q++) {
         const int32_t i = mesh->point[I * corners + q];
-        if (i >= 0 && seen[i]) places |= 1u << q;
+        if (i >= 0 && exposed[i]) places |= 1u << q;
     }
     if (places == 0) return;
-    if (mesh->seen == mesh->seen_room) {
-        const int64_t room = mesh->seen_room ? 2 * mesh->seen_room : 256;
-        mesh->see = memory_resize("mesh.see", mesh->see, mesh->seen_room, room, sizeof *mesh->see);
-        mesh->seen_room = room;
+    if (mesh->exposed == mesh->exposed_room) {
+        const int64_t room = mesh->exposed_room ? 2 * mesh->exposed_room : 256;
+        mesh->exposed_list =
+            memory_resize("mesh.see", mesh->exposed_list, mesh->exposed_room, room, sizeof *mesh->exposed_list);
+        mesh->exposed_room = room;
     }
-    mesh->see[mesh->seen++] = (struct mesh_seen){(int32_t)I, (uint8_t)places};
+    mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
 void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
 {
     if (!mesh->place) return;
-    uint8_t *seen = NEW("mesh.seen", p->n, uint8_t);
-    for (int64_t g = 0; g < b->groups; g++) {
+    uint8_t *exposed = NEW("mesh.seen", p->n, uint8_t);
+    for (int64_t g = 0; g < b->row_blocks; g++) {
         const unsigned intact = bonds_intact(b, g);
-        struct slot_copy slot;
-        for (int lane = 0; lane < LANES; lane++) seen[b->particle[g * LANES + lane]] |= intact >> lane & 1;
-        for (int64_t k = 0; k < b->slot_count[g] && p->n_all > p->n; k++) {
+        struct column_copy column;
+        for (int lane = 0; lane < LANES; lane++) exposed[b->particle[g * LANES + lane]] |= intact >> lane & 1;
+        for (int64_t k = 0; k < b->column_count[g] && p->n_all > p->n; k++) {
             if (!meets_images(b, p, g, k)) continue;
-            slot_read(&slot, b, g, k);
-            images_see(seen, p, l->image, slot.nbr);
+            column_read(&column, b, g, k);
+            images_see(exposed, p, l->image, column.nbr);
         }
     }
-    for (int k = 0; k < l->n; k++)               /* what is driven moves with its nodes */
-        for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++) seen[l->load[k].particle[q]] = 1;
-    mesh->seen = 0;
+    for (int k = 0; k < l->n; k++)               /* driven points move with their nodes */
+        for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++)
+            exposed[l->load[k].particle[q]] = 1;
+    mesh->exposed = 0;
     for (int64_t I = 0; I < mesh->grid.n; I++)
-        if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, seen, I);
-    memory_free(seen);
-    rest_mesh_see(mesh);
+        if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, exposed, I);
+    memory_free(exposed);
+    active_nodes_add_exposed(mesh);
 }
 
 status mesh_archive(struct mesh *mesh, struct archive *a)

@@ -1,8 +1,8 @@
-/* floor 3: cut cells of the mesh and their stiffness by modes (kernels/mesh/mesh_cut.h), from the points they have left.
+/* Partial cells of the mesh and their stiffness by modes (kernels/mesh/mesh_cut.h), from the points they have left.
  *
- * The strain at a point x is that of the mean and each bending mode times a product of coordinates +-1/4. So the stiffness
- * is made of sums over the points of their D, stress by strain, times products of signs: one for each set of axes, as the
- * square of a sign is 1. */
+ * The strain at a point is the mean strain plus each bending mode times a product of coordinates +-1/4. The stiffness
+ * thus consists of sums over the points of D, the matrix of stress by strain at a point, times products of signs: one
+ * sum for each set of axes, as the square of a sign is 1. */
 #include <math.h>
 #include <string.h>
 
@@ -12,13 +12,14 @@
 
 enum { TERMS_MAX = 3 };
 
-/* One way in which a mode shows in a component of strain: times the coordinates of the axes in `set`. Rows are symmetric
- * components. */
+/* A term of a mode in the strain: it adds the mode, times `factor`, times the signs of the coordinates along the axes
+ * in `set`, to symmetric component `row`. */
 struct mode_term { uint8_t row, set; real factor; };
 struct mode_terms { int n; struct mode_term at[TERMS_MAX]; };
 
-/* ---- modes -------------------------------------------------------------------------------------------------- */
+/* ---- modes ------------------------------------------------------------------------------------------------------- */
 
+/* Index of symmetric component ij. */
 static int component(int dim, int i, int j)
 {
     for (int k = 0; k < symmetric_count(dim); k++) {
@@ -29,7 +30,8 @@ static int component(int dim, int i, int j)
     return -1;
 }
 
-/* A mode M of component i is, in the slope of u_i along each axis of M, the product of the other coordinates of M. */
+/* Terms of the bending modes: mode M of component i adds to the slope of u_i along each axis of M the product of the
+ * coordinates along the other axes of M. */
 static void bends_terms(struct mode_terms *t, int dim)
 {
     for (int M = 3; M < 1 << dim; M++)
@@ -42,7 +44,7 @@ static void bends_terms(struct mode_terms *t, int dim)
             }
 }
 
-/* In the order of kernels/mesh/mesh_cut.h. */
+/* Terms of all modes, t [MODES_MAX], in the order of kernels/mesh/mesh_cut.h. */
 static void modes_terms(struct mode_terms *t, int dim)
 {
     const int symmetric = symmetric_count(dim);
@@ -51,9 +53,9 @@ static void modes_terms(struct mode_terms *t, int dim)
     bends_terms(t + symmetric, dim);
 }
 
-/* ---- one cell --------------------------------------------------------------------------------------------------- */
+/* ---- stiffness of one cell --------------------------------------------------------------------------------------- */
 
-/* What cells are made of. */
+/* Input for the stiffness of cells. */
 struct cell_maker {
     const struct mesh *mesh;
     const struct particles *p;
@@ -63,7 +65,7 @@ struct cell_maker {
     struct mode_terms in[MODES_MAX];
 };
 
-/* Stress by strain, shears by their angle. */
+/* Matrix C [n][n] of stress by strain [Pa]; shear strains are angles. */
 static void constants(const struct elastic *m, real *C, int dim)
 {
     const int n = symmetric_count(dim);
@@ -77,7 +79,7 @@ static void constants(const struct elastic *m, real *C, int dim)
     }
 }
 
-/* D of a point: the whole stress less what bonds carry. */
+/* D of point i: the constants of its material less what bonds carry (partial stress) [Pa]. */
 static void point_constants(const struct cell_maker *c, int32_t i, real *D)
 {
     const int n = c->columns;
@@ -93,7 +95,8 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
     }
 }
 
-/* sum D/corners times the signs of the axes of each set: butterflies along one axis after the other. */
+/* For each set of axes the sum over the points of D/corners times the signs of their coordinates along these axes:
+ * butterflies along one axis after the other [Pa]. */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -110,9 +113,9 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
             }
 }
 
-/* Force on one mode by another. */
-static real entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX], const struct mode_terms *to,
-                     const struct mode_terms *by)
+/* Entry of the stiffness: force on mode `to` by mode `by` [Pa]. */
+static real mesh_cut_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
+                              const struct mode_terms *to, const struct mode_terms *by)
 {
     real value = 0;
     for (int s = 0; s < to->n; s++)
@@ -122,14 +125,14 @@ static real entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX *
     return value;
 }
 
-/* One lane of a group. D is symmetric but for round-off; K is to the last bit. */
-static void cell_make(const struct cell_maker *c, int64_t I, real *K)
+/* Stiffness K of cell I, as one lane of its group. D is symmetric but for round-off; K is symmetric to the last bit. */
+static void mesh_cut_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
     real sum[CORNERS_MAX][SYM_MAX * SYM_MAX];
     cell_sums(c, I, sum);
     for (int a = 0; a < n; a++)
-        for (int b = a; b < n; b++, K += LANES) *K = entry_of(c, sum, &c->in[a], &c->in[b]);
+        for (int b = a; b < n; b++, K += LANES) *K = mesh_cut_entry_of(c, sum, &c->in[a], &c->in[b]);
 }
 
 /* ---- ends of bonds ----------------------------------------------------------------------------------------------- */
@@ -142,7 +145,8 @@ static void ends_free(struct mesh *mesh)
     mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
 }
 
-/* What each mode adds to the mean strain of a point at a place of its cell: of what its own bonds do not see. */
+/* What each mode adds to the mean strain of the family of a point at `place`, share [modes] [1]: by the part of the
+ * strain that the bonds of the point do not measure (`local`, of partial_stress.c's entry). */
 static void end_share(const struct cell_maker *c, const real *local, int place, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
@@ -155,12 +159,13 @@ static void end_share(const struct cell_maker *c, const real *local, int place, 
     }
 }
 
-/* Entry of a point that is an end of state-based bonds, -1: it is none. */
+/* Partial-stress entry of point i if it is an end of state-based bonds, else -1. */
 static int64_t end_entry(const struct cell_maker *c, int32_t i)
 {
     return i >= 0 && partial_end(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
+/* Adds the ends of bonds in partial cell k to mesh->end, behind the *n that are there. */
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -173,14 +178,15 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
-static void ends_make(struct mesh *mesh, const struct cell_maker *c)
+static void mesh_cut_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;
     int32_t n = 0;
     if (!partial || !partial->index || !partial->local) return;
     mesh->ends = NEW("mesh.ends", mesh_groups(mesh) + 1, int32_t);
     for (int64_t k = 0; k < mesh->cuts; k++)
-        for (int q = 0; q < 1 << c->dim; q++) n += end_entry(c, mesh->point[((int64_t)mesh->cut[k] << c->dim) + q]) >= 0;
+        for (int q = 0; q < 1 << c->dim; q++)
+            n += end_entry(c, mesh->point[((int64_t)mesh->cut[k] << c->dim) + q]) >= 0;
     mesh->end = NEW("mesh.end", n, struct mesh_end);
     mesh->end_share = NEW("mesh.end_share", (int64_t)n * c->modes, real);
     n = 0;
@@ -190,7 +196,7 @@ static void ends_make(struct mesh *mesh, const struct cell_maker *c)
     }
 }
 
-/* ---- all cut cells -------------------------------------------------------------------------------------------- */
+/* ---- all partial cells ------------------------------------------------------------------------------------------- */
 
 void mesh_cuts_add(struct mesh *mesh, int64_t I)
 {
@@ -224,7 +230,7 @@ void mesh_cuts_free(struct mesh *mesh)
     mesh->stiffness = NULL;
 }
 
-/* Of the points of a cell, that with the lowest trigger. */
+/* Material of the point of cell I with the lowest trigger. */
 static uint8_t cut_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I)
 {
     int least = -1;
@@ -250,6 +256,7 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
     return c;
 }
 
+/* First number of a partial cell in an array with `each` numbers per cell; NULL of NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
@@ -260,7 +267,7 @@ static void lane_copy(real *to, real *from, int each)
     for (int k = 0; k < each && to; k++) to[k * LANES] = from ? from[k * LANES] : 0;
 }
 
-/* The rest of the last group is its first cell again, without stiffness. */
+/* Fills the last group of cells up with its first cell, which has no stiffness in these lanes. */
 static void groups_fill(struct mesh *mesh)
 {
     const int64_t whole = mesh_groups(mesh) * LANES, cuts = mesh->cuts;
@@ -268,7 +275,7 @@ static void groups_fill(struct mesh *mesh)
     mesh->cuts = cuts;
 }
 
-/* Which old cell each is, -1: to be made. */
+/* Index of each partial cell among the old ones, -1 where its stiffness has to be made. The caller frees the result. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_cuts *old, const uint8_t *dirty)
 {
     int64_t *from = NEW("mesh.from", mesh->cuts, int64_t);
@@ -279,7 +286,7 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_cuts *old, co
     return from;
 }
 
-/* `each` numbers of every cut cell; only the rest of the last group is 0 already. */
+/* Array of `each` numbers for every partial cell, uninitialised but for the last group, which is 0. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
     const int64_t groups = mesh_groups(mesh), size = each * LANES;
@@ -294,7 +301,8 @@ static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
     return memcmp(of + g * (int64_t)size, of + h * (int64_t)size, size * sizeof *of) == 0;
 }
 
-/* Cells that an edge of the body cuts the same way follow each other. */
+/* Finds groups of equal stiffness (mesh->alike). Cells that an edge of the body cuts in the same way follow each other,
+ * so that each group is compared with the one before. */
 static void alike_find(struct mesh *mesh, int modes)
 {
     const int64_t groups = mesh_groups(mesh);
@@ -322,18 +330,18 @@ void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct m
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t k = 0; k < mesh->cuts; k++) {
         real *K = lane_of(mesh->stiffness, k, half);
-        if (from[k] < 0) cell_make(&c, mesh->cut[k], K);
+        if (from[k] < 0) mesh_cut_cell_make(&c, mesh->cut[k], K);
         else lane_copy(K, lane_of(old->stiffness, from[k], half), half);
     }
     alike_find(mesh, c.modes);
-    ends_make(mesh, &c);
+    mesh_cut_ends_make(mesh, &c);
     memory_free(from);
     memory_free(c.whole);
     memory_free(old->cut);
     memory_free(old->stiffness);
 }
 
-/* Place of a cell among the cut ones, -1: it is none. */
+/* Index of cell I among the partial cells, -1 if it is none. */
 static int64_t cut_find(const struct mesh *mesh, int64_t I)
 {
     int64_t low = 0, high = mesh->cuts;
@@ -345,7 +353,8 @@ static int64_t cut_find(const struct mesh *mesh, int64_t I)
     return low < mesh->cuts && mesh->cut[low] == I ? low : -1;
 }
 
-/* What the numbers of a marked group were is no longer known. */
+/* Detaches the groups marked in `changed` from mesh->alike, and groups that refer to them: their stiffness may no
+ * longer be equal. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
     for (int64_t g = mesh_groups(mesh) - 1; g >= 0; g--)
@@ -363,9 +372,9 @@ void mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct 
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t I = 0; I < mesh->grid.n; I++) {
         const int64_t k = dirty[I] ? cut_find(mesh, I) : -1;
-        if (k >= 0) cell_make(&c, I, lane_of(mesh->stiffness, k, half));
+        if (k >= 0) mesh_cut_cell_make(&c, I, lane_of(mesh->stiffness, k, half));
     }
     ends_free(mesh);
-    ends_make(mesh, &c);
+    mesh_cut_ends_make(mesh, &c);
     memory_free(c.whole);
 }

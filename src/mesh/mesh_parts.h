@@ -1,32 +1,35 @@
-/* floor 3: what the files of the mesh share. */
-#ifndef CLEAVE_MESH_PARTS_H
-#define CLEAVE_MESH_PARTS_H
+/* Declarations shared by the files of the mesh. */
+#ifndef CLEAVE_MESH_PARTS
+#define CLEAVE_MESH_PARTS
 
 #include "mesh/mesh_make.h"
 
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_CUT };
 
-/* Cut cells with their stiffness (mesh_cut.c): taken off the mesh before cells are sorted out anew, put back where nothing has
- * changed (`dirty` by cell, NULL: everywhere), else made; frees `old`. */
+/* Partial cells with their stiffness (mesh_cut.c). mesh_cuts_keep takes them off the mesh before cells are sorted out
+ * anew; mesh_cuts_make puts the stiffness of unchanged cells back and makes that of all others (`dirty` by cell; NULL:
+ * all are made), and frees `old`. */
 struct mesh_cuts { int64_t cuts; int32_t *cut; real *stiffness; };
 struct mesh_cuts mesh_cuts_keep(struct mesh *mesh);
 void mesh_cuts_add(struct mesh *mesh, int64_t I);
 void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
                     struct mesh_cuts *old);
-/* The stiffness of marked cells anew, where they are. */
+/* Makes the stiffness of the cells marked in `dirty` anew; the set of partial cells stays. */
 void mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
 void mesh_cuts_free(struct mesh *mesh);
 
-/* Nodal values of a field that the points sample: least squares by mass, from the lumped projection. */
+/* Nodal values `node` [dim][nodes] of a field that the points sample as `value` [dim][particles]: least squares
+ * weighted by mass, started from the lumped projection. */
 void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);
 
-/* The same for some nodes only, from what they have; all others stay. */
+/* mesh_project for the n listed nodes only, started from their present values; all other nodes stay. */
 void mesh_project_near(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
                        const int32_t *list, int64_t n);
 
-/* Cell and place of particle i, (cell << dim) + place, or -1 where it is not at a quarter or three quarters of each edge. */
+/* Cell and place of particle i, (cell << dim) + place, or -1 where it is not at a quarter or three quarters of each
+ * edge. */
 int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_t i);
-/* Mass of a node anew from the points round it. */
+/* Computes the mass and inverse mass of node I anew, from the points around it. */
 void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I);
 
 #endif

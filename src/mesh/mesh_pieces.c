@@ -1,12 +1,12 @@
-/* floor 3: into how many pieces particles fall that a mesh of the reference frame would hold: sets that share no node, which would pass
- * through each other. */
+/* Number of pieces of a mesh of all particles: sets that share no node and would pass through each other. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* Nodes round the particles, where those of `like` lie; nothing is stored at them. False: more than can be numbered. */
+/* Box of nodes around the particles, aligned with the nodes of `like`, without nodal arrays. False: more nodes than can
+ * be numbered. */
 static bool box_make(struct mesh *box, const struct particles *p, const struct grid *like)
 {
     struct grid *g = &box->grid;
@@ -28,8 +28,9 @@ static bool box_make(struct mesh *box, const struct particles *p, const struct g
     return true;
 }
 
-/* `above` holds 1 + the node above a node, of a root the node itself, 0 where no particle is. */
-static int32_t root_of(int32_t *above, int32_t I)
+/* Root of the set of node I (union-find; shortens the path): `above` holds 1 + the node above a node, for a root 1 +
+ * the node itself, 0 where no particle is. */
+static int32_t mesh_pieces_root_of(int32_t *above, int32_t I)
 {
     while (above[I] != I + 1) {
         above[I] = above[above[I] - 1];
@@ -38,11 +39,12 @@ static int32_t root_of(int32_t *above, int32_t I)
     return I;
 }
 
+/* Joins the sets of nodes I and J. */
 static void join(int32_t *above, int32_t I, int32_t J)
 {
     if (above[I] == 0) above[I] = I + 1;
     if (above[J] == 0) above[J] = J + 1;
-    const int32_t a = root_of(above, I), b = root_of(above, J);
+    const int32_t a = mesh_pieces_root_of(above, I), b = mesh_pieces_root_of(above, J);
     above[a > b ? a : b] = (a > b ? b : a) + 1;
 }
 
@@ -56,7 +58,8 @@ int64_t mesh_pieces(const struct particles *p, const struct grid *like)
     for (int64_t i = 0; i < p->n && fits; i++) {
         const int64_t place = mesh_place_of(&box, p, i), cell = place >> p->dim;
         fits = place >= 0;
-        for (int c = 0; c < 1 << p->dim && fits && cell != last; c++) join(above, (int32_t)cell, (int32_t)cell + box.corner[c]);
+        for (int c = 0; c < 1 << p->dim && fits && cell != last; c++)
+            join(above, (int32_t)cell, (int32_t)cell + box.corner[c]);
         last = cell;
     }
     for (int64_t I = 0; I < box.grid.n && fits; I++) pieces += above[I] == I + 1;

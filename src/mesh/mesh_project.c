@@ -1,4 +1,4 @@
-/* floor 3: from points to nodes of a mesh, once: the nodal field that fits what the points have. */
+/* Projection from points to nodes of a mesh: the nodal field that fits the values at the points. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -9,14 +9,14 @@
 enum { ITERATIONS_MOST = 500 };
 #define TOLERANCE 1e-15                  /* of the largest nodal momentum */
 
-/* What projects. `node`: those that are unknown, the others stay; NULL: all are. */
+/* Data of a projection. `node`: marks the nodes that are unknown, all others stay; NULL: all nodes are unknown. */
 struct projection {
     const struct mesh *mesh;
     const struct particles *p;
     const uint8_t *node;
-    real *mass;                          /* [nodes] of each point round a node that has them all, and of one mass; else 0 [kg] */
-    int32_t *row_of;                     /* [nodes] of other unknown nodes, -1: none                                   */
-    real *row;                           /* [rows][3^dim] of the mass matrix, by the nodes around                       [kg] */
+    real *mass;        /* [nodes] of one point, where a node has all its points and they are of one mass; else 0 [kg] */
+    int32_t *row_of;                     /* [nodes] row of all other unknown nodes, -1: none */
+    real *row;                           /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };
 
 /* sum m_p N_I value_p over the points of a cell of which I is corner c. */
@@ -31,7 +31,7 @@ static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int
 
 static int nodes_around(int dim) { return dim == 1 ? 3 : dim == 2 ? 9 : 27; }
 
-/* Corner k of a cell of which a node is corner c, among the nodes around it. */
+/* Index of corner k of a cell among the 3^dim nodes around a node that is corner c of the cell. */
 static int node_around(int dim, int c, int k)
 {
     int at = 0;
@@ -51,6 +51,7 @@ static void row_make(const struct projection *m, int64_t I, real *row)
     }
 }
 
+/* Row of the mass matrix times nodal values, `from` at the node of the row. */
 static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t across, int64_t layer, const int dim)
 {
     real sum = 0;
@@ -60,8 +61,8 @@ static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t
     return sum;
 }
 
-/* What a row gives with all points of mass 1 round a node, direction by direction: with two points in a cell sum_q N_I N_J is 5/8 in
- * each of two cells, and 3/8 to either side. */
+/* Row of the mass matrix times nodal values where all points around the node exist and have mass 1, direction by
+ * direction: with two points in a cell sum_q N_I N_J is 5/8 in each of the two cells, and 3/8 for either neighbour. */
 static ALWAYS_INLINE real line_product(const real *from) { return 0.375 * (from[-1] + from[1]) + 1.25 * from[0]; }
 
 static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
@@ -73,12 +74,16 @@ static ALWAYS_INLINE real inner_product(const real *from, int64_t row, int64_t l
 {
     if (dim == 1) return line_product(from);
     if (dim == 2) return plane_product(from, row);
-    return 0.375 * (plane_product(from - layer, row) + plane_product(from + layer, row)) + 1.25 * plane_product(from, row);
+    return 0.375 * (plane_product(from - layer, row) + plane_product(from + layer, row)) +
+           1.25 * plane_product(from, row);
 }
 
-static bool is_unknown(const struct projection *m, int64_t I) { return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]); }
+static bool is_unknown(const struct projection *m, int64_t I)
+{
+    return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]);
+}
 
-/* Of points, cell by cell. */
+/* sum m_p N_I value_p over the points around node I, cell by cell; 0 where it is not unknown. */
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
     real sum = 0;
@@ -86,16 +91,22 @@ static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const
     return sum;
 }
 
-/* Both sums, of points (`value`) or nodes, at all unknown nodes, and 0 at others: every node is written by one thread. */
-static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to, const int dim)
+/* Right side from values at points (`value` not NULL), or mass matrix times nodal values `from`, at all unknown nodes,
+ * and 0 at all others. Each node is written by one thread. */
+static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to,
+                                       const int dim)
 {
-    const int64_t across = dim > 1 ? m->mesh->corner[2] : 0, layer = dim > 2 ? m->mesh->corner[4] : 0, n = m->mesh->grid.n;
+    const int64_t across = dim > 1 ? m->mesh->corner[2] : 0, layer = dim > 2 ? m->mesh->corner[4] : 0,
+                  n = m->mesh->grid.n;
     const real *mass = m->mass;
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < n; I++) {
         if (value) to[I] = outer_sum(m, I, value, dim);
         else if (mass[I] > 0) to[I] = mass[I] * inner_product(from + I, across, layer, dim);
-        else to[I] = m->row_of[I] < 0 ? 0 : row_product(m->row + (int64_t)m->row_of[I] * nodes_around(dim), from + I, across, layer, dim);
+        else
+            to[I] = m->row_of[I] < 0
+                        ? 0
+                        : row_product(m->row + (int64_t)m->row_of[I] * nodes_around(dim), from + I, across, layer, dim);
     }
 }
 
@@ -105,7 +116,7 @@ static void gather(const struct projection *m, const real *value, const real *fr
     switch (m->p->dim) { DIM_VARIANTS(CASE) }
 }
 
-/* Mass of the points round node I if they are all there and alike, else 0. */
+/* Mass of a single point around node I if all its points exist and have one mass, else 0 [kg]. */
 static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
@@ -127,7 +138,7 @@ static void masses_find(struct projection *m)
     for (int64_t I = 0; I < m->mesh->grid.n; I++) m->mass[I] = mass_around(m, I);
 }
 
-static void rows_make(struct projection *m)
+static void mesh_project_rows_make(struct projection *m)
 {
     const int64_t n = m->mesh->grid.n, far = m->mesh->corner[(1 << m->p->dim) - 1];
     const int each = nodes_around(m->p->dim);
@@ -159,26 +170,27 @@ static real product(const real *a, const real *b, const real *weight, int64_t n)
     return sum;
 }
 
-static real largest_of(const real *a, int64_t n)
+static real mesh_project_largest_of(const real *a, int64_t n)
 {
     real most = 0;
     for (int64_t I = 0; I < n; I++) most = real_max(most, fabs(a[I]));
     return most;
 }
 
-/* Conjugate gradients on the consistent mass matrix, with the lumped one as preconditioner, from the start x. */
+/* Solves for x [nodes] by conjugate gradients on the consistent mass matrix, with the lumped one as preconditioner. All
+ * nodes unknown: starts from the lumped projection; else from x. */
 static void project(const struct projection *m, const real *value, real *x)
 {
     const int64_t n = m->mesh->grid.n;
     const real *inverse = m->mesh->inverse_mass;
     real *r = NEW("mesh.r", n, real), *d = NEW("mesh.d", n, real), *q = NEW("mesh.q", n, real);
     gather(m, value, NULL, r);
-    const real scale = largest_of(r, n);
+    const real scale = mesh_project_largest_of(r, n);
     for (int64_t I = 0; I < n && !m->node; I++) x[I] = r[I] * inverse[I];
     gather(m, NULL, x, q);
     for (int64_t I = 0; I < n; I++) r[I] -= q[I], d[I] = r[I] * inverse[I];
     real rho = product(r, r, inverse, n);
-    for (int k = 0; k < ITERATIONS_MOST && largest_of(r, n) > TOLERANCE * scale; k++) {
+    for (int k = 0; k < ITERATIONS_MOST && mesh_project_largest_of(r, n) > TOLERANCE * scale; k++) {
         gather(m, NULL, d, q);
         const real one = product(d, q, NULL, n);
         if (!(one > 0)) break;
@@ -196,7 +208,7 @@ static void project(const struct projection *m, const real *value, real *x)
 static void project_all(struct projection m, real *const *value, real *const *node)
 {
     masses_find(&m);
-    rows_make(&m);
+    mesh_project_rows_make(&m);
     for (int a = 0; a < m.p->dim; a++) project(&m, value[a], node[a]);
     memory_free(m.mass);
     memory_free(m.row_of);

@@ -1,4 +1,4 @@
-/* floor 3: the time step that single cells of the mesh allow. */
+/* Stable time step of the mesh, from the largest eigenvalue of single cells. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "mesh_parts.h"
 #include "kernels/mesh/mesh_point.h"
 
-/* Adds to the stiffness K of displacements, column by column, the part of a point at place q. */
+/* Adds to the stiffness K of the corner displacements [N/m], column by column, the part of a point at place q. */
 static void point_stiffness(real *K, const struct elastic *m, int dim, real h, real V, int q)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -22,16 +22,17 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
         }
         for (int c = 0; c < corners; c++)
             for (int a = 0; a < dim; a++)
-                for (int b = 0; b < dim; b++) K[column * n + c * dim + a] += V * mesh_slope(dim, c, q, b) / h * P[a * dim + b];
+                for (int b = 0; b < dim; b++)
+                    K[column * n + c * dim + a] += V * mesh_slope(dim, c, q, b) / h * P[a * dim + b];
     }
 }
 
-/* ---- time step -------------------------------------------------------------------------------------------- */
+/* ---- time step --------------------------------------------------------------------------------------------------- */
 
 struct scaled_cell { const real *K; int n; };
 
-/* y = m^-1/2 K m^-1/2 x, column by column: whole vectors. */
-static void scaled_stiffness(void *context, const real *x, real *y)
+/* y = K x with K scaled by the masses, column by column: whole vectors. */
+static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled_cell *c = context;
     for (int a = 0; a < c->n; a++) y[a] = 0;
@@ -39,7 +40,8 @@ static void scaled_stiffness(void *context, const real *x, real *y)
         for (int a = 0; a < c->n; a++) y[a] += c->K[b * c->n + a] * x[b];
 }
 
-/* A mesh moves no faster than its stiffest cell would alone, with the masses of its own points: of m^-1/2 K m^-1/2 [1/s^2]. */
+/* Largest eigenvalue of m^-1/2 K m^-1/2 for one cell with points at `places` [1/s^2]. No eigenvalue of the mesh exceeds
+ * that of its stiffest cell alone, with the masses of the cell's own points. */
 static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -51,10 +53,11 @@ static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, re
     }
     for (int b = 0; b < n; b++)
         for (int a = 0; a < n; a++) K[b * n + a] /= sqrt(mass[a / dim] * mass[b / dim]);
-    return largest_eigenvalue(n, scaled_stiffness, &(struct scaled_cell){K, n});
+    return largest_eigenvalue(n, mesh_scaled_stiffness, &(struct scaled_cell){K, n});
 }
 
-static unsigned places_of(const struct mesh *mesh, int64_t I)
+/* Places of cell I that hold a point, one bit each. */
+static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
 {
     const int dim = mesh->grid.dim;
     unsigned places = 0;
@@ -62,7 +65,7 @@ static unsigned places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
-/* Do points of a cell leave part of their stress to bonds? Then it is softer than the same cell by itself. */
+/* Do points of cell I leave part of their stress to bonds? The cell is then softer than it would be without bonds. */
 static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
 {
     if (!partial || !partial->index) return false;
@@ -78,7 +81,8 @@ real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *sourc
     const int dim = mesh->grid.dim, sets = 1 << (1 << dim);
     bool *there = NEW("mesh.there", sets, bool);
     for (int64_t k = 0; k < mesh->cuts; k++)
-        if (!leaves_stress(mesh, source->partial, mesh->cut[k])) there[places_of(mesh, mesh->cut[k])] = true;
+        if (!leaves_stress(mesh, source->partial, mesh->cut[k]))
+            there[mesh_stiffness_places_of(mesh, mesh->cut[k])] = true;
     real most = 0;
     for (int set = 1; set < sets; set++) {
         if (!any && !there[set] && set != sets - 1) continue;

@@ -1,7 +1,8 @@
-/* floor 4: checkpoints: two whole files that guard the run against kills, full disks and damaged bytes.
+/* Checkpoints: two whole files, the newest and the previous one, that guard a run against kills, full disks and damaged
+ * bytes.
  *
  * File: an HDF5 file with /Cleave (attribute `version`, dataset `scene`) and /state (one list of bytes per archive
- * entry), then a footer (checksum.h). HDF5 never sees a file whose hash is wrong. */
+ * entry), then a footer (checksum.h). A file is passed to HDF5 only if its hash is right. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,14 +15,15 @@
 #include "output/checksum.h"
 #include "output/output_hdf5.h"
 
-enum { SCENE_LONGEST = 256 << 20 };      /* byte: far more than the echo of any scene */
+enum { SCENE_LONGEST = 256 << 20 };      /* [byte] far more than the echo of any scene */
 enum { CHECKPOINT_VERSION = 10 };
 static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint.previous.h5",
                   damaged_name[] = "checkpoint.damaged.h5";
 
-/* ---- archive entries ------------------------------------------------------------------------------- */
+/* ---- archive entries --------------------------------------------------------------------------------------------- */
 
-/* Entries are flat: '/' becomes '.', so that one entry's name may begin with another's. */
+/* Path of an entry in the file. Entries are flat: '/' becomes '.', so that the name of one entry may be the beginning
+ * of another name. */
 static void entry_path(char *path, size_t room, const char *name)
 {
     int length = snprintf(path, room, "/state/%s", name);
@@ -30,7 +32,7 @@ static void entry_path(char *path, size_t room, const char *name)
     for (char *c = path + strlen("/state/"); *c; c++) *c = *c == '/' ? '.' : *c;
 }
 
-/* A fault of the file itself is kept in struct hdf, and told by whoever opened it. */
+/* Writes one entry. A fault of the file is kept in struct hdf; the function that opened the file reports it. */
 static status entry_save(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -40,6 +42,7 @@ static status entry_save(struct archive *a, const char *name, void *data, size_t
     return f->failed ? FAILED : OK;
 }
 
+/* Reads one entry. FAILED if it is missing, of another size or unreadable. */
 static status entry_restore(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -53,7 +56,7 @@ static status entry_restore(struct archive *a, const char *name, void *data, siz
     return f->failed ? status_set(FAILED, "the checkpoint's entry %s cannot be read", name) : OK;
 }
 
-static int64_t entry_size(struct archive *a, const char *name)
+static int64_t checkpoint_entry_size(struct archive *a, const char *name)
 {
     char path[PATH_NAME_ROOM];
     entry_path(path, sizeof path, name);
@@ -62,13 +65,15 @@ static int64_t entry_size(struct archive *a, const char *name)
 
 static struct archive archive_of(struct hdf *f, bool saving)
 {
-    return (struct archive){
-        .saving = saving, .exchange = saving ? entry_save : entry_restore, .stored_size = entry_size, .file = f};
+    return (struct archive){.saving = saving,
+                            .exchange = saving ? entry_save : entry_restore,
+                            .stored_size = checkpoint_entry_size,
+                            .file = f};
 }
 
-/* ---- writing --------------------------------------------------------------------------------------- */
+/* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes PATH.tmp but for its footer. */
+/* Writes PATH.tmp without its footer; removes it on a fault. */
 static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
                           void *context)
 {
@@ -88,7 +93,7 @@ static status state_write(struct output *o, const char *path, const char *scene_
     return f.failed ? file_fault(path, f.cause) : s;
 }
 
-/* A checkpoint counts on the samples before it: they must be on the disk first. */
+/* Syncs history.csv: the samples before a checkpoint must be on the disk before it. */
 static status history_sync(const struct output *o)
 {
     if (!o->history || (fflush(o->history) == 0 && fsync(fileno(o->history)) == 0)) return OK;
@@ -98,13 +103,13 @@ static status history_sync(const struct output *o)
 status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
-    TRY(output_wait(o));                 /* it counts on the frames before it, and HDF5 serves one thread at a time */
+    TRY(output_wait(o));                 /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
     if (o->broken) return FAILED;
     TRY(folder_held(&o->lock, o->folder));
     TRY(history_sync(o));
     TRY(state_write(o, newest.text, scene_text, archive_all, context));
-    /* Whole and on the disk before the older one gives up its name; a kill between the two renames leaves that
-     * one as checkpoint.previous.h5. */
+    /* The new file is whole and on the disk before the older one is renamed; a kill between the two renames leaves the
+     * older one as checkpoint.previous.h5. */
     TRY(file_seal_whole(newest.text));
     if (path_exists(newest.text) && rename(newest.text, previous.text) != 0) {
         int cause = errno;
@@ -114,9 +119,9 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
     return file_publish(newest.text);
 }
 
-/* ---- reading --------------------------------------------------------------------------------------- */
+/* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Does the open checkpoint hold this scene? */
+/* True if the open checkpoint holds this scene. */
 static bool same_scene(struct hdf *f, const char *scene_text)
 {
     int64_t length = hdf_count(f, "/Cleave/scene");
@@ -128,6 +133,7 @@ static bool same_scene(struct hdf *f, const char *scene_text)
     return same;
 }
 
+/* Restores the state from a file with a correct hash. FAILED for another format or another scene. */
 static status state_read(const char *path, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct hdf f;
@@ -161,7 +167,7 @@ status checkpoint_read(const struct output *o, const char *scene_text, archive_a
                           older_fault);
     fprintf(stderr, "%s %s: resuming from %s\n", shown_name(newest.text).text, fault, previous_name);
     TRY(state_read(previous.text, scene_text, archive_all, context));
-    /* Out of the way, or the next checkpoint would rename it over the whole one. */
+    /* The damaged file is renamed, or the next checkpoint would rename it over the whole one. */
     if (path_exists(newest.text) && rename(newest.text, path_join(o->folder, damaged_name).text) != 0)
         return file_fault(newest.text, errno);
     return OK;

@@ -1,4 +1,4 @@
-/* floor 4: hashes of files, and the footer that tells whole files from damaged ones. */
+/* Hashes of files, and the footer by which damaged files are recognised. */
 #include "output/checksum.h"
 
 #include <errno.h>
@@ -9,16 +9,16 @@
 
 #include "output/output_files.h"
 
-enum { BLOCK = 1 << 14 };               /* on the stack of any thread, and a multiple of STRIDE */
+enum { BLOCK = 1 << 14 };               /* [byte] fits the stack of any thread; a multiple of STRIDE */
 
-/* ---- the hash --------------------------------------------------------------------------------------- */
+/* ---- the hash ---------------------------------------------------------------------------------------------------- */
 
-/* Four lanes, because each step of one waits for its multiplication. */
+/* Four independent lanes, because each step of a lane waits for its multiplication. */
 enum { LANES_OF_HASH = 4, STRIDE = LANES_OF_HASH * 8 };
 struct hash { uint64_t lane[LANES_OF_HASH], length; };
 
-/* One step: after Fowler, Noll and Vo, on words instead of bytes, with a shift because a product carries only
- * upwards. Invertible in `lane` and in `word`: any change of one word changes the lane for good. */
+/* One step: after Fowler, Noll and Vo, on words instead of bytes, with a shift because a product carries only upwards.
+ * Invertible in `lane` and in `word`: a change of one word changes the lane in all later steps. */
 static inline uint64_t hash_step(uint64_t lane, uint64_t word)
 {
     lane = (lane ^ word) * UINT64_C(0x9E3779B97F4A7C15);
@@ -31,6 +31,7 @@ static void hash_start(struct hash *h)
     h->length = 0;
 }
 
+/* Adds whole strides of STRIDE bytes. */
 static void hash_strides(struct hash *h, const unsigned char *bytes, size_t strides)
 {
     uint64_t a = h->lane[0], b = h->lane[1], c = h->lane[2], d = h->lane[3], word[LANES_OF_HASH];
@@ -44,7 +45,7 @@ static void hash_strides(struct hash *h, const unsigned char *bytes, size_t stri
     h->lane[0] = a, h->lane[1] = b, h->lane[2] = c, h->lane[3] = d;
 }
 
-/* Adds bytes; only the last call may be with other than a multiple of STRIDE. */
+/* Adds bytes; in all calls but the last `length` must be a multiple of STRIDE. */
 static void hash_add(struct hash *h, const unsigned char *bytes, size_t length)
 {
     unsigned char rest[STRIDE] = {0};
@@ -85,7 +86,7 @@ static int hash_file(int fd, uint64_t length, uint64_t *value)
     return fault;
 }
 
-/* ---- the footer ------------------------------------------------------------------------------------ */
+/* ---- the footer -------------------------------------------------------------------------------------------------- */
 
 struct footer { char magic[8]; uint64_t length, hash; };
 _Static_assert(sizeof(struct footer) == FOOTER_BYTES, "the footer has no gaps");
@@ -93,7 +94,7 @@ static const char footer_magic[8] = {'C', 'L', 'E', 'A', 'V', 'E', 'O', 'K'};
 
 static const char unread[] = "cannot be read";
 
-/* What is wrong with an open file, NULL if it is whole. */
+/* Fault of an open file, as the end of a sentence; NULL: it is whole. */
 static const char *open_fault(int fd)
 {
     struct stat s;

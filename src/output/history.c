@@ -1,4 +1,4 @@
-/* floor 4: history.csv by columns. */
+/* Reads history.csv, and profiles of probes, by columns. */
 #include "output/history.h"
 
 #include <errno.h>
@@ -14,7 +14,7 @@
 static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
 
 /* `name [unit]` without its unit. */
-static char *column_name(const char *from, size_t length)
+static char *history_column_name(const char *from, size_t length)
 {
     char *name = NEW("history.name", (int64_t)length + 1, char);
     memcpy(name, from, length);
@@ -30,13 +30,13 @@ static void read_header(struct history *h, const char *line)
     for (const char *at = line;; at++) {
         size_t length = entry_length(at);
         h->name = memory_resize("history.names", h->name, h->columns, h->columns + 1, sizeof *h->name);
-        h->name[h->columns++] = column_name(at, length);
+        h->name[h->columns++] = history_column_name(at, length);
         at += length;
         if (*at != ',') return;
     }
 }
 
-/* One line into a row; false where the number of entries is another. */
+/* Reads one line into a row, [columns]; false if the number of entries differs. An entry that is no number is NaN. */
 static bool read_row(const struct history *h, const char *line, double *row)
 {
     const char *at = line;
@@ -51,6 +51,7 @@ static bool read_row(const struct history *h, const char *line, double *row)
     return true;
 }
 
+/* Reads all lines with an end into h->value, [rows][columns]. FAILED with file and line for a malformed one. */
 static status read_rows(struct history *h, FILE *from, const char *path, char **line, size_t *room)
 {
     int64_t rows_room = 0;

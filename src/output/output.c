@@ -1,4 +1,4 @@
-/* floor 4: the folder of a run: what may be put where, and what is removed before. */
+/* The folder of a run: checks, lock, removal of an older run, and the restart of the output. */
 #include "output/output.h"
 
 #include <dirent.h>
@@ -23,20 +23,25 @@ void output_start(void)
     signal(SIGPIPE, SIG_IGN);
 }
 
-/* ---- folders --------------------------------------------------------------------------------------- */
+/* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Files of a run, in the order in which they go: checkpoints first, for none may outlive the frames it counts on. */
-static const char *const made[] = {"checkpoint.h5", "checkpoint.previous.h5", "checkpoint.damaged.h5", "summary.json", "history.csv",
-                                   "frames.hdf.series", "frames.xdmf"};
+/* Files of a run, in the order of their removal: checkpoints first, since none may outlive the frames before it. */
+static const char *const made[] = {"checkpoint.h5",
+                                   "checkpoint.previous.h5",
+                                   "checkpoint.damaged.h5",
+                                   "summary.json",
+                                   "history.csv",
+                                   "frames.hdf.series",
+                                   "frames.xdmf"};
 
-/* 123456.hdf: a name that a run gives to a frame, with `end` behind it. */
+/* True for the name of a frame, 123456.hdf, followed by `end`. */
 static bool is_frame(const char *name, const char *end)
 {
     const size_t digits = strspn(name, "0123456789");
     return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
 }
 
-/* Makes one folder unless it is there. */
+/* Makes one folder unless it exists. REFUSED if a file has this name. */
 static status folder_make_one(const char *path)
 {
     if (mkdir(path, 0777) == 0) return file_settle(path);
@@ -57,7 +62,7 @@ static status folder_make(const char *path)
     return folder_make_one(part.text);
 }
 
-/* Removes frames with `end` behind their names. */
+/* Removes frames with `end` after their names. */
 static void frames_remove(const char *folder, const char *end)
 {
     DIR *d = opendir(folder);
@@ -77,8 +82,8 @@ static bool has_frames(const char *folder)
     return any;
 }
 
-/* Does the folder hold nothing but hidden files, temporary files and a folder named `allowed`? Puts the name of
- * the first other thing into `found`. */
+/* True if the folder holds only hidden files, temporary files and a folder named `allowed`; otherwise the name of the
+ * first other entry goes to `found`. */
 static bool folder_is_bare(const char *folder, const char *allowed, char *found, size_t room)
 {
     bool bare = true;
@@ -87,7 +92,8 @@ static bool folder_is_bare(const char *folder, const char *allowed, char *found,
     for (struct dirent *e; bare && (e = readdir(d));) {
         const size_t length = strlen(e->d_name);
         const bool temporary = length > 4 && strcmp(e->d_name + length - 4, ".tmp") == 0;
-        const bool is_allowed = allowed && strcmp(e->d_name, allowed) == 0 && path_is_folder(path_join(folder, allowed).text);
+        const bool is_allowed =
+            allowed && strcmp(e->d_name, allowed) == 0 && path_is_folder(path_join(folder, allowed).text);
         if (e->d_name[0] == '.' || temporary || is_allowed) continue;
         snprintf(found, room, "%s", e->d_name);
         bare = false;
@@ -96,9 +102,9 @@ static bool folder_is_bare(const char *folder, const char *allowed, char *found,
     return bare;
 }
 
-/* ---- whose folder is it ---------------------------------------------------------------------------- */
+/* ---- check of the folder ----------------------------------------------------------------------------------------- */
 
-/* What counts of a line of a scene: of a particle list what is in it, not where it lies. */
+/* The part of a line that identifies a scene: of a particle list the checksum of its contents, not its path. */
 static const char *line_meaning(const char *line, size_t *length)
 {
     static const char mark[] = "  # contents ";
@@ -108,7 +114,7 @@ static const char *line_meaning(const char *line, size_t *length)
     return contents ? contents : line;
 }
 
-/* Number of the first line in which two scenes differ, where it begins in both; 0: they are the same. */
+/* Number of the first line in which two scenes differ, with *a and *b at this line; 0: the scenes are equal. */
 static int scene_difference(const char **a, const char **b)
 {
     for (int line = 1; **a || **b; line++) {
@@ -124,24 +130,26 @@ static int scene_difference(const char **a, const char **b)
 
 bool scene_text_same(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
 
-/* The first line in which two scenes differ, for a message. */
+/* The first line in which two scenes differ, in words. */
 static void difference_text(const char *a, const char *b, char *text, size_t room)
 {
     const int line = scene_difference(&a, &b);
     a += strspn(a, " "), b += strspn(b, " ");
     enum { SHOWN = 200 };
     const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n");
-    snprintf(text, room, "line %d was `%.*s` and is `%.*s`", line, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b);
+    snprintf(text, room, "line %d was `%.*s` and is `%.*s`", line, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN,
+             b);
 }
 
-/* Refuses a folder that belongs to something else than a run of this scene. */
+/* REFUSED for a folder that holds anything but a run of this scene. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
     struct path scene = path_join(folder, "scene.yaml"), frames = path_join(folder, "frames");
     char found[PATH_NAME_ROOM], difference[500], *text = NULL;
     size_t length = 0;
     if (path_is_link(frames.text))
-        return status_set(REFUSED, "%s is a link: what a run removes and makes there would be somewhere else; choose another -o",
+        return status_set(REFUSED,
+                          "%s is a link: what a run removes and makes there would be somewhere else; choose another -o",
                           frames.text);
     if (path_exists(scene.text)) {
         TRY(file_get(scene.text, &text, &length));
@@ -149,15 +157,17 @@ static status folder_check(const char *folder, const char *scene_text, enum outp
         difference_text(text, scene_text, difference, sizeof difference);
         memory_free(text);
         if (same || mode == OUTPUT_OVERWRITE) return OK;
-        return status_set(REFUSED, "%s holds the run of another scene (scene.yaml: %s); choose another -o or replace it with "
-                                   "--overwrite", folder, difference);
+        return status_set(REFUSED,
+                          "%s holds the run of another scene (scene.yaml: %s); choose another -o or replace it with "
+                          "--overwrite",
+                          folder, difference);
     }
     if (folder_is_bare(folder, "frames", found, sizeof found) &&
         folder_is_bare(frames.text, NULL, found, sizeof found)) return OK;
     return status_set(REFUSED, "%s holds files, for instance %s, but no run; choose another -o", folder, found);
 }
 
-/* Is there more of a run than its scene? */
+/* True if the folder holds any file of a run but scene.yaml. */
 static bool has_run(const char *folder)
 {
     bool any = has_frames(path_join(folder, "frames").text);
@@ -165,7 +175,7 @@ static bool has_run(const char *folder)
     return any;
 }
 
-/* Has it gone on beyond its first checkpoint, which is written before its first step? */
+/* True if a run has written more than its output before the first step, where the first checkpoint is written. */
 static bool has_advanced(const char *folder)
 {
     char *text = NULL;
@@ -178,19 +188,29 @@ static bool has_advanced(const char *folder)
     return lines > 1;
 }
 
-/* An older run of the same scene is left alone without an option that says what to do with it. */
+/* REFUSED where the folder holds an older run of the scene and no option applies to it (--resume, --overwrite), and for
+ * --resume of a run without checkpoints. */
 static status mode_check(const char *folder, enum output_mode mode)
 {
     char ended[NAME_MAX_LENGTH] = "interrupted";
     const bool there = has_run(folder);
-    if (path_is_file(path_join(folder, "summary.json").text)) (void)summary_string(folder, "status", ended, sizeof ended);
+    if (path_is_file(path_join(folder, "summary.json").text))
+        (void)summary_string(folder, "status", ended, sizeof ended);
     if (mode == OUTPUT_FIRST && there)
-        return status_set(REFUSED, "%s holds %s run of this scene; go on with --resume, replace it with --overwrite, or choose "
-                                   "another -o", folder, !strcmp(ended, "done") ? "a finished" : !strcmp(ended, "failed") ? "a failed" : "an interrupted");
+        return status_set(REFUSED,
+                          "%s holds %s run of this scene; go on with --resume, replace it with --overwrite, or choose "
+                          "another -o",
+                          folder,
+                          !strcmp(ended, "done")     ? "a finished"
+                          : !strcmp(ended, "failed") ? "a failed"
+                                                     : "an interrupted");
     if (mode != OUTPUT_RESUME || checkpoint_exists(folder)) return OK;
     if (has_advanced(folder))
-        return status_set(REFUSED, "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or choose "
-                                   "another -o", folder);
+        return status_set(
+            REFUSED,
+            "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or choose "
+            "another -o",
+            folder);
     fprintf(stderr, "warning: nothing to resume in %s: starts at t = 0\n", shown_name(folder).text);
     return OK;
 }
@@ -243,7 +263,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
 
 void output_close(struct output *o)
 {
-    (void)output_wait(o);                /* who wants to know how it ended has asked before */
+    (void)output_wait(o);                /* the result was returned by output_wait before   */
     if (o->history) fclose(o->history);
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);
@@ -260,7 +280,7 @@ status output_text(const struct output *o, const char *name, const char *text, s
     return file_put(path_join(o->folder, name).text, text, length);
 }
 
-/* ---- restart --------------------------------------------------------------------------------------- */
+/* ---- restart ----------------------------------------------------------------------------------------------------- */
 
 status output_archive(struct output *o, struct archive *a)
 {

@@ -1,4 +1,4 @@
-/* floor 4: paths, and whole files: written aside, synced, renamed. */
+/* Paths, and whole files: written aside, synced, renamed. */
 #include "output/output_files.h"
 
 #include <errno.h>
@@ -10,13 +10,14 @@
 
 #include "base/memory.h"
 
-/* ---- paths ----------------------------------------------------------------------------------------- */
+/* ---- paths ------------------------------------------------------------------------------------------------------- */
 
 static struct path path_compose(const char *first, const char *between, const char *last)
 {
     struct path p;
     int length = snprintf(p.text, sizeof p.text, "%s%s%s", first, between, last);
-    /* An empty path is refused by every system call: better than the wrong file. */
+    /* A path that is too long becomes empty: every system call refuses it, while a truncated one could be another
+     * file. */
     if (length < 0 || (size_t)length >= sizeof p.text) p.text[0] = '\0';
     return p;
 }
@@ -49,9 +50,10 @@ bool path_is_folder(const char *path)
     return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
 }
 
-/* ---- faults ---------------------------------------------------------------------------------------- */
+/* ---- faults ------------------------------------------------------------------------------------------------------ */
 
-static const char *file_cure(int cause)
+/* Advice for the cause (an errno) of a failed write. */
+static const char *file_remedy(int cause)
 {
     switch (cause) {
     case ENOSPC:
@@ -69,18 +71,19 @@ static const char *file_cure(int cause)
 
 status file_fault(const char *path, int cause)
 {
-    return status_set(FAILED, "cannot write %s: %s%s", path, cause ? strerror(cause) : "write error", file_cure(cause));
+    return status_set(FAILED, "cannot write %s: %s%s", path, cause ? strerror(cause) : "write error",
+                      file_remedy(cause));
 }
 
 void file_discard(const char *path)
 {
     struct path aside = path_aside(path);
-    /* After a failed write the HDF5 library still holds the file: only cutting it frees the disk. */
+    /* After a failed write HDF5 keeps the file open: only truncation frees the disk. */
     if (path_is_file(aside.text) && truncate(aside.text, 0) != 0) errno = 0;
     unlink(aside.text);
 }
 
-/* ---- whole files ----------------------------------------------------------------------------------- */
+/* ---- whole files ------------------------------------------------------------------------------------------------- */
 
 /* Writes all bytes; returns 0 or an errno. */
 static int write_all(int fd, const char *bytes, size_t length)
@@ -100,7 +103,7 @@ static int write_all(int fd, const char *bytes, size_t length)
 /* Opens, writes at the end, syncs and closes; returns 0 or an errno. */
 static int write_synced(const char *path, int flags, const void *bytes, size_t length)
 {
-    if (flags & O_EXCL) unlink(path);            /* what a kill left; whatever else has this name is not written through */
+    if (flags & O_EXCL) unlink(path);         /* left by a kill; links of this name are not followed */
     int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
     if (fd < 0) return errno;
     int fault = write_all(fd, bytes, length);
@@ -109,7 +112,8 @@ static int write_synced(const char *path, int flags, const void *bytes, size_t l
     return fault;
 }
 
-/* Makes a rename last; returns 0 or an errno. File systems that cannot sync a folder say EINVAL: no fault. */
+/* Syncs the folder of a path, which makes a rename durable; returns 0 or an errno. File systems that cannot sync a
+ * folder return EINVAL, which is no fault. */
 static int sync_folder_of(const char *path)
 {
     struct path folder = path_compose(path, "", "");
@@ -123,7 +127,7 @@ static int sync_folder_of(const char *path)
     return fault;
 }
 
-/* The end of each of the steps below: a fault (an errno) removes what is not whole. */
+/* Status of one of the steps below; a fault (an errno) removes the incomplete file. */
 static status outcome(const char *path, int fault)
 {
     if (!fault) return OK;
@@ -136,7 +140,10 @@ status file_seal(const char *path, const void *tail, size_t length)
     return outcome(path, write_synced(path_aside(path).text, O_APPEND, tail, length));
 }
 
-static status file_rename(const char *path) { return outcome(path, rename(path_aside(path).text, path) != 0 ? errno : 0); }
+static status file_rename(const char *path)
+{
+    return outcome(path, rename(path_aside(path).text, path) != 0 ? errno : 0);
+}
 
 status file_settle(const char *path)
 {
@@ -163,7 +170,7 @@ status file_put(const char *path, const void *bytes, size_t length)
 }
 
 /* Reads up to `room` bytes; returns their number, -1 on a fault. */
-static int64_t read_all(int fd, char *bytes, size_t room)
+static int64_t output_files_read_all(int fd, char *bytes, size_t room)
 {
     size_t have = 0;
     while (have < room) {
@@ -186,7 +193,7 @@ status file_get(const char *path, char **text, size_t *length)
         return status_set(FAILED, "cannot read %s: it is no regular file", path);
     }
     *text = NEW("output.text", s.st_size + 1, char);
-    int64_t have = read_all(fd, *text, (size_t)s.st_size);
+    int64_t have = output_files_read_all(fd, *text, (size_t)s.st_size);
     close(fd);
     if (have < 0) {
         memory_free(*text);

@@ -1,7 +1,7 @@
-/* floor 4: frames in VTKHDF, each a whole file, and their two indices: frames.hdf.series and frames.xdmf.
+/* Frames in VTKHDF, each a whole file, and their two indices: frames.hdf.series and frames.xdmf.
  *
- * Written for the reader of VTK 9.1 (ParaView 5.11): a static UnstructuredGrid with one vertex cell per particle.
- * Our own data live in /Cleave. A symmetric tensor has VTK's order xx yy zz xy yz xz; components that the
+ * Written for the reader of VTK 9.1 (ParaView 5.11): a static UnstructuredGrid with one vertex cell per particle. Data
+ * that VTK does not define are in /Cleave. A symmetric tensor has VTK's order xx yy zz xy yz xz; components that the
  * space does not have are 0, plane strain has zz. */
 #include <errno.h>
 #include <math.h>
@@ -19,10 +19,11 @@
 enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
 enum { COPIED = 4096 };                  /* particles whose rows a thread copies at once */
 
-/* ---- the table of fields --------------------------------------------------------------------------- */
+/* ---- the table of fields ----------------------------------------------------------------------------------------- */
 
-/* One dataset with a row per particle. `columns` 0 stands for dim; `fill` writes the row of particle i of what never changes in a
- * run, `copy` those of particles first .. end - 1 of the rest, into `rows` of all: the loop waits for it. */
+/* One dataset with a row per particle; `columns` 0 stands for dim. `fill`, for fields that are constant during a run,
+ * writes the row of particle i; the writing thread calls it. `copy`, for all other fields, writes rows first .. end - 1
+ * of `rows` of all particles; the step loop waits for it. */
 struct frame_field {
     const char *path;
     enum hdf_type type;
@@ -31,11 +32,13 @@ struct frame_field {
     void (*copy)(const struct particles *p, int64_t first, int64_t end, void *rows);
 };
 
-/* Vectors, or by what they differ from others, in places of three. */
-static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less, int dim)
+/* Vectors `of`, or the differences of - less, in rows of three; components that the space does not have are 0. */
+static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less,
+                                       int dim)
 {
     for (int64_t i = first; i < end; i++)
-        for (int d = 0; d < DIM_MAX; d++) rows[DIM_MAX * i + d] = d < dim ? (float)(less ? of[d][i] - less[d][i] : of[d][i]) : 0;
+        for (int d = 0; d < DIM_MAX; d++)
+            rows[DIM_MAX * i + d] = d < dim ? (float)(less ? of[d][i] - less[d][i] : of[d][i]) : 0;
 }
 
 static void copy_point(const struct particles *p, int64_t first, int64_t end, void *rows)
@@ -53,7 +56,7 @@ static void copy_velocity(const struct particles *p, int64_t first, int64_t end,
     copy_vectors(rows, first, end, p->v, NULL, p->dim);
 }
 
-/* One number of each in every `columns`-th place. */
+/* One number per particle, at a stride of `columns`. */
 static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of, int columns)
 {
     for (int64_t i = first; i < end; i++) rows[columns * i] = (float)of[i];
@@ -61,7 +64,7 @@ static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of
 
 static void copy_stress(const struct particles *p, int64_t first, int64_t end, void *rows)
 {
-    /* Place of our k-th component in VTK's order; differs only in 2D: xx yy xy. */
+    /* Place of component k of struct particles in VTK's order; differs only in 2D: xx yy xy. */
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
     float *out = rows;
     memset(out + SYM_MAX * first, 0, (size_t)(SYM_MAX * (end - first)) * sizeof *out);
@@ -95,7 +98,7 @@ static void fill_body(const struct particles *p, int64_t i, void *row) { *(uint8
 static void fill_id(const struct particles *p, int64_t i, void *row) { *(int32_t *)row = p->id[i]; }
 
 #define POINT_DATA "/VTKHDF/PointData/"
-enum { FIELD_POINTS };                   /* where in the table the positions stand */
+enum { FIELD_POINTS };                   /* index of the positions in the table */
 static const struct frame_field frame_fields[] = {
     {"/VTKHDF/Points", HDF_F32, 3, NULL, copy_point},
     {POINT_DATA "displacement", HDF_F32, 3, NULL, copy_displacement},
@@ -110,26 +113,28 @@ static const struct frame_field frame_fields[] = {
     {"/Cleave/reference", HDF_F64, 0, fill_reference, NULL},
 };
 
-/* Plastic strain is there only if a material yields. */
+/* Plastic strain is written only if a material yields. */
 static bool field_exists(const struct frame_field *field, bool yielding)
 {
     return yielding || field->copy != copy_plastic_strain;
 }
 
-/* ---- one frame ------------------------------------------------------------------------------------- */
+/* ---- one frame --------------------------------------------------------------------------------------------------- */
 
-/* What a frame says and particles will not say much longer, copied; the rest is read while they go on. */
+/* A frame that is being written: copies of the fields that the next steps change. Constant fields are read from the
+ * particles while the run continues. */
 struct frame_job {
     struct path path;
-    const struct particles *p;           /* borrowed: what never changes of them */
-    struct output *o;                    /* borrowed: what it keeps for the writer */
+    const struct particles *p;           /* borrowed; constant fields only */
+    struct output *o;                    /* borrowed; holds the room kept for the writer */
     int64_t n, step;
     int dim;
     real t;
     bool compress, yielding, broken;
     const char *scene_text;              /* borrowed */
-    char *field[COUNT_OF(frame_fields)]; /* in frame_copy, in the particles' own order; NULL: fixed, or not in this frame */
-    char *index[2];                      /* texts of the two indices that count this frame too */
+    /* in frame_copy, in the order of the particles; NULL: constant, or not in this frame */
+    char *field[COUNT_OF(frame_fields)];
+    char *index[2];                      /* texts of the two indices, including this frame */
     size_t index_length[2];
     pthread_t thread;
     bool apart;                          /* the thread runs      */
@@ -142,6 +147,8 @@ static size_t field_row(const struct frame_field *field, int dim)
     return hdf_size(field->type) * (size_t)(field->columns ? field->columns : dim);
 }
 
+/* Makes a job for a frame at time t [s] and copies the changing fields; the room of the copies is kept for the next
+ * frame. */
 static struct frame_job *job_make(struct output *o, const struct particles *p, real t, int64_t step,
                                   const char *scene_text)
 {
@@ -176,9 +183,10 @@ static void job_free(struct frame_job *job)
     memory_free(job);
 }
 
-/* ---- written by a thread of its own: no teams, so no arrays of memory_new --------------------------- */
+/* ---- writing thread: no teams, hence no arrays of memory_new ----------------------------------------------------- */
 
-/* Indices of the body in the order of their ids, which are unique but may have gaps. NULL: no memory. Free with free. */
+/* Indices of the particles in the order of their ids, [n]; ids are unique but may have gaps. NULL: no memory. Free with
+ * free. */
 static int32_t *order_by_id(const struct particles *p)
 {
     int64_t room = 0, k = 0;
@@ -219,6 +227,7 @@ static void write_cells(struct hdf *f, int64_t n, char *room)
     hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
 }
 
+/* Groups and attributes of a frame, and the text of its scene. */
 static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char *scene_text)
 {
     static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
@@ -235,7 +244,8 @@ static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char
     hdf_text(f, "/Cleave/scene", scene_text);
 }
 
-/* Order and room of all frames of a run, made by its first: neither who there is nor their ids change. */
+/* Order and room for all frames of a run, made by the first frame: neither the particles nor their ids change. False:
+ * no memory. */
 static bool kept_make(struct output *o, const struct particles *p)
 {
     if (o->frame_kept.n == p->n) return true;
@@ -247,7 +257,7 @@ static bool kept_make(struct output *o, const struct particles *p)
     return made;
 }
 
-/* Writes PATH.tmp and publishes it. */
+/* Writes PATH.tmp and publishes it as PATH. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
@@ -269,11 +279,12 @@ static status frame_write(struct frame_job *job)
     return file_publish(job->path.text);
 }
 
-/* ---- indices --------------------------------------------------------------------------------------- */
+/* ---- indices ----------------------------------------------------------------------------------------------------- */
 
 /* Name of frame `number` relative to the run's folder. */
 static void frame_name(char *name, size_t room, int number) { snprintf(name, room, "frames/%06d.hdf", number); }
 
+/* Writes frames.hdf.series. */
 static void series_print(FILE *out, const struct output *o)
 {
     const char *between = "";
@@ -288,7 +299,7 @@ static void series_print(FILE *out, const struct output *o)
     fprintf(out, "\n]}\n");
 }
 
-/* A whole dataset of a frame. */
+/* A reference to a whole dataset of a frame. */
 static void xdmf_item(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
 {
     static const char *const number[] = {[HDF_F32] = "Float", [HDF_F64] = "Float", [HDF_U8] = "UChar",
@@ -301,7 +312,7 @@ static void xdmf_item(FILE *out, const char *frame, const struct frame_field *fi
 
 static void xdmf_attribute(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
 {
-    /* The six components are no XDMF tensor: that one has another order, and readers would permute them. */
+    /* The six components are no XDMF tensor: XDMF has another order, and readers would permute them. */
     const char *shape = field->columns == 1 ? "Scalar" : field->columns == 3 ? "Vector" : "Matrix";
     const char *name = strrchr(field->path, '/') + 1;
     fprintf(out, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Node\">", name, shape);
@@ -309,9 +320,10 @@ static void xdmf_attribute(FILE *out, const char *frame, const struct frame_fiel
     fprintf(out, "</Attribute>\n");
 }
 
+/* Writes the XDMF grid of one frame of n particles at time t [s]. */
 static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, bool yielding)
 {
-    /* Named, because the XDMF3 reader makes no cells from a count alone. */
+    /* Cells are listed, because the XDMF3 reader makes none from a count alone. */
     static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL, false};
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
     fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
@@ -339,7 +351,7 @@ static void xdmf_print(FILE *out, const struct output *o)
     fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
 }
 
-/* ---- on their way ------------------------------------------------------------------------------------ */
+/* ---- one frame at a time ----------------------------------------------------------------------------------------- */
 
 static const char *const index_name[2] = {"frames.hdf.series", "frames.xdmf"};
 
@@ -362,7 +374,8 @@ static status indices_put(const char *folder, const struct frame_job *job)
     return OK;
 }
 
-/* The frame first: an index never names one that is not there. DIR is two folders above it. */
+/* The frame is written before the indices, which never name a frame that does not exist. The folder of the run is two
+ * levels above the frame. */
 static status job_write(struct frame_job *job)
 {
     TRY(frame_write(job));
@@ -374,7 +387,7 @@ static status job_write(struct frame_job *job)
 static void *job_run(void *context)
 {
     struct frame_job *job = context;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   /* a library made for threads keeps this for each of them */
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   /* thread-safe builds of HDF5 keep this setting per thread */
     job->ended = job_write(job);
     if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
     return NULL;
@@ -393,7 +406,7 @@ status output_wait(struct output *o)
     return s;
 }
 
-/* Counts a frame that is on its way: output_wait takes it back. */
+/* Counts a frame before it is written; output_wait takes the count back on a fault. */
 static void frame_count(struct output *o, const struct particles *p, real t)
 {
     if (o->frames == o->frames_room) {
@@ -406,8 +419,8 @@ static void frame_count(struct output *o, const struct particles *p, real t)
     o->frame_yielding = p->plastic_strain != NULL;
 }
 
-/* Signals are for the thread that steps, but for those of a fault of this one. */
-static void job_start(struct frame_job *job)
+/* Starts the writing thread. It blocks all signals, which the stepping thread receives, but those of its own faults. */
+static void output_frames_job_start(struct frame_job *job)
 {
     sigset_t all, before;
     sigfillset(&all);
@@ -415,7 +428,7 @@ static void job_start(struct frame_job *job)
     pthread_sigmask(SIG_SETMASK, &all, &before);
     job->apart = pthread_create(&job->thread, NULL, job_run, job) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    if (!job->apart) job_run(job);           /* no thread to be had: then now */
+    if (!job->apart) job_run(job);           /* no thread available: write at once */
 }
 
 status output_frame_begin(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
@@ -430,7 +443,7 @@ status output_frame_begin(struct output *o, const struct particles *p, real t, i
     frame_count(o, p, t);
     for (int k = 0; k < 2 && job->ended == OK; k++) job->ended = index_make(o, job, k);
     if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
-    else job_start(job);
+    else output_frames_job_start(job);
     return OK;
 }
 
@@ -440,9 +453,10 @@ status output_frame(struct output *o, const struct particles *p, real t, int64_t
     return output_wait(o);
 }
 
-/* ---- after a restart ---------------------------------------------------------------------------------- */
+/* ---- after a restart --------------------------------------------------------------------------------------------- */
 
-/* What is wrong for certain with the frame of this time; NULL: nothing, or it cannot be looked at. NAN: it was lost before. */
+/* Certain fault of the frame of this time [s], as the end of a sentence; NULL: none, or the file cannot be read. A time
+ * of NAN marks a frame lost before. */
 static const char *frame_fault(const char *path, real time)
 {
     struct hdf f;
@@ -473,7 +487,8 @@ status output_frames_check(struct output *o, int *lost, char *text, size_t room)
     if (*lost == 0) return OK;
     const size_t used = strlen(text);
     if (*lost > 1) snprintf(text + used, room - used, ", and %d frames more are lost", *lost - 1);
-    strncat(text, ": the indices leave out what is lost; a run of its own would make it again", room - strlen(text) - 1);
+    strncat(text, ": the indices leave out what is lost; a run of its own would make it again",
+            room - strlen(text) - 1);
     for (int k = 0; k < 2 && s == OK; k++) s = index_make(o, &job, k);
     if (s == OK) s = indices_put(o->folder, &job);
     for (int k = 0; k < 2; k++) free(job.index[k]);

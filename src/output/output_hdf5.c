@@ -1,4 +1,4 @@
-/* floor 4: HDF5 in a dozen operations with one sticky fault. */
+/* A dozen operations on HDF5 files. After the first fault all further operations on a file do nothing. */
 #include "output/output_hdf5.h"
 
 #include <errno.h>
@@ -25,7 +25,7 @@ static hid_t hdf_native(enum hdf_type type)
     }
 }
 
-/* Books the outcome of one HDF5 call; all of them are negative on a fault. */
+/* Records the outcome of one HDF5 call, which is negative on a fault; true: no fault. */
 static bool good(struct hdf *f, int64_t result)
 {
     if (result >= 0) return true;
@@ -40,7 +40,7 @@ static bool ready(const struct hdf *f)
     return !f->failed;
 }
 
-/* Access list: closing a file closes all in it; no locks, which some network file systems do not have. */
+/* Access list: closing a file closes all objects in it; no file locks, which some network file systems lack. */
 static hid_t access_list(struct hdf *f)
 {
     hid_t list = -1;
@@ -58,7 +58,7 @@ void hdf_create(struct hdf *f, const char *path, bool compress)
     errno = 0;
     hid_t access = access_list(f);
     if (f->failed) return;
-    unlink(path);                        /* what a kill left; whatever else has this name is not written through */
+    unlink(path);                        /* left by a kill; links of this name are not followed */
     (void)(good(f, create = H5Pcreate(H5P_FILE_CREATE)) && good(f, H5Pset_obj_track_times(create, false)) &&
            good(f, f->file = H5Fcreate(path, H5F_ACC_EXCL, create, access)) && good(f, H5Pclose(create)) &&
            good(f, H5Pclose(access)));
@@ -140,7 +140,8 @@ void hdf_text(struct hdf *f, const char *name, const char *text)
 }
 
 /* Writes one attribute and closes `space`. */
-static void mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space, const void *value)
+static void output_hdf5_mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space,
+                             const void *value)
 {
     hid_t at = -1;
     (void)(good(f, type) && good(f, space) &&
@@ -151,12 +152,12 @@ static void mark(struct hdf *f, const char *group, const char *name, hid_t type,
 void hdf_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count, const void *values)
 {
     hsize_t shape = (hsize_t)count;
-    if (ready(f)) mark(f, group, name, hdf_native(type), H5Screate_simple(1, &shape, NULL), values);
+    if (ready(f)) output_hdf5_mark(f, group, name, hdf_native(type), H5Screate_simple(1, &shape, NULL), values);
 }
 
 void hdf_mark_one(struct hdf *f, const char *group, const char *name, enum hdf_type type, const void *value)
 {
-    if (ready(f)) mark(f, group, name, hdf_native(type), H5Screate(H5S_SCALAR), value);
+    if (ready(f)) output_hdf5_mark(f, group, name, hdf_native(type), H5Screate(H5S_SCALAR), value);
 }
 
 void hdf_mark_text(struct hdf *f, const char *group, const char *name, const char *text)
@@ -164,7 +165,7 @@ void hdf_mark_text(struct hdf *f, const char *group, const char *name, const cha
     if (!ready(f)) return;
     hid_t type = text_type(f, text);
     if (f->failed) return;
-    mark(f, group, name, type, H5Screate(H5S_SCALAR), text);
+    output_hdf5_mark(f, group, name, type, H5Screate(H5S_SCALAR), text);
     if (!f->failed) good(f, H5Tclose(type));
 }
 

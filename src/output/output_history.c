@@ -1,4 +1,4 @@
-/* floor 4: history.csv: one line per sample, cut back to the checkpoint when a run is resumed. */
+/* Writes history.csv: one line per sample; the file is cut back to the checkpoint when a run is resumed. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 
 static struct path history_path(const struct output *o) { return path_join(o->folder, "history.csv"); }
 
-/* After Fowler, Noll and Vo (FNV-1a): as each byte comes, so that checkpoints need not read the file. */
+/* Hash of Fowler, Noll and Vo (FNV-1a), updated with each byte, so that checkpoints need not read the file. */
 #define HASH_START UINT64_C(0xCBF29CE484222325)
 static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
 {
@@ -18,7 +18,7 @@ static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
     return hash;
 }
 
-/* A line on its way. */
+/* A line under construction. */
 struct line { char *text; size_t length; FILE *to; };
 
 static bool line_begin(struct line *l)
@@ -28,19 +28,22 @@ static bool line_begin(struct line *l)
     return l->to != NULL;
 }
 
-/* Ends a line: books it if all of it reached the file. */
+/* Ends a line; counts and hashes it if all of it reached the file. */
 static status line_end(struct output *o, struct line *l)
 {
     bool whole = !ferror(l->to);
     errno = 0;
     if (fclose(l->to) != 0) whole = false;
-    whole = whole && fwrite(l->text, 1, l->length, o->history) == l->length && fflush(o->history) == 0 && !ferror(o->history);
+    whole = whole && fwrite(l->text, 1, l->length, o->history) == l->length && fflush(o->history) == 0 &&
+            !ferror(o->history);
     const status s = whole ? OK : file_fault(history_path(o).text, errno);
-    if (whole) o->history_bytes += (int64_t)l->length, o->history_hash = hash_bytes(o->history_hash, l->text, l->length);
+    if (whole)
+        o->history_bytes += (int64_t)l->length, o->history_hash = hash_bytes(o->history_hash, l->text, l->length);
     free(l->text);
     return s;
 }
 
+/* Writes the header: `name [unit]` of all columns. */
 static status history_header(struct output *o, const struct column *column)
 {
     struct line l;
@@ -49,7 +52,7 @@ static status history_header(struct output *o, const struct column *column)
         const char *end = k + 1 < o->columns ? "," : "\n";
         char name[sizeof column->name];
         snprintf(name, sizeof name, "%s", column[k].name);
-        /* What would end a field early cannot be part of its name. */
+        /* Characters that end a field become _. */
         for (char *c = name; *c; c++) *c = *c == ',' || *c == '"' || *c == '\n' || *c == '\r' ? '_' : *c;
         if (column[k].unit[0]) fprintf(l.to, "%s [%s]%s", name, column[k].unit, end);
         else fprintf(l.to, "%s%s", name, end);
@@ -57,20 +60,21 @@ static status history_header(struct output *o, const struct column *column)
     return line_end(o, &l);
 }
 
-/* Cuts the file to what belongs to the restored state, which it must still hold. */
+/* Cuts the file to its length at the checkpoint. FAILED if this part is missing or has changed. */
 static status history_cut(const struct output *o)
 {
     struct path path = history_path(o);
     char *text = NULL;
     size_t length = 0;
-    if (!path_is_file(path.text)) return status_set(FAILED, "cannot resume: %s is missing; begin anew with --overwrite", path.text);
+    if (!path_is_file(path.text))
+        return status_set(FAILED, "cannot resume: %s is missing; begin anew with --overwrite", path.text);
     TRY(file_get(path.text, &text, &length));
     const bool shorter = (int64_t)length < o->history_bytes;
     const bool same = !shorter && hash_bytes(HASH_START, text, (size_t)o->history_bytes) == o->history_hash;
     memory_free(text);
     if (!same)
-        return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); begin anew with --overwrite", path.text,
-                          shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
+        return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); begin anew with --overwrite",
+                          path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
     if (truncate(path.text, o->history_bytes) != 0) return file_fault(path.text, errno);
     return OK;
 }
@@ -93,7 +97,7 @@ status output_history(struct output *o, const real *value)
     struct line l;
     if (!line_begin(&l)) return file_fault(history_path(o).text, ENOMEM);
     for (int k = 0; k < o->columns; k++) {
-        /* The sign of a NaN means nothing and must not make two runs differ. */
+        /* The sign of a NaN has no meaning and must not make two runs differ. */
         const real a = isnan(value[k]) ? fabs(NAN) : value[k];
         fprintf(l.to, "%.9g%s", a, k + 1 < o->columns ? "," : "\n");
     }

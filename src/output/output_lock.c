@@ -1,5 +1,5 @@
-/* floor 4: one run at a time has a folder: a lock that dies with its process, also on file systems that several machines share
- * (POSIX record locks, which NFS passes on). The file says who holds it, and goes when the run ends. */
+/* Lock of a folder for one run at a time. The lock ends with its process, also on file systems that several machines
+ * share (POSIX record locks, which NFS supports). The lock file names the process and is removed when the run ends. */
 #include "output/output_lock.h"
 
 #include <errno.h>
@@ -13,23 +13,23 @@
 
 static const char lock_name[] = ".running";
 
-enum { TRIES = 100 };                    /* a lock may go between being opened and taken */
+enum { TRIES = 100 };                    /* a lock file may be removed between open and lock */
 
-/* Is the open file still the one of this name? */
+/* True if the open file still has this path. */
 static bool is_still_there(int fd, const char *path)
 {
     struct stat own, there;
     return fstat(fd, &own) == 0 && lstat(path, &there) == 0 && own.st_ino == there.st_ino && own.st_dev == there.st_dev;
 }
 
-/* A file with another name is somebody else's too: what is written to it would be written there. */
+/* True if the file has another hard link, through which a write to it would change another file. */
 static bool has_other_names(int fd)
 {
     struct stat own;
     return fstat(fd, &own) == 0 && own.st_nlink > 1;
 }
 
-/* 0, EAGAIN where another process has it, or another errno. */
+/* Locks an open file. Returns 0, EAGAIN if another process holds the lock, or another errno. */
 static int lock_try(int fd)
 {
     struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
@@ -39,21 +39,25 @@ static int lock_try(int fd)
     return errno == EACCES ? EAGAIN : errno;
 }
 
+/* REFUSED with the process that the lock file names. */
 static status say_holder(int fd, const char *folder)
 {
     char who[160];
     const ssize_t length = pread(fd, who, sizeof who - 1, 0);
     who[length > 0 ? length : 0] = '\0';
     who[strcspn(who, "\n")] = '\0';
-    return status_set(REFUSED, "%s: %s runs in it; wait for it, or choose another -o", folder, who[0] ? who : "another process");
+    return status_set(REFUSED, "%s: %s runs in it; wait for it, or choose another -o", folder,
+                      who[0] ? who : "another process");
 }
 
+/* Writes process and machine to the lock file. */
 static void sign(int fd)
 {
     char host[64] = "this machine", text[128];
     if (gethostname(host, sizeof host - 1) != 0) strcpy(host, "this machine");
     const int length = snprintf(text, sizeof text, "process %ld on %s\n", (long)getpid(), host);
-    if (ftruncate(fd, 0) != 0 || pwrite(fd, text, (size_t)length, 0) != length) errno = 0;    /* a courtesy */
+    /* for messages only: faults are ignored */
+    if (ftruncate(fd, 0) != 0 || pwrite(fd, text, (size_t)length, 0) != length) errno = 0;
 }
 
 status folder_lock(struct folder_lock *l, const char *folder)
@@ -71,13 +75,17 @@ status folder_lock(struct folder_lock *l, const char *folder)
         }
         if (fault) {
             close(fd);
-            fprintf(stderr, "warning: cannot lock %s (%s): see that no other run uses it\n", shown_name(folder).text, strerror(fault));
+            fprintf(stderr, "warning: cannot lock %s (%s): see that no other run uses it\n", shown_name(folder).text,
+                    strerror(fault));
             return OK;
         }
         const bool shared = has_other_names(fd);
         if (!shared && is_still_there(fd, path.text)) l->fd = fd;
         else close(fd);
-        if (shared) return status_set(REFUSED, "%s has another name elsewhere (a hard link), where a run would write too; remove it", path.text);
+        if (shared)
+            return status_set(REFUSED,
+                              "%s has another name elsewhere (a hard link), where a run would write too; remove it",
+                              path.text);
     }
     if (l->fd < 0) return status_set(REFUSED, "%s: another run begins and ends in it; choose another -o", folder);
     sign(l->fd);
@@ -87,13 +95,15 @@ status folder_lock(struct folder_lock *l, const char *folder)
 status folder_held(const struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0 || is_still_there(l->fd, path_join(folder, lock_name).text)) return OK;
-    return status_set(FAILED, "%s was moved, removed or exchanged while this run was in it; what is there now is left alone", folder);
+    return status_set(
+        FAILED, "%s was moved, removed or exchanged while this run was in it; what is there now is left alone", folder);
 }
 
 void folder_unlock(struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0) return;
-    if (folder_held(l, folder) == OK)                /* before the lock goes: the next process to lock this file sees that it is gone */
+    /* before the lock is released: the next process that locks this file finds it removed */
+    if (folder_held(l, folder) == OK)
         unlink(path_join(folder, lock_name).text);
     close(l->fd);
     l->fd = -1;

@@ -1,4 +1,4 @@
-/* floor 4: frames and their times read back, for plot and compare. */
+/* Reads frames and their times, for plot and compare. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -10,12 +10,13 @@
 #include "output/checksum.h"
 #include "output/output_hdf5.h"
 
-/* ---- frames ---------------------------------------------------------------------------------------- */
+/* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* gzip cannot shrink 8-byte references of one particle further than this: a bound on what a damaged file claims. */
+/* Most particles per byte of a file: gzip does not compress 8-byte reference positions further. Bounds the memory that
+ * a damaged file claims. */
 enum { PARTICLES_PER_BYTE_MOST = 1024 };
 
-/* Reads `columns` numbers per particle and hands column from[k] to out[k]. */
+/* Reads `columns` numbers per particle and copies column from[k] to out[k], [n], k < wanted. */
 static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from,
                          float **out)
 {
@@ -35,6 +36,7 @@ static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int6
     return data;
 }
 
+/* Reads all fields of a frame; stress in the order of struct particles, with zz last in the plane. */
 static void read_fields(struct frame *f, struct hdf *h)
 {
     static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
@@ -50,7 +52,7 @@ static void read_fields(struct frame *f, struct hdf *h)
     f->id = read_list(h, "/VTKHDF/PointData/id", HDF_I32, f->n);
 }
 
-/* Reads what says how large the frame is; anything out of range is a fault of the file. */
+/* Reads dimension, time, step and number of particles; a value out of range is a fault of the file. */
 static void read_size(struct frame *f, struct hdf *h, int64_t bytes)
 {
     int32_t dim = 0;
@@ -101,9 +103,9 @@ void frame_free(struct frame *f)
     *f = (struct frame){0};
 }
 
-/* ---- their times ----------------------------------------------------------------------------------- */
+/* ---- times of frames --------------------------------------------------------------------------------------------- */
 
-/* Goes to the next entry of the index; returns false at the end. */
+/* Reads the next entry of the index; false at the end. */
 static bool next_frame(const char **at, struct listed_frame *f)
 {
     static const char name[] = "frames/", key[] = "\"time\":";

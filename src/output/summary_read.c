@@ -1,7 +1,7 @@
-/* floor 4: a strict reader of JSON that walks to one value.
+/* Reads one value of summary.json with a strict reader of JSON.
  *
- * The document is checked from its first to its last byte; on the way the reader carries what is left of the dotted
- * key. `rest` is NULL off the path, "" at the value that is wanted. */
+ * The document is checked from its first to its last byte. The functions pass on the rest of the dotted key: `rest` is
+ * NULL off the path and "" at the wanted value. */
 #include "output/summary_read.h"
 
 #include <ctype.h>
@@ -27,7 +27,7 @@ static void skip_space(struct reader *r)
     while (*r->at == ' ' || *r->at == '\t' || *r->at == '\n' || *r->at == '\r') r->at++;
 }
 
-static bool take(struct reader *r, char c)
+static bool summary_read_take(struct reader *r, char c)
 {
     skip_space(r);
     if (*r->at != c) return false;
@@ -47,7 +47,7 @@ static bool escape(struct reader *r)
 /* A string; its bytes between the quotes are [*from, *to). */
 static bool string(struct reader *r, const char **from, const char **to)
 {
-    if (!take(r, '"')) return false;
+    if (!summary_read_take(r, '"')) return false;
     *from = r->at;
     while (*r->at != '"') {
         if ((unsigned char)*r->at < 0x20) return false;          /* also the end of the text */
@@ -90,8 +90,8 @@ static bool word(struct reader *r, const char *text)
     return true;
 }
 
-/* What is left of the key inside a member of this name; NULL if the member is off the path. */
-static const char *below(const char *rest, const char *name, size_t length)
+/* Rest of the key inside a member of this name; NULL if the member is off the path. */
+static const char *summary_read_below(const char *rest, const char *name, size_t length)
 {
     if (rest == NULL || strncmp(rest, name, length) != 0) return NULL;
     if (rest[length] == '\0') return rest + length;
@@ -100,28 +100,29 @@ static const char *below(const char *rest, const char *name, size_t length)
 
 static bool object(struct reader *r, const char *rest, int depth)
 {
-    if (take(r, '}')) return true;
+    if (summary_read_take(r, '}')) return true;
     do {
         const char *from, *to;
-        if (!string(r, &from, &to) || !take(r, ':')) return false;
-        if (!value(r, below(rest, from, (size_t)(to - from)), depth)) return false;
-    } while (take(r, ','));
-    return take(r, '}');
+        if (!string(r, &from, &to) || !summary_read_take(r, ':')) return false;
+        if (!value(r, summary_read_below(rest, from, (size_t)(to - from)), depth)) return false;
+    } while (summary_read_take(r, ','));
+    return summary_read_take(r, '}');
 }
 
 static bool list(struct reader *r, const char *rest, int depth)
 {
     char name[24];
-    if (take(r, ']')) return true;
+    if (summary_read_take(r, ']')) return true;
     int k = 0;
     do {
         int length = snprintf(name, sizeof name, "%d", k++);
-        if (!value(r, below(rest, name, (size_t)length), depth)) return false;
-    } while (take(r, ','));
-    return take(r, ']');
+        if (!value(r, summary_read_below(rest, name, (size_t)length), depth)) return false;
+    } while (summary_read_take(r, ','));
+    return summary_read_take(r, ']');
 }
 
 static bool value(struct reader *r, const char *rest, int depth)
+/* Reads any value; notes where the wanted one begins. */
 {
     const char *from, *to;
     if (depth == DEPTH_MAX) return false;
@@ -141,6 +142,7 @@ static bool value(struct reader *r, const char *rest, int depth)
     }
 }
 
+/* Reads a whole file into *text, which the caller frees. */
 static status read_text(const char *path, char **text)
 {
     if (path_exists(path) && !path_is_file(path)) return status_set(FAILED, "%s: is no regular file", path);
@@ -166,8 +168,9 @@ static status read_text(const char *path, char **text)
     return OK;
 }
 
-/* Leaves the text, to be freed, and where the value begins in it. */
-static status find(const char *folder, const char *key, char **text, const char **found)
+/* Finds the value of a key. *text: the document, which the caller frees; *found: the first byte of the value in it.
+ * FAILED with file and line if it is not JSON, or without such a key. */
+static status summary_read_find(const char *folder, const char *key, char **text, const char **found)
 {
     char path[4096];
     if (snprintf(path, sizeof path, "%s/summary.json", folder) >= (int)sizeof path)
@@ -195,7 +198,7 @@ status summary_number(const char *folder, const char *dotted_key, double *value_
     char *text;
     const char *found;
     *value_out = NAN;
-    TRY(find(folder, dotted_key, &text, &found));
+    TRY(summary_read_find(folder, dotted_key, &text, &found));
     bool is_number = *found == '-' || isdigit((unsigned char)*found);
     if (is_number) *value_out = strtod(found, NULL);
     free(text);
@@ -208,7 +211,7 @@ status summary_string(const char *folder, const char *dotted_key, char *out, siz
     const char *found, *from, *to;
     assert(size > 0);
     out[0] = '\0';
-    TRY(find(folder, dotted_key, &text, &found));
+    TRY(summary_read_find(folder, dotted_key, &text, &found));
     struct reader r = {.at = found};
     bool is_string = string(&r, &from, &to);
     size_t length = 0;

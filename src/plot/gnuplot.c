@@ -1,4 +1,4 @@
-/* floor 4: starts gnuplot without a shell, sets the style of all pictures, waits for the picture. */
+/* Starts gnuplot without a shell, sets the style of all pictures, waits for the picture. */
 #include "plot/gnuplot.h"
 
 #include <ctype.h>
@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* What a child exits with when there is no such program, as shells do. */
+/* Exit status of a child whose program does not exist, as in shells. */
 enum { NOT_FOUND = 127 };
 
 const char *const curve_colour[CURVE_COLOURS] = {
@@ -27,7 +27,7 @@ void gnuplot_quote(FILE *to, const char *text)
     putc('\'', to);
 }
 
-/* The child: reads the pipe, complains into a file, and becomes gnuplot. */
+/* Child process: standard input is the pipe, output and errors go to the file `complaints`; executes gnuplot. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
     signal(SIGPIPE, SIG_DFL);
@@ -36,22 +36,23 @@ static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
     dup2(complaints, STDERR_FILENO);
     close(pipe_ends[0]);
     close(pipe_ends[1]);
-    setenv("GNUTERM", "unknown", 1);                 /* never a window */
-    execlp("gnuplot", "gnuplot", "-d", (char *)NULL); /* -d: not the user's own settings */
+    setenv("GNUTERM", "unknown", 1);                 /* no window */
+    execlp("gnuplot", "gnuplot", "-d", (char *)NULL); /* -d: without settings of the user */
     _exit(NOT_FOUND);
 }
 
-static status start(struct gnuplot *g)
+/* Starts gnuplot with a pipe to it, g->to, and a file for its messages, g->complaints. */
+static status gnuplot_start(struct gnuplot *g)
 {
     int ends[2];
-    remove(g->aside);                                /* whatever has this name is not written through */
+    remove(g->aside);                                /* links of this name are not followed */
     const int own = open(g->aside, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    g->complaints = own < 0 ? NULL : fdopen(own, "w+");          /* a file without a name, beside the picture */
+    g->complaints = own < 0 ? NULL : fdopen(own, "w+");          /* an unlinked file, beside the picture */
     if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->aside, strerror(errno));
     remove(g->aside);
     if (pipe(ends) != 0)
         return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
-    signal(SIGPIPE, SIG_IGN);                        /* a gnuplot that dies is an error, not our death */
+    signal(SIGPIPE, SIG_IGN);                        /* a gnuplot that ends early is an error, not a signal */
     g->process = (int)fork();
     if (g->process == 0) become_gnuplot(ends, fileno(g->complaints));
     close(ends[0]);
@@ -62,7 +63,7 @@ static status start(struct gnuplot *g)
     g->to = fdopen(ends[1], "w");
     if (g->to != NULL) return OK;
     int cause = errno;
-    close(ends[1]);                                  /* or the child would wait for ever, and we for it */
+    close(ends[1]);                                  /* or child and parent would wait for each other */
     return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(cause));
 }
 
@@ -82,7 +83,7 @@ static void set_style(FILE *to)
         fprintf(to, "set linetype %d lc rgb '%s' lw 2.2 pt 7 ps 0.6\n", k + 1, curve_colour[k]);
 }
 
-/* The drawing library with smooth edges where gnuplot has it, the plain one elsewhere. */
+/* SVG, or PNG by pngcairo, which has smooth edges, where gnuplot has it. */
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height)
 {
     if (format == PICTURE_SVG)
@@ -97,7 +98,7 @@ static void set_terminal(struct gnuplot *g, enum picture_format format, int widt
     putc('\n', g->to);
 }
 
-static void release(struct gnuplot *g)
+static void gnuplot_release(struct gnuplot *g)
 {
     if (g->to != NULL) fclose(g->to);
     if (g->complaints != NULL) fclose(g->complaints);
@@ -112,17 +113,19 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     *g = (struct gnuplot){0};
     for (const char *c = path; *c; c++)
         if (iscntrl((unsigned char)*c))
-            return status_set(REFUSED, "%s: gnuplot draws into no folder whose name holds a line break or other control character", path);
+            return status_set(
+                REFUSED, "%s: gnuplot draws into no folder whose name holds a line break or other control character",
+                path);
     g->path = strdup(path);
     /* gnuplot takes a name that begins with a bar for a command */
     if (g->path == NULL || asprintf(&g->aside, "%s%s.tmp", path[0] == '/' ? "" : "./", path) < 0) {
         g->aside = NULL;
-        release(g);
+        gnuplot_release(g);
         return status_set(FAILED, "%s: out of memory", path);
     }
-    status s = start(g);
+    status s = gnuplot_start(g);
     if (s != OK) {
-        release(g);
+        gnuplot_release(g);
         return s;
     }
     set_terminal(g, format, width, height);
@@ -130,7 +133,7 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     return OK;
 }
 
-/* gnuplot's complaint: the last line that says something. */
+/* Message of gnuplot: the last line that is not blank. */
 static void complaint(FILE *from, char *text, size_t size)
 {
     char line[256];
@@ -162,6 +165,6 @@ status gnuplot_close(struct gnuplot *g)
         s = status_set(FAILED, "%s: %s", g->path, strerror(errno));
     }
     if (s != OK) remove(g->aside);
-    release(g);
+    gnuplot_release(g);
     return s;
 }

@@ -1,4 +1,4 @@
-/* floor 5: `cleave plot DIR`: pictures of a finished or running run. */
+/* `cleave plot DIR`: pictures of a finished or running run. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -6,10 +6,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "src/app/commands.h"
 #include "base/memory.h"
 #include "output/output_files.h"
-#include "plot.h"
+#include "plot/plot.h"
 #include "output/summary_read.h"
 
 enum { PANELS = 6, PANELS_MAX = 24, PATH_LENGTH = 4096, TITLE_LENGTH = 256 };
@@ -24,10 +23,10 @@ struct run_frames {
     int listed;
     struct listed_frame *list;           /* [listed] */
     int shown;
-    struct listed_frame *show;           /* [shown] those that the panels show */
+    struct listed_frame *show;           /* [shown] frames of the panels */
 };
 
-/* ---- units ----------------------------------------------------------------------------------------- */
+/* ---- units ------------------------------------------------------------------------------------------------------- */
 
 struct unit unit_for(double largest, const char *name)
 {
@@ -36,7 +35,7 @@ struct unit unit_for(double largest, const char *name)
     struct unit u = {1, ""};
     int k = 0;
     while (k + 1 < (int)COUNT_OF(si) && fabs(largest) < si[k].factor * 0.9995) k++;
-    if (!(fabs(largest) > 1e-15)) k = 3;             /* zero, or no number: no prefix */
+    if (!(fabs(largest) > 1e-15)) k = 3;             /* zero or not finite: no prefix */
     u.factor = si[k].factor;
     snprintf(u.name, sizeof u.name, "%s%s", si[k].prefix, name);
     return u;
@@ -47,8 +46,9 @@ struct unit unit_for_length(double largest)
     return largest > 5e-4 && largest < 10 ? (struct unit){1e-3, "mm"} : unit_for(largest, "m");
 }
 
-/* ---- command line ---------------------------------------------------------------------------------- */
+/* ---- command line ------------------------------------------------------------------------------------------------ */
 
+/* Reads the value of --frames: all, last, or a number of panels. */
 static status read_frames_option(struct request *r, const char *text)
 {
     char *end;
@@ -84,7 +84,7 @@ static status read_request(struct request *r, int argc, char **argv)
     return OK;
 }
 
-/* ---- frames ---------------------------------------------------------------------------------------- */
+/* ---- frames ------------------------------------------------------------------------------------------------------ */
 
 bool run_holds(const char *folder, const char *name)
 {
@@ -110,7 +110,7 @@ static void spread_frames(struct run_frames *r, int panels)
         r->show[k] = r->list[r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1))];
 }
 
-/* `name, method: what` with what is known of the run. */
+/* Title `name, method: what`, with layer c if given; parts that are unknown are left out. */
 static void compose_title(char *title, const char *folder, const char *what, const struct cloud *c)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
@@ -129,7 +129,7 @@ static void compose_title(char *title, const char *folder, const char *what, con
     snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", what, layer);
 }
 
-/* ---- maps ------------------------------------------------------------------------------------------ */
+/* ---- maps -------------------------------------------------------------------------------------------------------- */
 
 /* The rectangle that holds all clouds with a margin of one spacing or a fiftieth, and the range of damage. */
 static struct view view_of(const struct cloud *cloud, int clouds)
@@ -165,6 +165,7 @@ static status draw_map(const struct request *r, const char *file, enum map map, 
     return maps_draw(path, title, map, view, cloud, clouds);
 }
 
+/* Draws one picture of each kind per frame. */
 static status draw_every(const struct request *r, const struct run_frames *frames, const struct view *view)
 {
     for (int k = 0; k < frames->listed; k++) {
@@ -195,8 +196,8 @@ static status draw_maps(const struct request *r, const struct run_frames *frames
     return r->every ? draw_every(r, frames, &view) : OK;
 }
 
-/* Beside a closed form the state at rest says nothing. */
-static status draw_bar(const struct request *r, const struct run_frames *frames, const char *probe)
+/* Draws the profiles of a bar beside its closed form, without the frame of t = 0. */
+static status plot_draw_bar(const struct request *r, const struct run_frames *frames, const char *probe)
 {
     char path[PATH_LENGTH], title[TITLE_LENGTH];
     const int skipped = frames->shown > 1 && frames->show[0].number == 0;
@@ -208,10 +209,11 @@ static status draw_bar(const struct request *r, const struct run_frames *frames,
     return s;
 }
 
+/* Draws profiles of a bar: beside its closed form if a probe has one, else of the particles. */
 static status draw_profiles(const struct request *r, const struct run_frames *frames)
 {
     char path[PATH_LENGTH], title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
-    if (bar_probe(r->folder, probe)) return draw_bar(r, frames, probe);
+    if (bar_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
     struct frame *f = NEW("plot.frames", frames->shown, struct frame);
     status s = OK;
     int read = 0;

@@ -1,4 +1,4 @@
-/* floor 5: profiles of a bar beside its closed form. */
+/* Profiles of a bar beside its closed form. */
 #include <dirent.h>
 #include <math.h>
 #include <stdlib.h>
@@ -6,13 +6,13 @@
 
 #include "output/history.h"
 #include "base/memory.h"
-#include "plot.h"
+#include "plot/plot.h"
 
 enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
 
-#define TINT "#e8f1f9"                   /* behind what is peridynamic where the bar is both */
+#define TINT "#e8f1f9"                   /* background of peridynamic parts, where the bar has both kinds */
 
-/* What the panels show, from above; columns of the probe's files. */
+/* Panels from top to bottom, by columns of the files of the probe. */
 static const struct { const char *computed, *exact, *label, *unit; } quantity[QUANTITIES] = {
     {"stress", "exact_stress", "stress", "Pa"},
     {"strain", "exact_strain", "strain", ""},
@@ -20,7 +20,7 @@ static const struct { const char *computed, *exact, *label, *unit; } quantity[QU
     {"damage", NULL, "damage", ""},
 };
 
-/* ---- files ----------------------------------------------------------------------------------------------- */
+/* ---- files ------------------------------------------------------------------------------------------------------- */
 
 static status profile_read(struct history *h, const char *folder, const char *probe, int number)
 {
@@ -30,7 +30,7 @@ static status profile_read(struct history *h, const char *folder, const char *pr
     return history_read_file(h, path);
 }
 
-/* Is it the file of a first frame, and has it the columns of a closed form? */
+/* True if `file` is the profile of a first frame and has the columns of a closed form; `name`: its probe. */
 static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_LENGTH])
 {
     const char ending[] = "_000000.csv";
@@ -45,7 +45,7 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
     return has;
 }
 
-/* The first by name, whatever the order of the folder. */
+/* The first probe by name, independent of the order of the folder. */
 bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
@@ -61,7 +61,7 @@ bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH])
     return found;
 }
 
-/* ---- scales ------------------------------------------------------------------------------------------------ */
+/* ---- scales ------------------------------------------------------------------------------------------------------ */
 
 struct scale { double factor, low, high; bool zero; char label[64]; };
 
@@ -74,7 +74,7 @@ static void extend(struct scale *s, const struct history *h, const char *column)
     }
 }
 
-/* 10 to a power, as a person writes it. */
+/* 10 to a power, with raised digits. */
 static void power_text(char *text, size_t room, int power)
 {
     static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -109,7 +109,7 @@ static struct scale scale_of(const struct history *h, int frames, int q)
     return s;
 }
 
-/* ---- the picture ------------------------------------------------------------------------------------------- */
+/* ---- the picture ------------------------------------------------------------------------------------------------- */
 
 static void send_number(FILE *to, double a)
 {
@@ -133,7 +133,8 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
     fputs("EOD\n", to);
 }
 
-/* Tints what is peridynamic in a frame of two kinds, behind the curves; true if it is one. */
+/* Tints the peridynamic parts of a frame behind the curves; false if the frame has one kind only. half: half a spacing
+ * [m]. */
 static bool tint_kinds(FILE *to, const struct history *h, double metre, double half)
 {
     int x = history_column(h, "x"), kind = history_column(h, "kind"), parts = 0;
@@ -151,7 +152,8 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
     return true;
 }
 
-static void plot_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
+/* Curves of panel q for the frames shown, each with its exact solution dashed. */
+static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
 {
     struct unit second = unit_for(show[frames - 1].time, "s");
     for (int k = 0; k < frames; k++)
@@ -164,7 +166,9 @@ static void plot_panel(FILE *to, int q, const struct listed_frame *show, int fra
     putc('\n', to);
 }
 
-static status draw(const char *path, const char *title, const struct history *h, const struct listed_frame *show, int frames)
+/* Draws all panels from the profiles h, [frames]. */
+static status plot_bar_draw(const char *path, const char *title, const struct history *h,
+                            const struct listed_frame *show, int frames)
 {
     struct gnuplot g;
     struct scale scale[QUANTITIES], x = {.low = INFINITY, .high = -INFINITY};
@@ -190,7 +194,7 @@ static status draw(const char *path, const char *title, const struct history *h,
                       "set yrange [%.9g:%.9g]\n", above, above - 225.0 / height, scale[q].label, scale[q].low,
                 scale[q].high);
         if (q == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
-        plot_panel(g.to, q, show, frames, tinted);
+        plot_bar_panel(g.to, q, show, frames, tinted);
         fputs("unset label\nunset key\n", g.to);
     }
     fputs("unset multiplot\n", g.to);
@@ -207,7 +211,7 @@ status bar_draw(const char *path, const char *title, const char *folder, const c
         s = profile_read(&h[read], folder, probe, show[read].number);
         if (s == OK) read++;
     }
-    if (s == OK) s = draw(path, title, h, show, frames);
+    if (s == OK) s = plot_bar_draw(path, title, h, show, frames);
     for (int k = 0; k < read; k++) history_free(&h[k]);
     memory_free(h);
     return s;

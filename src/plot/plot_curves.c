@@ -1,11 +1,11 @@
-/* floor 5: curves: crack and share of peridynamics, energies, profiles along a bar. */
+/* Curves: crack and share of peridynamics, energies, profiles along a bar. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "output/history.h"
 #include "base/memory.h"
-#include "plot.h"
+#include "plot/plot.h"
 
 enum { POINTS_MAX = 4000, PATH_LENGTH = 4096, CURVES_MAX = 8 };
 
@@ -52,9 +52,9 @@ void curves_time_axis(FILE *to, const struct series *s)
             s->second.name);
 }
 
-/* ---- crack ----------------------------------------------------------------------------------------- */
+/* ---- crack ------------------------------------------------------------------------------------------------------- */
 
-/* An axis from zero to `top` that takes the colour of its curve. */
+/* An axis from zero to `top`, in the colour of its curve. */
 static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top)
 {
     fprintf(to, "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\n"
@@ -62,6 +62,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
             axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
 }
 
+/* Crack length and share of peridynamic particles over time. */
 static status draw_crack(const char *path, const char *title, const struct series *s)
 {
     int column[2] = {history_column(s->h, "crack_length"), history_column(s->h, "pd_share")};
@@ -87,7 +88,7 @@ static status draw_crack(const char *path, const char *title, const struct serie
     return gnuplot_close(&g);
 }
 
-/* ---- energies -------------------------------------------------------------------------------------- */
+/* ---- energies ---------------------------------------------------------------------------------------------------- */
 
 struct energies {
     int column[CURVES_MAX];
@@ -97,7 +98,7 @@ struct energies {
     struct unit joule;
 };
 
-/* The columns that are there and not always zero. */
+/* Chooses the columns of energies that exist and are not always zero. */
 static void choose_energies(struct energies *e, const struct history *h)
 {
     static const struct { const char *name, *label; } known[] = {
@@ -117,7 +118,7 @@ static void choose_energies(struct energies *e, const struct history *h)
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
 }
 
-/* Every energy, and their sum (external work left out) dashed. */
+/* Plots all energies, and their sum (external work left out) dashed. */
 static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);
@@ -130,7 +131,7 @@ static void plot_energies(FILE *to, const struct energies *e)
 }
 
 /* A round distance of tics that leaves one or two of them between 0 and `top`. */
-static double tic_distance(double top)
+static double plot_curves_tic_distance(double top)
 {
     double decade = pow(10, floor(log10(top))), lead = top / decade;
     return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
@@ -143,9 +144,10 @@ static void plot_balance(FILE *to, const struct series *s, double largest)
     fprintf(to, "unset label\nunset key\nset format x '%%g'\nset tmargin at screen 0.255\nset bmargin at screen 0.105\n"
                 "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel 'balance error [%%]'\n"
                 "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
-            -top, top, tic_distance(top), curve_colour[6]);
+            -top, top, plot_curves_tic_distance(top), curve_colour[6]);
 }
 
+/* Energies over time, and the balance error below them. */
 static status draw_energy(const char *path, const char *title, const struct series *s)
 {
     struct energies e;
@@ -195,7 +197,7 @@ status curves_draw(const char *folder, const char *pictures, const char *title)
     return result;
 }
 
-/* ---- profiles -------------------------------------------------------------------------------------- */
+/* ---- profiles ---------------------------------------------------------------------------------------------------- */
 
 /* Early frames light, late ones dark. */
 static struct colour frame_colour(int k, int frames)
@@ -209,19 +211,19 @@ static struct colour frame_colour(int k, int frames)
 
 struct station { float x, velocity, stress, damage; };
 
-static int by_place(const void *a, const void *b)
+static int plot_curves_by_place(const void *a, const void *b)
 {
     float x = ((const struct station *)a)->x, y = ((const struct station *)b)->x;
     return (x > y) - (x < y);
 }
 
-/* The data block $fK: the bar from left to right, an empty line where it has come apart. */
+/* The data block $fK: the bar from left to right, with an empty line at each separation. */
 static void send_profile(FILE *to, const struct frame *f, int k, double spacing, const struct unit *unit)
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
     for (int64_t i = 0; i < f->n; i++)
         s[i] = (struct station){f->X[0][i] + f->u[0][i], f->v[0][i], f->stress[0][i], f->damage[i]};
-    qsort(s, (size_t)f->n, sizeof *s, by_place);
+    qsort(s, (size_t)f->n, sizeof *s, plot_curves_by_place);
     fprintf(to, "$f%d << EOD\n", k);
     for (int64_t i = 0; i < f->n; i++) {
         if (i > 0 && s[i].x - s[i - 1].x > 1.5 * spacing) putc('\n', to);

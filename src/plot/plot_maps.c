@@ -1,17 +1,17 @@
-/* floor 5: damage and kind maps: panels, colour bar, titles. */
+/* Damage and kind maps: panels, colour bar, titles. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "plot.h"
+#include "plot/plot.h"
 
 /* Room round the panels [pixel]. */
 enum { LEFT = 92, RIGHT = 122, ABOVE = 84, BELOW = 70, GAP_X = 26, GAP_Y = 42 };
-/* Tics are at least so far apart: the width and twice the height of their numbers [pixel]. */
+/* Least distance of tics: the width and twice the height of their numbers [pixel]. */
 enum { TICS_X = 50, TICS_Y = 36 };
 /* The colour bar; its image is two pixels wide because gnuplot draws none of a single one. */
 enum { BAR_FROM = 26, BAR_WIDTH = 16, BAR_STEPS = 256, BAR_COLUMNS = 2 };
-/* Of the whole picture [pixel]; a single panel needs less. */
+/* Size of the whole picture [pixel]; a single panel needs less. */
 enum { WIDTH = 1640, WIDTH_SINGLE = 1180, HEIGHT_MAX = 1500, PANEL_MIN = 24 };
 static const double SHAPE_WANTED = 0.72;             /* height over width of the picture */
 
@@ -21,6 +21,7 @@ struct layout {
     int width, height;
 };
 
+/* Layout with this number of columns; aspect: height over width of a panel. */
 static struct layout layout_of(int columns, int panels, double aspect)
 {
     struct layout l = {.columns = columns, .rows = (panels + columns - 1) / columns};
@@ -62,7 +63,7 @@ static void set_box(FILE *to, const struct layout *l, double left, double above,
 }
 
 /* A round distance of tics over `range`: at least `apart` pixels, and about ten tics at most. */
-static double tic_distance(double range, int pixels, int apart)
+static double plot_maps_tic_distance(double range, int pixels, int apart)
 {
     double least = range * fmax(apart, pixels / 10.0) / pixels, decade = pow(10, floor(log10(least)));
     double lead = least / decade;
@@ -79,9 +80,9 @@ static void send_image(FILE *to, const struct colour *pixel, int width, int heig
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
-/* The panel at a place of the grid; `second` is the unit of time of all panels. */
-static void draw_panel(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c, enum map map,
-                       const struct unit *second, int place, bool lowest)
+/* Draws the panel at a place of the grid of panels; `second`: unit of time of all panels; `lowest`: no panel below. */
+static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
+                                 enum map map, const struct unit *second, int place, bool lowest)
 {
     int column = place % l->columns, row = place / l->columns;
     double from[2], step[2], largest = 0;
@@ -96,8 +97,8 @@ static void draw_panel(FILE *to, const struct layout *l, const struct view *view
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
         bool labelled = k == 0 ? lowest : column == 0;
         double range = view->to[k] / metre.factor - from[k];
-        fprintf(to, "set %ctics %.9g format '%s'\n", 'x' + k, tic_distance(range, size[k], k == 0 ? TICS_X : TICS_Y),
-                labelled ? "%g" : "");
+        fprintf(to, "set %ctics %.9g format '%s'\n", 'x' + k,
+                plot_maps_tic_distance(range, size[k], k == 0 ? TICS_X : TICS_Y), labelled ? "%g" : "");
         fprintf(to, "set %clabel '", 'x' + k);
         if (labelled) fprintf(to, "%c [%s]", 'x' + c->axis[k], metre.name);
         fputs("'\n", to);
@@ -110,7 +111,7 @@ static void draw_panel(FILE *to, const struct layout *l, const struct view *view
 }
 
 /* Colours of damage as a narrow panel on the right, at most a panel's height, beside the first row. */
-static void draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map)
+static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map)
 {
     struct colour pixel[BAR_STEPS * BAR_COLUMNS];
     double from[2] = {0, 0}, step[2] = {1.0 / BAR_COLUMNS, view->top / BAR_STEPS};
@@ -126,6 +127,7 @@ static void draw_bar(FILE *to, const struct layout *l, const struct view *view, 
     send_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step);
 }
 
+/* The two kinds of particles, above the panels. */
 static void draw_key(FILE *to, const struct layout *l)
 {
     const struct { enum kind kind; const char *text; } entry[] = {{KIND_MPM, "material points"},
@@ -154,10 +156,10 @@ status maps_draw(const char *path, const char *title, enum map map, const struct
     if (map == MAP_KIND) draw_key(g.to, &l);
     struct unit second = unit_for(cloud[clouds - 1].t, "s");
     for (int k = 0; k < clouds; k++) {
-        draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
-        fputs("unset label\nunset object\n", g.to);  /* once is enough */
+        plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
+        fputs("unset label\nunset object\n", g.to);  /* drawn once for all panels */
     }
-    draw_bar(g.to, &l, view, map);
+    plot_maps_draw_bar(g.to, &l, view, map);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }

@@ -1,15 +1,15 @@
-/* floor 5: particles of a frame as a flat cloud, and the cloud as pixels.
+/* Particles of a frame as a flat cloud, and the cloud as pixels.
  *
- * A picture made of point symbols has gaps or overlaps at every size but one. Here each pixel asks which particle
- * is nearest and takes its colour, so that a body is a closed surface and a crack an open line. */
+ * A picture made of point symbols has gaps or overlaps at every size but one. Here each pixel takes the colour of the
+ * nearest particle, so that a body is a closed surface and a crack an open line. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "plot.h"
+#include "plot/plot.h"
 
-/* Particles looked at, and comparisons spent on them, to learn the spacing. */
+/* Number of sampled particles, and of comparisons of distances, for the estimate of the spacing. */
 enum { SAMPLES = 200, SAMPLES_MIN = 9 };
 static const double COMPARISONS = 2e7;
 
@@ -56,7 +56,7 @@ double frame_spacing(const struct frame *f)
     return median_of(distance, known);
 }
 
-/* Does the nearest neighbour in the map lie within 8 degrees of an axis? */
+/* True if the nearest neighbour in the map lies within 8 degrees of an axis. */
 static bool lies_along(const struct cloud *c, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
@@ -127,12 +127,12 @@ void cloud_free(struct cloud *c)
     *c = (struct cloud){0};
 }
 
-/* ---- colours --------------------------------------------------------------------------------------- */
+/* ---- colours ----------------------------------------------------------------------------------------------------- */
 
 struct stop { double at, red, green, blue; };
 
-/* Light grey through ochre to dark red, and light to dark blue: both darken evenly, so they survive in grey print
- * and for any colour vision. */
+/* Light grey through ochre to dark red, and light to dark blue: both darken evenly, so that they remain readable in
+ * grey print and for any colour vision. */
 static const struct stop damage_stops[] = {
     {0.00, 226, 228, 231}, {0.12, 246, 220, 190}, {0.35, 240, 160, 110},
     {0.60, 214, 80, 62},   {0.80, 158, 24, 42},   {1.00, 84, 2, 24},
@@ -160,15 +160,16 @@ struct colour map_colour(enum map map, enum kind kind, double damage, double top
     return along_stops(kind_stops, COUNT_OF(kind_stops), damage / top);
 }
 
-/* ---- pixels ---------------------------------------------------------------------------------------- */
+/* ---- pixels ------------------------------------------------------------------------------------------------------ */
 
 struct canvas {
     struct colour *pixel;
-    float *rank;                         /* of what is painted there; the smaller wins */
+    float *rank;                         /* of the particle painted there; the smaller rank wins */
     int width, height;
     double per_metre[2];                 /* pixels */
 };
 
+/* Paints particle i on the pixels that it covers and where its rank is the smallest. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct cloud *c, int64_t i, enum map map)
 {
     double at[2], reach[2];

@@ -1,14 +1,14 @@
-/* floor 5: pictures of stress-intensity factors over time, and of the ways that tips have gone. */
+/* Pictures of stress-intensity factors over time, and of the paths of crack tips. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "plot.h"
+#include "plot/plot.h"
 #include "output/summary_read.h"
 
 enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6, PATH_LENGTH = 4096 };
 
-/* Probes whose columns end in `quantity`: their names. */
+/* Names of the probes with a column that ends in `quantity`; returns their number, at most `most`. */
 static int probes_with(const struct history *h, const char *quantity, char name[][NAME_MAX_LENGTH], int most)
 {
     const size_t tail = strlen(quantity);
@@ -22,14 +22,14 @@ static int probes_with(const struct history *h, const char *quantity, char name[
     return n;
 }
 
-static int column_of(const struct history *h, const char *probe, const char *quantity)
+static int plot_sif_column_of(const struct history *h, const char *probe, const char *quantity)
 {
     char name[2 * NAME_MAX_LENGTH];
     snprintf(name, sizeof name, "%.63s.%.63s", probe, quantity);
     return history_column(h, name);
 }
 
-/* ---- factors over time --------------------------------------------------------------------------------- */
+/* ---- factors over time ------------------------------------------------------------------------------------------- */
 
 struct factors {
     int n;
@@ -39,15 +39,16 @@ struct factors {
     struct unit unit;
 };
 
+/* Columns of K_I, K_II and contour_spread of the sif probes. */
 static void find_factors(struct factors *f, const struct history *h)
 {
     double largest = 0;
     *f = (struct factors){0};
     f->n = probes_with(h, ".K_I", f->name, PROBES_SHOWN);
     for (int k = 0; k < f->n; k++) {
-        f->column[2 * k] = column_of(h, f->name[k], "K_I");
-        f->column[2 * k + 1] = column_of(h, f->name[k], "K_II");
-        f->spread[k] = column_of(h, f->name[k], "contour_spread");
+        f->column[2 * k] = plot_sif_column_of(h, f->name[k], "K_I");
+        f->column[2 * k + 1] = plot_sif_column_of(h, f->name[k], "K_II");
+        f->spread[k] = plot_sif_column_of(h, f->name[k], "contour_spread");
         f->percent[k] = 0.01;
         for (int m = 0; m < 2; m++) largest = fmax(largest, curves_largest(h, f->column[2 * k + m]));
     }
@@ -67,7 +68,7 @@ static void plot_factors(FILE *to, const struct factors *f)
     putc('\n', to);
 }
 
-/* Contours that differ by more than a half tell of waves in the ring, or of a kink in it. */
+/* Spread of the contours: more than a half indicates waves in the ring, or a kink of the crack in it. */
 static void plot_spread(FILE *to, const struct series *s, const struct factors *f)
 {
     curves_time_axis(to, s);
@@ -105,7 +106,7 @@ status factors_draw(const char *pictures, const char *title, const struct series
     return gnuplot_close(&g);
 }
 
-/* ---- the ways of tips -------------------------------------------------------------------------------------- */
+/* ---- paths of tips ----------------------------------------------------------------------------------------------- */
 
 struct way {
     char name[NAME_MAX_LENGTH];
@@ -114,7 +115,7 @@ struct way {
     double angle, experiment, direction; /* of the chord, of an experiment, of the start; NAN: unknown [degree] */
 };
 
-static double figure_of(const char *folder, const char *probe, const char *quantity)
+static double plot_sif_figure_of(const char *folder, const char *probe, const char *quantity)
 {
     char key[3 * NAME_MAX_LENGTH];
     double value = NAN;
@@ -122,6 +123,7 @@ static double figure_of(const char *folder, const char *probe, const char *quant
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
+/* Paths of the tips that have grown, into w, [PATHS_SHOWN]; returns their number. */
 static int find_ways(struct way *w, const char *folder, const struct history *h)
 {
     char name[PATHS_SHOWN][NAME_MAX_LENGTH];
@@ -129,8 +131,8 @@ static int find_ways(struct way *w, const char *folder, const struct history *h)
     int n = 0;
     for (int k = 0; k < found; k++) {
         struct way *a = &w[n];
-        *a = (struct way){.x = column_of(h, name[k], "x"), .y = column_of(h, name[k], "y"),
-                          .length = column_of(h, name[k], "length")};
+        *a = (struct way){.x = plot_sif_column_of(h, name[k], "x"), .y = plot_sif_column_of(h, name[k], "y"),
+                          .length = plot_sif_column_of(h, name[k], "length")};
         strcpy(a->name, name[k]);
         a->grown = history_at(h, h->rows - 1, a->length);
         if (!(a->grown > 0)) continue;
@@ -138,9 +140,9 @@ static int find_ways(struct way *w, const char *folder, const struct history *h)
             double *at = e == 0 ? a->from : a->to;
             at[0] = history_at(h, e * (h->rows - 1), a->x), at[1] = history_at(h, e * (h->rows - 1), a->y);
         }
-        a->angle = figure_of(folder, name[k], "angle_deg");
-        a->experiment = figure_of(folder, name[k], "experiment_deg");
-        a->direction = figure_of(folder, name[k], "direction_deg");
+        a->angle = plot_sif_figure_of(folder, name[k], "angle_deg");
+        a->experiment = plot_sif_figure_of(folder, name[k], "experiment_deg");
+        a->direction = plot_sif_figure_of(folder, name[k], "direction_deg");
         n++;
     }
     return n;
@@ -159,7 +161,7 @@ static void send_way(FILE *to, const struct history *h, const struct way *w, int
     fputs("EOD\n", to);
 }
 
-/* The end of the ray of an experiment's angle, on the side to which the tip has gone; false: none. */
+/* End of the ray at the angle of an experiment [m], on the side to which the tip turned; false: no experiment. */
 static bool ray_of(const struct way *w, double end[2])
 {
     const double pi = 3.14159265358979323846, along = w->direction * pi / 180;
@@ -169,7 +171,7 @@ static bool ray_of(const struct way *w, double end[2])
     return isfinite(angle);
 }
 
-/* A square that holds all, with room for a stretch of the crack that was there. */
+/* Ranges of a square that holds all paths, with room for a part of the initial crack. */
 static void set_square(FILE *to, const struct way *w, int n, const struct unit *metre)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, end[2], side = 0;
@@ -182,22 +184,23 @@ static void set_square(FILE *to, const struct way *w, int n, const struct unit *
     for (int d = 0; d < 2; d++) side = fmax(side, 1.16 * (high[d] - low[d]) / metre->factor);
     for (int d = 0; d < 2; d++) {
         const double middle = 0.5 * (low[d] + high[d]) / metre->factor;
-        fprintf(to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\n", "xy"[d], middle - 0.5 * side, middle + 0.5 * side,
-                "xy"[d], "xy"[d], metre->name);
+        fprintf(to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\n", "xy"[d], middle - 0.5 * side,
+                middle + 0.5 * side, "xy"[d], "xy"[d], metre -> name);
     }
     fputs("set size ratio -1\n", to);
 }
 
+/* Plots initial cracks, angles of experiments, and paths. */
 static void plot_ways(FILE *to, const struct way *w, int n, const struct unit *metre)
 {
     double end[2];
     fputs("plot ", to);
     for (int k = 0; k < n; k++) {
         const double m = metre->factor, direction = w[k].direction * 3.14159265358979323846 / 180;
-        if (isfinite(direction))         /* the crack that was there, as far as the picture goes */
+        if (isfinite(direction))         /* the initial crack, up to the edge of the picture */
             fprintf(to, "'+' using (%.9g-%.9g*$0):(%.9g-%.9g*$0) every 1 with lines lw 5 lc rgb '#bbbbbb' title '%s', ",
-                    w[k].from[0] / m, w[k].grown / m * cos(direction), w[k].from[1] / m, w[k].grown / m * sin(direction),
-                    k == 0 ? "crack at the start" : "");
+                    w[k].from[0] / m, w[k].grown / m * cos(direction), w[k].from[1] / m,
+                    w[k].grown / m * sin(direction), k == 0 ? "crack at the start" : "");
         if (ray_of(&w[k], end))
             fprintf(to, "'-' with lines lw 2 dt (10,6) lc rgb '%s' title 'experiment, %.3g°', ",
                     curve_colour[CURVE_COLOURS - 1], w[k].experiment);

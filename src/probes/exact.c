@@ -1,4 +1,4 @@
-/* floor 1: waves in a uniform bar, written down. */
+/* Waves in a uniform bar, written down. */
 #include "probes/exact.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ static real length(const struct exact *e) { return e->right - e->left; }
 
 /* Distance from the loaded end, and back. */
 static real depth(const struct exact *e, real X) { return e->loaded > 0 ? e->right - X : X - e->left; }
-static real place(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
+static real exact_place(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
 static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
 
 /* Adds a stress jump that travels in direction `way` of x with `speed` and has passed `age` ago: momentum through it,
@@ -28,7 +28,7 @@ static void add_front(struct exact_values *v, const struct exact *e, real jump, 
     v->displacement += velocity * age;
 }
 
-/* ---- loaded bars ----------------------------------------------------------------------------------------- */
+/* ---- loaded bars ------------------------------------------------------------------------------------------------- */
 
 static struct exact_values step_bar(const struct exact *e, real s, real t)
 {
@@ -54,10 +54,10 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
     return v;
 }
 
-/* ---- pulses ---------------------------------------------------------------------------------------------- */
+/* ---- pulses ------------------------------------------------------------------------------------------------------ */
 
-/* A pulse on its way in an endless bar, `eta` ahead of its centre; `factor` is the direction of its displacement and the
- * sign that it has got from the ends. */
+/* A pulse on its way in an endless bar, `eta` ahead of its centre; `factor` is the direction of its displacement and
+ * the sign that it has got from the ends. */
 static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int way,
                       real factor)
 {
@@ -69,8 +69,8 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
     v->strain += factor * way * wave.strain;
 }
 
-/* The pulse and its images in the ends, one behind the other along the way it would go: between two images lies the bar's
- * length folded once more, and the displacement turns its sign at a fixed end. */
+/* The pulse and its images in the ends, one behind the other along the way it would go: between two images lies the
+ * bar's length folded once more, and the displacement turns its sign at a fixed end. */
 static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;
@@ -113,7 +113,7 @@ struct exact_values exact_at(const struct exact *e, real X, real t)
     }
 }
 
-/* ---- fronts and plateaus ----------------------------------------------------------------------------------- */
+/* ---- fronts and plateaus ----------------------------------------------------------------------------------------- */
 
 /* Front m has crossed the bar m times; the stress behind it is the sum of all jumps up to its own. */
 static struct exact_front step_front(const struct exact *e, real t)
@@ -122,7 +122,7 @@ static struct exact_front step_front(const struct exact *e, real t)
     bool outward = fmod(m, 2) == 0;
     real r = far_reflection(e), before = 0, jump = e->load;
     for (int k = 0; k < (int)m; k++) before += jump, jump *= k % 2 == 0 ? r : -1;
-    return (struct exact_front){.place = place(e, outward ? gone - m * L : (m + 1) * L - gone),
+    return (struct exact_front){.place = exact_place(e, outward ? gone - m * L : (m + 1) * L - gone),
                                 .ahead = outward ? -e->loaded : e->loaded, .before = before, .behind = before + jump};
 }
 
@@ -134,9 +134,9 @@ int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_F
     }
     if (e->form != EXACT_PLASTIC_BAR || wave_speed(e) * t > length(e) * (1 + 1e-9)) return 0;
     real first = precursor(e);
-    front[0] = (struct exact_front){place(e, wave_speed(e) * t), -e->loaded, 0, first};
+    front[0] = (struct exact_front){exact_place(e, wave_speed(e) * t), -e->loaded, 0, first};
     if (e->load == first) return 1;
-    front[1] = (struct exact_front){place(e, plastic_speed(e) * t), -e->loaded, first, e->load};
+    front[1] = (struct exact_front){exact_place(e, plastic_speed(e) * t), -e->loaded, first, e->load};
     return 2;
 }
 
@@ -152,7 +152,7 @@ bool exact_plateau(const struct exact *e, real t, enum exact_window which, real 
     else if (fronts == 2) near = 0.1 * L, far = depth(e, front[1].place) - 0.08 * L;
     else if (outward) near = 0.1 * L, far = depth(e, front[0].place) - 0.1 * L;
     else near = depth(e, front[0].place) + 0.1 * L, far = 0.9 * L;
-    *from = real_min(place(e, near), place(e, far));
-    *to = real_max(place(e, near), place(e, far));
+    *from = real_min(exact_place(e, near), exact_place(e, far));
+    *to = real_max(exact_place(e, near), exact_place(e, far));
     return near < far;
 }

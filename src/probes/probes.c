@@ -1,4 +1,4 @@
-/* floor 3: probes bound to particles, followed step by step, and their columns of the history. */
+/* Probes bound to particles, followed step by step, and their columns of the history. */
 #include "probes/probes.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 
 const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
 
-/* ---- columns ----------------------------------------------------------------------------------------- */
+/* ---- columns ----------------------------------------------------------------------------------------------------- */
 
 static void column_add(struct probes *s, struct probe *q, const char *quantity, const char *unit)
 {
@@ -71,7 +71,7 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
     }
 }
 
-/* ---- binding to particles ---------------------------------------------------------------------------- */
+/* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
 /* A place in the body is nowhere farther than this from a particle: half the diagonal of a lattice cell, and half as
  * much again for irregular ones. */
@@ -225,7 +225,7 @@ void probes_free(struct probes *s)
     *s = (struct probes){0};
 }
 
-/* ---- every step -------------------------------------------------------------------------------------- */
+/* ---- every step -------------------------------------------------------------------------------------------------- */
 
 static void step_break(struct probe *q, const struct observed *o)
 {
@@ -278,7 +278,7 @@ void probes_step(struct probes *s, const struct observed *o)
     }
 }
 
-/* ---- every sample ------------------------------------------------------------------------------------ */
+/* ---- every sample ------------------------------------------------------------------------------------------------ */
 
 static void sample_tip(const struct probe *q, const struct observed *o, real *value)
 {
@@ -288,7 +288,7 @@ static void sample_tip(const struct probe *q, const struct observed *o, real *va
     value[dim] = tip ? tip->growth : 0;
 }
 
-static void sample_energy(const struct probe *q, const struct observed *o, real *value)
+static void probes_sample_energy(const struct probe *q, const struct observed *o, real *value)
 {
     struct energies e = probe_energies(q, o);
     value[0] = e.kinetic, value[1] = e.strain, value[2] = e.fracture;
@@ -304,7 +304,7 @@ void probes_sample(struct probes *s, const struct observed *o)
         case PROBE_TIP: sample_tip(q, o, value); break;
         case PROBE_REACTION: probe_reaction(q, o->loads, o->part->dim, value, displacement); break;
         case PROBE_POINT: readings_of(o->part, q->list[0], value); break;
-        case PROBE_ENERGY: sample_energy(q, o, value); break;
+        case PROBE_ENERGY: probes_sample_energy(q, o, value); break;
         case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
         case PROBE_EXACT: bar_figures(q->bar, o, value); break;
         case PROBE_GROWTH: growth_readings(&o->growth[q->growth], value); break;
@@ -330,7 +330,7 @@ void probes_sample_end(struct probes *s, const struct observed *o, real t_veloci
     }
 }
 
-/* ---- restart ----------------------------------------------------------------------------------------- */
+/* ---- restart ----------------------------------------------------------------------------------------------------- */
 
 status probes_archive(struct probes *s, struct archive *a)
 {

@@ -1,8 +1,8 @@
-/* floor 3: a computed bar set against a closed form (exact.h).
+/* A computed bar set against a closed form (exact.h).
  *
- * Two stresses are in use, and differ where a peridynamic bar is not calibrated: the bond flux, which balances momentum,
- * and E x strain. Figures without a suffix are by flux; those with `_strain` compare E x strain with E x the exact
- * strain. */
+ * Two stresses are in use, and differ where a peridynamic bar is not calibrated: the bond flux, which balances
+ * momentum, and E x strain. Figures without a suffix are by flux; those with `_strain` compare E x strain with E x
+ * the exact strain. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,10 +12,10 @@
 #include "probes/probes.h"
 #include "probes_parts.h"
 
-/* ---- stress and strain ------------------------------------------------------------------------------------- */
+/* ---- stress and strain ------------------------------------------------------------------------------------------- */
 
 /* Places along the bar: images lie beyond its ends. */
-static int64_t place_of(const struct bar *b, const struct particles *p, int32_t i)
+static int64_t probes_bar_place_of(const struct bar *b, const struct particles *p, int32_t i)
 {
     if (i < p->n) return b->rank[i];
     return p->X[0][i] < b->exact.left ? -1 : b->n;
@@ -28,13 +28,12 @@ static void add_bonds(const struct bar *b, const struct observed *o, real *betwe
     const struct bonds *bonds = o->bonds;
     for (int64_t row = 0; row < bonds->rows; row++) {
         int32_t i = bonds->particle[row];
-        int64_t group = row / LANES;
-        for (int64_t k = 0; k < bonds->slot_count[group]; k++) {
-            int64_t q = bond_index(bonds, group, k, (int)(row % LANES));
-            if (bonds->w[q] == 0 || bonds->nbr[q] < i) continue;
-            real force = bond_force_stored(bonds, o->part, q, i);
-            int64_t from = b->rank[i], to = place_of(b, o->part, bonds->nbr[q]);
-            if (to < from) to = b->rank[i], from = place_of(b, o->part, bonds->nbr[q]);
+        for (struct bond_iterator it = bonds_of_row(bonds, row); bond_next(&it);) {
+            const int32_t j = it.bond.nbr;
+            if (it.bond.w == 0 || j < i) continue;
+            real force = bond_force_of(bonds, o->part, &it.bond, i);
+            int64_t from = b->rank[i], to = probes_bar_place_of(b, o->part, j);
+            if (to < from) to = b->rank[i], from = probes_bar_place_of(b, o->part, j);
             between[from + 1] += force;
             if (to <= b->n) between[to] -= force;
             if (from >= 0) end[from] += 0.5 * force;
@@ -77,7 +76,7 @@ void bar_measure(struct bar *b, const struct observed *o)
     bar_flux(b, o, b->flux);
 }
 
-/* ---- profile ----------------------------------------------------------------------------------------------- */
+/* ---- profile ----------------------------------------------------------------------------------------------------- */
 
 const struct column bar_reading[BAR_READINGS] = {
     {"x", "m"}, {"displacement", "m"}, {"velocity", "m/s"}, {"stress", "Pa"}, {"stress_strain", "Pa"}, {"strain", "1"},
@@ -95,7 +94,7 @@ void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, r
     memcpy(value, all, sizeof all);
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------------- */
+/* ---- figures ----------------------------------------------------------------------------------------------------- */
 
 enum figure {
     L1, L2, FRONT, PLATEAU, END_DISPLACEMENT, FRONT_PLASTIC, STRAIN_ELASTIC, STRAIN_PLASTIC, L1_STRAIN, L2_STRAIN,
@@ -112,7 +111,7 @@ static const struct { const char *name, *unit; int forms; } figures[FIGURES] = {
     [L2] = {"L2", "Pa", EVERY},                  /* root of the mean square                                        */
     [FRONT] = {"front", "m", STEP | PLASTIC},    /* where sigma passes the middle of the (first) front's jump */
     [PLATEAU] = {"plateau", "Pa", STEP | PLASTIC},               /* mean sigma behind the (last) front             */
-    [END_DISPLACEMENT] = {"end_displacement", "m", STEP | PLASTIC},      /* of the outermost particle at the loaded end */
+    [END_DISPLACEMENT] = {"end_displacement", "m", STEP | PLASTIC},    /* of the outermost particle at the loaded end */
     [FRONT_PLASTIC] = {"front_plastic", "m", PLASTIC},
     [STRAIN_ELASTIC] = {"strain_elastic", "1", PLASTIC},         /* mean strain between precursor and plastic front */
     [STRAIN_PLASTIC] = {"strain_plastic", "1", PLASTIC},         /* mean strain behind the plastic front           */
@@ -164,9 +163,9 @@ static void errors(const struct bar *b, const struct observed *o, real *value)
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Where a field passes the middle of a front's jump, in the sense of the jump, linear between particles. Ringing and the
- * soft skins of loaded ends may pass it elsewhere: the passage nearest to the exact front counts. The outermost particles
- * are left out: the load acts on them, and their own bonds carry half of it. */
+/* Where a field passes the middle of a front's jump, in the sense of the jump, linear between particles. Ringing and
+ * the soft skins of loaded ends may pass it elsewhere: the passage nearest to the exact front counts. The outermost
+ * particles are left out: the load acts on them, and their own bonds carry half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
 {

@@ -1,4 +1,4 @@
-/* floor 3: the bar of an EXACT probe: its particles in their order, its ends, and what the scene does to it. */
+/* The bar of an EXACT probe: its particles in their order, its ends, and what the scene does to it. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,11 +15,11 @@ static status refuse(const struct probe *q, const char *what)
     return status_set(REFUSED, "probe \"%s\": %s: %s", q->request.name, form_names[q->request.form], what);
 }
 
-/* ---- particles ----------------------------------------------------------------------------------------------- */
+/* ---- particles --------------------------------------------------------------------------------------------------- */
 
 struct place { real X; int32_t i; };
 
-static int by_place(const void *a, const void *b)
+static int probes_bar_make_by_place(const void *a, const void *b)
 {
     const struct place *p = a, *q = b;
     if (p->X != q->X) return p->X < q->X ? -1 : 1;
@@ -30,7 +30,7 @@ static void find_order(struct bar *b, const struct particles *p)
 {
     struct place *place = NEW("probes.place", p->n, struct place);
     for (int64_t i = 0; i < p->n; i++) place[i] = (struct place){p->X[0][i], (int32_t)i};
-    qsort(place, (size_t)p->n, sizeof *place, by_place);
+    qsort(place, (size_t)p->n, sizeof *place, probes_bar_make_by_place);
     for (int64_t k = 0; k < p->n; k++) b->order[k] = place[k].i, b->rank[place[k].i] = (int32_t)k;
     memory_free(place);
 }
@@ -64,7 +64,7 @@ static status find_bar(struct probe *q, const struct observed *o)
     return OK;
 }
 
-/* ---- ends and loads -------------------------------------------------------------------------------------------- */
+/* ---- ends and loads ---------------------------------------------------------------------------------------------- */
 
 static bool acts_on(const struct load *l, int32_t particle)
 {
@@ -94,7 +94,7 @@ static status find_ends(struct probe *q, const struct observed *o)
     return OK;
 }
 
-static bool at_rest(const struct particles *p)
+static bool probes_bar_make_at_rest(const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++)
         if (p->v[0][i] != 0 || p->x[0][i] != p->X[0][i]) return false;
@@ -111,7 +111,7 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
     return true;
 }
 
-static int count_of(const struct observed *o, enum boundary_kind kind, const struct load **found)
+static int probes_bar_make_count_of(const struct observed *o, enum boundary_kind kind, const struct load **found)
 {
     int n = 0;
     for (int k = 0; o->loads && k < o->loads->n; k++)
@@ -124,7 +124,7 @@ static status find_traction(struct probe *q, const struct observed *o)
 {
     struct bar *b = q->bar;
     const struct load *l = NULL;
-    int n = count_of(o, BOUNDARY_TRACTION, &l);
+    int n = probes_bar_make_count_of(o, BOUNDARY_TRACTION, &l);
     if (n == 0) return refuse(q, "no boundary is a traction; one on an end of the bar is expected");
     if (n > 1) return refuse(q, "more than one boundary is a traction; one on an end of the bar is expected");
     const struct boundary *c = l->boundary;
@@ -142,17 +142,19 @@ static status find_load(struct probe *q, const struct observed *o)
 {
     const struct load *other = NULL;
     const struct material *m = &o->material[o->part->material[0]];
-    if (count_of(o, BOUNDARY_BODY_FORCE, &other) > 0)
+    if (probes_bar_make_count_of(o, BOUNDARY_BODY_FORCE, &other) > 0)
         return refuse(q, "a body_force acts on the bar; leave it out");
     TRY(find_ends(q, o));
     if (q->request.form == EXACT_PULSE) {
         if (o->pulses == 0) return refuse(q, "the scene starts no pulse; initial with a pulse is expected");
-        if (count_of(o, BOUNDARY_TRACTION, &other) > 0) return refuse(q, "a traction acts on the bar; leave it out");
+        if (probes_bar_make_count_of(o, BOUNDARY_TRACTION, &other) > 0)
+            return refuse(q, "a traction acts on the bar; leave it out");
         q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;
         return starts_with_pulses(&q->bar->exact, o->part)
                    ? OK : refuse(q, "the start is not that of its pulses alone, clear of the ends");
     }
-    if (!at_rest(o->part)) return refuse(q, "the bar moves or is strained at the start; it begins at rest");
+    if (!probes_bar_make_at_rest(o->part))
+        return refuse(q, "the bar moves or is strained at the start; it begins at rest");
     TRY(find_traction(q, o));
     if (q->request.form == EXACT_STEP_BAR) return OK;
     if (!material_yields(m)) return refuse(q, "the material does not yield; material.yield_stress is expected");

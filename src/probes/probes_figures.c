@@ -1,4 +1,4 @@
-/* floor 3: what probes measure, and the figures of summary.json that follow from it. */
+/* What probes measure, and the figures of summary.json that follow from it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,9 +7,9 @@
 #include "probes/probes.h"
 #include "probes_parts.h"
 #include "base/team.h"
-#include "probes/watch.h"
+#include "probes/diagnostics.h"
 
-/* ---- single particles -------------------------------------------------------------------------------- */
+/* ---- single particles -------------------------------------------------------------------------------------------- */
 
 static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [1] = {"xx"},
@@ -58,7 +58,7 @@ void growth_readings(const struct growth *g, real *value)
     memcpy(value, reading, sizeof reading);
 }
 
-/* ---- tips and supports ------------------------------------------------------------------------------- */
+/* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
 const struct tip *probe_tip(const struct probe *q, const struct tips *t)
 {
@@ -90,7 +90,7 @@ void probe_reaction(const struct probe *q, const struct loads *l, int dim, real 
     }
 }
 
-/* ---- sums over a region ------------------------------------------------------------------------------ */
+/* ---- sums over a region ------------------------------------------------------------------------------------------ */
 
 struct region_sum { const struct probe *q; const struct observed *o; int component; };
 
@@ -127,10 +127,8 @@ static real bond_term(const void *context, int64_t k)
     int64_t row = row_at(s, k);
     if (row < 0) return 0;
     real sum = 0;
-    for (int64_t slot = 0; slot < b->slot_count[row / LANES]; slot++) {
-        int64_t q = bond_index(b, row / LANES, slot, (int)(row % LANES));
-        sum += bond_energy_stored(b, p, q, s->q->list[k]);
-    }
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+        sum += bond_energy_of(b, p, &it.bond, s->q->list[k]);
     return 0.5 * sum;
 }
 
@@ -155,7 +153,8 @@ struct energies probe_energies(const struct probe *q, const struct observed *o)
     struct region_sum s = {.q = q, .o = o};
     return (struct energies){
         .kinetic = team_sum(q->n, kinetic_term, &s),
-        .strain = team_sum(q->n, bond_term, &s) + watch_strain_of(o->part, o->material, o->partial, q->list, q->n),
+        .strain =
+            team_sum(q->n, bond_term, &s) + diagnostics_strain_of(o->part, o->material, o->partial, q->list, q->n),
         .fracture = team_sum(q->n, fracture_term, &s),
     };
 }
@@ -167,7 +166,7 @@ void probe_momentum(const struct probe *q, const struct particles *p, real *mome
         momentum[d] = team_sum(q->n, momentum_term, &(struct region_sum){.q = q, .o = &o, .component = d});
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------- */
+/* ---- figures ----------------------------------------------------------------------------------------------------- */
 
 struct emitter {
     void (*emit)(void *context, const char *probe, const char *quantity, real value);
@@ -176,26 +175,26 @@ struct emitter {
     const struct observed *o;
 };
 
-static void put(const struct emitter *e, const char *quantity, real value)
+static void probes_figures_put(const struct emitter *e, const char *quantity, real value)
 {
     if (isfinite(value)) e->emit(e->context, e->q->request.name, quantity, value);
 }
 
 static void put_place(const struct emitter *e, const real *X)
 {
-    for (int d = 0; d < e->o->part->dim; d++) put(e, axis_name[d], X[d]);
+    for (int d = 0; d < e->o->part->dim; d++) probes_figures_put(e, axis_name[d], X[d]);
 }
 
 static void figures_tip(const struct emitter *e)
 {
     const struct tip *tip = probe_tip(e->q, e->o->tips);
     if (!tip) return;
-    put(e, "start_time", tip->start_time);
-    put(e, "arrest_time", tip->arrest_time);
-    put(e, "length_end", tip->growth);
-    put(e, "angle_deg", tip_angle(tip, e->o->part->dim));
-    put(e, "speed_max", tip->speed_max);
-    put(e, "speed_mean", tip->speed_mean);
+    probes_figures_put(e, "start_time", tip->start_time);
+    probes_figures_put(e, "arrest_time", tip->arrest_time);
+    probes_figures_put(e, "length_end", tip->growth);
+    probes_figures_put(e, "angle_deg", tip_angle(tip, e->o->part->dim));
+    probes_figures_put(e, "speed_max", tip->speed_max);
+    probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_place(e, tip->place);
 }
 
@@ -203,9 +202,9 @@ static void figures_tip(const struct emitter *e)
 static void figures_break(const struct emitter *e)
 {
     if (isnan(e->q->memory.first_time)) return;
-    put(e, "first_time", e->q->memory.first_time);
+    probes_figures_put(e, "first_time", e->q->memory.first_time);
     put_place(e, e->q->memory.place);
-    put(e, "bonds", 0.5 * team_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
+    probes_figures_put(e, "bonds", 0.5 * team_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
 }
 
 static void figures_reaction(const struct emitter *e)
@@ -214,9 +213,9 @@ static void figures_reaction(const struct emitter *e)
     real force[DIM_MAX], displacement[DIM_MAX];
     int dim = e->o->part->dim;
     probe_reaction(e->q, e->o->loads, dim, force, displacement);
-    put(e, "force_max", m->steps > 0 ? m->force_max : NAN);
-    put(e, "force_rms", m->steps > 0 ? sqrt(m->force_square / (real)m->steps) : NAN);
-    put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
+    probes_figures_put(e, "force_max", m->steps > 0 ? m->force_max : NAN);
+    probes_figures_put(e, "force_rms", m->steps > 0 ? sqrt(m->force_square / (real)m->steps) : NAN);
+    probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }
 
 /* Nodal force over what the stress carries through the face of one grid cell. */
@@ -224,8 +223,8 @@ static void figures_patch(const struct emitter *e)
 {
     const struct observed *o = e->o;
     real h = o->grid && o->grid->h > 0 ? o->grid->h : o->spacing;
-    real carried = o->strain_stress * pow(h, o->part->dim - 1) * o->thickness;
-    put(e, "residual_max", carried > 0 ? o->residual_step0 / carried : NAN);
+    real grid_coupled = o->strain_stress * pow(h, o->part->dim - 1) * o->thickness;
+    probes_figures_put(e, "residual_max", grid_coupled > 0 ? o->residual_step0 / grid_coupled : NAN);
 }
 
 static void figures_spall(const struct emitter *e)
@@ -233,10 +232,10 @@ static void figures_spall(const struct emitter *e)
     real speed, rest;
     if (isnan(e->q->memory.first_time)) return;
     spall_speeds(e->q, e->o->part, &speed, &rest);
-    put(e, "position", e->q->memory.place[0]);
-    put(e, "time", e->q->memory.first_time);
-    put(e, "speed", speed);
-    put(e, "speed_rest", rest);
+    probes_figures_put(e, "position", e->q->memory.place[0]);
+    probes_figures_put(e, "time", e->q->memory.first_time);
+    probes_figures_put(e, "speed", speed);
+    probes_figures_put(e, "speed_rest", rest);
 }
 
 static void figures_point(const struct emitter *e)
@@ -244,7 +243,7 @@ static void figures_point(const struct emitter *e)
     const struct particles *p = e->o->part;
     real value[READINGS_MAX];
     readings_of(p, e->q->list[0], value);
-    for (int k = 0; k < readings_count(p); k++) put(e, reading_column(p, k).name, value[k]);
+    for (int k = 0; k < readings_count(p); k++) probes_figures_put(e, reading_column(p, k).name, value[k]);
 }
 
 static void figures_line(const struct emitter *e)
@@ -262,18 +261,18 @@ static void figures_line(const struct emitter *e)
         char name[NAME_MAX_LENGTH];
         struct column c = reading_column(p, k);
         snprintf(name, sizeof name, "%.32s_min", c.name);
-        put(e, name, low[k]);
+        probes_figures_put(e, name, low[k]);
         snprintf(name, sizeof name, "%.32s_max", c.name);
-        put(e, name, high[k]);
+        probes_figures_put(e, name, high[k]);
     }
 }
 
 static void figures_energy(const struct emitter *e)
 {
     struct energies sum = probe_energies(e->q, e->o);
-    put(e, "kinetic", sum.kinetic);
-    put(e, "strain", sum.strain);
-    put(e, "fracture", sum.fracture);
+    probes_figures_put(e, "kinetic", sum.kinetic);
+    probes_figures_put(e, "strain", sum.strain);
+    probes_figures_put(e, "fracture", sum.fracture);
 }
 
 static void figures_momentum(const struct emitter *e)
@@ -286,9 +285,9 @@ static void figures_momentum(const struct emitter *e)
 static void figures_pulse(const struct emitter *e)
 {
     struct pulse_shares s = pulse_shares(e->q, e->o);
-    put(e, "reflected", s.reflected);
-    put(e, "transmitted", s.transmitted);
-    put(e, "energy_change", s.energy_change);
+    probes_figures_put(e, "reflected", s.reflected);
+    probes_figures_put(e, "transmitted", s.transmitted);
+    probes_figures_put(e, "energy_change", s.energy_change);
 }
 
 static void figures_exact(const struct emitter *e)
@@ -296,28 +295,29 @@ static void figures_exact(const struct emitter *e)
     real value[BAR_FIGURES_MAX];
     enum exact_form form = e->q->request.form;
     bar_figures(e->q->bar, e->o, value);
-    for (int k = 0; k < bar_figures_count(form); k++) put(e, bar_figure(form, k).name, value[k]);
+    for (int k = 0; k < bar_figures_count(form); k++) probes_figures_put(e, bar_figure(form, k).name, value[k]);
 }
 
 static void figures_sif(const struct emitter *e)
 {
-    for (int k = 0; k < SIF_FIGURES; k++) put(e, sif_figure[k].name, e->q->memory.factors[k]);
+    for (int k = 0; k < SIF_FIGURES; k++) probes_figures_put(e, sif_figure[k].name, e->q->memory.factors[k]);
 }
 
 static void figures_growth(const struct emitter *e)
 {
     const struct growth *g = &e->o->growth[e->q->growth];
-    put(e, "start_time", g->start_time);
-    put(e, "length_end", g->grown);
-    put(e, "angle_deg", growth_angle(g));
-    put(e, "direction_deg", atan2(g->rule->direction[1], g->rule->direction[0]) * 180 / 3.14159265358979323846);
-    put(e, "experiment_deg", e->q->request.experiment);
+    probes_figures_put(e, "start_time", g->start_time);
+    probes_figures_put(e, "length_end", g->grown);
+    probes_figures_put(e, "angle_deg", growth_angle(g));
+    probes_figures_put(e, "direction_deg",
+                       atan2(g->rule->direction[1], g->rule->direction[0]) * 180 / 3.14159265358979323846);
+    probes_figures_put(e, "experiment_deg", e->q->request.experiment);
     put_place(e, g->place);
 }
 
 static void figures_rigid(const struct emitter *e)
 {
-    for (int k = 0; k < RIGID_FIGURES; k++) put(e, rigid_figure[k].name, e->q->memory.rigid.most[k]);
+    for (int k = 0; k < RIGID_FIGURES; k++) probes_figures_put(e, rigid_figure[k].name, e->q->memory.rigid.most[k]);
 }
 
 void probes_figures(const struct probes *s, const struct observed *o,

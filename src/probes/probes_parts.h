@@ -1,6 +1,6 @@
-/* floor 3: what the files of the probes share: a probe bound to its particles, and what it remembers. */
-#ifndef CLEAVE_PROBES_PARTS_H
-#define CLEAVE_PROBES_PARTS_H
+/* What the files of the probes share: a probe bound to its particles, and what it remembers. */
+#ifndef CLEAVE_PROBES_PARTS
+#define CLEAVE_PROBES_PARTS
 
 #include "probes/probes.h"
 
@@ -34,11 +34,11 @@ struct probe {
     int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
     struct probe_memory memory;
     struct bar *bar;                     /* EXACT: probes_bar.c                                       */
-    struct sif_watch *sif;               /* SIF: probes_sif.c                                         */
+    struct sif_tracked *sif;               /* SIF: probes_sif.c                                         */
     int growth;                          /* GROWTH: which of the run                                  */
 };
 
-/* ---- what a single particle tells: POINT and LINE ------------------------------------------------ */
+/* ---- what a single particle tells: POINT and LINE ---------------------------------------------------------------- */
 
 /* displacement, velocity, stress (in plane strain also zz), damage */
 enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 1 };
@@ -46,7 +46,7 @@ int readings_count(const struct particles *p);
 struct column reading_column(const struct particles *p, int k);
 void readings_of(const struct particles *p, int64_t i, real *value);
 
-/* ---- the rest by kind ------------------------------------------------------------------------------ */
+/* ---- the rest by kind -------------------------------------------------------------------------------------------- */
 
 extern const char *const axis_name[DIM_MAX];
 
@@ -79,25 +79,25 @@ enum { GROWTH_FIGURES = 5 };
 extern const struct column growth_figure[GROWTH_FIGURES];
 void growth_readings(const struct growth *g, real *value);
 
-/* ---- stress-intensity factors: SIF ------------------------------------------------------------------ */
+/* ---- stress-intensity factors: SIF ------------------------------------------------------------------------------- */
 
 enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 extern const struct column sif_figure[SIF_FIGURES];
 /* Finds the tip; refuses bodies without one, and contours that leave the body or reach another tip or material. */
 status sif_bind(struct probe *q, const struct observed *o);
-void sif_free(struct sif_watch *w);
+void sif_free(struct sif_tracked *w);
 void sif_keep(struct probe *q, const struct observed *o);
 /* Fills q->memory.factors. */
 void sif_sample(struct probe *q, const struct observed *o, real t_velocity);
 
-/* ---- a body that turns: RIGID ------------------------------------------------------------------------ */
+/* ---- a body that turns: RIGID ------------------------------------------------------------------------------------ */
 
 extern const struct column rigid_figure[RIGID_FIGURES];
 status rigid_bind(struct probe *q, const struct observed *o);
 /* Fills value[] and q->memory.rigid. */
 void rigid_sample(struct probe *q, const struct observed *o, real *value);
 
-/* ---- a bar against a closed form: EXACT ------------------------------------------------------------- */
+/* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
 
 struct bar {
     struct exact exact;
@@ -112,9 +112,9 @@ status bar_make(struct probe *q, const struct observed *o);
 void bar_free(struct bar *b);
 void bar_measure(struct bar *b, const struct observed *o);
 
-/* The force of all bonds that cross a particle's centre over the section, for peridynamic particles: a bond gives its
- * force to all particles strictly between its ends and half of it to the ends, bonds to mirror images included. Material
- * points have their Cauchy stress [Pa]. */
+/* The force of all bonds that cross a particle's centre over the section, for peridynamic particles: a bond gives
+ * its force to all particles strictly between its ends and half of it to the ends, bonds to mirror images included.
+ * Material points have their Cauchy stress [Pa]. */
 void bar_flux(const struct bar *b, const struct observed *o, real *flux);
 
 /* The figures of a bar's form, in a fixed order; they are columns of the history, too. */

@@ -1,4 +1,4 @@
-/* floor 3: profiles of LINE and EXACT probes as csv files. */
+/* Profiles of LINE and EXACT probes as csv files. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,7 +67,10 @@ static void profile_name(char *name, const struct probe *q, int frame)
         if (*c == '/') *c = '_';
 }
 
-static bool has_profile(const struct probe *q) { return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT; }
+static bool has_profile(const struct probe *q)
+{
+    return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT;
+}
 
 bool probes_profile_name(const struct probes *s, int which, int frame, char *name)
 {
@@ -88,7 +91,8 @@ static status profile_put(const struct probe *q, const struct observed *o, probe
     bool whole = file && !ferror(file);
     if (file && fclose(file) != 0) whole = false;
     profile_name(name, q, frame);
-    const status s = whole ? put(context, name, text, length) : status_set(FAILED, "cannot write %s: out of memory", name);
+    const status s =
+        whole ? put(context, name, text, length) : status_set(FAILED, "cannot write %s: out of memory", name);
     free(text);
     return s;
 }

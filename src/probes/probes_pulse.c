@@ -1,4 +1,4 @@
-/* floor 3: a wave packet that has met an interface: what came back, what went on. */
+/* A wave packet that has met an interface: what came back, what went on. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -20,7 +20,8 @@ static real speed(const struct particles *p, const struct baseline *baseline, in
 }
 
 /* Largest speed on one side of the interface: behind it (-1), beyond it (+1), both (0). */
-static real fastest(const struct probe *q, const struct particles *p, const struct baseline *baseline, int side)
+static real probes_pulse_fastest(const struct probe *q, const struct particles *p, const struct baseline *baseline,
+                                 int side)
 {
     real most = 0;
     for (int64_t i = 0; i < p->n; i++)
@@ -32,16 +33,17 @@ status pulse_bind(struct probe *q, const struct observed *o)
 {
     real *direction = q->request.direction, length = sqrt(dot(direction, direction, o->part->dim));
     for (int d = 0; d < DIM_MAX; d++) direction[d] = length > 0 ? direction[d] / length : d == 0;
-    q->memory.incident = fastest(q, o->part, NULL, 0);
+    q->memory.incident = probes_pulse_fastest(q, o->part, NULL, 0);
     if (q->memory.incident > 0) return OK;
-    return status_set(REFUSED, "probe \"%s\": nothing moves at the start; an initial pulse is expected", q->request.name);
+    return status_set(REFUSED, "probe \"%s\": nothing moves at the start; an initial pulse is expected",
+                      q->request.name);
 }
 
 struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o)
 {
     return (struct pulse_shares){
-        .reflected = fastest(q, o->part, o->baseline, -1) / q->memory.incident,
-        .transmitted = fastest(q, o->part, NULL, 1) / q->memory.incident,
+        .reflected = probes_pulse_fastest(q, o->part, o->baseline, -1) / q->memory.incident,
+        .transmitted = probes_pulse_fastest(q, o->part, NULL, 1) / q->memory.incident,
         .energy_change = o->energy_change - (o->baseline ? o->baseline->energy_change : 0),
     };
 }

@@ -1,4 +1,4 @@
-/* floor 3: a body that turns as a whole: how far it has, and what should have stayed 0. */
+/* A body that turns as a whole: how far it has, and what should have stayed 0. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -43,7 +43,8 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
 }
 
 /* Rotation of best fit: it makes sum m |x - R X|^2 least (Kabsch 1976, in the plane) [rad]. */
-static real turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale, real *kinetic)
+static real probes_rigid_turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale,
+                              real *kinetic)
 {
     struct rigid_sum s = {.q = q, .p = p};
     real sum[5];
@@ -57,8 +58,9 @@ static real turn(const struct probe *q, const struct particles *p, real *spin, r
 status rigid_bind(struct probe *q, const struct observed *o)
 {
     struct rigid_memory *m = &q->memory.rigid;
-    if (o->part->dim != 2) return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", q->request.name);
-    turn(q, o->part, &m->spin, &m->spin_scale, &m->kinetic);
+    if (o->part->dim != 2)
+        return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", q->request.name);
+    probes_rigid_turn(q, o->part, &m->spin, &m->spin_scale, &m->kinetic);
     return OK;
 }
 
@@ -80,7 +82,7 @@ void rigid_sample(struct probe *q, const struct observed *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;
     real spin, scale, kinetic;
-    const real angle = turn(q, o->part, &spin, &scale, &kinetic);
+    const real angle = probes_rigid_turn(q, o->part, &spin, &scale, &kinetic);
     m->angle += remainder(angle - m->angle, 2 * pi);
     value[0] = m->angle;
     stresses(q, o->part, &value[1], &value[2]);

@@ -1,4 +1,4 @@
-/* floor 3: the probe of stress-intensity factors: a tip, fixed or followed, and the contours round it. */
+/* The probe of stress-intensity factors: a tip, fixed or followed, and the contours round it. */
 #include <math.h>
 #include <string.h>
 
@@ -18,11 +18,11 @@ static const real pi = 3.14159265358979323846;
 const struct column sif_figure[SIF_FIGURES] = {
     {"K_I", "Pa m^(1/2)"}, {"K_II", "Pa m^(1/2)"}, {"J", "J/m^2"}, {"contour_spread", ""}};
 
-struct sif_watch {
+struct sif_tracked {
     struct sif_tip tip;
     struct gradient_rule rule;
     int follows;                         /* tip of the run, -1: none                                  */
-    int growth;                          /* crack that grows as it is told, -1: none                  */
+    int growth;                          /* crack with prescribed or SIF-controlled growth, -1: none  */
     real reach;                          /* of the largest contour                              [m]   */
     int contours;
     struct contour contour[SIF_CONTOURS_MAX + 1];    /* [0]: that of the figures                      */
@@ -36,9 +36,9 @@ struct sif_watch {
 
 static bool given(real value) { return value > 0; }      /* neither NAN nor 0 */
 
-/* ---- binding --------------------------------------------------------------------------------------------- */
+/* ---- binding ----------------------------------------------------------------------------------------------------- */
 
-static void make_contours(struct sif_watch *w, const struct probe_request *r, real spacing)
+static void make_contours(struct sif_tracked *w, const struct probe_request *r, real spacing)
 {
     const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
     const struct number_list *list = &r->contours;
@@ -64,8 +64,8 @@ static int tip_meant(const struct probe_request *r, const struct observed *o)
     return nearest;
 }
 
-/* The crack that is told how to grow, and from here; -1: none. */
-static int growth_meant(const struct sif_watch *w, const struct observed *o)
+/* The crack that this probe controls, and its start; -1: none. */
+static int growth_meant(const struct sif_tracked *w, const struct observed *o)
 {
     for (int k = 0; k < o->growths; k++) {
         const real *at = o->growth[k].rule->at;
@@ -75,18 +75,20 @@ static int growth_meant(const struct sif_watch *w, const struct observed *o)
 }
 
 /* A crack is led by the factors of its own tip: without `at` every probe watches the first. */
-static status own_growth(const struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     for (int k = 0; k < o->growths; k++) {
         const struct growth_rule *g = o->growth[k].rule;
         if (strcmp(g->probe, r->name) == 0 && k != w->growth)
-            return status_set(REFUSED, "probe \"%s\": it rules %s but watches the tip at (%.6g, %.6g) m; at: [%.6g m, %.6g m] "
-                              "is expected", r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
+            return status_set(REFUSED,
+                              "probe \"%s\": it rules %s but watches the tip at (%.6g, %.6g) m; at: [%.6g m, %.6g m] "
+                              "is expected",
+                              r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
     }
     return OK;
 }
 
-static status find_tip(struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     w->follows = tip_meant(r, o);
     const struct tip *tip = w->follows >= 0 ? &o->tips->tip[w->follows] : NULL;
@@ -94,8 +96,10 @@ static status find_tip(struct sif_watch *w, const struct probe_request *r, const
         return status_set(REFUSED, "probe \"%s\": no pre-crack ends inside a body; at and direction can name a tip",
                           r->name);
     if (!tip && !r->has_direction)
-        return status_set(REFUSED, "probe \"%s\": no pre-crack ends at (%.6g, %.6g) m; direction has to say where ahead "
-                          "is", r->name, r->at[0], r->at[1]);
+        return status_set(REFUSED,
+                          "probe \"%s\": no pre-crack ends at (%.6g, %.6g) m; direction has to say where ahead "
+                          "is",
+                          r->name, r->at[0], r->at[1]);
     const real *place = r->has_at ? r->at : tip->origin, *along = r->has_direction ? r->direction : tip->along;
     const real length = hypot(along[0], along[1]);
     for (int d = 0; d < 2; d++) w->tip.place[d] = place[d], w->tip.along[d] = along[d] / length;
@@ -103,9 +107,9 @@ static status find_tip(struct sif_watch *w, const struct probe_request *r, const
     return own_growth(w, r, o);
 }
 
-/* Pre-cracks hide particles; behind a tip that is the end of none lies a straight crack. Particles on a crack are on the
- * side of its normal (crack_cuts). */
-static void make_cracks(struct sif_watch *w, const struct observed *o)
+/* Pre-cracks hide particles; behind a tip that is the end of none lies a straight crack. Particles on a crack are on
+ * the side of its normal (crack_cuts). */
+static void make_cracks(struct sif_tracked *w, const struct observed *o)
 {
     const struct sif_tip *t = &w->tip;
     bool ends = false;
@@ -142,7 +146,7 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
-static status check_ring(const struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     real place[2];
     for (int k = 0; k < w->contours; k++) {
@@ -152,20 +156,23 @@ static status check_ring(const struct sif_watch *w, const struct probe_request *
                               "choose a larger outer radius", r->name, c->inner, c->outer, NARROWEST);
     }
     if (ring_leaves(&w->tip, w->reach, o, place))
-        return status_set(REFUSED, "probe \"%s\": the ring of radius %.6g m round the tip (%.6g, %.6g) m leaves the body "
+        return status_set(REFUSED,
+                          "probe \"%s\": the ring of radius %.6g m round the tip (%.6g, %.6g) m leaves the body "
                           "at (%.6g, %.6g) m; choose a smaller outer radius",
                           r->name, w->reach, w->tip.place[0], w->tip.place[1], place[0], place[1]);
     for (int k = 0; o->tips && k < o->tips->n; k++) {
         const real *other = o->tips->tip[k].origin;
         if (k != w->follows && hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]) < w->reach)
-            return status_set(REFUSED, "probe \"%s\": another crack's tip at (%.6g, %.6g) m lies within its radius %.6g "
-                              "m; choose a smaller outer radius", r->name, other[0], other[1], w->reach);
+            return status_set(REFUSED,
+                              "probe \"%s\": another crack's tip at (%.6g, %.6g) m lies within its radius %.6g "
+                              "m; choose a smaller outer radius",
+                              r->name, other[0], other[1], w->reach);
     }
     return OK;
 }
 
 /* The material round the tip, and no other. */
-static status find_medium(struct sif_watch *w, const struct probe_request *r, const struct observed *o)
+static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     const struct particles *p = o->part;
     const real *e = w->tip.along, *at = w->tip.place;
@@ -178,8 +185,10 @@ static status find_medium(struct sif_watch *w, const struct probe_request *r, co
     for (int64_t i = 0; i < p->n; i++) {
         if (hypot(p->X[0][i] - at[0], p->X[1][i] - at[1]) > w->reach) continue;
         if (p->material[i] != p->material[ahead] || p->body[i] != w->tip.body)
-            return status_set(REFUSED, "probe \"%s\": another material or body lies within its radius %.6g m, at (%.6g, "
-                              "%.6g) m; choose a smaller outer radius", r->name, w->reach, p->X[0][i], p->X[1][i]);
+            return status_set(REFUSED,
+                              "probe \"%s\": another material or body lies within its radius %.6g m, at (%.6g, "
+                              "%.6g) m; choose a smaller outer radius",
+                              r->name, w->reach, p->X[0][i], p->X[1][i]);
     }
     return OK;
 }
@@ -188,7 +197,7 @@ status sif_bind(struct probe *q, const struct observed *o)
 {
     const struct probe_request *r = &q->request;
     if (o->part->dim != 2) return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", r->name);
-    struct sif_watch *w = q->sif = NEW("sif", 1, struct sif_watch);
+    struct sif_tracked *w = q->sif = NEW("sif", 1, struct sif_tracked);
     make_contours(w, r, o->spacing);
     TRY(find_tip(w, r, o));
     TRY(find_medium(w, r, o));
@@ -205,7 +214,7 @@ status sif_bind(struct probe *q, const struct observed *o)
     return OK;
 }
 
-void sif_free(struct sif_watch *w)
+void sif_free(struct sif_tracked *w)
 {
     if (!w) return;
     for (int d = 0; d < 2; d++) {
@@ -217,12 +226,12 @@ void sif_free(struct sif_watch *w)
     memory_free(w);
 }
 
-/* ---- where the tip is now ----------------------------------------------------------------------------------- */
+/* ---- where the tip is now ---------------------------------------------------------------------------------------- */
 
 /* A tip that has grown: its place, its speed, and the direction in which it came. */
-static void follow(struct probe *q, const struct observed *o)
+static void probes_sif_follow(struct probe *q, const struct observed *o)
 {
-    struct sif_watch *w = q->sif;
+    struct sif_tracked *w = q->sif;
     const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
     real (*trail)[2] = q->memory.trail;
     w->tip.speed = 0;
@@ -243,14 +252,14 @@ static void follow(struct probe *q, const struct observed *o)
     for (int d = 0; d < 2; d++) w->tip.along[d] = way[d] / length;
 }
 
-/* ---- samples ------------------------------------------------------------------------------------------------- */
+/* ---- samples ----------------------------------------------------------------------------------------------------- */
 
 static void room(real **array, int64_t n)
 {
     if (!*array) *array = NEW("sif.motion", n, real);
 }
 
-static void keep_displacement(struct sif_watch *w, const struct particles *p)
+static void keep_displacement(struct sif_tracked *w, const struct particles *p)
 {
     for (int d = 0; d < 2; d++) {
         room(&w->u[d], p->n_all);
@@ -264,7 +273,7 @@ static void keep_displacement(struct sif_watch *w, const struct particles *p)
 
 void sif_keep(struct probe *q, const struct observed *o)
 {
-    struct sif_watch *w = q->sif;
+    struct sif_tracked *w = q->sif;
     const struct particles *p = o->part;
     w->kept = true, w->t = o->t, w->t_velocity = o->t_velocity;
     keep_displacement(w, p);
@@ -277,7 +286,7 @@ void sif_keep(struct probe *q, const struct observed *o)
 /* Acceleration by the velocities before and after, of peridynamic particles and material points alike: in the leap-frog
  * scheme it is the force of the sample's time over the mass. Velocity along that line, at the sample's time. No step
  * follows the last sample: it tells of one step earlier, as forces of its own are not made. */
-static void find_inertia(struct sif_watch *w, const struct particles *p, real t_velocity)
+static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)
         for (int64_t i = 0; i < p->n_all; i++) {
@@ -288,12 +297,12 @@ static void find_inertia(struct sif_watch *w, const struct particles *p, real t_
 
 void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
 {
-    struct sif_watch *w = q->sif;
+    struct sif_tracked *w = q->sif;
     const struct particles *p = o->part;
     const bool moves = w->kept && t_velocity > w->t_velocity;
     struct sif found[SIF_CONTOURS_MAX + 1];
     real place[2];
-    follow(q, o);
+    probes_sif_follow(q, o);
     if (!moves) keep_displacement(w, p);
     if (moves) find_inertia(w, p, t_velocity);
     w->kept = false;
@@ -310,12 +319,12 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     q->memory.time = o->t;
 }
 
-bool probes_ruling(const struct probes *s, const char *name, struct ruling *found)
+bool probes_sif_control(const struct probes *s, const char *name, struct control *found)
 {
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];
         if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
-        *found = (struct ruling){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
+        *found = (struct control){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
                                  .along = {q->memory.along[0], q->memory.along[1]}, .time = q->memory.time,
                                  .medium = q->sif->tip.medium};
         return true;

@@ -1,4 +1,4 @@
-/* floor 3: where a bar comes apart: the first plane across it that nothing holds together any more. */
+/* Where a bar comes apart: the first plane across it that nothing holds together any more. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -14,14 +14,14 @@ struct columns {
     real longest;                        /* bond seen [m]                                             */
 };
 
-static int64_t column_of(const struct columns *c, real X)
+static int64_t probes_spall_column_of(const struct columns *c, real X)
 {
     int64_t k = (int64_t)floor((X - c->low) / c->spacing + 0.5);
     return k < 0 ? 0 : k >= c->n ? c->n - 1 : k;
 }
 
 /* False if the body has fewer than two columns. */
-static bool columns_make(struct columns *c, const struct observed *o, int body)
+static bool probes_spall_columns_make(struct columns *c, const struct observed *o, int body)
 {
     const struct particles *p = o->part;
     real low = INFINITY, high = -INFINITY;
@@ -39,7 +39,7 @@ static bool columns_make(struct columns *c, const struct observed *o, int body)
     return c->n > 1;
 }
 
-static void columns_free(struct columns *c)
+static void probes_spall_columns_free(struct columns *c)
 {
     memory_free(c->intact);
     memory_free(c->cut);
@@ -61,13 +61,11 @@ static void columns_bonds(struct columns *c, const struct observed *o, int body)
     for (int64_t row = 0; row < b->rows; row++) {
         int32_t i = b->particle[row];
         if (p->body[i] != body) continue;
-        int64_t group = row / LANES, from = column_of(c, p->X[0][i]);
-        for (int64_t k = 0; k < b->slot_count[group]; k++) {
-            int64_t q = bond_index(b, group, k, (int)(row % LANES));
-            if (b->inverse_length[q] == 0) continue;
-            int64_t to = column_of(c, p->X[0][b->nbr[q]]);
-            c->longest = real_max(c->longest, fabs(1 / b->inverse_length[q]));
-            if (b->w[q] != 0) count_across(c->intact, from, to);
+        const int64_t from = probes_spall_column_of(c, p->X[0][i]);
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+            const int64_t to = probes_spall_column_of(c, p->X[0][it.bond.nbr]);
+            c->longest = real_max(c->longest, fabs(1 / it.bond.inverse_length));
+            if (it.bond.w != 0) count_across(c->intact, from, to);
             else if (b->broken[row] > 0) count_across(c->cut, from, to);
         }
     }
@@ -80,7 +78,7 @@ static void columns_points(struct columns *c, const struct particles *p, int bod
     for (int64_t k = 0; k < c->n; k++) c->last[k] = -INFINITY, c->next[k] = INFINITY;
     for (int64_t i = 0; i < p->n; i++) {
         if (p->body[i] != body || p->kind[i] != KIND_MPM || p->flag[i] & FLAG_CUT) continue;
-        int64_t k = column_of(c, p->X[0][i]);
+        int64_t k = probes_spall_column_of(c, p->X[0][i]);
         c->last[k] = real_max(c->last[k], p->X[0][i]);
         if (k > 0) c->next[k - 1] = real_min(c->next[k - 1], p->X[0][i]);
     }
@@ -88,7 +86,7 @@ static void columns_points(struct columns *c, const struct particles *p, int bod
     for (int64_t k = c->n - 2; k >= 0; k--) c->next[k] = real_min(c->next[k], c->next[k + 1]);
 }
 
-static bool is_apart(const struct columns *c, int64_t plane)
+static bool probes_spall_is_apart(const struct columns *c, int64_t plane)
 {
     return c->intact[plane] == 0 && c->cut[plane] > 0 && !(c->next[plane] - c->last[plane] <= c->longest);
 }
@@ -97,9 +95,9 @@ static bool is_apart(const struct columns *c, int64_t plane)
 static bool columns_apart(const struct columns *c, real *position)
 {
     for (int64_t k = 0; k < c->n - 1; k++) {
-        if (!is_apart(c, k)) continue;
+        if (!probes_spall_is_apart(c, k)) continue;
         int64_t end = k;
-        while (end + 1 < c->n - 1 && is_apart(c, end + 1)) end++;
+        while (end + 1 < c->n - 1 && probes_spall_is_apart(c, end + 1)) end++;
         *position = c->low + (0.5 * (real)(k + end) + 0.5) * c->spacing;
         return true;
     }
@@ -114,7 +112,7 @@ void spall_look(struct probe *q, const struct observed *o)
         if (o->part->body[i] >= bodies) bodies = o->part->body[i] + 1;
     for (int body = 0; body < bodies && isnan(q->memory.first_time); body++) {
         struct columns c;
-        if (columns_make(&c, o, body)) {
+        if (probes_spall_columns_make(&c, o, body)) {
             columns_bonds(&c, o, body);
             columns_points(&c, o->part, body);
             real position;
@@ -124,7 +122,7 @@ void spall_look(struct probe *q, const struct observed *o)
                 q->memory.body = body;
             }
         }
-        columns_free(&c);
+        probes_spall_columns_free(&c);
     }
 }
 

@@ -1,12 +1,13 @@
-/* floor 4: particles from a scene: lattices and lists, volumes, masses, initial state.
+/* Particles from a scene: lattices and lists, volumes, masses, initial state.
  *
- * The lattice of a body hangs on the bounding box of the first solid of its shape: with m = round(edge / spacing)
- * particles along an edge they stand at centre + (k + 1/2 - m/2) spacing, k any whole number. A symmetric solid
- * is filled symmetrically to the last bit about its centre, and solids added later (a driven layer, say)
- * continue the lattice of the first. A body whose first solid is unbounded uses the first body's lattice.
+ * The lattice of a body is placed by the bounding box of the first solid of its shape: with m = round(edge / spacing)
+ * particles along an edge, particles stand at centre + (k + 1/2 - m/2) spacing for every whole number k. A symmetric
+ * solid is filled symmetrically about its centre to the last bit, and solids added later (a driven layer, for example)
+ * continue the lattice of the first solid. A body whose first solid is unbounded takes the lattice of the first body.
  *
- * Centre and spacing are rounded so that all places are exact numbers: then neighbours are at exactly the same distances
- * everywhere (struct pattern), and nothing that follows from distances knows where in the body it is. */
+ * Centre and spacing are rounded so that every coordinate is an exact floating-point number. Distances between
+ * neighbours are then exactly equal throughout the body (struct pattern), and quantities computed from distances do not
+ * depend on the position in the body. */
 #include <math.h>
 #include <string.h>
 
@@ -16,15 +17,15 @@
 #include "scene/particle_list.h"
 #include "base/team.h"
 
-/* Two particles closer than this are one, given twice [spacings]. */
+/* Closer particles are refused as one particle given twice [spacings]. */
 static const real too_close = 1e-3;
-/* Farther from the origin doubles no longer resolve strains: at this distance [spacings] a place is rounded by 1e-9 of a spacing, and
- * a strain of 1e-4 is known to 1e-5 of it; ten thousand times as far stresses are 3 % off. */
+/* Largest distance from the origin at which doubles resolve strains [spacings]: a coordinate is rounded by 1e-9 of a
+ * spacing there, which is 1e-5 of a strain of 1e-4. At ten thousand times this distance stresses are 3 % off. */
 static const real too_far = 1e7;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 };
 
-/* Particles in the order in which the scene makes them, before struct particles knows how many there are. */
+/* Particles in the order in which the scene makes them, collected before their number is known. */
 struct draft {
     const struct scene *scene;
     int64_t n, room;
@@ -57,6 +58,7 @@ static void draft_grow(struct draft *d)
     d->room = room;
 }
 
+/* Appends a particle at X [m], [dim]; volume [m^3]. REFUSED beyond PARTICLES_MAX particles. */
 static status draft_add(struct draft *d, const real *X, real volume, int material, int body)
 {
     if (d->n >= PARTICLES_MAX) return draft_refuse(d, body, "more than 2147483583 particles; use a larger spacing");
@@ -69,7 +71,7 @@ static status draft_add(struct draft *d, const real *X, real volume, int materia
     return OK;
 }
 
-/* ---- lattices -------------------------------------------------------------------------------------- */
+/* ---- lattices ---------------------------------------------------------------------------------------------------- */
 
 /* Along one direction: places first .. last at centre + (k + 1/2 - m/2) spacing. */
 struct axis {
@@ -82,11 +84,13 @@ static real axis_place(const struct axis *a, int64_t k)
     return a->centre + ((real)k + 0.5 - a->half_count) * a->spacing;
 }
 
-/* Rounds centre and half the spacing to whole multiples of a power of two, so small that places keep to where they are meant
- * to be, and so large that all of them are exact. A body of 10,000 spacings has no such power; its places are rounded one by one. */
+/* Rounds centre and half the spacing to multiples of a power of two, such that every place is an exact double and stays
+ * within half of LATTICE_NEAR of its nominal place. A body of 10,000 spacings has no such power of two; its places are
+ * rounded one by one. */
 static void axis_round(struct axis *a)
 {
-    const real ends = fabs(a->centre) + (fabs((real)a->first - a->half_count) + fabs((real)a->last - a->half_count) + 2) * a->spacing;
+    const real ends =
+        fabs(a->centre) + (fabs((real)a->first - a->half_count) + fabs((real)a->last - a->half_count) + 2) * a->spacing;
     const real unit = exp2(ceil(log2(ends)) - 53), half = nearbyint(0.5 * a->spacing / unit) * unit;
     const real farthest = 2 * real_max(fabs((real)a->first - a->half_count), fabs((real)a->last - a->half_count)) + 1;
     if (fabs(2 * half - a->spacing) * 0.5 * farthest > 0.5 * LATTICE_NEAR * a->spacing) return;
@@ -119,7 +123,8 @@ static real cell_volume(const struct scene *s)
     return lattice_volume(scene_section(s), s->spacing, s->dim);
 }
 
-/* The lattice that covers the whole shape of a body. */
+/* Axes of the lattice that covers the whole shape of a body. REFUSED if the shape is unbounded or too large for the
+ * spacing. */
 static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM_MAX])
 {
     const struct scene *s = d->scene;
@@ -145,6 +150,7 @@ static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM
     return OK;
 }
 
+/* Adds a particle at a place of the lattice [m], shifted at random by the irregularity, if the place is in the body. */
 static status lattice_point(struct draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
@@ -155,6 +161,7 @@ static status lattice_point(struct draft *d, int body, const real *place, real v
     return draft_add(d, X, volume, s->body[body].material, body);
 }
 
+/* Fills the shape of a body with the particles of its lattice, x fastest. */
 static status fill_lattice(struct draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
@@ -171,9 +178,9 @@ static status fill_lattice(struct draft *d, int body)
     return OK;
 }
 
-/* ---- lists ----------------------------------------------------------------------------------------- */
+/* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-/* Begins with `file:line` of a list's entry, or `file: entry`. */
+/* REFUSED with a message that begins with `file:line` of entry i (CSV) or `file: entry i` (HDF5). */
 static status refuse_entry(const struct particle_list *l, const char *path, int64_t i, const char *what, int number)
 {
     bool csv = l->line != NULL;
@@ -181,13 +188,14 @@ static status refuse_entry(const struct particle_list *l, const char *path, int6
                       csv ? "" : " entry ", (long long)(csv ? l->line[i] : i), what, number);
 }
 
-/* Does body number k take its particles from the same file? */
+/* True if body number k takes its particles from this file. */
 static bool shares_file(const struct scene *s, int k, const char *file)
 {
     return k < s->bodies && s->body[k].file != NULL && strcmp(s->body[k].file, file) == 0;
 }
 
-/* Takes the entries of a body: those that bear its number, or all where the list knows no bodies. */
+/* Adds the entries of a body to the draft: entries with its number, or all entries of a list without a body column.
+ * REFUSED for entries of a body with another file and for materials that the scene does not have. */
 static status take_list(struct draft *d, int body, const struct particle_list *l)
 {
     const struct scene *s = d->scene;
@@ -215,6 +223,7 @@ static status fill_list(struct draft *d, int body)
     return s;
 }
 
+/* Makes the particles of all bodies. REFUSED for a body without particles. */
 static status draft_make(struct draft *d)
 {
     for (int body = 0; body < d->scene->bodies; body++) {
@@ -225,11 +234,12 @@ static status draft_make(struct draft *d)
     return OK;
 }
 
-/* ---- particles ------------------------------------------------------------------------------------- */
+/* ---- particles --------------------------------------------------------------------------------------------------- */
 
 static real volume_term(const void *volume, int64_t i) { return ((const real *)volume)[i]; }
 
-/* The scene's spacing, or the edge of the mean particle where all come from lists [m]. */
+/* The spacing of the scene [m]; without one (all particles come from lists) the edge of a particle of mean volume
+ * [m]. */
 static real spacing_of(const struct draft *d)
 {
     const struct scene *s = d->scene;
@@ -237,6 +247,7 @@ static real spacing_of(const struct draft *d)
     return pow(team_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section(s)), 1.0 / s->dim);
 }
 
+/* Copies the draft to the particles, with the velocity of their body, mass and method. `optional`: bits WITH_*. */
 static void take_draft(struct particles *p, const struct draft *d, int optional)
 {
     const struct scene *s = d->scene;
@@ -248,7 +259,7 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
             p->X[a][i] = p->x[a][i] = d->X[a][i];
             p->v[a][i] = s->body[d->body[i]].velocity[a];
             if (optional & WITH_STRETCH) p->stretch[a][i] = 1;
-            if (optional & WITH_TURNS && s->dim == 3) p->end_turn[ROTATION - 1][i] = 1;
+            if (optional & WITH_ROTATIONS && s->dim == 3) p->end_rotation[ROTATION - 1][i] = 1;
         }
         p->volume0[i] = p->volume[i] = d->volume[i];
         p->material[i] = d->material[i];
@@ -259,28 +270,36 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
     }
 }
 
+/* REFUSED if a particle is farther than too_far from the origin or its mass is not a positive finite number. */
 static status check_values(const struct particles *p, const struct draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         bool good = isfinite(p->mass[i]) && p->mass[i] > 0 && isfinite(spacing);
         for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= too_far * spacing;
-        if (!good) return draft_refuse(d, p->body[i], "a particle lies beyond 1e7 spacings from the origin, where doubles no longer "
-                                                      "resolve strains, or has no finite mass; see whether places and spacing have "
-                                                      "the same unit, and move the body to the origin");
+        if (!good)
+            return draft_refuse(d, p->body[i],
+                                "a particle lies beyond 1e7 spacings from the origin, where doubles no longer "
+                                "resolve strains, or has no finite mass; see whether places and spacing have "
+                                "the same unit, and move the body to the origin");
     }
     return OK;
 }
 
+/* REFUSED if mpm.origin is farther than too_far from 0. */
 static status check_origin(const struct scene *s)
 {
     for (int a = 0; a < s->dim && s->has_grid_origin; a++)
         if (!(fabs(s->grid_origin[a]) <= too_far * s->spacing))
-            return status_set(REFUSED, "%s: mpm.origin: %.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a "
-                                       "place near the body is expected", s->path != NULL ? s->path : s->name, s->grid_origin[a]);
+            return status_set(
+                REFUSED,
+                "%s: mpm.origin: %.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a "
+                "place near the body is expected",
+                s->path != NULL ? s->path : s->name, s->grid_origin[a]);
     return OK;
 }
 
-/* What `initial` has moved is where it can be, and no stress or speed is past all numbers. */
+/* REFUSED if the initial state moves a particle farther than too_far, makes its volume negative or 0, or makes a
+ * velocity or stress that is not finite. */
 static status check_start(const struct particles *p, const struct draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -290,20 +309,23 @@ static status check_start(const struct particles *p, const struct draft *d, real
         for (int a = 0; a < p->dim; a++) sum += p->v[a][i];
         for (int k = 0; k < symmetric_count(p->dim); k++) sum += p->stress[k][i];
         if (!good || !isfinite(sum))
-            return draft_refuse(d, p->body[i], "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or "
-                                               "gives it a speed or stress that is no number; strains near 1e-3 are usual");
+            return draft_refuse(
+                d, p->body[i],
+                "`initial` moves a particle beyond 1e7 spacings from the origin, turns it inside out, or "
+                "gives it a speed or stress that is no number; strains near 1e-3 are usual");
     }
     return OK;
 }
 
-/* Refuses particles on top of each other; names the first pair in the sorted order, on any number of threads. */
+/* REFUSED if two particles are closer than too_close. The message names the first pair in the sorted order, which does
+ * not depend on the number of threads. */
 static status check_distances(const struct particles *p, const struct draft *d, real spacing)
 {
     struct cells cells;
     int64_t first = p->n;
     int32_t other = -1;
     real X[DIM_MAX] = {0};
-    cells_make(&cells, p, 3 * spacing);  /* of about one particle each */
+    cells_make(&cells, p, 3 * spacing);  /* cells of a third of this edge: about one particle each */
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t i = 0; i < p->n; i++) {
         real here[DIM_MAX];
@@ -322,8 +344,9 @@ static status check_distances(const struct particles *p, const struct draft *d, 
                       d->scene->body[p->body[other]].name, X[0], X[1], X[2]);
 }
 
-/* ---- initial state --------------------------------------------------------------------------------- */
+/* ---- initial state ----------------------------------------------------------------------------------------------- */
 
+/* v = velocity + G arm with the velocity gradient G, which is stored where particles have one; arm = X - centre [m]. */
 static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *arm)
 {
     for (int a = 0; a < p->dim; a++) {
@@ -335,8 +358,9 @@ static void start_velocity(struct particles *p, int64_t i, const struct scene_in
     }
 }
 
-/* x = X + H (X - centre) and what goes with it at small strain: stress C : sym H, volume factor 1 + tr H. */
-static void start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
+/* Initial strain of particle i: x = X + H (X - centre), with stress C : sym H and volume factor 1 + tr H of small
+ * strain. arm = X - centre [m]. */
+static void fill_start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
                          const real *arm)
 {
     const real *H = s->displacement_gradient;
@@ -357,6 +381,7 @@ static void start_strain(struct particles *p, int64_t i, const struct scene_init
     p->volume[i] = p->volume0[i] * growth;
 }
 
+/* Adds a plane wave to particle i at X [m]: displacement, velocity, stress, stretch and volume of small strain. */
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {
@@ -379,19 +404,22 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
     p->volume[i] *= 1 + wave.strain * dot(along, moved, dim);
 }
 
+/* REFUSED if an initial displacement gradient turns the body inside out. */
 static status check_initial(const struct scene *s, const struct scene_initial *initial)
 {
     real growth = 1;
+    bool inverted = false;
     for (int a = 0; a < s->dim && initial->sets_strain; a++) {
         real stretch = 1 + initial->displacement_gradient[a * s->dim + a];
         growth += stretch - 1;
-        if (!(stretch > 0)) growth = -1;
+        inverted |= !(stretch > 0);
     }
-    if (growth > 0) return OK;
+    if (growth > 0 && !inverted) return OK;
     return status_set(REFUSED, "%s: an initial displacement gradient turns the body inside out",
                       s->path != NULL ? s->path : s->name);
 }
 
+/* Applies the initial states that hold for particle i, in the order of the scene. tolerance [m]: of regions. */
 static void start_particle(struct particles *p, int64_t i, const struct scene *s, real tolerance)
 {
     real X[DIM_MAX], arm[DIM_MAX];
@@ -400,11 +428,12 @@ static void start_particle(struct particles *p, int64_t i, const struct scene *s
         if ((k->body >= 0 && k->body != p->body[i]) || !region_contains(&k->region, X, p->dim, tolerance)) continue;
         for (int a = 0; a < p->dim; a++) arm[a] = X[a] - k->centre[a];
         if (k->sets_velocity) start_velocity(p, i, k, arm);
-        if (k->sets_strain) start_strain(p, i, k, &s->material[p->material[i]], arm);
+        if (k->sets_strain) fill_start_strain(p, i, k, &s->material[p->material[i]], arm);
         if (k->sets_pulse) start_pulse(p, i, &k->pulse, &s->material[p->material[i]], X);
     }
 }
 
+/* Makes the particles of a draft, checks them, applies the initial state and sorts them. */
 static status fill_made(struct particles *p, const struct draft *d, int optional)
 {
     const struct scene *s = d->scene;

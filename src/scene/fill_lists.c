@@ -1,5 +1,6 @@
-/* floor 4: does a list of particles go with the spacing of the scene? One in another unit is read without a fault: its particles
- * have no neighbours and no forces, or all are neighbours of all and no memory holds the bonds. */
+/* Checks that lists of particles match the spacing of the scene. A list in another unit reads without an error, but its
+ * particles have no neighbours and no forces, or all particles are neighbours of each other and the bonds exceed the
+ * memory. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -9,43 +10,47 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* A body of this many particles is believed: mass points placed one by one. */
+/* Bodies of at most this many particles are not checked: they are mass points placed one by one. */
 enum { FEW = 7 };
-/* So many of a body are looked at, each beside all others: in a long list a share is known to 4 % then, whatever its shape. */
+/* Number of particles sampled per body, each compared with all particles of the body. A share of a long list is then
+ * accurate to 4 %, whatever the shape of the body. */
 enum { LOOKED_AT = 128 };
-/* Refused where more than this share has no neighbour. A wrong unit leaves none to nearly all. Grains of several particles have
- * their own, chips of one particle round them are fewer than what they broke off, and particles strewn at random as densely as the
- * spacing says leave 2 % alone on a line, and one in 1e5 elsewhere. */
+/* A list is refused where a larger share of the sample has no neighbour. In a wrong unit nearly all particles have
+ * none. Correct lists stay below: grains of several particles have neighbours of their own grain, chips of one particle
+ * are fewer than the particles of the fragments they broke off, and particles placed at random at the density of the
+ * spacing leave 2 % without a neighbour on a line, and one in 1e5 elsewhere. */
 #define LONE_MOST 0.5
-/* Refused where the typical neighbour is closer than this share of a spacing: units are apart by 10 and more, the finest and the
- * coarsest parts of a graded body rarely by more than 4. */
+/* A list is refused where the median distance of nearest neighbours is less than this share of a spacing: units differ
+ * by factors of 10 and more, the finest and the coarsest parts of a graded body rarely by more than 4. */
 #define CLOSE_LEAST (1.0 / 6)
-/* Refused where the typical particle's volume and the space up to its nearest neighbour are further apart than this: in another unit
- * they are by 1e3 and more; at random places by 2 on a line, 4 in the plane and 6 in space. */
+/* A list is refused where the median particle volume and the space up to the nearest neighbour differ by more than this
+ * factor: in another unit they differ by 1e3 and more; at random places by 2 on a line, 4 in the plane and 6 in
+ * space. */
 #define VOLUME_MOST 100.0
-#define CROWDED 0.5                      /* neighbours so much closer than a spacing: bonds are counted before they are made */
-#define ONE_PLACE 1e-9                   /* of the body's longest edge: given twice, and refused elsewhere (fill.c) */
-#define REACH_LEAST 1.5                  /* of a material point, where a cell is no more than one spacing [spacings] */
+#define CROWDED 0.5               /* [spacings] at closer neighbours the memory of bonds is estimated beforehand */
+#define ONE_PLACE 1e-9                   /* [longest edge of the body] one place given twice; refused in fill.c */
+#define REACH_LEAST 1.5               /* least reach of a material point, for cells of at most one spacing [spacings] */
 
-/* The particles of a body in one piece. */
+/* The particles of one body, packed. */
 struct crowd {
     const struct particles *p;
     const struct scene *s;
     int body;
     int64_t n;
     real *X[DIM_MAX], *volume;           /* [n] [m], [m^3] */
-    real reach;                          /* [m]      */
-    real one_place;                      /* [m]      */
+    real reach;                          /* distance within which particles are neighbours [m] */
+    real one_place;                      /* distance below which places count as one [m] */
 };
 
-/* What a sample of a body's particles says. */
+/* Statistics of a sample of the particles of a body. */
 struct verdict {
     real lone;                           /* share without a neighbour                          [1]     */
     real apart;                          /* median distance of the nearest other place         [m]     */
-    real family;                         /* mean number of others within reach                 [1]     */
-    real filled;                         /* median volume over the space up to the nearest     [1]     */
+    real family;                         /* mean number of neighbours within reach [1]                 */
+    real filled;                         /* median volume over space up to the nearest [1]             */
 };
 
+/* Packs the places and volumes of the particles of a body and sets one_place. */
 static void crowd_take(struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -69,7 +74,8 @@ static void crowd_take(struct crowd *c)
     c->one_place = ONE_PLACE * longest;
 }
 
-/* Square of the distance of the nearest other place, and how many of n particles are within reach of X, itself among them. */
+/* Square of the distance from X [m], [dim], to the nearest other place [m^2]. `others`: [dim][n] coordinates [m].
+ * *within: number of these n particles within reach of X, the particle at X included. */
 static real nearest_of(const struct crowd *c, real *const *others, int64_t n, const real *X, int64_t *within)
 {
     const real reach2 = square(c->reach), place2 = square(c->one_place);
@@ -94,8 +100,9 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Evenly strewn over the list, at places in it that no pattern of the list goes with (Weyl's sequence of the golden ratio). Points
- * of other bodies count as neighbours of material points, which meet them on the grid, not of bonds. */
+/* Statistics of a body. The sampled entries are spread evenly over the list at positions that match no pattern of the
+ * list (Weyl sequence of the golden ratio). Points of other bodies count as neighbours of material points, which
+ * interact with them on the grid; bonds do not cross bodies. */
 static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -119,9 +126,9 @@ static struct verdict crowd_look(const struct crowd *c)
     return (struct verdict){(real)lone / (real)looked, apart[looked / 2], family / (real)looked, filled[looked / 2]};
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------ */
+/* ---- messages ---------------------------------------------------------------------------------------------------- */
 
-/* " (is it in mm?)" where one length is a unit times the other. */
+/* Guess of the unit from the ratio of two lengths, as " (is it in mm?)"; "" where no unit is within a factor of 2. */
 static const char *unit_guess(real ratio)
 {
     static const struct { real ratio; const char *guess; } unit[] = {
@@ -133,7 +140,9 @@ static const char *unit_guess(real ratio)
 
 static const char *volume_guess(real ratio)
 {
-    return fabs(log10(ratio) - 9) < 1 ? " (are they in mm^3?)" : fabs(log10(ratio) - 6) < 1 ? " (are they in cm^3, or areas in mm^2?)" : "";
+    return fabs(log10(ratio) - 9) < 1   ? " (are they in mm^3?)"
+           : fabs(log10(ratio) - 6) < 1 ? " (are they in cm^3, or areas in mm^2?)"
+                                        : "";
 }
 
 static status refuse_list(const struct crowd *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -145,38 +154,52 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
     va_start(more, format);
     vsnprintf(why, sizeof why, format, more);
     va_end(more);
-    return status_set(REFUSED, "%s%sbody %s: %s", b->place[0] ? b->place : b->file, b->place[0] ? "" : ": ", b->name, why);
+    return status_set(REFUSED, "%s%sbody %s: %s", b->place[0] ? b->place : b->file, b->place[0] ? "" : ": ", b->name,
+                      why);
 }
 
+/* REFUSED if the statistics show units that do not match, or bonds that exceed the memory. */
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
-    if (!isfinite(v->apart)) return OK;          /* all in one place: refused elsewhere */
+    if (!isfinite(v->apart)) return OK;          /* all in one place: refused by check_distances (fill.c) */
     if (v->lone > LONE_MOST)
-        return refuse_list(c, "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: those of the list are "
-                              "%.4g m apart; a list in m is expected%s, or a particles.spacing of about %.2g m",
-                           c->n > LOOKED_AT ? "about " : "", 100 * v->lone, c->reach / spacing, spacing, v->apart,
-                           unit_guess(v->apart / spacing), v->apart);
+        return refuse_list(
+            c,
+            "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: those of the list are "
+            "%.4g m apart; a list in m is expected%s, or a particles.spacing of about %.2g m",
+            c->n > LOOKED_AT ? "about " : "", 100 * v->lone, c->reach / spacing, spacing, v->apart,
+            unit_guess(v->apart / spacing), v->apart);
     if (v->apart < CLOSE_LEAST * spacing)
-        return refuse_list(c, "neighbours of the list are %.4g m apart, and the spacing is %.4g m; a particles.spacing of about "
-                              "%.2g m is expected%s, or a list in m", v->apart, spacing, v->apart, unit_guess(spacing / v->apart));
+        return refuse_list(
+            c,
+            "neighbours of the list are %.4g m apart, and the spacing is %.4g m; a particles.spacing of about "
+            "%.2g m is expected%s, or a list in m",
+            v->apart, spacing, v->apart, unit_guess(spacing / v->apart));
     if (!(v->filled < VOLUME_MOST && v->filled > 1 / VOLUME_MOST))
-        return refuse_list(c, "volumes of its particles are %.2g times the space up to their neighbours, which are %.4g m apart%s; "
-                              "volumes in m^3 are expected%s", v->filled, v->apart,
-                           c->s->dim == 1 ? ", times the section" : c->s->dim == 2 ? ", times the thickness" : "",
-                           volume_guess(v->filled));
+        return refuse_list(
+            c,
+            "volumes of its particles are %.2g times the space up to their neighbours, which are %.4g m apart%s; "
+            "volumes in m^3 are expected%s",
+            v->filled, v->apart,
+            c->s->dim == 1   ? ", times the section"
+            : c->s->dim == 2 ? ", times the thickness"
+                             : "",
+            volume_guess(v->filled));
     if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && team_memory() > 0 && bytes > (real)team_memory())
-        return refuse_list(c, "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need some %.2g "
-                              "GB, and %.2g can be had; those of the list are %.4g m apart: a particles.spacing like that "
-                              "is expected", v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9,
-                           v->apart);
+        return refuse_list(
+            c,
+            "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need some %.2g "
+            "GB, and %.2g can be had; those of the list are %.4g m apart: a particles.spacing like that "
+            "is expected",
+            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9, v->apart);
     return OK;
 }
 
-/* ---- all lists ------------------------------------------------------------------------------------------ */
+/* ---- all lists --------------------------------------------------------------------------------------------------- */
 
-/* How far forces go: bonds as far as the horizon, on the grid about a cell [spacings]. */
-static real reach_of(const struct scene *s)
+/* Reach of forces [spacings]: the horizon of bonds, about one cell on the grid, at least REACH_LEAST. */
+static real fill_lists_reach_of(const struct scene *s)
 {
     const real bonds = s->method == METHOD_MPM ? 0 : s->horizon, grid = s->method == METHOD_PD ? 0 : s->cell;
     return real_max(REACH_LEAST, real_max(bonds, grid));
@@ -187,7 +210,7 @@ status fill_check_lists(const struct particles *p, const struct scene *s)
     status result = OK;
     for (int b = 0; b < s->bodies && result == OK; b++) {
         if (!s->body[b].file || !(s->spacing > 0)) continue;
-        struct crowd c = {.p = p, .s = s, .body = b, .reach = reach_of(s) * s->spacing * (1 + 1e-9)};
+        struct crowd c = {.p = p, .s = s, .body = b, .reach = fill_lists_reach_of(s) * s->spacing * (1 + 1e-9)};
         crowd_take(&c);
         if (c.n > FEW) {
             const struct verdict v = crowd_look(&c);

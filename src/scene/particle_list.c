@@ -1,4 +1,4 @@
-/* floor 4: reads lists of particles from CSV and HDF5 files; every refusal says where. */
+/* Reads lists of particles from CSV and HDF5 files; every refusal names the line or entry. */
 #include "scene/particle_list.h"
 
 #include <hdf5.h>
@@ -15,7 +15,7 @@
 
 enum { LINE_LENGTH = 4096, PARTICLES_MAX = INT32_MAX - 64 };
 
-/* What a list may hold; coordinates come first. */
+/* Columns of a list; coordinates come first. */
 enum column { COLUMN_X, COLUMN_Y, COLUMN_Z, COLUMN_VOLUME, COLUMN_MATERIAL, COLUMN_BODY, COLUMNS };
 static const char *const column_name[COLUMNS] = {"x", "y", "z", "volume", "material", "body"};
 
@@ -38,7 +38,7 @@ void particle_list_free(struct particle_list *l)
     *l = (struct particle_list){0};
 }
 
-/* What is wrong with a value of a column; NULL: nothing. */
+/* Fault of a value in a column, as the end of a sentence; NULL: none. */
 static const char *value_fault(int column, real value)
 {
     if (!isfinite(value)) return "is not a finite number";
@@ -48,29 +48,29 @@ static const char *value_fault(int column, real value)
     return NULL;
 }
 
-enum { PARTICLE_NUMBERS = 40 };          /* of a particle of a run, without its bonds: what it comes to be once it is read */
+enum { PARTICLE_NUMBERS = 40 };     /* memory of a particle of a run without its bonds [numbers] */
 
-/* Refuses entries of which so many, as particles, are more than the memory holds. */
+/* REFUSED if n particles of a run need more memory than the machine has. */
 static status list_affordable(const char *path, int64_t n)
 {
     const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
     if (team_memory() <= 0 || bytes <= (real)team_memory()) return OK;
-    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had", path, (real)n, 1e-9 * bytes,
-                      1e-9 * (real)team_memory());
+    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had", path, (real)n,
+                      1e-9 * bytes, 1e-9 * (real)team_memory());
 }
 
-/* ---- CSV ------------------------------------------------------------------------------------------- */
+/* ---- CSV --------------------------------------------------------------------------------------------------------- */
 
 struct csv {
     const char *path;
     FILE *file;
-    int64_t line;                        /* the current one, from 1 */
+    int64_t line;                        /* number of the current line, from 1 */
     char text[LINE_LENGTH];
-    int columns, column[COLUMNS];        /* enum column of each place in a line */
+    int columns, column[COLUMNS];        /* enum column of each field of a line */
     int64_t room;
 };
 
-/* Cuts the next field off `rest`, without the blanks round it; NULL at the end of the line. */
+/* Cuts the next field off `rest`, without surrounding blanks; NULL at the end of the line. */
 static char *next_field(char **rest)
 {
     char *field = *rest;
@@ -83,7 +83,7 @@ static char *next_field(char **rest)
     return field;
 }
 
-/* Reads on to the next line that says something; `*more` is false at the end of the file. */
+/* Reads the next line that is neither blank nor a comment; `*more` is false at the end of the file. */
 static status csv_line(struct csv *c, bool *more)
 {
     while ((*more = fgets(c->text, sizeof c->text, c->file) != NULL)) {
@@ -100,6 +100,7 @@ static status csv_line(struct csv *c, bool *more)
     return OK;
 }
 
+/* Appends a column named in the header. REFUSED if the name is unknown or given twice. */
 static status csv_column(struct csv *c, const char *name, int dim)
 {
     for (int k = 0; k < COLUMNS; k++) {
@@ -114,6 +115,7 @@ static status csv_column(struct csv *c, const char *name, int dim)
                       (long long)c->line, name, dim, dim == 1 ? "x" : dim == 2 ? "x, y" : "x, y, z");
 }
 
+/* Reads the header. REFUSED if a required column is missing. */
 static status csv_header(struct csv *c, int dim)
 {
     bool more;
@@ -145,7 +147,7 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* One particle from the current line. */
+/* Reads one particle from the current line. */
 static status csv_entry(struct csv *c, struct particle_list *l)
 {
     char *rest = c->text;
@@ -189,7 +191,7 @@ static status csv_read(struct particle_list *l, const char *path)
     return s;
 }
 
-/* ---- HDF5 ------------------------------------------------------------------------------------------ */
+/* ---- HDF5 -------------------------------------------------------------------------------------------------------- */
 
 /* A dataset as columns of numbers. */
 struct table {
@@ -197,7 +199,7 @@ struct table {
     real *value;                         /* row major */
 };
 
-/* Shape of a dataset; false if it is not a plain list of numbers. */
+/* Shape of a dataset; false unless it is a list of numbers with at most PARTICLES_MAX rows and DIM_MAX columns. */
 static bool table_shape(hid_t set, struct table *t)
 {
     hid_t space = H5Dget_space(set), type = H5Dget_type(set);
@@ -213,18 +215,21 @@ static bool table_shape(hid_t set, struct table *t)
     return good;
 }
 
-/* gzip cannot shrink numbers that are all the same further than this: a bound on what a small file claims. */
+/* Most rows per byte of the file: gzip does not compress equal numbers further. Bounds the memory that a small file
+ * claims. */
 enum { ROWS_PER_BYTE_MOST = 1024 };
 
+/* REFUSED if a dataset claims more rows than its file can hold or the memory allows. */
 static status table_check(const struct table *t, const char *path, const char *name)
 {
     struct stat about;
     if (stat(path, &about) != 0 || t->rows / ROWS_PER_BYTE_MOST > about.st_size)
-        return status_set(REFUSED, "%s: %s claims %lld entries, more than a file of its size holds", path, name, (long long)t->rows);
+        return status_set(REFUSED, "%s: %s claims %lld entries, more than a file of its size holds", path, name,
+                          (long long)t->rows);
     return list_affordable(path, t->rows);
 }
 
-/* Are its numbers in this file, and not in others beside it? */
+/* True if the numbers of a dataset are in this file, not in external or virtual ones. */
 static bool lies_inside(hid_t set)
 {
     hid_t made = H5Dget_create_plist(set);
@@ -233,16 +238,19 @@ static bool lies_inside(hid_t set)
     return inside;
 }
 
-/* The link is looked at before it is followed. */
+/* True if `name` is a soft or external link; the link is not followed. */
 static bool is_linked(hid_t file, const char *name)
 {
     H5L_info_t link;
     return H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 && link.type != H5L_TYPE_HARD;
 }
 
+/* Reads a dataset of numbers into t->value, [rows][columns]; the caller frees it. REFUSED for links, for data in other
+ * files, and for datasets that are no list of numbers. */
 static status table_read(hid_t file, const char *path, const char *name, struct table *t)
 {
-    if (is_linked(file, name)) return status_set(REFUSED, "%s: %s is a link; a dataset of this file is expected", path, name);
+    if (is_linked(file, name))
+        return status_set(REFUSED, "%s: %s is a link; a dataset of this file is expected", path, name);
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
     if (set < 0) return status_set(REFUSED, "%s: %s is not a dataset", path, name);
     bool good = table_shape(set, t);
@@ -278,7 +286,7 @@ static status table_take(struct particle_list *l, int column, const struct table
     return OK;
 }
 
-/* A dataset of the list: `count` columns from `column` on. */
+/* Reads a dataset as `count` columns of the list, from `column` on. The positions set the number of entries. */
 static status hdf5_column(struct particle_list *l, hid_t file, const char *path, const char *name, int column,
                           int count)
 {
@@ -304,11 +312,12 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
     return OK;
 }
 
+/* Reads a list from an HDF5 file. A crash of the library on a damaged file is reported with the name of the file. */
 static status hdf5_read(struct particle_list *l, const char *path)
 {
     status s;
     last_words_reading(path);
-    H5E_BEGIN_TRY                        /* our line says it; HDF5's own stack of errors stays silent */
+    H5E_BEGIN_TRY                        /* one message per fault: the error stack of HDF5 is not printed */
     {
         hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
         s = file < 0 ? status_set(REFUSED, "%s: not an HDF5 file", path) : hdf5_columns(l, file, path);
@@ -319,7 +328,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
     return s;
 }
 
-/* ---- either ---------------------------------------------------------------------------------------- */
+/* ---- choice of the format ---------------------------------------------------------------------------------------- */
 
 static bool ends_with(const char *path, const char *ending)
 {

@@ -1,16 +1,17 @@
-/* floor 4: what several keys of a scene must fulfil together, and the defaults that depend on other keys. */
+/* Conditions on several keys of a scene together, and defaults that depend on other keys. */
 #include "scene_internal.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const struct node *below(const struct node *root, const char *group, const char *leaf)
+static const struct node *scene_check_below(const struct node *root, const char *group, const char *leaf)
 {
     return node_find(node_find(root, group), leaf);
 }
 
-/* Thickness and section exist in the plane and in line only; what does not exist is 1. */
+/* REFUSED if thickness is missing in a plane space or given elsewhere, or section is given outside space line. A
+ * thickness without meaning is 1. */
 static status check_measure(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -23,7 +24,8 @@ static status check_measure(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* Boxes round the bodies, filled at the spacing: more than this no index and no memory holds. */
+/* REFUSED if the bounding boxes of the bodies, filled at the spacing, hold more than 2e9 particles: the limit of 32-bit
+ * indices and of memory. */
 status check_size(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -35,55 +37,60 @@ status check_size(struct reader *r, const struct node *root)
         total += count;
     }
     if (total <= 2e9) return OK;
-    const struct node *spacing = below(root, "particles", "spacing");
+    const struct node *spacing = scene_check_below(root, "particles", "spacing");
     return fault(r, spacing, "%s would make about %.1e particles; 2e9 is the most", shown(r, spacing), total);
 }
 
+/* REFUSED for more than 1e12 time steps. */
 static status check_steps(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *step = below(root, "time", "step");
+    const struct node *step = scene_check_below(root, "time", "step");
     if (!step || s->time_step == 0 || s->duration / s->time_step <= 1e12) return OK;
     return fault(r, step, "%s would take %.1e steps; 1e12 is the most", shown(r, step), s->duration / s->time_step);
 }
 
+/* REFUSED for APIC with linear shape functions. */
 static status check_transfer(struct reader *r, const struct node *root)
 {
-    const struct node *transfer = below(root, "mpm", "transfer");
+    const struct node *transfer = scene_check_below(root, "mpm", "transfer");
     if (!transfer || r->scene->shape != SHAPE_LINEAR || r->scene->transfer != TRANSFER_APIC) return OK;
     return fault(r, transfer, "apic with shape linear was measured unstable (strains from velocities that are not "
                               "mapped again); flip, or shape gimp, is expected");
 }
 
-/* Breaking is of second order in the step: Kalthoff's crack turns to 58.6, 65, 65.9, 66.8 and 67.6 degrees at 0.8, 0.7, 0.6, 0.4
- * and 0.3 of the critical step. */
+/* Default of time.safety: 0.5 where bonds may break, else 0.8. Breaking is of second order in the step: the crack of
+ * the Kalthoff scene turns to 58.6, 65, 65.9, 66.8 and 67.6 degrees at 0.8, 0.7, 0.6, 0.4 and 0.3 of the critical
+ * step. */
 void resolve_safety(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     bool breaks = false;
     for (int m = 0; m < s->materials; m++) breaks |= isfinite(s->material[m].critical_stretch);
-    if (!below(root, "time", "safety")) s->safety = breaks && s->method != METHOD_MPM ? 0.5 : 0.8;
+    if (!scene_check_below(root, "time", "safety")) s->safety = breaks && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-/* `method: pd` alone has whole bodies of bonds, whose surfaces need the correction. */
+/* Defaults that depend on method, model, coupling and solver. Only with `method: pd` whole bodies consist of bonds,
+ * whose surfaces need the correction. */
 static void resolve_defaults(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
-    if (!below(root, "pd", "surface"))
+    if (!scene_check_below(root, "pd", "surface"))
         s->surface = s->method == METHOD_PD && s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
-    if (!below(root, "pd", "influence")) s->influence = s->model == MODEL_BOND ? INFLUENCE_ONE : INFLUENCE_INVERSE;
-    if (!below(root, "pd", "normalisation"))        /* families of a shaken lattice are none of them full ones */
+    if (!scene_check_below(root, "pd", "influence"))
+        s->influence = s->model == MODEL_BOND ? INFLUENCE_ONE : INFLUENCE_INVERSE;
+    if (!scene_check_below(root, "pd", "normalisation"))   /* an irregular lattice has no full families */
         s->bulk = s->model == MODEL_MOSPD && s->irregularity == 0;
-    if (!below(root, "mpm", "shape"))
+    if (!scene_check_below(root, "mpm", "shape"))
         s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
-    if (!below(root, "mpm", "transfer") && s->solver != SOLVER_EXPLICIT && s->shape != SHAPE_LINEAR)
+    if (!scene_check_below(root, "mpm", "transfer") && s->solver != SOLVER_EXPLICIT && s->shape != SHAPE_LINEAR)
         s->transfer = TRANSFER_APIC;
-    if (!below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
+    if (!scene_check_below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
 }
 
-/* ---- which frame the grid lives in (mpm.frame) ------------------------------------------------------------------- */
+/* ---- frame of the grid (mpm.frame) ------------------------------------------------------------------------------- */
 
-const char *scene_frame_obstacle(const struct scene *s, int body)
+const char *scene_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
     if (s->solver != SOLVER_EXPLICIT) return "static solvers want frame current";
@@ -95,25 +102,29 @@ const char *scene_frame_obstacle(const struct scene *s, int body)
     return NULL;
 }
 
-const char *scene_frame_reluctance(const struct scene *s, int body)
+const char *scene_frame_not_default(const struct scene *s, int body)
 {
-    const char *why = scene_frame_obstacle(s, body);
+    const char *why = scene_frame_unsupported(s, body);
     if (why) return why;
     if (s->bodies > 1) return "bodies meet on the grid of frame current only";
     if (s->body[body].file) return "particles from a list need not be a lattice";
     return NULL;
 }
 
+/* Why the keys of the scene require the current frame: the name of one that has no meaning in the reference frame.
+ * NULL: none. */
 static const char *frame_wish(const struct scene *s)
 {
     if (s->has_shape) return "the scene says mpm.shape, which frame reference knows nothing of";
     if (s->has_transfer) return "the scene says mpm.transfer, which frame reference knows nothing of";
-    if (s->has_rim_damping) return "the scene says rim_damping, which frame reference knows nothing of";
+    if (s->has_interface_damping) return "the scene says rim_damping, which frame reference knows nothing of";
     return NULL;
 }
 
-/* Bodies that are left to `auto` become current here wherever the scene alone decides. What has a meaning in the current frame only is
- * written out (scene_echo.c) where no body is left that may be in the other: a scene that says it asks for the current frame. */
+/* Bodies with frame auto become current wherever the scene alone decides. Where no body is left at auto, keys that
+ * have a meaning in the current frame only (mpm.shape, mpm.transfer, interface_damping) are marked as given, so that
+ * scene_echo.c writes them. While a body is at auto they must not be written: a scene that gives these keys requires
+ * the current frame. */
 void resolve_frames(struct scene *s)
 {
     bool open = false;
@@ -121,29 +132,30 @@ void resolve_frames(struct scene *s)
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
         if (body->frame == FRAME_AUTO && s->method != METHOD_PD) {
-            body->frame_reason = scene_frame_reluctance(s, b);
+            body->frame_reason = scene_frame_not_default(s, b);
             if (!body->frame_reason) body->frame_reason = s->frame_wish;
             if (body->frame_reason) body->frame = FRAME_CURRENT;
         }
         open |= body->frame == FRAME_AUTO;
     }
     if (open) return;
-    s->has_shape = s->has_transfer = s->has_rim_damping = true;
+    s->has_shape = s->has_transfer = s->has_interface_damping = true;
     if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;
 }
 
-/* Frames are spread evenly or have their times; a shorter run has those that it reaches. */
+/* Number of frames from output.times; times beyond the duration are left out. REFUSED beside output.frames. */
 static status check_times(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
-    const struct node *frames = below(root, "output", "frames"), *times = below(root, "output", "times");
+    const struct node *frames = scene_check_below(root, "output", "frames"),
+                      *times = scene_check_below(root, "output", "times");
     if (s->times.n == 0) return OK;
     if (frames) return fault_both(r, frames, times);
     for (s->frames = 0; s->frames < s->times.n && s->times.value[s->frames] <= s->duration * (1 + 1e-12);) s->frames++;
     return OK;
 }
 
-/* Both rule what method auto chooses, which has taken them away. */
+/* REFUSED for accuracy and accuracy_chart: they control method auto, which removes them from the tree. */
 static status check_accuracy(struct reader *r, const struct node *root)
 {
     const char *const keys_of_auto[] = {"accuracy", "accuracy_chart"};
@@ -154,11 +166,11 @@ static status check_accuracy(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* State-based models have families in the plane and in space, and constants that correct surfaces by themselves. */
+/* REFUSED for state-based models in space line, and for pd.surface beside them: their constants correct surfaces. */
 static status check_model(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
-    const struct node *model = node_find(root, "model"), *surface = below(root, "pd", "surface");
+    const struct node *model = node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1) return fault(r, model, "%s has no meaning in space line; bond is expected", shown(r, model));
     if (surface && s->surface != SURFACE_NONE)
@@ -167,14 +179,15 @@ static status check_model(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* What the static solvers cannot do. After materials and probes are read. */
+/* REFUSED for what the static solvers do not support. Called after materials and probes are read. */
 status check_solver(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
     const struct node *solver = node_find(root, "solver");
     if (!solver || s->solver == SOLVER_EXPLICIT) return OK;
     if (s->solver == SOLVER_STATIC)
-        return fault(r, solver, "static leaves the choice to method auto; %s is expected", s->method == METHOD_PD ? "cg" : "relaxation");
+        return fault(r, solver, "static leaves the choice to method auto; %s is expected",
+                     s->method == METHOD_PD ? "cg" : "relaxation");
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
         return fault(r, solver, "cg is for method pd; relaxation is expected with material points");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
@@ -182,8 +195,8 @@ status check_solver(struct reader *r, const struct node *root)
                                 "come to rest); mpm.transfer apic, with a shape that is not linear, is expected");
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            return fault(r, solver, "%s is for elastic materials, and %s yields; explicit is expected", shown(r, solver),
-                         s->material[m].name);
+            return fault(r, solver, "%s is for elastic materials, and %s yields; explicit is expected",
+                         shown(r, solver), s->material[m].name);
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
             return fault(r, solver, "%s has no steps for probe %s to watch; explicit is expected", shown(r, solver),

@@ -1,4 +1,4 @@
-/* floor 4: the scene as run, in YAML that reads back to the same scene bit by bit: SI, every default written out. */
+/* Writes the scene as run, in YAML that reads back to an identical scene, bit by bit: SI, every default written out. */
 #include "scene_internal.h"
 
 #include <inttypes.h>
@@ -47,7 +47,7 @@ static void write_matrix(struct writer *w, const real *value)
     fputc(']', w->out);
 }
 
-/* Bytes of the letter at c and its code; a byte that begins no letter stands for itself. */
+/* Number of bytes of the UTF-8 character at c, and its code point. An invalid byte is its own code. */
 static int letter_of(const unsigned char *c, unsigned *code)
 {
     int more = *c >= 0xF0 ? 3 : *c >= 0xE0 ? 2 : *c >= 0xC0 ? 1 : 0;
@@ -62,6 +62,7 @@ static int letter_of(const unsigned char *c, unsigned *code)
     return more + 1;
 }
 
+/* Writes a text in double quotes; characters other than printable ASCII as \U escapes. */
 static void write_quoted(struct writer *w, const char *text)
 {
     fputc('"', w->out);
@@ -89,6 +90,7 @@ static void write_choice(struct writer *w, const struct key *k, const void *plac
     write_word(w, k->words, word);
 }
 
+/* Writes the words of the set bits as a list, or none. */
 static void write_set(struct writer *w, const struct key *k, unsigned bits)
 {
     const char *between = "[";
@@ -104,7 +106,7 @@ static void write_set(struct writer *w, const struct key *k, unsigned bits)
 
 static void write_region(struct writer *w, const struct region *region);
 
-/* A value in the table's hands. */
+/* Writes the value of key k at `place` in the form of its type. */
 static void write_value(struct writer *w, const struct key *k, const void *place)
 {
     const struct scene *s = w->scene;
@@ -136,7 +138,7 @@ static void write_value(struct writer *w, const struct key *k, const void *place
     }
 }
 
-/* Is there something to say? What is not given and has no default has not. */
+/* True if the key has a value to write. A key that is neither given nor has a default has none. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
     if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
@@ -149,11 +151,12 @@ static bool has_value(const struct key *k, const void *base, const void *place)
     return true;
 }
 
-static const void *place_of(const struct key *k, const void *base)
+static const void *scene_echo_place_of(const struct key *k, const void *base)
 {
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
 
+/* Writes all keys of a group from the struct `base`, with their units as comments. */
 static void write_group(struct writer *w, const char *group, const void *base)
 {
     for (int i = 0; i < keys_count; i++) {
@@ -166,16 +169,17 @@ static void write_group(struct writer *w, const char *group, const void *base)
             write_group(w, k->path, base);
             w->indent -= 2;
         }
-        if (!has_value(k, base, place_of(k, base))) continue;
+        if (!has_value(k, base, scene_echo_place_of(k, base))) continue;
         begin(w, key_leaf(k));
         fputc(' ', w->out);
-        write_value(w, k, place_of(k, base));
+        write_value(w, k, scene_echo_place_of(k, base));
         fprintf(w->out, "%s%s\n", k->unit ? "  # " : "", unit_rows[k->unit].symbol);
     }
 }
 
-/* ---- solids --------------------------------------------------------------------------------------------- */
+/* ---- solids ------------------------------------------------------------------------------------------------------ */
 
+/* Writes a solid in flow style: {box: {..}}, {subtract: {box: {..}}}. */
 static void write_solid(struct writer *w, const struct solid *s)
 {
     static const char *const words[] = {[SOLID_BOX] = "solid.box", [SOLID_BALL] = "solid.ball",
@@ -187,7 +191,7 @@ static void write_solid(struct writer *w, const struct solid *s)
     for (int i = 0; i < keys_count; i++) {
         if (!key_in(&keys[i], group)) continue;
         fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
-        write_value(w, &keys[i], place_of(&keys[i], s));
+        write_value(w, &keys[i], scene_echo_place_of(&keys[i], s));
         between = ", ";
     }
     fprintf(w->out, "%s}%s", s->kind == SOLID_ALL ? "" : "}", s->subtract ? "}" : "");
@@ -202,7 +206,7 @@ static void write_region(struct writer *w, const struct region *region)
     fputc(']', w->out);
 }
 
-/* ---- lists ---------------------------------------------------------------------------------------------- */
+/* ---- lists ------------------------------------------------------------------------------------------------------- */
 
 static void begin_item(struct writer *w)
 {
@@ -210,21 +214,23 @@ static void begin_item(struct writer *w)
     w->dash = true;
 }
 
+/* Writes `material` for a single material, else the list `materials`. */
 static void write_materials(struct writer *w)
 {
     const struct scene *s = w->scene;
-    bool one = s->materials == 1;        /* so that overrides of material.young work on what is written, too */
+    bool one = s->materials == 1;        /* overrides of material.young then apply to the echo */
     fprintf(w->out, one ? "material:\n" : "materials:\n");
     for (int k = 0; k < s->materials; k++) {
         struct material m = s->material[k];
-        if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN;     /* follows from it */
+        if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN;     /* follows from energy_release_rate */
         begin_item(w);
         if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
     }
 }
 
-/* The file by its whole name, so that the echo runs from anywhere, and what was in it: a run goes on with the same contents only. */
+/* Writes the absolute path of a particle list, so that the echo runs from any folder, and the checksum of its contents:
+ * a run resumes with identical contents only. */
 static void write_particle_list(struct writer *w, const struct scene_body *b)
 {
     char *whole = b->contents ? realpath(b->file, NULL) : NULL;
@@ -278,7 +284,7 @@ static void write_growths(struct writer *w)
     if (s->growths) fputs("growth:\n", w->out);
     for (int k = 0; k < s->growths; k++) {
         struct growth_rule g = s->growth[k];
-        if (!g.probe[0]) g.toughness = NAN;      /* means nothing then */
+        if (!g.probe[0]) g.toughness = NAN;      /* has no meaning without a probe */
         begin_item(w);
         write_group(w, "growth", &g);
     }
@@ -295,6 +301,7 @@ static void write_initials(struct writer *w)
     }
 }
 
+/* Writes the function of time of a boundary. */
 static void write_time(struct writer *w, const struct time_function *f)
 {
     static const char *const words[] = {[TIME_STEP] = "step", [TIME_PULSE] = "pulse", [TIME_RAMP] = "ramp"};
@@ -323,7 +330,7 @@ static void write_profile(struct writer *w, const struct profile *f)
     for (int i = 0; i < keys_count && f->kind == PROFILE_SINE; i++) {
         if (!key_in(&keys[i], group)) continue;
         fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
-        write_value(w, &keys[i], place_of(&keys[i], f));
+        write_value(w, &keys[i], scene_echo_place_of(&keys[i], f));
         between = ", ";
     }
     fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
@@ -340,6 +347,7 @@ static void write_velocity(struct writer *w, const struct boundary *b)
     fputs("]\n", w->out);
 }
 
+/* Writes a boundary: the keys of the table, then value, face, profile and time by its kind. */
 static void write_boundary(struct writer *w, const struct boundary *b)
 {
     write_group(w, "boundary", b);
@@ -390,7 +398,7 @@ char *scene_echo(const struct scene *s)
 {
     char *text = NULL, *kept;
     size_t length = 0;
-    struct scene head = *s;              /* without what its space does not have */
+    struct scene head = *s;              /* without measures that its space does not have */
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
     head.has_frames = s->times.n == 0;

@@ -1,11 +1,11 @@
-/* floor 4: what a person can look up about the scene language: `cleave help` and the manual page, from one table. */
+/* Reference of the scene keys, from the table of keys: `cleave help` and the manual page. */
 #include "scene_internal.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-/* ---- a row in words -------------------------------------------------------------------------------------- */
+/* ---- facts of a key ---------------------------------------------------------------------------------------------- */
 
 static const char *type_text(const struct key *k)
 {
@@ -31,6 +31,7 @@ static const char *type_text(const struct key *k)
     }
 }
 
+/* Range or words of a key in words; "" where it has none. */
 static void range_text(const struct key *k, char *text, size_t room)
 {
     char least[32], most[32];
@@ -56,7 +57,7 @@ static void range_text(const struct key *k, char *text, size_t room)
     }
 }
 
-/* The default without the brackets that mark it as explained. */
+/* The default without the brackets that mark a default set by code. */
 static void default_text(const struct key *k, char *text, size_t room)
 {
     bool explained = *k->fallback == '(';
@@ -65,7 +66,7 @@ static void default_text(const struct key *k, char *text, size_t room)
     if (strcmp(text, "-") == 0) *text = '\0';
 }
 
-/* Everything about a key but its path, in one line. */
+/* All facts about a key but its path, in one line. */
 static void facts_text(const struct key *k, char *text, size_t room)
 {
     char range[128], fallback[96];
@@ -77,9 +78,9 @@ static void facts_text(const struct key *k, char *text, size_t room)
              *range ? "; " : "", range, *fallback ? "; " : "", *fallback && !required ? "default " : "", fallback);
 }
 
-/* ---- cleave help -------------------------------------------------------------------------------------------- */
+/* ---- cleave help ------------------------------------------------------------------------------------------------- */
 
-/* What a person types to the paths of the table: indices fall away, `materials` has the keys of `material`. */
+/* Path in the table of keys of a key as typed by a user: indices are dropped, `materials` becomes `material`. */
 static void path_of_table(const char *key, char *path, size_t room)
 {
     size_t used = 0, skip = 0;
@@ -96,6 +97,7 @@ static void path_of_table(const char *key, char *path, size_t room)
     text_harmless(path);
 }
 
+/* True if k is the key `path` or below it; "" holds all keys. */
 static bool is_below(const struct key *k, const char *path)
 {
     size_t length = strlen(path);
@@ -103,6 +105,7 @@ static bool is_below(const struct key *k, const char *path)
     return length == 0 || k->path[length] == '\0' || k->path[length] == '.';
 }
 
+/* REFUSED with the key nearest to `path` by edit distance. */
 static status help_unknown(const char *path)
 {
     const struct key *nearest = &keys[0];
@@ -133,7 +136,7 @@ status scene_help(FILE *out, const char *key)
     return OK;
 }
 
-/* ---- cleave.1 ------------------------------------------------------------------------------------------------- */
+/* ---- cleave.1 ---------------------------------------------------------------------------------------------------- */
 
 static const char manual_head[] =
     ".TH CLEAVE 1 \"\" \"cleave " CLEAVE_VERSION "\" \"User commands\"\n"
@@ -160,7 +163,8 @@ static const char manual_head[] =
     ".SH OPTIONS\n"
     ".TP\n.B \\-o \\fIdir\\fR\nfolder of the results. One that holds another run is refused.\n"
     ".TP\n.B \\-s \\fIkey\\fR=\\fIvalue\\fR\nlays a value over the scene's: material.young=70e9, "
-    "boundary.0.velocity='[0, 20 m/s]', cracks.1.to='[20 mm, 0]', materials.steel.young=210e9. Items of lists go by number,\n"
+    "boundary.0.velocity='[0, 20 m/s]', cracks.1.to='[20 mm, 0]', materials.steel.young=210e9. Items of lists go by "
+    "number,\n"
     "from 0 (boundary.0 or boundary[0]), or by name. An empty value takes the key, or the item, away.\n"
     ".TP\n.B \\-t \\fIthreads\\fR\nnumber of threads. The results do not depend on it.\n"
     ".TP\n.B \\-\\-resume\ngoes on from the newest checkpoint.\n"
@@ -171,12 +175,14 @@ static const char manual_head[] =
     ".TP\n.B 130\ninterrupted, after a checkpoint\n"
     ".SH ENVIRONMENT\nNO_COLOR, OMP_NUM_THREADS, OMP_PLACES and OMP_PROC_BIND are honoured.\n"
     "CLEAVE_SIMD takes a set of kernels other than the widest that the processor runs: avx512, avx2 or portable.\n"
-    ".SH SIGNALS\nSIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 end a run with a checkpoint; the first three end it at once the\n"
+    ".SH SIGNALS\nSIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 end a run with a checkpoint; the first three "
+    "end it at once the\n"
     "second time. One that was ignored when the program was started stays ignored.\n"
     ".SH FILES\n"
     ".TP\n.I frames/NNNNNN.hdf, frames.hdf.series\nthe frames (VTKHDF) and the index that ParaView opens\n"
     ".TP\n.I frames.xdmf\nthe same for other readers\n"
-    ".TP\n.I history.csv\none line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares of the\n"
+    ".TP\n.I history.csv\none line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares "
+    "of the\n"
     "particles by method, and rest_share, the share of them that rested, mean over the steps since the last sample\n"
     ".TP\n.I NAME_NNNNNN.csv\nprofiles of the line and exact probe NAME, one with every frame\n"
     ".TP\n.I summary.json\nthe figures of the run\n"
@@ -188,7 +194,7 @@ static const char manual_head[] =
     "of as many components as the space has. One document, no anchors, aliases or tags. In messages and below,\n"
     "keys are written with dots; items of lists have the keys below the list.\n";
 
-/* Letters that troff would take for its own. */
+/* Writes text with the characters escaped that have a meaning in troff. */
 static void troff(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {

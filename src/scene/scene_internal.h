@@ -1,16 +1,16 @@
-/* floor 4: what the files scene*.c share: the tree of nodes with their places, the table of keys, and the reader. */
-#ifndef CLEAVE_SCENE_INTERNAL_H
-#define CLEAVE_SCENE_INTERNAL_H
+/* Shared by the files scene*.c: the tree of nodes with their line and column, the table of keys, and the reader. */
+#ifndef CLEAVE_SCENE_INTERNAL
+#define CLEAVE_SCENE_INTERNAL
 
 #include "scene/scene.h"
 
-/* ---- nodes: YAML without its types, every value is text until a key says what it is (scene_yaml.c) ------- */
+/* ---- nodes: YAML without types, every value is text until a key gives it a type (scene_yaml.c) ------------------- */
 
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
 struct node {
     enum node_kind kind;
-    int line, column;                    /* of the key, of an item without one the item; from 1       */
+    int line, column;                    /* of the key, or of an item without a key; from 1           */
     int origin;                          /* number of the override it came from; -1: the file         */
     int n;                               /* entries of a list or map                                  */
     char *key;                           /* NULL: the root or an item of a list                       */
@@ -26,8 +26,8 @@ struct reader {
     int overrides;
     struct scene *scene;                 /* being filled                                              */
     int dim;
-    bool bounded;                        /* solids read now belong to a body: no infinite bounds      */
-    bool files;                          /* look whether particle lists exist                         */
+    bool bounded;                        /* solids being read belong to a body: no infinite bounds    */
+    bool files;                          /* check that particle lists exist                           */
     struct arena_block *arena;           /* nodes and texts of this reading                           */
 };
 
@@ -42,17 +42,15 @@ void node_append(struct node *parent, struct node *child);
 struct node *node_find(const struct node *map, const char *key);
 /* Lays the overrides over the tree (scene_override.c). */
 status tree_override(struct reader *r, struct node *root);
-/* One more, as if it came from the command line; an empty value takes the key away, which must be there. */
+/* Applies one more override, as from the command line. An empty value removes the key; REFUSED if it is not there. */
 status tree_set(struct reader *r, struct node *root, const char *key, const char *value);
-/* The node of a path of keys without lists; NULL: the scene does not say it. */
+/* The node at a path of keys without lists; NULL: the scene does not give it. */
 const struct node *tree_at(const struct node *root, const char *path);
-/* The tree of r->scene from the text and the overrides; from it the scene (scene.c). */
+/* scene_tree: the tree of nodes from the text and the overrides. scene_from_tree: r->scene from this tree (scene.c). */
 status scene_tree(struct reader *r, const char *text, size_t length, struct node **root);
 status scene_from_tree(struct reader *r, const struct node *root);
-/* `method: auto`: lays what it chooses over the tree; nothing without (auto.c). */
-status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length);
 
-/* ---- numbers and units (scene_units.c) ------------------------------------------------------------------ */
+/* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 
 enum unit {
     UNIT_NONE, UNIT_LENGTH, UNIT_AREA, UNIT_TIME, UNIT_SPEED, UNIT_DENSITY, UNIT_PRESSURE, UNIT_SURFACE_ENERGY,
@@ -61,20 +59,20 @@ enum unit {
 struct unit_row { const char *name, *symbol, *example; signed char twice[3]; }; /* twice the powers of m, kg, s */
 extern const struct unit_row unit_rows[UNITS];
 
-/* Reads `number [/ number] [unit]`, exactly rounded: units are powers of ten (but for min and h). On failure writes to `what` the
- * sentence that begins with the text: what is wrong and what would be right. */
+/* Reads `number [/ number] [unit]`, exactly rounded: units are powers of ten (but for min and h). On failure writes to
+ * `what` the rest of a sentence that begins with the text: the fault and what is expected. */
 bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room);
-/* The shortest text that reads back to the same bits. */
+/* The shortest text that reads back to identical bits. */
 const char *number_text(char text[32], real value);
 
-/* ---- the table of keys (scene_keys.c) ------------------------------------------------------------------- */
+/* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
 
 enum key_type {
     KEY_REAL, KEY_INT, KEY_SEED, KEY_FLAG, KEY_CHOICE, KEY_NAME, KEY_POINT, KEY_MATRIX, KEY_REGION, KEY_BODY,
     KEY_MATERIAL, KEY_SET, KEY_SERIES,   /* read and written by the table alone                       */
     KEY_MAP,                             /* its keys are read into the same struct                    */
     KEY_PART, KEY_LIST,                  /* a mapping, a list of mappings: read by a function         */
-    KEY_HAND,                            /* any other value read by a function; `words` says its form */
+    KEY_HAND,                            /* any other value, read by a function; `words`: its form */
     KEY_GROUP                            /* not a key: heads the keys of solids                       */
 };
 
@@ -90,34 +88,35 @@ struct key {
     const char *help;
     const char *words;                   /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; HAND: form */
     const char *low;                     /* complaint about a value below the range                   */
-    size_t has;                          /* 1 + offset of the bool that says that the key was given   */
-    real word_value;                     /* REAL: what the word stands for                            */
+    size_t has;                          /* 1 + offset of the bool that is set if the key is given    */
+    real word_value;                     /* REAL: value of the word                                   */
     bool infinite;                       /* inf is allowed                                            */
-    bool of_process;                     /* says how long a process runs, not what it computes: no part of the echo */
+    bool of_process;                     /* limits a process, not what it computes: no part of the echo */
 };
 extern const struct key keys[];
 extern const int keys_count;
 
 const char *key_leaf(const struct key *k);
-/* Is it a key right below `group` ("" for the top)? */
+/* True if k is directly below `group` ("" for the top). */
 bool key_in(const struct key *k, const char *group);
 const struct key *key_find(const char *group, const char *leaf);
 const struct key *key_nearest(const char *group, const char *leaf);
 int edit_distance(const char *a, const char *b);
 
-/* ---- values (scene_value.c) ----------------------------------------------------------------------------- */
+/* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
 
 /* REFUSED with `file:line:column: key: ...` or `-s key=value: key: ...`. */
 status fault(const struct reader *r, const struct node *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
-/* How fault begins, for what shows later. */
+/* The text with which fault begins a message, for messages made after the reading. */
 void fault_place(const struct reader *r, const struct node *at, char *text, size_t room);
 status fault_missing(struct reader *r, const struct node *map, const struct key *k);
-/* Two keys of which only one may be there; an override is blamed before the file. */
+/* REFUSED for two keys that exclude each other; the message is placed at the key of an override before that of the
+ * file. */
 status fault_both(const struct reader *r, const struct node *a, const struct node *b);
-/* The value as a message may show it: one line, short, printable. */
+/* The value in the form of messages: one line, short, printable. */
 const char *shown(struct reader *r, const struct node *n);
 const char *shown_text(struct reader *r, const char *text);
 /* A choice's words as `a, b or c`. */
@@ -125,19 +124,21 @@ const char *word_list(struct reader *r, const char *words);
 /* Position of text in a|b|c, -1 if it is not there. */
 int word_index(const char *words, const char *text);
 
+/* REFUSED for keys of `map` that are unknown in `group` or given twice. */
 status check_keys(struct reader *r, const struct node *map, const char *group);
+/* REFUSED if n is not of this kind; `what` completes the sentence "... is not ". */
 status expect(struct reader *r, const struct node *n, enum node_kind kind, const char *what);
-/* Reads all keys of a group that the table alone can read. `map` NULL: defaults; `where` then lacks what is
- * missing. */
+/* Reads all keys of a group that the table alone can read into the struct `base`. `map` NULL: defaults only; missing
+ * keys are reported at `where`. */
 status read_group(struct reader *r, const struct node *where, const struct node *map, const char *group, void *base);
 status read_key(struct reader *r, const struct key *k, const struct node *n, void *base);
 status read_number(struct reader *r, const struct key *k, const struct node *n, real *value);
 status read_point(struct reader *r, const struct key *k, const struct node *n, real *point);
 
-/* A list of as many items as the key's range says. */
+/* REFUSED if n is not a list with as many items as the range of k allows. */
 status expect_list(struct reader *r, const struct key *k, const struct node *n);
 
-/* ---- parts (scene_solids.c, scene_parts.c, scene_loads.c) ----------------------------------------------- */
+/* ---- parts (scene_solids.c, scene_parts.c, scene_loads.c) -------------------------------------------------------- */
 
 status read_region(struct reader *r, const struct node *n, struct region *region);
 status read_materials(struct reader *r, const struct node *root);
@@ -147,12 +148,13 @@ status read_growths(struct reader *r, const struct node *root);
 status read_initials(struct reader *r, const struct node *root);
 status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);
-/* What joins several keys (scene_check.c): keys without lists; the number of particles of the bodies read. */
+/* Conditions on several keys without lists, and defaults (scene_check.c). check_size and check_solver: the same for the
+ * number of particles of the bodies, and for the static solvers, after these are read. */
 status check_scene(struct reader *r, const struct node *root);
-/* Share of the critical step, by whether anything may break: after the materials. */
+/* Default share of the critical step, by whether bonds may break; after the materials are read. */
 void resolve_safety(struct reader *r, const struct node *root);
 status check_size(struct reader *r, const struct node *root);
-/* Frames that are left to auto: after the bodies. */
+/* Resolves frames left at auto; after the bodies are read. */
 void resolve_frames(struct scene *s);
 status check_solver(struct reader *r, const struct node *root);
 

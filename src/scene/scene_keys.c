@@ -1,4 +1,4 @@
-/* floor 4: the one table of keys: what a scene can say, in which unit and range, and what holds where it is silent. */
+/* The table of keys of a scene: what each sets, its unit, range and default. Reading, echo and help use this table. */
 #include "scene_internal.h"
 
 #include <math.h>
@@ -14,16 +14,15 @@
 #define INSIDE(a, b) {a, b, true, true}      /* a itself is outside */
 #define REQUIRED "required"
 #define NONE "-"
-#define KEY(path_, type_, unit_, place_, range_, fallback_, help_, ...)                                        \
-    {.path = path_, .type = type_, .unit = unit_, place_, .range = range_, .fallback = fallback_, .help = help_, \
+#define KEY(path_, type_, unit_, place_, range_, fallback_, help_, ...)                                                \
+    {.path = path_, .type = type_, .unit = unit_, place_, .range = range_, .fallback = fallback_, .help = help_,       \
      __VA_ARGS__}
 
-/* path, type, unit, place in its group's struct, range, default, help; then what only some keys have. */
+/* path, type, unit, place in its group's struct, range, default, help; then fields that only some keys have. */
 const struct key keys[] = {
-    KEY("name", KEY_NAME, UNIT_NONE, AT(scene, name), ANY, "(the file's name)",
-        "names the run and its results folder"),
-    KEY("space", KEY_CHOICE, UNIT_NONE, AT(scene, space), ANY, REQUIRED,
-        "dimension and plane state", .words = "line|plane stress|plane strain|solid"),
+    KEY("name", KEY_NAME, UNIT_NONE, AT(scene, name), ANY, "(the file's name)", "names the run and its results folder"),
+    KEY("space", KEY_CHOICE, UNIT_NONE, AT(scene, space), ANY, REQUIRED, "dimension and plane state",
+        .words = "line|plane stress|plane strain|solid"),
     KEY("thickness", KEY_REAL, UNIT_LENGTH, AT(scene, thickness), ABOVE(0), "(required in plane spaces)",
         "out of the plane; plane stress and plane strain only"),
     KEY("section", KEY_REAL, UNIT_AREA, AT(scene, section), ABOVE(0), "1 m^2", "cross-section of a bar; line only"),
@@ -49,7 +48,8 @@ const struct key keys[] = {
         .has = FLAG(scene, has_accuracy)),
     KEY("accuracy_chart", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(that of the program)",
         "method auto: a chart measured elsewhere, as `cleave bench accuracy` writes it (results/bench/chart.csv); "
-        "sought in the scene's folder, then in the current one", .words = "file name, .csv"),
+        "sought in the scene's folder, then in the current one",
+        .words = "file name, .csv"),
 
     KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "the one material; its keys follow"),
     KEY("materials", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or material)",
@@ -88,17 +88,17 @@ const struct key keys[] = {
     KEY("bodies.particles", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(required, or shape)",
         "particle list (positions, volumes, material, body); sought in the scene's folder, then in the current one",
         .words = "file name, .csv or .h5"),
-    KEY("bodies.frame", KEY_CHOICE, UNIT_NONE, AT(scene_body, frame), ANY, "(mpm.frame)",
-        "its own mpm.frame", .words = "current|reference|auto"),
+    KEY("bodies.frame", KEY_CHOICE, UNIT_NONE, AT(scene_body, frame), ANY, "(mpm.frame)", "its own mpm.frame",
+        .words = "current|reference|auto"),
     KEY("bodies.velocity", KEY_POINT, UNIT_SPEED, AT(scene_body, velocity), ANY, "(0)", "initial velocity"),
 
     KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
         "what bodies and regions are made of: one of the following, or a list of them, built in order"),
     KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),
-    KEY("solid.box.from", KEY_POINT, UNIT_LENGTH, AT(solid, from), ANY, REQUIRED,
-        "lower corner; -inf only in a region", .infinite = true),
-    KEY("solid.box.to", KEY_POINT, UNIT_LENGTH, AT(solid, to), ANY, REQUIRED,
-        "upper corner; inf only in a region", .infinite = true),
+    KEY("solid.box.from", KEY_POINT, UNIT_LENGTH, AT(solid, from), ANY, REQUIRED, "lower corner; -inf only in a region",
+        .infinite = true),
+    KEY("solid.box.to", KEY_POINT, UNIT_LENGTH, AT(solid, to), ANY, REQUIRED, "upper corner; inf only in a region",
+        .infinite = true),
     KEY("solid.disc", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "disc; plane spaces only"),
     KEY("solid.disc.centre", KEY_POINT, UNIT_LENGTH, AT(solid, centre), ANY, REQUIRED, "centre"),
     KEY("solid.disc.radius", KEY_REAL, UNIT_LENGTH, AT(solid, radius), ABOVE(0), REQUIRED, "radius"),
@@ -115,14 +115,13 @@ const struct key keys[] = {
     KEY("solid.half-space.normal", KEY_POINT, UNIT_NONE, AT(solid, normal), ANY, REQUIRED,
         "points outwards, any length"),
     KEY("solid.all", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "everywhere", .words = "true"),
-    KEY("solid.add", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
-        "a solid to add; a solid by itself is added, too", .words = "solid"),
-    KEY("solid.subtract", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
-        "a solid to take away from what the list has built", .words = "solid"),
+    KEY("solid.add", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "a solid to add; a solid by itself is added, too",
+        .words = "solid"),
+    KEY("solid.subtract", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "a solid to take away from what the list has built",
+        .words = "solid"),
 
     KEY("particles", KEY_MAP, UNIT_NONE, NOWHERE, ANY, REQUIRED, "discretisation"),
-    KEY("particles.spacing", KEY_REAL, UNIT_LENGTH, AT(scene, spacing), ABOVE(0), REQUIRED,
-        "distance of the lattice"),
+    KEY("particles.spacing", KEY_REAL, UNIT_LENGTH, AT(scene, spacing), ABOVE(0), REQUIRED, "distance of the lattice"),
     KEY("particles.horizon", KEY_REAL, UNIT_NONE, AT(scene, horizon), BETWEEN(1, 10.5), "3.015",
         "reach of bonds, in spacings", .low = "is smaller than one spacing; 3.015 is usual"),
     KEY("particles.irregularity", KEY_REAL, UNIT_NONE, AT(scene, irregularity), BETWEEN(0, 1), "0",
@@ -142,36 +141,42 @@ const struct key keys[] = {
     KEY("pd.influence", KEY_CHOICE, UNIT_NONE, AT(scene, influence), ANY, "(inverse with ospd and mospd, else one)",
         "weight of a bond by its length: 1, exp(-(r/delta)^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing)",
         .words = "one|gaussian|inverse|inverse square|linear"),
-    KEY("pd.normalisation", KEY_CHOICE, UNIT_NONE, AT(scene, bulk), ANY, "(bulk with mospd and irregularity 0, else local)",
+    KEY("pd.normalisation", KEY_CHOICE, UNIT_NONE, AT(scene, bulk), ANY,
+        "(bulk with mospd and irregularity 0, else local)",
         "ospd and mospd: constants from the family a particle has, or from a full one", .words = "local|bulk"),
     KEY("pd.last_force", KEY_CHOICE, UNIT_NONE, AT(scene, whole_force), ANY, "half",
-        "of a bond in the step in which it breaks: half balances energy to second order in the step, whole is what other programs do",
+        "of a bond in the step in which it breaks: half balances energy to second order in the step, whole is what "
+        "other programs do",
         .words = "half|whole"),
     KEY("pd.region", KEY_REGION, UNIT_NONE, AT(scene, pd_region), ANY, NONE,
         "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
 
     KEY("mpm", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "material point method"),
-    KEY("mpm.cell", KEY_REAL, UNIT_NONE, AT(scene, cell), BETWEEN(1, 8), "2",
-        "node distance of the grid, in spacings"),
-    KEY("mpm.shape", KEY_CHOICE, UNIT_NONE, AT(scene, shape), ANY,
-        "(gimp; linear with coupling pm and pmg)", "shape functions; a scene that says them wants the current frame",
+    KEY("mpm.cell", KEY_REAL, UNIT_NONE, AT(scene, cell), BETWEEN(1, 8), "2", "node distance of the grid, in spacings"),
+    KEY("mpm.shape", KEY_CHOICE, UNIT_NONE, AT(scene, shape), ANY, "(gimp; linear with coupling pm and pmg)",
+        "shape functions; a scene that says them wants the current frame",
         .words = "linear|gimp|cpgimp|quadratic|cubic", .has = FLAG(scene, has_shape)),
-    KEY("mpm.transfer", KEY_CHOICE, UNIT_NONE, AT(scene, transfer), ANY,
-        "(flip; apic with solver relaxation)",
+    KEY("mpm.transfer", KEY_CHOICE, UNIT_NONE, AT(scene, transfer), ANY, "(flip; apic with solver relaxation)",
         "grid to particle; apic not with linear; a scene that says it wants the current frame", .words = "flip|apic",
         .has = FLAG(scene, has_transfer)),
     KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, AT(scene, frame), ANY, "auto",
         "configuration the grid lives in; reference: linear cells with their state on the nodes and material points as "
-        "their quadrature, for bodies on a lattice that keep their neighbours and do not meet others, a tenth to a thirtieth of "
-        "the cost; auto: reference where the body is one piece on a regular lattice, elastic, the only one and not at rest by a solver, "
-        "with mpm.cell 2 and coupling partial stress or handshake, and the scene says nothing of shape, transfer and rim_damping, "
-        "which have no meaning then; else current (`cleave check` says why)", .words = "current|reference|auto"),
+        "their quadrature, for bodies on a lattice that keep their neighbours and do not meet others, a tenth to a "
+        "thirtieth of "
+        "the cost; auto: reference where the body is one piece on a regular lattice, elastic, the only one and not at "
+        "rest by a solver, "
+        "with mpm.cell 2 and coupling partial stress or handshake, and the scene says nothing of shape, transfer and "
+        "rim_damping, "
+        "which have no meaning then; else current (`cleave check` says why)",
+        .words = "current|reference|auto"),
     KEY("mpm.strain", KEY_CHOICE, UNIT_NONE, AT(scene, small_strain), ANY, "finite",
         "frame reference: finite, in axes that turn with each cell; small does not know rotations",
         .words = "finite|small"),
     KEY("mpm.constants", KEY_CHOICE, UNIT_NONE, AT(scene, lattice_constants), ANY, "isotropic",
-        "frame reference: elastic constants of the material, or of its bonds on the lattice (model bond), which are not "
-        "quite isotropic", .words = "isotropic|lattice"),
+        "frame reference: elastic constants of the material, or of its bonds on the lattice (model bond), which are "
+        "not "
+        "quite isotropic",
+        .words = "isotropic|lattice"),
     KEY("mpm.origin", KEY_POINT, UNIT_LENGTH, AT(scene, grid_origin), ANY,
         "(on the first mirror across each axis, else at the first body's lower corner)", "a node of the grid",
         .has = FLAG(scene, has_grid_origin)),
@@ -179,10 +184,10 @@ const struct key keys[] = {
     KEY("coupling", KEY_CHOICE, UNIT_NONE, AT(scene, coupling), ANY, "partial stress",
         "of material points and bonds where both meet", .words = "partial stress|handshake|pm|pg|pmg|pgg"),
 
-    KEY("rim_damping", KEY_REAL, UNIT_NONE, AT(scene, rim_damping), FROM(0), "0.25",
+    KEY("rim_damping", KEY_REAL, UNIT_NONE, AT(scene, interface_damping), FROM(0), "0.25",
         "coupling partial stress with transfer flip: damping of motion beside peridynamic particles that the grid "
         "cannot see, in wave speed over cell; 0: none; a scene that says it wants the current frame",
-        .has = FLAG(scene, has_rim_damping)),
+        .has = FLAG(scene, has_interface_damping)),
 
     KEY("conversion", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE,
         "material point to peridynamic particle (method adaptive)"),
@@ -195,24 +200,27 @@ const struct key keys[] = {
     KEY("conversion.criteria", KEY_SET, UNIT_NONE, AT(scene, conversion.criteria), ANY, "([bond, stress])",
         "what converts: a cut bond, the stress; a list, or none", .words = "bond|stress"),
     KEY("conversion.tips", KEY_REAL, UNIT_NONE, AT(scene, conversion.tips), BETWEEN(0, 1000), "0",
-        "peridynamic from the start this many horizons round the ends of pre-cracks; 2 starts cracks when peridynamics does"),
+        "peridynamic from the start this many horizons round the ends of pre-cracks; 2 starts cracks when peridynamics "
+        "does"),
     KEY("conversion.return", KEY_FLAG, UNIT_NONE, AT(scene, conversion.back), ANY, "false",
-        "peridynamic particles become material points again where no bond within two horizons was ever cut and the stress "
+        "peridynamic particles become material points again where no bond within two horizons was ever cut and the "
+        "stress "
         "stays low (coupling partial stress or handshake, elastic materials)"),
-    KEY("conversion.dwell", KEY_REAL, UNIT_NONE, AT(scene, conversion.dwell), BETWEEN(1, 1e6), "5",
+    KEY("conversion.dwell", KEY_REAL, UNIT_NONE, AT(scene, conversion.hold_time), BETWEEN(1, 1e6), "5",
         "return: how long the stress must have been low, in horizon over wave speed"),
-    KEY("conversion.return_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.calm), INSIDE(0, 0.9), "0.5",
+    KEY("conversion.return_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.low_stress), INSIDE(0, 0.9), "0.5",
         "return: what low stress is, as a share of the one that converts"),
 
     KEY("cracks", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "cracks there at the start"),
     KEY("cracks.from", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "one end of a segment (plane)"),
     KEY("cracks.to", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "the other end"),
     KEY("cracks.at", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "place of a cut (line)"),
-    KEY("cracks.polygon", KEY_HAND, UNIT_LENGTH, NOWHERE, BETWEEN(3, 1000), NONE,
-        "plane convex polygon (solid)", .words = "list of points"),
+    KEY("cracks.polygon", KEY_HAND, UNIT_LENGTH, NOWHERE, BETWEEN(3, 1000), NONE, "plane convex polygon (solid)",
+        .words = "list of points"),
     KEY("growth", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 64), NONE,
         "cracks that grow at a given speed, by themselves or while a sif probe asks for it (plane, model with bonds)"),
-    KEY("growth.name", KEY_NAME, UNIT_NONE, AT(growth_rule, name), ANY, "(growth0, growth1, ..)", "what probes call it"),
+    KEY("growth.name", KEY_NAME, UNIT_NONE, AT(growth_rule, name), ANY, "(growth0, growth1, ..)",
+        "what probes call it"),
     KEY("growth.at", KEY_POINT, UNIT_LENGTH, AT(growth_rule, at), ANY, REQUIRED, "where the tip starts"),
     KEY("growth.direction", KEY_POINT, UNIT_NONE, AT(growth_rule, direction), ANY, REQUIRED, "of growth, any length"),
     KEY("growth.speed", KEY_REAL, UNIT_SPEED, AT(growth_rule, speed), ABOVE(0), REQUIRED,
@@ -242,8 +250,8 @@ const struct key keys[] = {
     KEY("initial", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "initial states; later entries overwrite"),
     KEY("initial.region", KEY_REGION, UNIT_NONE, AT(scene_initial, region), ANY, "(everywhere)", "where"),
     KEY("initial.body", KEY_BODY, UNIT_NONE, AT(scene_initial, body), ANY, "(any)", "name of the body it holds for"),
-    KEY("initial.velocity", KEY_POINT, UNIT_SPEED, AT(scene_initial, velocity), ANY, "(0)",
-        "velocity at the centre", .has = FLAG(scene_initial, sets_velocity)),
+    KEY("initial.velocity", KEY_POINT, UNIT_SPEED, AT(scene_initial, velocity), ANY, "(0)", "velocity at the centre",
+        .has = FLAG(scene_initial, sets_velocity)),
     KEY("initial.velocity_gradient", KEY_MATRIX, UNIT_RATE, AT(scene_initial, velocity_gradient), ANY, "(0)",
         "G: v += G (X - centre)", .has = FLAG(scene_initial, sets_velocity)),
     KEY("initial.displacement_gradient", KEY_MATRIX, UNIT_NONE, AT(scene_initial, displacement_gradient), ANY, "(0)",
@@ -268,17 +276,20 @@ const struct key keys[] = {
     KEY("boundary.region", KEY_REGION, UNIT_NONE, AT(boundary, region), ANY, "(everywhere)",
         "where, by reference position"),
     KEY("boundary.body", KEY_BODY, UNIT_NONE, AT(boundary, body), ANY, "(any)", "name of the body it acts on"),
-    KEY("boundary.fixed", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
-        "components held at rest", .words = "all or list of x|y|z"),
-    KEY("boundary.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, NONE,
-        "components driven; free ones are left alone", .words = "list of number or free"),
+    KEY("boundary.fixed", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "components held at rest",
+        .words = "all or list of x|y|z"),
+    KEY("boundary.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, NONE, "components driven; free ones are left alone",
+        .words = "list of number or free"),
     KEY("boundary.traction", KEY_HAND, UNIT_PRESSURE, NOWHERE, ANY, NONE,
-        "force per area across the face, on the first particle of each column: steps and curves too, walls of holes only "
-        "where region leaves out what hides them", .words = "list of number"),
+        "force per area across the face, on the first particle of each column: steps and curves too, walls of holes "
+        "only "
+        "where region leaves out what hides them",
+        .words = "list of number"),
     KEY("boundary.face", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
-        "outward normal of the face (with traction); what region and body show to who looks from there", .words = "x+|x-|y+|y-|z+|z-"),
-    KEY("boundary.body_force", KEY_HAND, UNIT_BODY_FORCE, NOWHERE, ANY, NONE,
-        "force per volume", .words = "list of number"),
+        "outward normal of the face (with traction); what region and body show to who looks from there",
+        .words = "x+|x-|y+|y-|z+|z-"),
+    KEY("boundary.body_force", KEY_HAND, UNIT_BODY_FORCE, NOWHERE, ANY, NONE, "force per volume",
+        .words = "list of number"),
     KEY("boundary.profile", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "uniform",
         "factor on body_force over the reference position", .words = "uniform or mapping"),
     KEY("boundary.profile.sine", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
@@ -290,13 +301,13 @@ const struct key keys[] = {
     KEY("boundary.profile.sine.direction", KEY_POINT, UNIT_NONE, AT(profile, direction), ANY, "(along x)",
         "in which it varies, any length"),
     KEY("boundary.mirror", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "plane of symmetry"),
-    KEY("boundary.mirror.axis", KEY_CHOICE, UNIT_NONE, AT(boundary, axis), ANY, REQUIRED,
-        "normal of the plane", .words = "x|y|z"),
+    KEY("boundary.mirror.axis", KEY_CHOICE, UNIT_NONE, AT(boundary, axis), ANY, REQUIRED, "normal of the plane",
+        .words = "x|y|z"),
     KEY("boundary.mirror.at", KEY_REAL, UNIT_LENGTH, AT(boundary, at), ANY, REQUIRED, "where it is"),
     KEY("boundary.mirror.tangential", KEY_CHOICE, UNIT_NONE, AT(boundary, hold_tangential), ANY, "free",
         "held: no motion along the plane either (a clamped end)", .words = "free|held"),
-    KEY("boundary.time", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "constant",
-        "factor on the value, one of the following", .words = "constant or mapping"),
+    KEY("boundary.time", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "constant", "factor on the value, one of the following",
+        .words = "constant or mapping"),
     KEY("boundary.time.step", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "1 for from <= t < until, else 0"),
     KEY("boundary.time.step.from", KEY_REAL, UNIT_TIME, AT(time_function, from), ANY, "0", "begins"),
     KEY("boundary.time.step.until", KEY_REAL, UNIT_TIME, AT(time_function, until), ANY, REQUIRED, "ends"),
@@ -313,7 +324,8 @@ const struct key keys[] = {
     KEY("time.step", KEY_REAL, UNIT_TIME, AT(scene, time_step), ABOVE(0), "auto",
         "step; auto: safety x the critical one", .words = "auto", .word_value = 0),
     KEY("time.wall", KEY_REAL, UNIT_TIME, AT(scene, wall), ABOVE(0), "none",
-        "wall clock, as 2 h or 90 min, after which the run ends with a checkpoint (exit status 130); scene.yaml leaves it out",
+        "wall clock, as 2 h or 90 min, after which the run ends with a checkpoint (exit status 130); scene.yaml leaves "
+        "it out",
         .words = "none", .word_value = INFINITY, .of_process = true),
     KEY("time.rest", KEY_FLAG, UNIT_NONE, AT(scene, rest), ANY, "true",
         "what no wave has reached is not computed; the results are the same to the last bit, false is slower"),
@@ -336,26 +348,24 @@ const struct key keys[] = {
         "what is watched: kinds, or mappings kind: {keys}"),
     KEY("probes.tip", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "a crack tip: the longest, or the one nearest to at"),
     KEY("probes.tip.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(tip)", "name in the results"),
-    KEY("probes.tip.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, "(the longest)",
-        "near where it starts", .has = FLAG(probe_request, has_at)),
+    KEY("probes.tip.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, "(the longest)", "near where it starts",
+        .has = FLAG(probe_request, has_at)),
     KEY("probes.break", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "first cut bond"),
     KEY("probes.break.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(break)", "name in the results"),
     KEY("probes.break.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
     KEY("probes.reaction", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "force at driven or held particles"),
-    KEY("probes.reaction.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(reaction)",
-        "name in the results"),
+    KEY("probes.reaction.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(reaction)", "name in the results"),
     KEY("probes.reaction.boundary", KEY_NAME, UNIT_NONE, AT(probe_request, boundary), ANY, REQUIRED,
         "name of a boundary condition"),
-    KEY("probes.patch", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
-        "nodal force residual over S h under uniform strain"),
+    KEY("probes.patch", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "nodal force residual over S h under uniform strain"),
     KEY("probes.patch.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(patch)", "name in the results"),
     KEY("probes.patch.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
     KEY("probes.spall", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "separated end of a bar"),
     KEY("probes.spall.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(spall)", "name in the results"),
     KEY("probes.point", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "time series of the particle nearest to a point"),
     KEY("probes.point.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(point)", "name in the results"),
-    KEY("probes.point.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, REQUIRED,
-        "the point", .has = FLAG(probe_request, has_at)),
+    KEY("probes.point.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, REQUIRED, "the point",
+        .has = FLAG(probe_request, has_at)),
     KEY("probes.line", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "profile along a line, with every frame"),
     KEY("probes.line.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(line)", "name in the results"),
     KEY("probes.line.from", KEY_POINT, UNIT_LENGTH, AT(probe_request, from), ANY, REQUIRED, "first station"),
@@ -365,8 +375,7 @@ const struct key keys[] = {
     KEY("probes.energy.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(energy)", "name in the results"),
     KEY("probes.energy.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
     KEY("probes.momentum", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "momentum of the particles of a region"),
-    KEY("probes.momentum.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(momentum)",
-        "name in the results"),
+    KEY("probes.momentum.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(momentum)", "name in the results"),
     KEY("probes.momentum.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
     KEY("probes.exact", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "a bar against a closed form (line); its profile with every frame; `exact: step bar` is enough"),
@@ -452,7 +461,7 @@ const struct key *key_find(const char *group, const char *leaf)
     return NULL;
 }
 
-/* Letters added, lost, changed or swapped with their neighbour (optimal string alignment). */
+/* Number of letters to add, drop, change or swap with their neighbour (optimal string alignment) between a and b. */
 int edit_distance(const char *a, const char *b)
 {
     enum { LONGEST = 48 };

@@ -1,4 +1,4 @@
-/* floor 4: the boundary conditions of a scene with their functions of time, and its probes. */
+/* Reads the boundary conditions of a scene with their functions of time, and its probes. */
 #include "scene_internal.h"
 
 #include <math.h>
@@ -7,8 +7,9 @@
 
 #include "base/memory.h"
 
-/* ---- functions of time ---------------------------------------------------------------------------------- */
+/* ---- functions of time ------------------------------------------------------------------------------------------- */
 
+/* Reads a table of [time, factor] with ascending times into f->t, f->value, [n]. */
 static status read_table(struct reader *r, const struct node *n, struct time_function *f)
 {
     const struct key *k = key_find("boundary.time", "table");
@@ -31,6 +32,7 @@ static status read_table(struct reader *r, const struct node *n, struct time_fun
     return OK;
 }
 
+/* Reads the function of time of a boundary; n NULL or `constant`: 1. */
 static status read_time(struct reader *r, const struct node *n, struct time_function *f)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};
@@ -48,8 +50,9 @@ static status read_time(struct reader *r, const struct node *n, struct time_func
     return f->from < f->until ? OK : fault(r, form, "from is not before until; it begins at from and ends at until");
 }
 
-/* ---- profiles in space ---------------------------------------------------------------------------------- */
+/* ---- profiles in space ------------------------------------------------------------------------------------------- */
 
+/* Reads the profile in space of a body force; n NULL or `uniform`: 1. */
 static status read_profile(struct reader *r, const struct node *n, struct profile *f)
 {
     f->direction[0] = 1;
@@ -67,7 +70,7 @@ static status read_profile(struct reader *r, const struct node *n, struct profil
                  "its length is 0 or not finite; the direction in which the force varies is expected");
 }
 
-/* ---- boundary conditions -------------------------------------------------------------------------------- */
+/* ---- boundary conditions ----------------------------------------------------------------------------------------- */
 
 static status read_axis(struct reader *r, const struct node *n, const char *text, int *axis)
 {
@@ -78,6 +81,7 @@ static status read_axis(struct reader *r, const struct node *n, const char *text
     return OK;
 }
 
+/* Reads the constrained components, `all` or a list of axes, into b->components. */
 static status read_fixed(struct reader *r, const struct node *n, struct boundary *b)
 {
     int axis;
@@ -101,6 +105,7 @@ static status read_component(struct reader *r, const struct node *n, struct boun
     return read_number(r, key_find("boundary", "velocity"), n, &b->value[d]);
 }
 
+/* Reads prescribed velocities, one number or `free` per component, into b->value [m/s] and b->components. */
 static status read_velocity(struct reader *r, const struct node *n, struct boundary *b)
 {
     int d = 0;
@@ -116,6 +121,7 @@ static status read_velocity(struct reader *r, const struct node *n, struct bound
     return b->components ? OK : fault(r, n, "every component is free; at least one velocity is expected");
 }
 
+/* Reads a mirror. REFUSED beside region, body or time, which have no meaning with it. */
 static status read_mirror(struct reader *r, const struct node *map, const struct node *n, struct boundary *b)
 {
     const char *const senseless[] = {"region", "body", "time"};
@@ -129,6 +135,7 @@ static status read_mirror(struct reader *r, const struct node *map, const struct
     return read_axis(r, at, at->text, &axis);
 }
 
+/* Reads the face of a traction into b->face (axis) and b->side (+1 or -1). */
 static status read_face(struct reader *r, const struct node *map, struct boundary *b)
 {
     const struct node *n = node_find(map, "face");
@@ -146,7 +153,7 @@ static status read_face(struct reader *r, const struct node *map, struct boundar
     return OK;
 }
 
-/* The one key that says what the condition is. */
+/* Finds the one key that gives the kind of a boundary condition. REFUSED for none or two. */
 static status kind_of_boundary(struct reader *r, const struct node *map, const struct node **kind)
 {
     const char *const words = "fixed|velocity|traction|body_force|mirror";
@@ -159,6 +166,7 @@ static status kind_of_boundary(struct reader *r, const struct node *map, const s
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", word_list(r, words));
 }
 
+/* Reads one boundary condition. REFUSED for keys that have no meaning with its kind. */
 static status read_boundary(struct reader *r, const struct node *n, struct boundary *b)
 {
     const struct node *kind, *face = NULL, *profile = node_find(n, "profile");
@@ -204,7 +212,7 @@ status read_boundaries(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* ---- probes --------------------------------------------------------------------------------------------- */
+/* ---- probes ------------------------------------------------------------------------------------------------------ */
 
 const char *const probe_names[PROBES] = {"tip",   "break", "reaction", "patch",   "spall",
                                          "point", "line",  "energy",   "momentum", "pulse",
@@ -230,6 +238,7 @@ static status kind_of_probe(struct reader *r, const struct node *n, enum probe_k
     return OK;
 }
 
+/* REFUSED for a reaction probe of a boundary that the scene does not have. */
 static status check_probe_boundary(struct reader *r, const struct node *n, const struct probe_request *p)
 {
     const struct scene *s = r->scene;
@@ -244,7 +253,7 @@ static status check_probe_boundary(struct reader *r, const struct node *n, const
     return fault(r, n, "there is no boundary %s; the nearest is %s", p->boundary, s->boundary[nearest].name);
 }
 
-/* A closed form needs the space it is solved in, and its numbers. */
+/* REFUSED for a closed form outside space line, and for numbers that are missing or have no meaning. */
 static status check_exact(struct reader *r, const struct node *n, const struct node *map, const struct probe_request *p)
 {
     const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
@@ -267,7 +276,7 @@ static status check_rigid(struct reader *r, const struct node *n, const struct n
     return fault(r, map ? map : n, "plane spaces only in this version");
 }
 
-/* What the numbers alone tell of a ring round a tip. */
+/* Takes the outer radius from the contours and checks radii and direction of a sif probe. */
 static status check_sif(struct reader *r, const struct node *n, const struct node *map, struct probe_request *p)
 {
     enum { CONTOURS_MAX = 16 };
@@ -286,6 +295,7 @@ static status check_sif(struct reader *r, const struct node *n, const struct nod
     return fault(r, node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
 }
 
+/* Reads one probe in any of its forms; keys without a default are NaN if not given. */
 static status read_probe(struct reader *r, const struct node *n, struct probe_request *p)
 {
     const struct node *map;

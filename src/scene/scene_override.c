@@ -1,5 +1,5 @@
-/* floor 4: `-s key=value` laid over the tree before anything is read: dotted keys, items of lists by number (0 or [0]) or by
- * name. */
+/* Overrides `-s key=value`, laid over the tree before it is read: dotted keys, items of lists by number (0 or [0]) or
+ * by name. */
 #include "scene_internal.h"
 
 #include <stdio.h>
@@ -37,7 +37,7 @@ static struct node *new_entry(struct reader *r, struct node *map, const char *ke
     return n;
 }
 
-/* What an item of a list is called: by its `name`, a probe also below its kind, or by that. NULL: it has none. */
+/* Name of an item of a list: its `name`. For a probe: the `name` below its kind, else the kind. NULL: it has none. */
 static const char *item_name(const struct node *list, const struct node *item)
 {
     const bool probe = list->key && strcmp(list->key, "probes") == 0;
@@ -50,18 +50,21 @@ static const char *item_name(const struct node *list, const struct node *item)
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
-/* The node, for a message about the override that meant it; nobody reads it after that. */
+/* Marks a node with the override `origin`, for a message about that override; the tree is not used after it. */
 static const struct node *blamed(struct node *n, int origin)
 {
     n->origin = origin;
     return n;
 }
 
+/* Item number `index` of a list, from 0. REFUSED if the node is no list or has fewer items. */
 static status item_of(struct reader *r, struct node *list, int index, int origin, struct node **out)
 {
-    if (list->kind != NODE_LIST) return fault(r, blamed(list, origin), "is no list in this scene; [%d] has no meaning", index);
+    if (list->kind != NODE_LIST)
+        return fault(r, blamed(list, origin), "is no list in this scene; [%d] has no meaning", index);
     if (index >= list->n)
-        return fault(r, blamed(list, origin), "has %d items; [%d] is behind the last (the first is [0])", list->n, index);
+        return fault(r, blamed(list, origin), "has %d items; [%d] is behind the last (the first is [0])", list->n,
+                     index);
     struct node *n = list->first;
     while (index-- > 0) n = n->next;
     *out = n;
@@ -76,14 +79,16 @@ static const char *names_text(struct reader *r, const struct node *list)
     for (const struct node *n = list->first; n && used < 100; n = n->next) {
         const char *name = item_name(list, n);
         if (!name) continue;
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s%.40s", used ? ", " : " or by name (", shown_text(r, name));
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%.40s", used ? ", " : " or by name (",
+                                 shown_text(r, name));
     }
     if (used) snprintf(text + used, sizeof text - used, "%s)", used < 100 ? "" : ", ...");
     return arena_text(r, text, strlen(text));
 }
 
-/* An item by `0` or by its name; boundary0 is what a boundary without one is called. */
-static status item_called(struct reader *r, struct node *list, const char *key, size_t length, int origin, struct node **out)
+/* An item of a list by number or name. Items also go by the key of their list and their number, as boundary0. */
+static status item_called(struct reader *r, struct node *list, const char *key, size_t length, int origin,
+                          struct node **out)
 {
     const char *called = arena_text(r, key, length);
     const size_t stem = list->key && strncmp(called, list->key, strlen(list->key)) == 0 ? strlen(list->key) : 0;
@@ -97,8 +102,9 @@ static status item_called(struct reader *r, struct node *list, const char *key, 
             return OK;
         }
     }
-    return fault(r, blamed(list, origin), "has %d item%s; %s is %s; they go by number (the first is 0)%s", list->n, list->n == 1 ? "" : "s",
-                 shown_text(r, called), number ? "behind the last" : "the name of none", names_text(r, list));
+    return fault(r, blamed(list, origin), "has %d item%s; %s is %s; they go by number (the first is 0)%s", list->n,
+                 list->n == 1 ? "" : "s", shown_text(r, called), number ? "behind the last" : "the name of none",
+                 names_text(r, list));
 }
 
 static bool is_key(const struct node *n, const char *key, size_t length)
@@ -106,7 +112,7 @@ static bool is_key(const struct node *n, const char *key, size_t length)
     return strlen(n->key) == length && memcmp(n->key, key, length) == 0;
 }
 
-/* `tip` and `exact: step bar` written out: {tip: {}}, {exact: {form: step bar}}. */
+/* Expands the short forms `tip` and `exact: step bar` to {tip: {}} and {exact: {form: step bar}}. */
 static void write_out(struct reader *r, struct node *n, const char *key, const char *text, int origin)
 {
     if (n->kind != NODE_SCALAR || *n->text == '\0') return;
@@ -115,7 +121,8 @@ static void write_out(struct reader *r, struct node *n, const char *key, const c
     if (text) entry->kind = NODE_SCALAR, entry->text = (char *)text;
 }
 
-/* A probe's keys stand below its kind, which a path may leave out: probes.0.at is probes.0.point.at. */
+/* The node that holds the keys of an item. Keys of a probe are below its kind, which a path may leave out: probes.0.at
+ * is probes.0.point.at. */
 static struct node *probe_keys(struct reader *r, struct node *item, const char *key, size_t length, int origin)
 {
     const struct node *list = item->parent;
@@ -126,7 +133,8 @@ static struct node *probe_keys(struct reader *r, struct node *item, const char *
     return item->first;
 }
 
-static status entry_of(struct reader *r, struct node *map, const char *key, size_t length, int origin,
+/* The node of `key` below a mapping, made if it is missing, or the item of a list of this number or name. */
+static status scene_override_entry_of(struct reader *r, struct node *map, const char *key, size_t length, int origin,
                        struct node **out)
 {
     struct node at = {.origin = origin, .key = arena_text(r, key, length)};
@@ -156,7 +164,7 @@ static void remove_child(struct node *parent, struct node *child)
     parent->n--;
 }
 
-/* The value takes the node's place; its key stays. */
+/* Replaces the value of a node; its key and place in the tree stay. */
 static void replace(struct node *n, const struct node *value)
 {
     struct node whole = *value;
@@ -167,6 +175,7 @@ static void replace(struct node *n, const struct node *value)
     for (struct node *c = n->first; c; c = c->next) c->parent = n;
 }
 
+/* Applies override number `origin`: sets the value at its path, or removes the key if the value is empty. */
 static status override_one(struct reader *r, struct node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];
@@ -179,7 +188,7 @@ static status override_one(struct reader *r, struct node *root, int origin)
         if (!step_of_path(&path, &key, &length, &index))
             return fault_mark(r, origin, 0, 0, "%s: not a path of keys; material.young or boundary.0.velocity is one",
                               shown_text(r, o->key));
-        TRY(index >= 0 ? item_of(r, n, index, origin, &n) : entry_of(r, n, key, length, origin, &n));
+        TRY(index >= 0 ? item_of(r, n, index, origin, &n) : scene_override_entry_of(r, n, key, length, origin, &n));
     }
     if (n == root) return fault_mark(r, origin, 0, 0, "no key; material.young=70e9 is an override");
     if (value) replace(n, value);

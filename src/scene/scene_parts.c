@@ -1,4 +1,4 @@
-/* floor 4: the materials, bodies and initial states of a scene. */
+/* Reads the materials, bodies, initial states and growth rules of a scene. */
 #include "scene_internal.h"
 
 #include <math.h>
@@ -9,9 +9,9 @@
 #include "output/checksum.h"
 #include "base/memory.h"
 
-/* ---- materials ------------------------------------------------------------------------------------------ */
+/* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* What fracture costs may be said in one of three ways; two could contradict each other. */
+/* Reads the fracture strength from at most one of three keys; two could contradict each other. */
 static status read_strength(struct reader *r, const struct node *n, struct material *m)
 {
     const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
@@ -31,7 +31,8 @@ static status read_strength(struct reader *r, const struct node *n, struct mater
     return OK;
 }
 
-/* Bonds have one constant where an isotropic solid has two. */
+/* REFUSED for a Poisson's ratio that bonds do not have: bond-based peridynamics has one elastic constant, an isotropic
+ * solid two. */
 static status check_poisson(struct reader *r, const struct node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
@@ -43,7 +44,7 @@ static status check_poisson(struct reader *r, const struct node *n, const struct
                  shown(r, poisson), space_names[s->space], s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4");
 }
 
-/* The slope behind the yield point may be said in one of two ways. */
+/* Reads the slope beyond yield from one of two keys. REFUSED if it is not below young. */
 static status read_hardening(struct reader *r, const struct node *n, struct material *m)
 {
     const struct node *tangent = node_find(n, "yield_tangent"), *hardening = node_find(n, "yield_hardening");
@@ -58,7 +59,8 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
                  shown(r, tangent ? tangent : hardening));
 }
 
-/* From G_c: in closed form, or with rotations from the work that separates the lattice. */
+/* Critical stretch from G_c: in closed form, or for the model with rotations (mospd) from the work that separates the
+ * lattice. */
 static real critical_stretch(const struct scene *s, const struct material *m)
 {
     const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
@@ -69,7 +71,8 @@ static real critical_stretch(const struct scene *s, const struct material *m)
     return sqrt(m->energy_release_rate / family_separation(&f, &modulus, !s->bulk));
 }
 
-static status read_material(struct reader *r, const struct node *n, struct material *m)
+/* Reads one material with defaults by space, and derives its wave speeds and critical stretch. */
+static status scene_parts_read_material(struct reader *r, const struct node *n, struct material *m)
 {
     const struct scene *s = r->scene;
     bool line = s->space == SPACE_LINE;
@@ -81,8 +84,9 @@ static status read_material(struct reader *r, const struct node *n, struct mater
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
     if (s->model != MODEL_BOND && material_yields(m))
-        return fault(r, node_find(n, "yield_stress"), "state-based models do not yield in this version; model bond, or no "
-                                                      "yield_stress, is expected");
+        return fault(r, node_find(n, "yield_stress"),
+                     "state-based models do not yield in this version; model bond, or no "
+                     "yield_stress, is expected");
     material_derive(m, s->space);
     if (!isnan(m->energy_release_rate))
         m->critical_stretch = critical_stretch(s, m);
@@ -101,7 +105,7 @@ status read_materials(struct reader *r, const struct node *root)
     s->material = NEW("materials", s->materials, struct material);
     const struct node *n = many ? many->first : one;
     for (int k = 0; k < s->materials; k++, n = n->next) {
-        TRY(read_material(r, n, &s->material[k]));
+        TRY(scene_parts_read_material(r, n, &s->material[k]));
         if (many && !node_find(n, "name")) return fault_missing(r, n, key_find("material", "name"));
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
@@ -110,9 +114,9 @@ status read_materials(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* ---- bodies --------------------------------------------------------------------------------------------- */
+/* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* A list of particles lies in the scene's folder, or where the program was started. */
+/* Path and checksum of a particle list, sought in the folder of the scene, then in the current folder. */
 static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
 {
     const char *slash = strrchr(r->name, '/');
@@ -134,7 +138,8 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
     return fault(r, n, "%s cannot be read; a particle list in the scene's folder is expected", shown(r, n));
 }
 
-static status read_body(struct reader *r, const struct node *n, struct scene_body *b, int number)
+/* Reads one body; `number`: its place in the list. REFUSED without shape or particles, or with both. */
+static status scene_parts_read_body(struct reader *r, const struct node *n, struct scene_body *b, int number)
 {
     const struct node *shape = node_find(n, "shape"), *file = node_find(n, "particles");
     snprintf(b->name, sizeof b->name, "body%d", number);
@@ -173,13 +178,14 @@ status read_bodies(struct reader *r, const struct node *root)
         return OK;
     }
     const struct node *n = many->first;
-    for (int k = 0; k < s->bodies; k++, n = n->next) TRY(read_body(r, n, &s->body[k], k));
+    for (int k = 0; k < s->bodies; k++, n = n->next) TRY(scene_parts_read_body(r, n, &s->body[k], k));
     return OK;
 }
 
-/* ---- initial states ------------------------------------------------------------------------------------- */
+/* ---- initial states ---------------------------------------------------------------------------------------------- */
 
-/* Along the direction of the wave, or across it; nothing given: along. What is off by round-off is put right. */
+/* Polarisation of a pulse: along its direction (default) or across it. Round-off is removed from the vector. REFUSED
+ * for any other direction. */
 static status read_polarisation(struct reader *r, const struct node *n, struct wave_pulse *w)
 {
     const int dim = r->dim;
@@ -190,8 +196,10 @@ static status read_polarisation(struct reader *r, const struct node *n, struct w
     const real along = dot(moved, w->direction, dim);
     w->transverse = fabs(along) < 1e-6;
     if (!w->transverse && fabs(along) < 1 - 1e-6)
-        return fault(r, n, "lies neither along direction nor across it; particles of a plane wave move in one of the two ways");
-    for (int d = 0; d < dim; d++) moved[d] = w->transverse ? moved[d] - along * w->direction[d] : along * w->direction[d];
+        return fault(
+            r, n, "lies neither along direction nor across it; particles of a plane wave move in one of the two ways");
+    for (int d = 0; d < dim; d++)
+        moved[d] = w->transverse ? moved[d] - along * w->direction[d] : along * w->direction[d];
     length = sqrt(dot(moved, moved, dim));
     for (int d = 0; d < dim; d++) moved[d] /= length;
     return OK;
@@ -231,22 +239,25 @@ status read_initials(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* ---- growth --------------------------------------------------------------------------------------------- */
+/* ---- growth ------------------------------------------------------------------------------------------------------ */
 
+/* Reads one growth rule and normalises its direction. REFUSED for keys without a meaning and for an unknown probe. */
 static status read_growth(struct reader *r, const struct node *n, struct growth_rule *g, int number)
 {
     real length;
     snprintf(g->name, sizeof g->name, "growth%d", number);
     TRY(read_group(r, n, n, "growth", g));
     length = sqrt(dot(g->direction, g->direction, r->dim));
-    if (!(length > 0)) return fault(r, node_find(n, "direction"), "has no length; a direction such as [1, 0] is expected");
+    if (!(length > 0))
+        return fault(r, node_find(n, "direction"), "has no length; a direction such as [1, 0] is expected");
     for (int d = 0; d < r->dim; d++) g->direction[d] /= length;
     if (!g->probe[0] && node_find(n, "toughness"))
         return fault(r, node_find(n, "toughness"), "has no meaning without probe, the name of a sif probe");
     if (!g->probe[0] && !isnan(g->smoothing))
         return fault(r, node_find(n, "smoothing"), "has no meaning without probe, the name of a sif probe");
     if (growth_follows(g) && !(g->toughness > 0))
-        return fault(r, node_find(n, "speed"), "a speed that follows needs probe and toughness, the K_eq that it keeps");
+        return fault(r, node_find(n, "speed"),
+                     "a speed that follows needs probe and toughness, the K_eq that it keeps");
     if (!growth_follows(g) && !isnan(g->fastest))
         return fault(r, node_find(n, "fastest"), "has no meaning beside a given speed; speed: follow is expected");
     for (int k = 0; g->probe[0] && k < r->scene->probes; k++)
@@ -254,7 +265,7 @@ static status read_growth(struct reader *r, const struct node *n, struct growth_
     return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
 }
 
-/* Probes watch cracks that are there. */
+/* REFUSED for a growth probe of a crack that the scene does not have. */
 static status check_growth_probes(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -272,7 +283,7 @@ static status check_growth_probes(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* After the probes, which may rule it. */
+/* Called after the probes are read: a sif probe may control a growth. */
 status read_growths(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;

@@ -1,4 +1,4 @@
-/* floor 4: the geometry of a scene: solids and regions, and cracks with what makes them well formed. */
+/* Reads the geometry of a scene: solids, regions and cracks, and checks that they are well formed. */
 #include "scene_internal.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* ---- solids --------------------------------------------------------------------------------------------- */
+/* ---- solids ------------------------------------------------------------------------------------------------------ */
 
 static const struct solid_word { const char *name; enum solid_kind kind; int dim; } solid_words[] = {
     {"box", SOLID_BOX, 0},           {"disc", SOLID_BALL, 2},
@@ -31,6 +31,7 @@ static status check_solid(struct reader *r, const struct node *n, const struct s
     return fault(r, n, "its axis has no length; from and to are its two ends");
 }
 
+/* Reads the keys of a solid of this kind. REFUSED if the space does not have it, or for an infinite solid of a body. */
 static status read_shape(struct reader *r, const struct node *n, const struct solid_word *word, struct solid *s)
 {
     char group[32] = "solid.";
@@ -49,6 +50,7 @@ static status read_shape(struct reader *r, const struct node *n, const struct so
     return fault(r, n, "%s is not true; write all: true", shown(r, n));
 }
 
+/* Reads one solid, possibly inside add or subtract. `signed_before`: it is inside one already. */
 static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before)
 {
     TRY(expect(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
@@ -75,7 +77,7 @@ status read_region(struct reader *r, const struct node *n, struct region *region
     return fault(r, n, "subtracts from nothing; the first solid must be added, for a region perhaps all: true");
 }
 
-/* ---- cracks --------------------------------------------------------------------------------------------- */
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 static void crack_make(struct crack *c, int n)
 {
@@ -92,7 +94,7 @@ static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX
     }
 }
 
-/* Every corner lies in the plane and on the inner side of every edge, to a millionth of the polygon's size. */
+/* REFUSED unless every corner lies in the plane and on the inner side of every edge, to a millionth of the size. */
 static status check_polygon(struct reader *r, const struct node *n, const struct crack *c)
 {
     real normal[DIM_MAX] = {0}, part[DIM_MAX];
@@ -128,6 +130,7 @@ static status read_polygon(struct reader *r, const struct node *n, struct crack 
     return check_polygon(r, n, c);
 }
 
+/* Reads one crack: a place on a line, a segment in the plane, a polygon in space. */
 static status read_crack(struct reader *r, const struct node *n, struct crack *c)
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};

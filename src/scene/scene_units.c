@@ -1,4 +1,5 @@
-/* floor 4: numbers with units, by a grammar of our own: no octal, no locale, every unit an exact power of ten. */
+/* Reads numbers with units by a grammar of its own: no octal, no locale, every unit an exact power of ten (but min and
+ * h). */
 #include "scene_internal.h"
 
 #include <ctype.h>
@@ -23,9 +24,9 @@ const struct unit_row unit_rows[UNITS] = {
     [UNIT_RATE] = {"a rate", "1/s", "100 1/s", {0, 0, -2}},
 };
 
-/* ---- units ---------------------------------------------------------------------------------------------- */
+/* ---- units ------------------------------------------------------------------------------------------------------- */
 
-/* ten: twice the power of ten that leads to SI. */
+/* A unit: twice the powers of m, kg and s, and twice the power of ten that converts to SI. */
 struct measure { int twice[3], ten; };
 
 static const struct symbol { const char *name; struct measure measure; } symbols[] = {
@@ -63,7 +64,7 @@ static bool symbol_read(struct measure *m, const char *name, size_t length)
     return true;
 }
 
-/* Twice the power behind a symbol: `^2`, `2`, `^-1`, `^0.5`, a raised digit; 2 where there is none. */
+/* Twice the power behind a symbol: `^2`, `2`, `^-1`, `^0.5`, a raised digit; 2 where there is none, 0 if malformed. */
 static int power_read(const char **at)
 {
     const char *c = *at;
@@ -138,7 +139,7 @@ static const struct unit_row *unit_of(const int twice[3])
     return NULL;
 }
 
-/* ---- numbers -------------------------------------------------------------------------------------------- */
+/* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
 /* Length of `[+-] digits [. digits] [e [+-] digits]`, 0 if there is none. */
 static size_t number_length(const char *c)
@@ -176,7 +177,8 @@ static real number_value(const char *c, size_t length, int ten)
     return strtod(text, NULL);
 }
 
-/* What a number that other languages know would be here. */
+/* Complaint about a number in a form that other languages read (grouped digits, decimal comma, base 60, hexadecimal,
+ * octal); NULL: none. */
 static const char *trap(const char *c, size_t length)
 {
     const char *digits = c + (*c == '+' || *c == '-');
@@ -193,12 +195,14 @@ static const char *trap(const char *c, size_t length)
 
 struct complaint { char *what; size_t room; };
 
+/* Writes the complaint and the expected unit; returns false. */
 static bool complain(struct complaint c, const char *wrong, enum unit unit)
 {
     snprintf(c.what, c.room, "%s; %s is expected, as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
     return false;
 }
 
+/* Power of ten that converts the unit to SI, *ten; false with a complaint for a unit of another quantity. */
 static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit, int *ten)
 {
     struct measure m;
@@ -214,7 +218,7 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     return complain(c, wrong, unit);
 }
 
-/* Seconds of the units of clocks, which are no powers of ten and stand alone; 0: none of them. */
+/* Seconds of min and h, which are no powers of ten and combine with no other unit; 0: another unit. */
 static int clock_seconds(const char *text, enum unit unit)
 {
     static const struct { const char *name; int seconds; } clocks[] = {{"min", 60}, {"h", 3600}};
@@ -246,7 +250,7 @@ static size_t divisor_read(const char *c, real *divisor)
     return (size_t)(c - start) + length;
 }
 
-/* Beyond these [SI] no body is, and products of a few numbers no longer are numbers. */
+/* Bounds of numbers [SI]: beyond them products of a few numbers overflow or underflow. */
 #define NUMBER_LEAST 1e-30
 #define NUMBER_MOST 1e30
 
@@ -254,7 +258,8 @@ static bool in_bounds(struct complaint c, real value, enum unit unit)
 {
     if (!isfinite(value)) return complain(c, "is not finite", unit);
     if (fabs(value) > NUMBER_MOST) return complain(c, "is above 1e30 in SI units", unit);
-    if (fabs(value) < NUMBER_LEAST && fabs(value) > 0) return complain(c, "is below 1e-30 in SI units, and not 0", unit);
+    if (fabs(value) < NUMBER_LEAST && fabs(value) > 0)
+        return complain(c, "is below 1e-30 in SI units, and not 0", unit);
     return true;
 }
 

@@ -1,4 +1,4 @@
-/* floor 4: from nodes to values, as the table of keys says; and the messages about what does not fit. */
+/* Reads values from nodes by the table of keys, and makes the messages about faults. */
 #include "scene_internal.h"
 
 #include <ctype.h>
@@ -13,7 +13,7 @@
 
 enum { SHOWN_LONGEST = 40 };
 
-/* ---- messages ------------------------------------------------------------------------------------------- */
+/* ---- messages ---------------------------------------------------------------------------------------------------- */
 
 const char *shown_text(struct reader *r, const char *text)
 {
@@ -34,7 +34,7 @@ const char *shown(struct reader *r, const struct node *n)
     return *n->text ? shown_text(r, n->text) : "no value";
 }
 
-/* The name a message gives a node: its key, or that of the list it is in with its place: `velocity[1]`. */
+/* Name of a node in messages: its key, or the key of its list with its index: `velocity[1]`. */
 static void node_name(const struct node *n, char *name, size_t room)
 {
     if (n->key) {
@@ -95,7 +95,7 @@ status fault_both(const struct reader *r, const struct node *a, const struct nod
     return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
 }
 
-/* What a missing key would hold. */
+/* Form of the value of a key, for messages about missing keys. */
 static const char *form_text(struct reader *r, const struct key *k)
 {
     switch (k->type) {
@@ -149,7 +149,7 @@ int word_index(const char *words, const char *text)
     return -1;
 }
 
-/* ---- keys ----------------------------------------------------------------------------------------------- */
+/* ---- keys -------------------------------------------------------------------------------------------------------- */
 
 static status fault_unknown(const struct reader *r, const struct node *n, const char *group)
 {
@@ -163,7 +163,7 @@ static status fault_unknown(const struct reader *r, const struct node *n, const 
     return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
 }
 
-/* As all keys before are known and different, the search for a twin is short. */
+/* All keys before the current one are known and different, so the search for a twin is short. */
 status check_keys(struct reader *r, const struct node *map, const char *group)
 {
     for (const struct node *n = map->first; n; n = n->next) {
@@ -189,8 +189,9 @@ status expect_list(struct reader *r, const struct key *k, const struct node *n)
     return fault(r, n, "has %d items; %d to %d are expected", n->n, least, most);
 }
 
-/* ---- scalars -------------------------------------------------------------------------------------------- */
+/* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
+/* REFUSED with the expected range if the value is outside it. */
 static status check_range(struct reader *r, const struct key *k, const struct node *n, real value)
 {
     const struct range *range = &k->range;
@@ -212,8 +213,8 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
 {
     char what[256];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a number; %s is expected, as %s", shown(r, n), unit_rows[k->unit].name,
-                     unit_rows[k->unit].example);
+        return fault(r, n, "%s is not a number; %s is expected, as %s", shown(r, n),
+                     unit_rows[k->unit].name, unit_rows[k->unit].example);
     if (k->type == KEY_REAL && k->words && strcmp(n->text, k->words) == 0) {
         *value = k->word_value;
         return OK;
@@ -224,6 +225,7 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
     return check_range(r, k, n, *value);
 }
 
+/* Reads a whole number in decimal digits; out of 32 bits it is clamped, and the range refuses it. */
 static status read_int(struct reader *r, const struct key *k, const struct node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
@@ -244,7 +246,8 @@ static status read_seed(struct reader *r, const struct node *n, uint64_t *value)
     if (n->kind == NODE_SCALAR && digits > 0 && n->text[digits] == '\0') *value = strtoull(n->text, NULL, 10);
     else errno = EINVAL;
     if (errno == 0) return OK;
-    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected", shown(r, n));
+    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected",
+                 shown(r, n));
 }
 
 static status read_flag(struct reader *r, const struct node *n, bool *value)
@@ -265,7 +268,7 @@ static status read_choice(struct reader *r, const struct key *k, const struct no
     return OK;
 }
 
-/* Some of the words, as bits. */
+/* Reads a list of words, or none, as bits in the order of the words. */
 static status read_set(struct reader *r, const struct key *k, const struct node *n, unsigned *bits)
 {
     const char *words = word_list(r, k->words);
@@ -281,20 +284,23 @@ static status read_set(struct reader *r, const struct key *k, const struct node 
     return OK;
 }
 
+/* Reads a name of letters, digits, _ and - into name, [NAME_MAX_LENGTH]. */
 static status read_name(struct reader *r, const struct node *n, char *name)
 {
     size_t length = strlen(n->text), fine = 0;
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
     if (n->kind != NODE_SCALAR || length == 0 || fine != length || n->text[0] == '-')
-        return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", shown(r, n));
+        return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first",
+                     shown(r, n));
     if (length >= NAME_MAX_LENGTH)
-        return fault(r, n, "%s is too long; at most %d characters are expected", shown(r, n), NAME_MAX_LENGTH - 1);
+        return fault(r, n, "%s is too long; at most %d characters are expected", shown(r, n),
+                     NAME_MAX_LENGTH - 1);
     memset(name, 0, NAME_MAX_LENGTH);
     memcpy(name, n->text, length);
     return OK;
 }
 
-/* ---- lists of numbers ----------------------------------------------------------------------------------- */
+/* ---- lists of numbers -------------------------------------------------------------------------------------------- */
 
 const char *const space_names[] = {"line", "plane stress", "plane strain", "solid"};
 
@@ -304,7 +310,8 @@ status read_point(struct reader *r, const struct key *k, const struct node *n, r
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
     const char *space = space_names[r->scene->space];
     if (n->kind != NODE_LIST)
-        return fault(r, n, "%s is not a list; %d components are expected in space %s", shown(r, n), r->dim, space);
+        return fault(r, n, "%s is not a list; %d components are expected in space %s", shown(r, n), r->dim,
+                     space);
     if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in space %s", n->n, r->dim, space);
     for (const struct node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
@@ -327,7 +334,7 @@ static status read_matrix(struct reader *r, const struct key *k, const struct no
 
 enum { SERIES_MOST = 100000 };
 
-/* Numbers that ascend. */
+/* Reads a list of ascending numbers. */
 static status read_series(struct reader *r, const struct key *k, const struct node *n, struct number_list *series)
 {
     TRY(expect(r, n, NODE_LIST, "a list"));
@@ -343,14 +350,15 @@ static status read_series(struct reader *r, const struct key *k, const struct no
     return OK;
 }
 
-/* ---- names of other things ------------------------------------------------------------------------------ */
+/* ---- references by name ------------------------------------------------------------------------------------------ */
 
 static status fault_reference(struct reader *r, const struct node *n, const char *what, const char *nearest)
 {
     return fault(r, n, "there is no %s %s; the nearest is %s", what, shown(r, n), nearest);
 }
 
-static status read_material(struct reader *r, const struct node *n, int *index)
+/* Index of the material of this name. REFUSED with the nearest name. */
+static status scene_value_read_material(struct reader *r, const struct node *n, int *index)
 {
     const struct scene *s = r->scene;
     const struct material *m = s->material;
@@ -363,7 +371,8 @@ static status read_material(struct reader *r, const struct node *n, int *index)
     return fault_reference(r, n, "material", m[nearest].name);
 }
 
-static status read_body(struct reader *r, const struct node *n, int *index)
+/* Index of the body of this name. REFUSED with the nearest name. */
+static status scene_value_read_body(struct reader *r, const struct node *n, int *index)
 {
     const struct scene *s = r->scene;
     const struct scene_body *b = s->body;
@@ -376,7 +385,7 @@ static status read_body(struct reader *r, const struct node *n, int *index)
     return fault_reference(r, n, "body", b[nearest].name);
 }
 
-/* ---- groups --------------------------------------------------------------------------------------------- */
+/* ---- groups ------------------------------------------------------------------------------------------------------ */
 
 status read_key(struct reader *r, const struct key *k, const struct node *n, void *base)
 {
@@ -394,12 +403,13 @@ status read_key(struct reader *r, const struct key *k, const struct node *n, voi
     case KEY_POINT: return k->place ? read_point(r, k, n, place) : OK;
     case KEY_MATRIX: return read_matrix(r, k, n, place);
     case KEY_REGION: return read_region(r, n, place);
-    case KEY_BODY: return read_body(r, n, place);
-    case KEY_MATERIAL: return read_material(r, n, place);
+    case KEY_BODY: return scene_value_read_body(r, n, place);
+    case KEY_MATERIAL: return scene_value_read_material(r, n, place);
     default: return OK;
     }
 }
 
+/* Reads the default of a key that is not given; REFUSED at `where` if the key is required. */
 static status read_fallback(struct reader *r, const struct node *where, const struct key *k, void *base)
 {
     struct node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};

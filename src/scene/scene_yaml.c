@@ -1,4 +1,5 @@
-/* floor 4: libyaml's events to a tree of nodes that know their line and column; what a scene may not use is refused. */
+/* Builds the tree of nodes, with line and column, from the events of libyaml. YAML features that a scene may not use
+ * are refused. */
 #include "scene_internal.h"
 
 #include <string.h>
@@ -8,7 +9,7 @@
 
 enum { DEPTH_MOST = 16, EVENTS_MOST = 1000000, ARENA_BLOCK = 32768 };
 
-/* ---- memory of one reading ------------------------------------------------------------------------------ */
+/* ---- memory of one reading --------------------------------------------------------------------------------------- */
 
 struct arena_block {
     struct arena_block *next;
@@ -47,7 +48,7 @@ void arena_free(struct reader *r)
     }
 }
 
-/* ---- nodes ---------------------------------------------------------------------------------------------- */
+/* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
 void node_append(struct node *parent, struct node *child)
 {
@@ -69,7 +70,7 @@ struct node *node_find(const struct node *map, const char *key)
     return NULL;
 }
 
-/* ---- events --------------------------------------------------------------------------------------------- */
+/* ---- events ------------------------------------------------------------------------------------------------------ */
 
 struct parse {
     struct reader *r;
@@ -84,7 +85,7 @@ static status fault_at(struct parse *p, yaml_mark_t mark, const char *what)
     return fault_mark(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
 }
 
-/* Faults in the bytes themselves come with an offset only. */
+/* Line and column of a byte offset: faults of the encoding come with an offset only. */
 static yaml_mark_t mark_of_offset(const struct parse *p, size_t offset)
 {
     yaml_mark_t mark = {0};
@@ -115,7 +116,8 @@ static status next_event(struct parse *p, yaml_event_t *event)
     return fault_at(p, mark, "more than 1000000 YAML events; long data belong into a particle list");
 }
 
-/* Features by which one text stands for another; a scene says what it means in place. */
+/* Complaint about an event that a scene may not use: features by which one text stands for another, NUL characters,
+ * deep nesting; NULL: none. */
 static const char *event_refusal(const yaml_event_t *e, int depth)
 {
     const yaml_char_t *anchor = NULL, *tag = NULL;
@@ -168,6 +170,7 @@ static status read_items(struct parse *p, struct node *list, int depth)
     }
 }
 
+/* Reads a key and its value; the key's line and column become those of the entry. */
 static status read_entry(struct parse *p, struct node *map, yaml_event_t *key_event, int depth)
 {
     yaml_event_t event;
@@ -200,7 +203,7 @@ static status read_entries(struct parse *p, struct node *map, int depth)
     }
 }
 
-/* Consumes the event and all that belongs to it. */
+/* Reads the node that begins with this event, and deletes the event. */
 static status read_value(struct parse *p, yaml_event_t *event, int depth, struct node **out)
 {
     const char *refusal = event_refusal(event, depth);
@@ -223,7 +226,7 @@ static status read_value(struct parse *p, yaml_event_t *event, int depth, struct
     return OK;
 }
 
-/* Skips an event of the frame round the one document; `*type` is what it was. */
+/* Skips a stream or document event; `*type` is its type. REFUSED for a second document. */
 static status skip_event(struct parse *p, yaml_event_type_t *type)
 {
     yaml_event_t event;
@@ -236,6 +239,7 @@ static status skip_event(struct parse *p, yaml_event_type_t *type)
                : OK;
 }
 
+/* Reads the one document of a text; *root is NULL if it is empty. */
 static status read_document(struct parse *p, struct node **root)
 {
     yaml_event_t event;

@@ -1,11 +1,13 @@
-/* floor 5: the damaged band of the plate with a centre crack shrinks with the spacing while the crack it belongs to stays
- * (the paper's figure 16): the horizon is a length of the discretisation, the fracture energy is one of the material. */
+/* The damaged band of the plate with a centre crack shrinks with the spacing while the crack it belongs to
+ * stays (the paper's figure 16): the horizon is a length of the discretisation, the fracture energy is one of the
+ * material. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "engine/engine.h"
 
 #define SCENE "inputs/plate_crack.yaml"
@@ -15,8 +17,8 @@
 
 struct band { real width, growth, fracture; };           /* [m], [m], [J] */
 
-/* Width of what is newly damaged: its area over the length by which both tips grew. Behind the ends of the pre-crack, where
- * particles are damaged from the start, nothing counts. */
+/* Width of what is newly damaged: its area over the length by which both tips grew. Behind the ends of the
+ * pre-crack, where particles are damaged from the start, nothing counts. */
 static real band_width(const struct engine *e, real growth)
 {
     const struct particles *p = &e->part;
@@ -37,14 +39,15 @@ static struct band band_of(const char *spacing, const char *method)
     if (engine_make(&e, &s, NULL) != OK || engine_run(&e) != OK) fail_msg("%s", status_message());
     const struct tip *tip = tips_longest(&e.tips);
     assert_non_null(tip);
-    struct band b = {band_width(&e, tip->growth), tip->growth, e.watch.now.energy.fracture};
+    struct band b = {band_width(&e, tip->growth), tip->growth, e.diagnostics.now.energy.fracture};
     engine_free(&e);
     scene_free(&s);
     return b;
 }
 
-/* Four spacings, coarse to fine. A crack cuts what reaches across it: two horizons of 3.015 spacings and what is left to whole
- * particles, 6 to 7.1 spacings measured. With the same G_c the fracture energy stays within 10 % of the finest one. */
+/* Four spacings, coarse to fine. A crack cuts what reaches across it: two horizons of 3.015 spacings and what is
+ * left to whole particles, 6 to 7.1 spacings measured. With the same G_c the fracture energy stays within 10 % of
+ * the finest one. */
 static void check_bands(const char *method)
 {
     static const struct { const char *text; real value; } spacing[] = {
@@ -54,11 +57,14 @@ static void check_bands(const char *method)
     const struct band *finest = &b[COUNT_OF(spacing) - 1];
     for (size_t k = 0; k < COUNT_OF(spacing); k++) {
         real spacings = b[k].width / spacing[k].value;
-        if (!(spacings > 6 && spacings < 7.3)) fail_msg("%s at %s: band of %g spacings", method, spacing[k].text, spacings);
+        if (!(spacings > 6 && spacings < 7.3))
+            fail_msg("%s at %s: band of %g spacings", method, spacing[k].text, spacings);
         if (k > 0 && !(b[k].width < b[k - 1].width)) fail_msg("%s: no thinner at %s", method, spacing[k].text);
-        if (!(fabs(b[k].growth - finest->growth) < 0.5e-3)) fail_msg("%s at %s: grew by %g m", method, spacing[k].text, b[k].growth);
+        if (!(fabs(b[k].growth - finest->growth) < 0.5e-3))
+            fail_msg("%s at %s: grew by %g m", method, spacing[k].text, b[k].growth);
         if (!(fabs(b[k].fracture / finest->fracture - 1) < 0.1))
-            fail_msg("%s at %s: fracture energy %g J, at the finest %g J", method, spacing[k].text, b[k].fracture, finest->fracture);
+            fail_msg("%s at %s: fracture energy %g J, at the finest %g J", method, spacing[k].text, b[k].fracture,
+                     finest->fracture);
     }
 }
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: bars beside d'Alembert's solution (inputs/bar_step.yaml): errors, fronts and plateaus of every method; frames
+# Bars beside d'Alembert's solution (inputs/bar_step.yaml): errors, fronts and plateaus of every method; frames
 # at given times. L1 by bond flux at most 1.1 times the reference, measured with an independent code; Zeng et al. 2021
 # show the same curves.
 test_name=test_bar

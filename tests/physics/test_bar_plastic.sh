@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: a bar pushed beyond its yield stress (inputs/bar_plastic.yaml) beside the bilinear wave, at 0.75 transits; the
+# A bar pushed beyond its yield stress (inputs/bar_plastic.yaml) beside the bilinear wave, at 0.75 transits; the
 # same material for every method (Zeng et al. 2021, section 5.1).
 test_name=test_bar_plastic
 . tests/support/summary.sh

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: couplings of peridynamics and material points in bars: pulses through an interface (inputs/bar_pulse.yaml), a
+# Couplings of peridynamics and material points in bars: pulses through an interface (inputs/bar_pulse.yaml), a
 # loaded bar (bar_coupled.yaml), spallation behind an impact (bar_spall.yaml). References in tables were measured with
 # an independent code; the scenes are those of Zeng et al. 2021, sections 5.1 and 5.4.
 test_name=test_coupling_bars

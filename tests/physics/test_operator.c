@@ -1,11 +1,12 @@
-/* floor 5: every internal force of bodies of bonds, states, cells of the reference frame and supports is the gradient of one
- * energy that is never negative: the linearised operator is symmetric, has no negative eigenvalue, and nothing but what bonds
- * or cells alone let go costs nothing; and that energy is the ledger's. A line for each case;
+/* Every internal force of bodies of bonds, states, cells of the reference frame and supports is the
+ * gradient of one energy that is never negative: the linearised operator is symmetric, has no negative eigenvalue,
+ * and nothing but what bonds or cells alone let go costs nothing; and that energy is the energy balance's. A line
+ * for each case;
  *
  *     build/tests/test_operator [part of a case's name] ...
  *
- * takes some of them. OPERATOR_DUMP=folder writes every K there (operator_dump), OPERATOR_FLUTTER=1 also looks for complex
- * eigenvalues, OPERATOR_SHOW=1 gives points their stress before each evaluation, as a sample does. */
+ * takes some of them. OPERATOR_DUMP=folder writes every K there (operator_dump), OPERATOR_FLUTTER=1 also looks for
+ * complex eigenvalues, OPERATOR_SHOW=1 gives points their stress before each evaluation, as a sample does. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <omp.h>
@@ -25,12 +26,15 @@ struct body { const char *name; struct stability_case c; int loose; };
 static char **asked;                     /* parts of names on the command line */
 static int asks, done, wrong;
 
-/* ---- one case ------------------------------------------------------------------------------------------------------- */
+/* ---- one case ---------------------------------------------------------------------------------------------------- */
 
 static int rigid_of(const struct stability_case *c, int bodies)
 {
-    static const int rigid[][DIM_MAX + 1] = {[FREE] = {0, 1, 3, 6}, [MIRROR] = {0, 0, 1, 3}, [MIRROR_ACROSS] = {0, 0, 1, 3},
-                                             [MIRRORS] = {0, 0, 0, 1}, [FIXED] = {0}};
+    static const int rigid[][DIM_MAX + 1] = {[FREE] = {0, 1, 3, 6},
+                                             [MIRROR] = {0, 0, 1, 3},
+                                             [MIRROR_ACROSS] = {0, 0, 1, 3},
+                                             [MIRRORS] = {0, 0, 0, 1},
+                                             [FIXED] = {0}};
     return rigid[c->support][c->dim] * bodies;
 }
 
@@ -88,7 +92,7 @@ static void begin(void)
     wrong = 0;
 }
 
-/* ---- the tools ------------------------------------------------------------------------------------------------------- */
+/* ---- the tools --------------------------------------------------------------------------------------------------- */
 
 /* A free chain of springs has the eigenvalues 2 - 2 cos(k pi/n); a shift in a ring has the n-th roots
  * of 1. */
@@ -111,7 +115,7 @@ static void test_tools(void **state)
     assert_near(least, -1, 1e-13);
 }
 
-/* ---- bonds and states alone ------------------------------------------------------------------------------------------ */
+/* ---- bonds and states alone -------------------------------------------------------------------------------------- */
 
 #define PLANE .dim = 2, .edge = 10
 #define BONDS PLANE, .method = "pd", .model = "bond"
@@ -134,8 +138,12 @@ static const struct body alone[] = {
     {"pd mospd nu 0.45, irregular, notch", {STATES("mospd", 0.45), .irregularity = 0.5, .region = NOTCH}, 0},
     {"pd mospd nu 0.3, local", {STATES("mospd", 0.3), .normalisation = "local"}, 0},
     {"pd solid bond", {.dim = 3, .edge = 5, .method = "pd", .horizon = 2.015}, 0},
-    {"pd solid ospd nu 0.3", {.dim = 3, .edge = 5, .method = "pd", .model = "ospd", .poisson = 0.3, .horizon = 2.015}, 0},
-    {"pd solid mospd nu 0.45", {.dim = 3, .edge = 5, .method = "pd", .model = "mospd", .poisson = 0.45, .horizon = 2.015}, 0},
+    {"pd solid ospd nu 0.3",
+     {.dim = 3, .edge = 5, .method = "pd", .model = "ospd", .poisson = 0.3, .horizon = 2.015},
+     0},
+    {"pd solid mospd nu 0.45",
+     {.dim = 3, .edge = 5, .method = "pd", .model = "mospd", .poisson = 0.45, .horizon = 2.015},
+     0},
 };
 
 static void test_alone(void **state)
@@ -146,7 +154,7 @@ static void test_alone(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* ---- cells alone ------------------------------------------------------------------------------------------------------ */
+/* ---- cells alone ------------------------------------------------------------------------------------------------- */
 
 #define CELLS .method = "mpm", .frame = "reference"
 static const struct body cells[] = {
@@ -171,12 +179,20 @@ static void test_cells(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* ---- both --------------------------------------------------------------------------------------------------------------- */
+/* ---- both -------------------------------------------------------------------------------------------------------- */
 
-static const struct { const char *name; enum stability_region region; double offset; } shapes[] = {
-    {"half", HALF, 0}, {"half, cut cells", HALF, 0.5}, {"strip", STRIP, 0}, {"square", SQUARE, 0}, {"square, cut cells", SQUARE, 0.5},
-    {"corner", CORNER, 0}, {"corner, cut cells", CORNER, 0.5}, {"disc", DISC, 0}, {"notch", NOTCH, 0}, {"notch, cut cells", NOTCH, 0.5},
-    {"spots", SPOTS, 0}};
+static const struct { const char *name; enum stability_region region; double offset;
+} shapes[] = {{"half", HALF, 0},
+              {"half, cut cells", HALF, 0.5},
+              {"strip", STRIP, 0},
+              {"square", SQUARE, 0},
+              {"square, cut cells", SQUARE, 0.5},
+              {"corner", CORNER, 0},
+              {"corner, cut cells", CORNER, 0.5},
+              {"disc", DISC, 0},
+              {"notch", NOTCH, 0},
+              {"notch, cut cells", NOTCH, 0.5},
+              {"spots", SPOTS, 0}};
 static const struct { const char *name; struct stability_case c; } laws[] = {
     {"bond", {.model = "bond"}},
     {"bond lattice", {.model = "bond", .constants = "lattice"}},
@@ -214,7 +230,8 @@ static void test_coupled(void **state)
                 if (handshake && (l + k) % 3) continue;
                 c.region = shapes[k].region, c.offset = shapes[k].offset;
                 c.coupling = handshake ? "handshake" : "partial stress";
-                snprintf(name, sizeof name, "%s, %s, %s", handshake ? "handshake" : "partial", laws[l].name, shapes[k].name);
+                snprintf(name, sizeof name, "%s, %s, %s", handshake ? "handshake" : "partial", laws[l].name,
+                         shapes[k].name);
                 check(name, &c, 0);
             }
     assert_int_equal(wrong, 0);
@@ -228,25 +245,36 @@ static void test_coupled_elsewhere(void **state)
     for (int m = 0; m < 3; m++)
         for (int k = 0; k < 3; k++) {
             char name[128];
-            struct stability_case c = {.dim = 3, .edge = 6, .method = "adaptive", .frame = "reference", .model = model[m],
-                                       .horizon = 2.015, .poisson = m ? 0.3 : 0, .region = (const enum stability_region[]){HALF, CORNER, DISC}[k]};
+            struct stability_case c = {.dim = 3,
+                                       .edge = 6,
+                                       .method = "adaptive",
+                                       .frame = "reference",
+                                       .model = model[m],
+                                       .horizon = 2.015,
+                                       .poisson = m ? 0.3 : 0,
+                                       .region = (const enum stability_region[]){HALF, CORNER, DISC}[k]};
             c.coupling = "partial stress";
             snprintf(name, sizeof name, "solid %s, %s", model[m], (const char *[]){"half", "corner", "ball"}[k]);
             check(name, &c, 0);
         }
     for (int k = 0; k < 2; k++) {
-        const struct stability_case c = {.dim = 1, .edge = 24, .method = "adaptive", .frame = "reference", .coupling = "partial stress",
+        const struct stability_case c = {.dim = 1,
+                                         .edge = 24,
+                                         .method = "adaptive",
+                                         .frame = "reference",
+                                         .coupling = "partial stress",
                                          .region = k ? STRIP : HALF};
         check(k ? "line bond, strip" : "line bond, half", &c, 0);
     }
     assert_int_equal(wrong, 0);
 }
 
-/* ---- supports ----------------------------------------------------------------------------------------------------------- */
+/* ---- supports ---------------------------------------------------------------------------------------------------- */
 
-static const struct { const char *name; enum stability_support support; } supports[] = {
-    {"mirror", MIRROR}, {"mirror across", MIRROR_ACROSS}, {"two mirrors", MIRRORS}, {"clamp", CLAMP}, {"clamp across", CLAMP_ACROSS},
-    {"clamp and mirror", CLAMP_MIRROR}, {"fixed", FIXED}};
+static const struct { const char *name; enum stability_support support;
+} supports[] = {{"mirror", MIRROR}, {"mirror across", MIRROR_ACROSS}, {"two mirrors", MIRRORS},
+                {"clamp", CLAMP},   {"clamp across", CLAMP_ACROSS},   {"clamp and mirror", CLAMP_MIRROR},
+                {"fixed", FIXED}};
 
 static void test_supports(void **state)
 {
@@ -257,7 +285,8 @@ static void test_supports(void **state)
         for (int m = 0; m < 3; m++)
             for (size_t k = 0; k < COUNT_OF(supports); k++) {
                 char name[128];
-                struct stability_case c = {.dim = 2, .edge = 10, .method = "pd", .model = model[m], .poisson = m ? 0.3 : 0};
+                struct stability_case c = {
+                    .dim = 2, .edge = 10, .method = "pd", .model = model[m], .poisson = m ? 0.3 : 0};
                 if (coupled_too) c = coupled(c), c.coupling = "partial stress";
                 c.support = supports[k].support;
                 snprintf(name, sizeof name, "%s %s, %s", coupled_too ? "partial" : "pd", model[m], supports[k].name);
@@ -266,16 +295,19 @@ static void test_supports(void **state)
     const struct stability_case shaken = {.dim = 2, .edge = 10, .method = "pd", .model = "bond", .irregularity = 0.5,
                                           .support = CLAMP_MIRROR};
     check("pd bond, irregular, clamp and mirror", &shaken, 0);
-    const struct stability_case solid = {.dim = 3, .edge = 5, .method = "pd", .model = "mospd", .poisson = 0.3, .horizon = 2.015,
-                                         .support = CLAMP};
+    const struct stability_case solid = {
+        .dim = 3, .edge = 5, .method = "pd", .model = "mospd", .poisson = 0.3, .horizon = 2.015, .support = CLAMP};
     check("pd solid mospd, clamp", &solid, 0);
     assert_int_equal(wrong, 0);
 }
 
 int main(int n, char **words)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_tools), cmocka_unit_test(test_alone), cmocka_unit_test(test_cells),
-                                       cmocka_unit_test(test_coupled), cmocka_unit_test(test_coupled_elsewhere),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_tools),
+                                       cmocka_unit_test(test_alone),
+                                       cmocka_unit_test(test_cells),
+                                       cmocka_unit_test(test_coupled),
+                                       cmocka_unit_test(test_coupled_elsewhere),
                                        cmocka_unit_test(test_supports)};
     asked = words + 1, asks = n - 1;
     printf("  %-62s    n asymmetry lowest/highest zeros    energy\n", "case");

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: observed orders of convergence on four grids, spacing and step halved together, within 0.15 of theory: on the
+# Observed orders of convergence on four grids, spacing and step halved together, within 0.15 of theory: on the
 # known motion of inputs/bar_converge.yaml and the smooth pulse of inputs/bar_smooth.yaml.
 test_name=test_orders
 . tests/support/summary.sh

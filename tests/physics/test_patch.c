@@ -1,4 +1,4 @@
-/* floor 4: patch tests of each method alone: uniform strain must leave a body at rest and cost the energy of
+/* Patch tests of each method alone: uniform strain must leave a body at rest and cost the energy of
  * elasticity. Numbers from closed forms on the lattice. Both methods together:
  * test_coupling.c. */
 #include <stdarg.h>
@@ -19,7 +19,7 @@ static bool inside(const struct particles *p, int64_t i, const int *count, real 
     return true;
 }
 
-/* ---- peridynamics ------------------------------------------------------------------------------------- */
+/* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
 static const struct cloud_plan lattice[] = {
     {.space = SPACE_LINE, .count = {15}, .horizon = 3},
@@ -155,7 +155,7 @@ static void test_pd_calibrations(void **state)
     }
 }
 
-/* ---- material points ----------------------------------------------------------------------------------- */
+/* ---- material points --------------------------------------------------------------------------------------------- */
 
 /* Two points per cell and direction, cells and points aligned, uniform stress: nothing moves an inner node. */
 static void test_mpm_rest(void **state)
@@ -184,9 +184,10 @@ static void test_mpm_rest(void **state)
         }
 }
 
-/* Points stretched by lambda under uniform stress: the worst residual of an inner node over sigma A, for the worst position
- * of the points in their cells. 1D, two points per cell before the stretch. With the exact mean of the hat functions
- * cpGIMP has none up to lambda = 4, where its width is two cells; beyond, it keeps that width and points part. */
+/* Points stretched by lambda under uniform stress: the worst residual of an inner node over sigma A, for the worst
+ * position of the points in their cells. 1D, two points per cell before the stretch. With the exact mean of the hat
+ * functions cpGIMP has none up to lambda = 4, where its width is two cells; beyond, it keeps that width and points
+ * part. */
 static real crossing_residual(enum shape shape, real lambda)
 {
     real worst = 0;
@@ -218,7 +219,8 @@ static void test_mpm_crossing(void **state)
         {1.0, 0, 0, 0, 0}, {1.1, 0.55, 0.055, 0, 0.055}, {1.5, 0.75, 0.375, 0, 0.19},
         {3.0, 1.5, 1.5, 0, 0.75}};
     for (size_t k = 0; k < COUNT_OF(row); k++) {
-        /* printed to two digits, and 1 % for sampling the positions; exact zeros to round-off of places of up to 60 cells */
+        /* printed to two digits, and 1 % for sampling the positions; exact zeros to round-off of places of up to 60
+         * cells */
         is_near("linear", crossing_residual(SHAPE_LINEAR, row[k].lambda), row[k].linear, 0.02 * row[k].linear + 1e-13);
         is_near("uGIMP", crossing_residual(SHAPE_GIMP, row[k].lambda), row[k].gimp, 0.02 * row[k].gimp + 1e-13);
         is_near("cpGIMP", crossing_residual(SHAPE_CPGIMP, row[k].lambda), row[k].cpgimp, 0.02 * row[k].cpgimp + 1e-13);

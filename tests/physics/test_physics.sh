@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: closed forms of elasticity and mechanics, each through the program: scene in, figures out.
+# Closed forms of elasticity and mechanics, each through the program: scene in, figures out.
 test_name=test_physics
 . tests/support/summary.sh
 . tests/support/scenes.sh

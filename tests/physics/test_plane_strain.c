@@ -1,8 +1,9 @@
-/* floor 5: the stress across the plane of bodies in plane strain, as frames, probes and profiles tell it: uniform strain, and
- * flow, against closed forms, in every method. */
+/* The stress across the plane of bodies in plane strain, as frames, probes and profiles tell it: uniform
+ * strain, and flow, against closed forms, in every method. */
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "tests/support/near.h"
 #include "output/output.h"
@@ -10,25 +11,28 @@
 #define FOLDER "run"
 enum { ROW_KEYS = 6 };
 
-/* Two blocks of two materials, far apart, strained alike. In 0.3 us a wave runs 1.8 mm in from their edges (nu 0.4: 2.2 mm). */
-#define BLOCKS(space)                                                                                                \
-    "space: " space "\nthickness: 1 mm\nduration: 0.3 us\nmethod: mpm\n"                                             \
-    "materials:\n  - {name: soft, young: 70 GPa, poisson: 1/4, density: 2700}\n"                                     \
-    "  - {name: hard, young: 200 GPa, poisson: 1/4, density: 7800}\n"                                                \
-    "bodies:\n  - {name: left, material: soft, shape: {box: {from: [-62 mm, -12 mm], to: [-38 mm, 12 mm]}}}\n"       \
-    "  - {name: right, material: hard, shape: {box: {from: [38 mm, -12 mm], to: [62 mm, 12 mm]}}}\n"                 \
-    "particles: {spacing: 1 mm, horizon: 3.015}\n"                                                                   \
-    "initial: [{displacement_gradient: [4e-5, 2e-5, 1e-5, -1e-5]}]\n"                                                \
-    "output: {frames: 1, samples: 1}\n"                                                                              \
-    "probes: [{point: {name: gauge, at: [50.5 mm, 0.5 mm]}}, "                                                       \
+/* Two blocks of two materials, far apart, strained alike. In 0.3 us a wave runs 1.8 mm in from their edges (nu 0.4:
+ * 2.2 mm). */
+#define BLOCKS(space)                                                                                                  \
+    "space: " space "\nthickness: 1 mm\nduration: 0.3 us\nmethod: mpm\n"                                               \
+    "materials:\n  - {name: soft, young: 70 GPa, poisson: 1/4, density: 2700}\n"                                       \
+    "  - {name: hard, young: 200 GPa, poisson: 1/4, density: 7800}\n"                                                  \
+    "bodies:\n  - {name: left, material: soft, shape: {box: {from: [-62 mm, -12 mm], to: [-38 mm, 12 mm]}}}\n"         \
+    "  - {name: right, material: hard, shape: {box: {from: [38 mm, -12 mm], to: [62 mm, 12 mm]}}}\n"                   \
+    "particles: {spacing: 1 mm, horizon: 3.015}\n"                                                                     \
+    "initial: [{displacement_gradient: [4e-5, 2e-5, 1e-5, -1e-5]}]\n"                                                  \
+    "output: {frames: 1, samples: 1}\n"                                                                                \
+    "probes: [{point: {name: gauge, at: [50.5 mm, 0.5 mm]}}, "                                                         \
     "{line: {name: across, from: [-50 mm, 0.5 mm], to: [-49 mm, 0.5 mm], points: 2}}]\n"
 #define TRACE 3e-5                       /* eps_xx + eps_yy of it */
-#define INSIDE 3.6e-3                    /* so far from its centre a block has heard of nothing: 12 mm less two horizons,
-                                          * which corrected surfaces reach, or less the wave [m] */
+/* so far from its centre a block has heard of nothing: 12 mm less two horizons, which corrected surfaces reach, or
+ * less the wave [m] */
+#define INSIDE 3.6e-3
 
 /* Frames hold single precision, and sigma_zz is a tenth of a difference of stresses at the least. */
 #define SINGLE 1e-6
-/* What is linear is so to the strain, some 1e-5: stretches of bonds, the reference frame's stress that turns with its cell. */
+/* What is linear is so to the strain, some 1e-5: stretches of bonds, the reference frame's stress that turns with
+ * its cell. */
 #define SMALL 1e-4
 
 struct row { const char *name; struct scene_override key[ROW_KEYS]; };
@@ -115,8 +119,8 @@ static void frame_holds(const struct ran *r, const char *name, bool exact, int64
     frame_free(&f);
 }
 
-/* Ghost forces of couplings move what lies beside them, and bonds carry news of the edges farther than a wave: there a frame
- * after some steps has its own strain. */
+/* Ghost forces of couplings move what lies beside them, and bonds carry news of the edges farther than a wave: there
+ * a frame after some steps has its own strain. */
 static void uniform_strain(void **state)
 {
     const struct row *row = *state;
@@ -155,14 +159,15 @@ static void plane_stress_has_none(void **state)
 }
 
 /* A block drawn out along x alone flows without hardening as soon as 2 G e = sigma_y: then y and z are alike, so that
- *     sigma_xx - sigma_yy = sigma_y,   sigma_zz = sigma_yy = K e - sigma_y/3,   e = ln(1 + G t), the stretch of the whole way,
+ *     sigma_xx - sigma_yy = sigma_y,   sigma_zz = sigma_yy = K e - sigma_y/3,   e = ln(1 + G t), the stretch of the
+ *     whole way,
  * 9 sigma_y/E at the end: an elastic sigma_zz would be a fifth too small. A wave runs 1.2 mm in from the edges. */
-#define FLOWS                                                                                                        \
-    "space: plane strain\nthickness: 1 mm\nduration: 0.2 us\nmethod: mpm\n"                                          \
-    "material: {young: 200 GPa, poisson: 1/4, density: 7800, yield_stress: 400 MPa}\n"                               \
-    "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\n"                                                    \
-    "particles: {spacing: 1 mm}\ntime: {step: 1 ns}\n"                                                               \
-    "initial: [{velocity_gradient: [9e4, 0, 0, 0]}]\noutput: {frames: 1, samples: 1}\n"                              \
+#define FLOWS                                                                                                          \
+    "space: plane strain\nthickness: 1 mm\nduration: 0.2 us\nmethod: mpm\n"                                            \
+    "material: {young: 200 GPa, poisson: 1/4, density: 7800, yield_stress: 400 MPa}\n"                                 \
+    "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\n"                                                      \
+    "particles: {spacing: 1 mm}\ntime: {step: 1 ns}\n"                                                                 \
+    "initial: [{velocity_gradient: [9e4, 0, 0, 0]}]\noutput: {frames: 1, samples: 1}\n"                                \
     "probes: [{point: {name: gauge, at: [0.5 mm, 0.5 mm]}}]\n"
 
 static void flow(void **state)
@@ -208,7 +213,8 @@ int main(void)
     enum { ROWS = COUNT_OF(uniform) };
     struct CMUnitTest tests[ROWS + 3];
     for (int k = 0; k < ROWS; k++)
-        tests[k] = (struct CMUnitTest){.name = uniform[k].name, .test_func = uniform_strain, .initial_state = (void *)&uniform[k]};
+        tests[k] = (struct CMUnitTest){
+            .name = uniform[k].name, .test_func = uniform_strain, .initial_state = (void *)&uniform[k]};
     tests[ROWS] = (struct CMUnitTest)cmocka_unit_test(plane_stress_has_none);
     tests[ROWS + 1] = (struct CMUnitTest){.name = "flow", .test_func = flow, .initial_state = "mpm"};
     tests[ROWS + 2] = (struct CMUnitTest){.name = "flow, adaptive", .test_func = flow, .initial_state = "adaptive"};

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: bodies of material points that yield: waves against closed forms, the ledger, threads and restart.
+# Bodies of material points that yield: waves against closed forms, the ledger, threads and restart.
 test_name=test_plastic
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: a plate that turns by 0.1257 rad, by all models, by material points and by both: the angle, and what should stay 0;
+# A plate that turns by 0.1257 rad, by all models, by material points and by both: the angle, and what should stay 0;
 # the probe's memory through kills.
 test_name=test_rigid
 . tests/support/summary.sh

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: stress-intensity factors of runs beside closed forms: a plate whose crack is met by plane waves from both
+# Stress-intensity factors of runs beside closed forms: a plate whose crack is met by plane waves from both
 # sides (a semi-infinite crack, suddenly loaded, until the first reflection is back), by bonds and, the crack being a
 # gap, by material points; and a plate with an edge crack, pulled slowly.
 test_name=test_sif

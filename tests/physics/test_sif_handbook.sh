@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: stress-intensity factors of cracks that no scene of inputs/ has, against handbooks and boundary collocation: 100
+# Stress-intensity factors of cracks that no scene of inputs/ has, against handbooks and boundary collocation: 100
 # particles across, mospd with families of eight and constants of their own, as in inclined_crack.yaml.
 test_name=test_sif_handbook
 . tests/support/summary.sh

@@ -1,4 +1,4 @@
-/* floor 5: the automatic time step against the limit of growth; steps beyond it are caught; bodies at the edge of what
+/* The automatic time step against the limit of growth; steps beyond it are caught; bodies at the edge of what
  * an automatic step can mean. */
 #include <stdarg.h>
 #include <setjmp.h>
@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "tests/support/near.h"
 
-/* ---- the automatic step ---------------------------------------------------------------------------------------- */
+/* ---- the automatic step ------------------------------------------------------------------------------------------ */
 
 static const struct stability_case bounds[] = {
     {.dim = 1, .method = "pd"},
@@ -24,11 +24,23 @@ static const struct stability_case bounds[] = {
     {.dim = 3, .method = "pd", .horizon = 2.015},
     {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "linear", .transfer = "flip", .offset = 0.25},
     {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "flip"},
-    {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "flip", .space = "plane strain", .poisson = 0.499},
+    {.group = GROUP_POINTS,
+     .dim = 2,
+     .method = "mpm",
+     .shape = "gimp",
+     .transfer = "flip",
+     .space = "plane strain",
+     .poisson = 0.499},
     {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "cubic", .transfer = "flip"},
     {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "apic", .offset = 0.01},
     {.group = GROUP_POINTS, .dim = 1, .method = "mpm", .shape = "gimp", .transfer = "apic", .cell = 4, .offset = 0.01},
-    {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "quadratic", .transfer = "apic", .cell = 1, .offset = 0.01},
+    {.group = GROUP_POINTS,
+     .dim = 2,
+     .method = "mpm",
+     .shape = "quadratic",
+     .transfer = "apic",
+     .cell = 1,
+     .offset = 0.01},
     {.dim = 2, .method = "adaptive"},
     {.dim = 2, .method = "adaptive", .model = "ospd", .irregularity = 0.5},
     {.dim = 2, .method = "adaptive", .coupling = "pgg"},
@@ -48,7 +60,8 @@ static void test_bounds(void **state)
         const bool linear = bounds[k].shape && !strcmp(bounds[k].shape, "linear");
         assert_ok(stability_observe(&bounds[k], linear ? 1500 : 250, 0, &l));
         const double share = l.automatic / l.observed;
-        if (!(share >= STABILITY_LEAST && share <= STABILITY_MOST)) print_message("case %zu: %.3f of the limit\n", k, share);
+        if (!(share >= STABILITY_LEAST && share <= STABILITY_MOST))
+            print_message("case %zu: %.3f of the limit\n", k, share);
         assert_true(share >= STABILITY_LEAST && share <= STABILITY_MOST);
     }
 }
@@ -58,8 +71,10 @@ static void test_no_limit(void **state)
 {
     (void)state;
     struct stability_limits l;
-    assert_int_equal(stability_observe(&(struct stability_case){.dim = 1, .method = "mpm", .shape = "linear", .transfer = "apic"},
-                                       10, 0, &l), REFUSED);
+    assert_int_equal(
+        stability_observe(&(struct stability_case){.dim = 1, .method = "mpm", .shape = "linear", .transfer = "apic"},
+                          10, 0, &l),
+        REFUSED);
     assert_non_null(strstr(status_message(), "strains from velocities that are not mapped again"));
 }
 
@@ -75,10 +90,10 @@ static void test_drift(void **state)
     }
 }
 
-/* ---- beyond the limit ------------------------------------------------------------------------------------------- */
+/* ---- beyond the limit -------------------------------------------------------------------------------------------- */
 
-/* 1.2 times the limit: stopped within 1000 steps, with place, step and cure. Of APIC with edges on nodes, where its limit is that of
- * the inside: a little beyond, growth moves the edge to where the limit is another. */
+/* 1.2 times the limit: stopped within 1000 steps, with place, step and cure. Of APIC with edges on nodes, where its
+ * limit is that of the inside: a little beyond, growth moves the edge to where the limit is another. */
 static void test_caught(void **state)
 {
     (void)state;
@@ -92,7 +107,7 @@ static void test_caught(void **state)
     }
 }
 
-/* ---- edges ------------------------------------------------------------------------------------------------------------ */
+/* ---- edges ------------------------------------------------------------------------------------------------------- */
 
 static double automatic_of(const char *text, const char *key, const char *value)
 {
@@ -106,7 +121,8 @@ static double automatic_of(const char *text, const char *key, const char *value)
     return critical;
 }
 
-/* The step goes with the length over any scale; a body without bonds has one, too; so has one whose bonds are all cut. */
+/* The step goes with the length over any scale; a body without bonds has one, too; so has one whose bonds are all
+ * cut. */
 static void test_scales(void **state)
 {
     (void)state;
@@ -117,15 +133,17 @@ static void test_scales(void **state)
         for (size_t k = 0; k < COUNT_OF(scale); k++) {
             char text[1024];
             const double D = scale[k];
-            snprintf(text, sizeof text, "space: plane stress\nthickness: %.9g\nduration: %.9g\nmethod: %s\nmaterial: {young: 72e9, "
-                     "density: 2440}\nbody: {box: {from: [0, 0], to: [%.9g, %.9g]}}\nparticles: {spacing: %.9g}\n", D, D,
-                     method[m / COUNT_OF(frame)], 12 * D, 8 * D, D);
+            snprintf(text, sizeof text,
+                     "space: plane stress\nthickness: %.9g\nduration: %.9g\nmethod: %s\nmaterial: {young: 72e9, "
+                     "density: 2440}\nbody: {box: {from: [0, 0], to: [%.9g, %.9g]}}\nparticles: {spacing: %.9g}\n",
+                     D, D, method[m / COUNT_OF(frame)], 12 * D, 8 * D, D);
             share[k] = automatic_of(text, "mpm.frame", frame[m % COUNT_OF(frame)]) / D;
             assert_close(share[k], share[0], 1e-7);     /* strains of the trial motion */
         }
     }
-    const char *const one = "space: plane stress\nthickness: 1e-3\nduration: 1e-5\nmaterial: {young: 72e9, density: 2440}\n"
-                            "body: {box: {from: [0, 0], to: [1e-3, 1e-3]}}\nparticles: {spacing: 1e-3}\n";
+    const char *const one =
+        "space: plane stress\nthickness: 1e-3\nduration: 1e-5\nmaterial: {young: 72e9, density: 2440}\n"
+        "body: {box: {from: [0, 0], to: [1e-3, 1e-3]}}\nparticles: {spacing: 1e-3}\n";
     for (size_t m = 0; m < COUNT_OF(method); m++) {
         const double critical = automatic_of(one, "method", method[m]), wave = 1e-3 / sqrt(72e9 / (8.0 / 9) / 2440);
         assert_true(critical > 0.2 * wave && critical < 4 * wave);
@@ -141,17 +159,22 @@ static void test_odd_bodies(void **state)
         "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, density: 2440}\n"
         "body: {box: {from: [0, 0], to: [24e-3, 3e-3]}}\nparticles: {spacing: 1e-3}\noutput: {frames: 0, samples: 1}\n"
         "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 3e-3}}\n",
-        "space: solid\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, density: 2440}\nbody: {box: {from: [0, 0, 0], to: [9e-3, "
+        "space: solid\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, density: 2440}\nbody: {box: {from: [0, 0, 0], "
+        "to: [9e-3, "
         "9e-3, 1e-3]}}\nparticles: {spacing: 1e-3, horizon: 2.015}\noutput: {frames: 0, samples: 1}\n",
-        "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterials:\n  - {name: soft, young: 7e9, density: 9000}\n"
-        "  - {name: stiff, young: 400e9, density: 2000}\nbodies:\n  - {material: soft, shape: {box: {from: [0, 0], to: [15e-3, "
-        "15e-3]}}}\n  - {material: stiff, shape: {box: {from: [15e-3, 7e-3], to: [16e-3, 8e-3]}}}\nparticles: {spacing: 1e-3}\n"
+        "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterials:\n  - {name: soft, young: 7e9, "
+        "density: 9000}\n"
+        "  - {name: stiff, young: 400e9, density: 2000}\nbodies:\n  - {material: soft, shape: {box: {from: [0, 0], to: "
+        "[15e-3, "
+        "15e-3]}}}\n  - {material: stiff, shape: {box: {from: [15e-3, 7e-3], to: [16e-3, 8e-3]}}}\nparticles: "
+        "{spacing: 1e-3}\n"
         "output: {frames: 0, samples: 1}\n"};
     for (size_t k = 0; k < COUNT_OF(text); k++) {
         struct stability_limits l;
         assert_ok(stability_observe(&(struct stability_case){.method = "pd", .text = text[k]}, 400, 0, &l));
         const double share = l.automatic / l.observed;
-        if (!(share >= STABILITY_LEAST && share <= STABILITY_MOST)) print_message("body %zu: %.3f of the limit\n", k, share);
+        if (!(share >= STABILITY_LEAST && share <= STABILITY_MOST))
+            print_message("body %zu: %.3f of the limit\n", k, share);
         assert_true(share >= STABILITY_LEAST && share <= STABILITY_MOST);
     }
 }
@@ -161,18 +184,19 @@ static void test_close_mirrors(void **state)
 {
     (void)state;
     struct stability_limits l;
-    const char *const row = "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, density: 2440}\n"
-                            "body: {box: {from: [0, 0], to: [24e-3, 1e-3]}}\nparticles: {spacing: 1e-3}\n"
-                            "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 1e-3}}\n";
+    const char *const row =
+        "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, density: 2440}\n"
+        "body: {box: {from: [0, 0], to: [24e-3, 1e-3]}}\nparticles: {spacing: 1e-3}\n"
+        "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 1e-3}}\n";
     assert_int_equal(stability_observe(&(struct stability_case){.method = "pd", .text = row}, 10, 0, &l), REFUSED);
     assert_non_null(strstr(status_message(), "want them farther apart than 0.002"));
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bounds), cmocka_unit_test(test_no_limit), cmocka_unit_test(test_drift), cmocka_unit_test(test_caught),
-        cmocka_unit_test(test_scales), cmocka_unit_test(test_odd_bodies),
-        cmocka_unit_test(test_close_mirrors)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bounds),       cmocka_unit_test(test_no_limit),
+                                       cmocka_unit_test(test_drift),        cmocka_unit_test(test_caught),
+                                       cmocka_unit_test(test_scales),       cmocka_unit_test(test_odd_bodies),
+                                       cmocka_unit_test(test_close_mirrors)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

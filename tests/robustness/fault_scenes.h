@@ -1,7 +1,7 @@
-/* Small scenes that are disturbed: among them every kind of probe, every method and model, conversion, return, contact, growth; a sample in
- * every step, and a checkpoint after it in scenes that are killed. */
-#ifndef CLEAVE_FAULT_SCENES_H
-#define CLEAVE_FAULT_SCENES_H
+/* Small scenes that are disturbed: among them every kind of probe, every method and model, conversion, return,
+ * contact, growth; a sample in every step, and a checkpoint after it in scenes that are killed. */
+#ifndef CLEAVE_TESTS_FAULT_SCENES
+#define CLEAVE_TESTS_FAULT_SCENES
 
 #define EVERY_STEP "output: {frames: 3, samples: 1000000}\n"
 #define EVERY_STEP_KEPT "output: {frames: 3, samples: 1000000, checkpoint: 0}\n"
@@ -32,28 +32,29 @@ static const struct fault_scene converting_scene = {"converting",
     "probes: [tip, break, energy, momentum, reaction: {boundary: top}, point: {at: [20 mm, 12 mm]},\n"
     "         line: {from: [1 mm, 5 mm], to: [29 mm, 5 mm], points: 9}]\n"};
 
-/* A pulse passes through a bar: its front turns points into peridynamic particles, which become points again behind it. */
-#define PASSING {"passing", \
-     "space: line\nduration: 5 ms\nmaterial: {young: 1e4, density: 1}\nbody: {box: {from: [0], to: [1.024]}}\n" \
-     "particles: {spacing: 8 mm, horizon: 3}\nconversion: {stress: 50, alpha: 1, return: true}\n" \
-     "initial: [{pulse: {at: [0.256], direction: [1], width: 80 mm, velocity: -1}}]\ntime: {step: 40 us}\n" \
+/* A pulse passes through a bar: its front turns points into peridynamic particles, which become points again behind
+ * it. */
+#define PASSING {"passing",                                                                                            \
+     "space: line\nduration: 5 ms\nmaterial: {young: 1e4, density: 1}\nbody: {box: {from: [0], to: [1.024]}}\n"        \
+     "particles: {spacing: 8 mm, horizon: 3}\nconversion: {stress: 50, alpha: 1, return: true}\n"                      \
+     "initial: [{pulse: {at: [0.256], direction: [1], width: 80 mm, velocity: -1}}]\ntime: {step: 40 us}\n"            \
      EVERY_STEP_KEPT "probes: [pulse: {at: [0.512], direction: [1]}, energy]\n"}
 static const struct fault_scene passing_scene = PASSING;
 
 static const struct fault_scene fault_scenes[] = {
-    {"bar",
-     "space: line\nduration: 4 ms\nmethod: pd\nmaterial: {young: 1e4, density: 1, critical_stretch: 1e-3}\n"
-     "body: {box: {from: [0], to: [1]}}\nparticles: {spacing: 20 mm, horizon: 3}\npd: {surface: none}\ntime: {step: 40 us}\n"
-     "boundary: [{name: wall, mirror: {axis: x, at: 0}}, {name: pull, traction: [20 Pa], face: x+}]\n"
-     EVERY_STEP "probes: [exact: step bar, spall, break, tip, point: {at: [0.5]}, momentum]\n"},
+    {"bar", "space: line\nduration: 4 ms\nmethod: pd\nmaterial: {young: 1e4, density: 1, critical_stretch: 1e-3}\n"
+            "body: {box: {from: [0], to: [1]}}\nparticles: {spacing: 20 mm, horizon: 3}\npd: {surface: none}\ntime: "
+            "{step: 40 us}\n"
+            "boundary: [{name: wall, mirror: {axis: x, at: 0}}, {name: pull, traction: [20 Pa], face: x+}]\n" EVERY_STEP
+            "probes: [exact: step bar, spall, break, tip, point: {at: [0.5]}, momentum]\n"},
     PASSING,
     {"growing",
      "space: plane strain\nthickness: 1 mm\nduration: 2 us\nmethod: pd\nmodel: ospd\n"
      "material: {young: 75 GPa, poisson: 0.286, density: 2456}\nbody: {box: {from: [0, -10 mm], to: [24 mm, 10 mm]}}\n"
      "particles: {spacing: 1 mm, horizon: 3}\ntime: {step: 40 ns}\ncracks: [{from: [-1 mm, 0], to: [12 mm, 0]}]\n"
      "growth: [{at: [12 mm, 0], direction: [1, 0], speed: 2000 m/s, start: 0.5 us}]\n"
-     "boundary: [{name: top, traction: [0, 1 MPa], face: y+}, {name: bottom, traction: [0, -1 MPa], face: y-}]\n"
-     EVERY_STEP "probes: [sif: {outer: 8 mm, contours: [6 mm, 8 mm]}, growth]\n"},
+     "boundary: [{name: top, traction: [0, 1 MPa], face: y+}, {name: bottom, traction: [0, -1 MPa], face: "
+     "y-}]\n" EVERY_STEP "probes: [sif: {outer: 8 mm, contours: [6 mm, 8 mm]}, growth]\n"},
     {"contact",
      "space: plane stress\nthickness: 1 mm\nduration: 20 us\nmaterials:\n"
      "  - {name: steel, young: 200 GPa, density: 7800, yield_stress: 400 MPa, yield_tangent: 2 GPa}\n"
@@ -61,21 +62,22 @@ static const struct fault_scene fault_scenes[] = {
      "  - {name: ball, material: steel, shape: {disc: {centre: [0, 14 mm], radius: 4 mm}}, velocity: [0, -100]}\n"
      "  - {name: plate, material: glass, shape: {box: {from: [-10 mm, 0], to: [10 mm, 10 mm]}}}\n"
      "particles: {spacing: 1 mm, irregularity: 0.2, seed: 7}\nmpm: {transfer: apic}\ntime: {step: 0.2 us}\n"
-     "boundary: [{name: floor, fixed: [y], region: {box: {from: [-20 mm, 0], to: [20 mm, 1 mm]}}}]\n"
-     EVERY_STEP "probes: [tip, break, energy, momentum, reaction: {boundary: floor}, point: {at: [0, 5 mm]}]\n"},
+     "boundary: [{name: floor, fixed: [y], region: {box: {from: [-20 mm, 0], to: [20 mm, 1 mm]}}}]\n" EVERY_STEP
+     "probes: [tip, break, energy, momentum, reaction: {boundary: floor}, point: {at: [0, 5 mm]}]\n"},
     {"turning",
      "space: plane stress\nthickness: 1 mm\nduration: 10 us\nmethod: pd\nmodel: mospd\n"
      "material: {young: 206 GPa, poisson: 0.3, density: 2400}\nbody: {box: {from: [-8 mm, -8 mm], to: [8 mm, 8 mm]}}\n"
-     "particles: {spacing: 1 mm}\ntime: {step: 0.1 us}\ninitial: [{velocity_gradient: [0, -1000, 1000, 0]}]\n"
-     EVERY_STEP "probes: [rigid, patch, energy]\n"},
+     "particles: {spacing: 1 mm}\ntime: {step: 0.1 us}\ninitial: [{velocity_gradient: [0, -1000, 1000, "
+     "0]}]\n" EVERY_STEP "probes: [rigid, patch, energy]\n"},
     {"solid",
      "space: solid\nduration: 6 us\nmaterial: {young: 190 GPa, density: 7800, energy_release_rate: 500}\n"
      "body: {box: {from: [0, 0, 0], to: [12 mm, 10 mm, 4 mm]}}\nparticles: {spacing: 1 mm}\ntime: {step: 0.1 us}\n"
      "mpm: {frame: reference}\nconversion: {stress: 100 MPa}\n"
      "cracks: [{polygon: [[-1 mm, 5 mm, -1 mm], [4 mm, 5 mm, -1 mm], [4 mm, 5 mm, 5 mm], [-1 mm, 5 mm, 5 mm]]}]\n"
-     "boundary:\n  - {name: top, velocity: [free, 20, free], region: {box: {from: [0, 9 mm, 0], to: [12 mm, 10 mm, 4 mm]}}}\n"
-     "  - {mirror: {axis: y, at: 0}}\n"
-     EVERY_STEP "probes: [tip, break, reaction: {boundary: top}, line: {from: [1 mm, 5 mm, 2 mm], to: [11 mm, 5 mm, 2 mm], points: 5}]\n"},
+     "boundary:\n  - {name: top, velocity: [free, 20, free], region: {box: {from: [0, 9 mm, 0], to: [12 mm, 10 mm, 4 "
+     "mm]}}}\n"
+     "  - {mirror: {axis: y, at: 0}}\n" EVERY_STEP "probes: [tip, break, reaction: {boundary: top}, line: {from: [1 "
+                                                   "mm, 5 mm, 2 mm], to: [11 mm, 5 mm, 2 mm], points: 5}]\n"},
 };
 
 #endif

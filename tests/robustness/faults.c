@@ -1,5 +1,5 @@
-/* floor 5: faults.h: the wrapped calls. A wrapped call of ours (__wrap_x) goes on to the x of this file, which every library calls, too, and
- * which goes on to that of the C library. */
+/* faults.h: the wrapped calls. A wrapped call of ours (__wrap_x) goes on to the x of this file, which every
+ * library calls, too, and which goes on to that of the C library. */
 #include "faults.h"
 
 #include <stdio.h>
@@ -20,12 +20,13 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "coupling/convert.h"
+#include "coupling/conversion.h"
 #include "output/output.h"
 
 const char *const fault_name[FAULT_CALLS] = {
-    "own malloc", "own open", "own read", "own write", "own fsync", "own close", "own rename", "own mkdir", "own unlink",
-    "malloc", "mmap", "open", "read", "write", "fsync", "close", "rename", "mkdir", "unlink", "sample", "conversion", "coupling",
+    "own malloc", "own open", "own read", "own write", "own fsync",  "own close", "own rename", "own mkdir",
+    "own unlink", "malloc",   "mmap",     "open",      "read",       "write",     "fsync",      "close",
+    "rename",     "mkdir",    "unlink",   "sample",    "conversion", "coupling",
 };
 
 static struct fault_plan plan;
@@ -57,7 +58,7 @@ static bool hit_file(enum fault_call call, int fd) { return fd > STDERR_FILENO &
     static type (*next)(__VA_ARGS__);                                                                  \
     if (!next) *(void **)&next = dlsym(RTLD_NEXT, name)
 
-/* ---- the log ------------------------------------------------------------------------------------------------------ */
+/* ---- the log ----------------------------------------------------------------------------------------------------- */
 
 unsigned long fault_hash(const char *path)
 {
@@ -90,7 +91,7 @@ static void log_sync(int fd)
     log_call("fsync", path, "-");
 }
 
-/* ---- the whole process ---------------------------------------------------------------------------------------------- */
+/* ---- the whole process ------------------------------------------------------------------------------------------- */
 
 static mode_t mode_of(int flags, va_list rest) { return flags & (O_CREAT | O_TMPFILE) ? va_arg(rest, mode_t) : 0; }
 
@@ -194,7 +195,8 @@ void *mmap(void *at, size_t length, int protection, int flags, int fd, off_t off
 
 /* dlsym itself allocates: the C library's own names are asked for. */
 #ifdef __GLIBC__
-void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t), *__libc_memalign(size_t, size_t);
+void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t),
+    *__libc_memalign(size_t, size_t);
 
 void *malloc(size_t n) { return hit(ALL_MALLOC) ? NULL : __libc_malloc(n); }
 void *calloc(size_t count, size_t n) { return hit(ALL_MALLOC) ? NULL : __libc_calloc(count, n); }
@@ -207,7 +209,7 @@ int posix_memalign(void **pointer, size_t alignment, size_t n)
 }
 #endif
 
-/* ---- the program's own calls ------------------------------------------------------------------------------------------- */
+/* ---- the program's own calls ------------------------------------------------------------------------------------- */
 
 #define WRAP(type, name, parameters, arguments, fails, failed) \
     type __wrap_##name parameters;                             \
@@ -217,8 +219,8 @@ WRAP(void *, malloc, (size_t n), (n), hit(OWN_MALLOC), NULL)
 WRAP(void *, calloc, (size_t count, size_t n), (count, n), hit(OWN_MALLOC), NULL)
 WRAP(void *, realloc, (void *old, size_t n), (old, n), hit(OWN_MALLOC), NULL)
 WRAP(int, posix_memalign, (void **to, size_t alignment, size_t n), (to, alignment, n), hit(OWN_MALLOC), ENOMEM)
-WRAP(void *, mmap, (void *at, size_t n, int protection, int flags, int fd, off_t offset), (at, n, protection, flags, fd, offset),
-     hit(OWN_MALLOC), MAP_FAILED)
+WRAP(void *, mmap, (void *at, size_t n, int protection, int flags, int fd, off_t offset),
+     (at, n, protection, flags, fd, offset), hit(OWN_MALLOC), MAP_FAILED)
 WRAP(int, open, (const char *path, int flags, mode_t mode), (path, flags, mode), hit(OWN_OPEN), -1)
 WRAP(FILE *, fopen, (const char *path, const char *mode), (path, mode), hit(OWN_OPEN), NULL)
 WRAP(ssize_t, read, (int fd, void *bytes, size_t n), (fd, bytes, n), hit(OWN_READ), -1)
@@ -232,7 +234,7 @@ WRAP(int, mkdir, (const char *path, mode_t mode), (path, mode), hit(OWN_MKDIR), 
 WRAP(int, unlink, (const char *path), (path), hit(OWN_UNLINK), -1)
 WRAP(int, close, (int fd), (fd), hit_file(OWN_CLOSE, fd) && (close(fd), errno = plan.cause), -1)
 
-/* ---- places of a run --------------------------------------------------------------------------------------------------- */
+/* ---- places of a run --------------------------------------------------------------------------------------------- */
 
 /* A moment in which the run may be stopped or killed, before the function does its work. */
 #define PLACE(type, name, parameters, arguments, place) \
@@ -246,12 +248,14 @@ WRAP(int, close, (int fd), (fd), hit_file(OWN_CLOSE, fd) && (close(fd), errno = 
 
 PLACE(status, output_history, (struct output *o, const real *value), (o, value), AT_SAMPLE)
 PLACE(int64_t, convert, (struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-      const struct bond_source *source, struct partial_stress *partial, const struct conversion_look *look, real t),
+      const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *look, real t),
       (c, rule, p, b, source, partial, look, t), AT_CONVERSION)
-PLACE(void, partial_stress_make, (struct partial_stress *partial, const struct particles *p, const struct bonds *b,
-      const struct bond_source *source, const int32_t *changed, int64_t n), (partial, p, b, source, changed, n), AT_COUPLING)
+PLACE(void, partial_stress_make,
+      (struct partial_stress * partial, const struct particles *p, const struct bonds *b,
+       const struct bond_source *source, const int32_t *changed, int64_t n),
+      (partial, p, b, source, changed, n), AT_COUPLING)
 
-/* ---- the program ----------------------------------------------------------------------------------------------------------- */
+/* ---- the program ------------------------------------------------------------------------------------------------- */
 
 int __real_main(int argc, char **argv);
 int program_main(int argc, char **argv) { return __real_main(argc, argv); }

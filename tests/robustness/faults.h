@@ -1,7 +1,8 @@
-/* floor 5: calls that are made to fail, to stop a run or to kill it, at the n-th time: of the program's own objects (link-time wrapping,
- * see Makefile) and of the whole process with its libraries (the symbols of the executable come first). */
-#ifndef CLEAVE_FAULTS_H
-#define CLEAVE_FAULTS_H
+/* Calls that are made to fail, to stop a run or to kill it, at the n-th time: of the program's own objects
+ * (link-time wrapping, see Makefile) and of the whole process with its libraries (the symbols of the executable come
+ * first). */
+#ifndef CLEAVE_TESTS_FAULTS
+#define CLEAVE_TESTS_FAULTS
 
 enum fault_call {
     OWN_MALLOC, OWN_OPEN, OWN_READ, OWN_WRITE, OWN_FSYNC, OWN_CLOSE, OWN_RENAME, OWN_MKDIR, OWN_UNLINK,
@@ -22,8 +23,8 @@ struct fault_plan {
 
 extern const char *const fault_name[FAULT_CALLS];
 
-/* From now on calls are counted in count[FAULT_CALLS], which outlives the process (shared memory), and the plan holds; files are no
- * longer synced, but for the log, which is quick. */
+/* From now on calls are counted in count[FAULT_CALLS], which outlives the process (shared memory), and the plan
+ * holds; files are no longer synced, but for the log, which is quick. */
 void faults_arm(const struct fault_plan *plan, long *count);
 
 /* Hash of a file's bytes; 0 where there is none. */

@@ -1,5 +1,6 @@
-/* floor 5: a fuzzer of our own: inputs are changed at random, with words of a dictionary; those that reach new branches are kept and changed
- * further. The sources it runs are compiled with sanitizers and call __sanitizer_cov_trace_pc() in each branch (Makefile).
+/* A fuzzer of our own: inputs are changed at random, with words of a dictionary; those that reach new
+ * branches are kept and changed further. The sources it runs are compiled with sanitizers and call
+ * __sanitizer_cov_trace_pc() in each branch (Makefile).
  *
  *     fuzz TARGET SECONDS SEED DICTIONARY FILE...      or, with 0 seconds: each file once, as it is
  *
@@ -40,7 +41,8 @@ void __sanitizer_cov_trace_pc(void);
 void __sanitizer_cov_trace_pc(void)
 {
     static uintptr_t last;
-    const uintptr_t at = (uintptr_t)__builtin_return_address(0), edge = (at ^ last << 1) * UINT64_C(0x9E3779B97F4A7C15) >> 46;
+    const uintptr_t at = (uintptr_t)__builtin_return_address(0),
+                    edge = (at ^ last << 1) * UINT64_C(0x9E3779B97F4A7C15) >> 46;
     last = at;
     if (running && !branch[edge]) branch[edge] = 1, found = true, branches++;
 }
@@ -63,7 +65,7 @@ static uint64_t draw(uint64_t below)
     return below ? (state * UINT64_C(0x2545F4914F6CDD1D) >> 32) % below : 0;
 }
 
-/* ---- inputs ------------------------------------------------------------------------------------------------------- */
+/* ---- inputs ------------------------------------------------------------------------------------------------------ */
 
 static void pool_add(const uint8_t *bytes, size_t n)
 {
@@ -94,7 +96,7 @@ static void read_words(const char *path)
     if (f) fclose(f);
 }
 
-/* ---- changes ------------------------------------------------------------------------------------------------------- */
+/* ---- changes ----------------------------------------------------------------------------------------------------- */
 
 /* Makes room for `gap` bytes at `at`, or takes away -gap; returns whether it did. */
 static bool shift(uint8_t *bytes, size_t *n, size_t at, long gap, size_t most)
@@ -117,7 +119,8 @@ static void put(uint8_t *bytes, size_t *n, size_t at, const void *piece, size_t 
 /* Numbers at the edges of what integers and reals can be. */
 static void put_number(uint8_t *bytes, size_t n, size_t at)
 {
-    static const int64_t number[] = {0, -1, 1, INT32_MAX, INT32_MIN, INT64_MAX, INT64_MIN, 0x7ff0000000000000, 0x7ff8000000000000, 1 << 20};
+    static const int64_t number[] = {
+        0, -1, 1, INT32_MAX, INT32_MIN, INT64_MAX, INT64_MIN, 0x7ff0000000000000, 0x7ff8000000000000, 1 << 20};
     const size_t size = (size_t)1 << draw(4), place = at / size * size;
     if (place + size <= n) memcpy(bytes + place, &number[draw(sizeof number / sizeof *number)], size);
 }
@@ -153,7 +156,7 @@ static void change(uint8_t *bytes, size_t *n, size_t most)
     }
 }
 
-/* ---- the loop ------------------------------------------------------------------------------------------------------- */
+/* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
 /* Bytes of a file, which stays behind. */
 static uint8_t *make_room(const char *target)
@@ -208,7 +211,8 @@ int main(int argc, char **argv)
     }
     long runs = pooled;
     for (; time(NULL) < end; runs++) {
-        const struct input *from = &pool[draw(2) ? (uint64_t)pooled - 1 - draw((uint64_t)(pooled + 3) / 4) : draw((uint64_t)pooled)];
+        const struct input *from =
+            &pool[draw(2) ? (uint64_t)pooled - 1 - draw((uint64_t)(pooled + 3) / 4) : draw((uint64_t)pooled)];
         size_t n = from->n < most ? from->n : most;
         memcpy(room, from->bytes, n);
         for (uint64_t changes = 1 + draw(2) * draw(6); changes > 0; changes--) change(room, &n, most);

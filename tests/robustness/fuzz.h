@@ -1,13 +1,13 @@
-/* floor 5: targets of the fuzzer (fuzz.c): each takes any bytes and comes back; what may not be ends the process. */
-#ifndef CLEAVE_FUZZ_H
-#define CLEAVE_FUZZ_H
+/* Targets of the fuzzer (fuzz.c): each takes any bytes and comes back; what may not be ends the process. */
+#ifndef CLEAVE_TESTS_FUZZ
+#define CLEAVE_TESTS_FUZZ
 
 #include <stddef.h>
 #include <stdint.h>
 
 void fuzz_scene(const uint8_t *bytes, size_t n);         /* the text of a scene */
 void fuzz_override(const uint8_t *bytes, size_t n);      /* lines KEY=VALUE over a good scene */
-void fuzz_list(const uint8_t *bytes, size_t n);          /* a particle list in CSV; the first byte gives the dimension */
+void fuzz_list(const uint8_t *bytes, size_t n);         /* a particle list in CSV; the first byte gives the dimension */
 void fuzz_checkpoint(const uint8_t *bytes, size_t n);    /* a checkpoint; its footer is made right */
 void fuzz_valid(const uint8_t *bytes, size_t n);         /* choices that make a scene which may be run */
 

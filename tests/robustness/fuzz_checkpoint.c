@@ -1,9 +1,11 @@
-/* floor 5: fuzz.h: checkpoints with any bytes and the right footer. They are refused in one line, or the run goes on for a few steps. */
+/* fuzz.h: checkpoints with any bytes and the right footer. They are refused in one line, or the run goes on
+ * for a few steps. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "auto/scene_read.h"
 #include "output/checksum.h"
 #include "engine/engine.h"
 #include "fuzz.h"
@@ -12,7 +14,8 @@
 
 enum { STEPS = 3 };
 static const char text[] =
-    "space: plane stress\nthickness: 1 mm\nduration: 4 us\nmaterial: {young: 190 GPa, density: 7800, energy_release_rate: 100}\n"
+    "space: plane stress\nthickness: 1 mm\nduration: 4 us\nmaterial: {young: 190 GPa, density: 7800, "
+    "energy_release_rate: 100}\n"
     "body: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\nparticles: {spacing: 1 mm}\ntime: {step: 0.2 us}\n"
     "cracks: [{from: [0, 3 mm], to: [4 mm, 3 mm]}]\n"
     "boundary: [{name: pull, velocity: [free, 10], region: {box: {from: [0, 5 mm], to: [8 mm, 6 mm]}}}]\n"
@@ -23,11 +26,13 @@ static struct output out;
 /* An engine of the scene whose output is in the folder `fuzz_run`. */
 static void begin(struct engine *e)
 {
-    if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK) fuzz_fail("the scene", status_message());
+    if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
+        fuzz_fail("the scene", status_message());
     *e = (struct engine){.quiet = true};
     if (engine_make(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
     e->quiet = true;
-    if (!out.folder && output_open(&out, "fuzz_run", scene.text, OUTPUT_OVERWRITE, false) != OK) fuzz_fail("the folder", status_message());
+    if (!out.folder && output_open(&out, "fuzz_run", scene.text, OUTPUT_OVERWRITE, false) != OK)
+        fuzz_fail("the folder", status_message());
 }
 
 uint8_t *fuzz_checkpoint_seed(size_t *n)
@@ -35,7 +40,8 @@ uint8_t *fuzz_checkpoint_seed(size_t *n)
     struct engine e;
     char *bytes = NULL;
     begin(&e);
-    if (engine_run(&e) != OK || file_get("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK) fuzz_fail("the run", status_message());
+    if (engine_run(&e) != OK || file_get("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK)
+        fuzz_fail("the run", status_message());
     engine_free(&e);
     uint8_t *seed = malloc(*n);
     if (seed) memcpy(seed, bytes, *n -= FOOTER_BYTES);
@@ -66,6 +72,7 @@ void fuzz_checkpoint(const uint8_t *bytes, size_t n)
         if (e.steps > e.step && e.step >= 0) e.steps = e.step + STEPS < e.steps ? e.step + STEPS : e.steps;
         s = engine_run(&e);
     }
-    if (s != OK && (!status_message()[0] || strchr(status_message(), '\n'))) fuzz_fail("refused without a line", status_message());
+    if (s != OK && (!status_message()[0] || strchr(status_message(), '\n')))
+        fuzz_fail("refused without a line", status_message());
     engine_free(&e);
 }

@@ -1,4 +1,5 @@
-/* floor 5: fuzz.h: particle lists. What is refused says so in one line; of what is read every place and volume is a number. */
+/* fuzz.h: particle lists. What is refused says so in one line; of what is read every place and volume is a
+ * number. */
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>
@@ -11,11 +12,13 @@ void fuzz_list(const uint8_t *bytes, size_t n)
 {
     struct particle_list l;
     const int dim = n > 0 ? 1 + bytes[0] % 3 : 1, fd = open("fuzz_list.csv", O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    if (fd < 0 || (n > 1 && write(fd, bytes + 1, n - 1) != (ssize_t)(n - 1))) fuzz_fail("cannot write", "fuzz_list.csv");
+    if (fd < 0 || (n > 1 && write(fd, bytes + 1, n - 1) != (ssize_t)(n - 1)))
+        fuzz_fail("cannot write", "fuzz_list.csv");
     close(fd);
     status_set(OK, "%s", "");
     if (particle_list_read(&l, "fuzz_list.csv", dim) != OK) {
-        if (!status_message()[0] || strchr(status_message(), '\n')) fuzz_fail("refused without a line", status_message());
+        if (!status_message()[0] || strchr(status_message(), '\n'))
+            fuzz_fail("refused without a line", status_message());
         return;
     }
     for (int64_t i = 0; i < l.n; i++)

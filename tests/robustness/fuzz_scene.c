@@ -1,8 +1,9 @@
-/* floor 5: fuzz.h: scenes and overrides. What is refused says where and why in one line; what is accepted is written out, read back and
- * written out the same. */
+/* fuzz.h: scenes and overrides. What is refused says where and why in one line; what is accepted is written
+ * out, read back and written out the same. */
 #include <stdlib.h>
 #include <string.h>
 
+#include "auto/scene_read.h"
 #include "fuzz.h"
 #include "scene/scene.h"
 
@@ -11,7 +12,8 @@ static const char good[] =
     "material: {young: 190 GPa, density: 7800 kg/m^3, energy_release_rate: 69 kJ/m^2}\n"
     "body:\n  - box: {from: [0, 0], to: [20 mm, 10 mm]}\n  - subtract: {disc: {centre: [5 mm, 5 mm], radius: 2 mm}}\n"
     "particles: {spacing: 1 mm}\nmpm: {shape: gimp}\ncracks: [{from: [10 mm, 5 mm], to: [20 mm, 5 mm]}]\n"
-    "boundary: [{name: pull, velocity: [free, 1], region: {box: {from: [0, 9 mm], to: [20 mm, 10 mm]}}, time: {step: {until: 5 us}}}]\n"
+    "boundary: [{name: pull, velocity: [free, 1], region: {box: {from: [0, 9 mm], to: [20 mm, 10 mm]}}, time: {step: "
+    "{until: 5 us}}}]\n"
     "probes: [tip, point: {at: [1 mm, 1 mm]}, reaction: {boundary: pull}]\n";
 
 static void judge(struct scene *s, status read)
@@ -21,7 +23,8 @@ static void judge(struct scene *s, status read)
     if (read == REFUSED && (!said[0] || strchr(said, '\n'))) fuzz_fail("refused without a line", said);
     if (read == FAILED) fuzz_fail("failed", said);
     if (read != OK) return;
-    if (scene_read_text(&again, s->text, strlen(s->text), "echo", NULL, 0) != OK) fuzz_fail("what is written out is refused", status_message());
+    if (scene_read_text(&again, s->text, strlen(s->text), "echo", NULL, 0) != OK)
+        fuzz_fail("what is written out is refused", status_message());
     if (strcmp(s->text, again.text) != 0) fuzz_fail("what is written out is read otherwise", again.text);
     scene_free(&again);
     scene_free(s);

@@ -1,11 +1,12 @@
-/* floor 5: fuzz.h: scenes of every space, method, model, shape, load and probe, chosen by the bytes: mostly sensible, some odd. A run ends with
- * numbers, or says in one line why not. */
+/* fuzz.h: scenes of every space, method, model, shape, load and probe, chosen by the bytes: mostly
+ * sensible, some odd. A run ends with numbers, or says in one line why not. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "fuzz.h"
 
@@ -61,7 +62,8 @@ static void add_bodies(struct maker *m, double *edge)
     add(m, "materials:\n");
     for (int k = 0; k < 2; k++) {
         add(m, "  - {name: m%d, young: %s, density: 1", k, k ? "2" : "1");
-        add_one(m, "|, critical_stretch: 0.02|, energy_release_rate: 1e-4|, toughness: 0.01|, yield_stress: 0.01|, poisson: 0.3");
+        add_one(m, "|, critical_stretch: 0.02|, energy_release_rate: 1e-4|, toughness: 0.01|, yield_stress: 0.01|, "
+                   "poisson: 0.3");
         add(m, "}\n");
     }
     add(m, "bodies:\n  - {name: a, material: m0, shape: [");
@@ -83,13 +85,17 @@ static void add_bodies(struct maker *m, double *edge)
 static void add_methods(struct maker *m)
 {
     add(m, "method: "), add_one(m, "adaptive|pd|mpm|adaptive"), add(m, "\nmodel: "), add_one(m, "bond|bond|ospd|mospd");
-    add(m, "\nparticles: {spacing: 1, horizon: "), add_one(m, "3.015|3|2.015|4.2|1.5|6.015"), add_one(m, "|, irregularity: 0.2|, irregularity: 1");
-    add(m, "}\npd: {volume: "), add_one(m, "whole|ramp|cut-ramp"), add_one(m, "|, calibration: continuum|, calibration: vmpd");
+    add(m, "\nparticles: {spacing: 1, horizon: "), add_one(m, "3.015|3|2.015|4.2|1.5|6.015"),
+        add_one(m, "|, irregularity: 0.2|, irregularity: 1");
+    add(m, "}\npd: {volume: "), add_one(m, "whole|ramp|cut-ramp"),
+        add_one(m, "|, calibration: continuum|, calibration: vmpd");
     add_one(m, "|, surface: none|, surface: volume"), add_one(m, "|, weights: isotropic"), add(m, "}\nmpm: {cell: ");
     add_one(m, "2|1|1.5|3|8"), add_one(m, "|, shape: linear|, shape: cpgimp|, shape: quadratic|, shape: cubic");
-    add_one(m, "|, transfer: flip|, transfer: apic"), add_one(m, "|, frame: current|, frame: reference"), add_one(m, "|, strain: small");
+    add_one(m, "|, transfer: flip|, transfer: apic"), add_one(m, "|, frame: current|, frame: reference"),
+        add_one(m, "|, strain: small");
     add(m, "}\n"), add_one(m, "|coupling: handshake\n|coupling: pm\n|coupling: pg\n|coupling: pmg\n|coupling: pgg\n");
-    add_one(m, "|conversion: {stress: 0.01}\n|conversion: {stress: 0.01, return: true}\n|conversion: {criteria: none}\n|conversion: {block: false}\n");
+    add_one(m, "|conversion: {stress: 0.01}\n|conversion: {stress: 0.01, return: true}\n|conversion: {criteria: "
+               "none}\n|conversion: {block: false}\n");
     add_one(m, "||time: {safety: 0.2}\n|time: {safety: 1.9}\n|time: {step: 0.1}\n|time: {rest: false}\n");
 }
 
@@ -100,14 +106,18 @@ static void add_loads(struct maker *m, const double *edge)
     if (choose(m, 2)) {
         add(m, "  - {name: c1, "), add_one(m, "traction: |velocity: |body_force: "), add_vector(m, -0.05, 0.05);
         add_one(m, ", face: x+|, face: y-|");
-        add_one(m, "|, time: {step: {until: 2}}|, time: {ramp: {until: 5}}|, time: {pulse: {from: 0, until: 3}}"), add(m, "}\n");
+        add_one(m, "|, time: {step: {until: 2}}|, time: {ramp: {until: 5}}|, time: {pulse: {from: 0, until: 3}}"),
+            add(m, "}\n");
     }
     add_one(m, "||  - {mirror: {axis: x, at: 0}}\n");
     add(m, "initial:\n  - {velocity: "), add_vector(m, -0.1, 0.1), add(m, "}\n");
     if (m->dim == 2 && choose(m, 2)) {
-        add(m, "cracks:\n  - {from: "), add_vector(m, 0, edge[0]), add(m, ", to: "), add_vector(m, 0, edge[1]), add(m, "}\n");
+        add(m, "cracks:\n  - {from: "), add_vector(m, 0, edge[0]), add(m, ", to: "), add_vector(m, 0, edge[1]),
+            add(m, "}\n");
     }
-    add(m, "probes: ["), add_one(m, "tip|break|energy|momentum|tip, break, energy|patch|reaction: {boundary: c0}|rigid|spall"), add(m, "]\n");
+    add(m, "probes: ["),
+        add_one(m, "tip|break|energy|momentum|tip, break, energy|patch|reaction: {boundary: c0}|rigid|spall"),
+        add(m, "]\n");
     add(m, "output: {frames: 2, samples: 1000000}\n");
 }
 
@@ -117,12 +127,14 @@ static void judge(const struct engine *e, const char *when)
     const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++) {
         for (int d = 0; d < p->dim; d++)
-            if (!isfinite(p->x[d][i]) || !isfinite(p->v[d][i])) fuzz_fail("a place or a velocity that is no number", when);
+            if (!isfinite(p->x[d][i]) || !isfinite(p->v[d][i]))
+                fuzz_fail("a place or a velocity that is no number", when);
         for (int k = 0; k < symmetric_count(p->dim); k++)
             if (!isfinite(p->stress[k][i])) fuzz_fail("a stress that is no number", when);
         if (!(p->damage[i] >= -1e-9 && p->damage[i] <= 1 + 1e-9)) fuzz_fail("damage is not within 0 and 1", when);
     }
-    if (!isfinite(e->watch.now.balance_error) || !isfinite(e->watch.now.momentum_error)) fuzz_fail("a balance that is no number", when);
+    if (!isfinite(e->diagnostics.now.balance_error) || !isfinite(e->diagnostics.now.momentum_error))
+        fuzz_fail("a balance that is no number", when);
 }
 
 static void run(const char *text)
@@ -140,7 +152,8 @@ static void run(const char *text)
         engine_free(&e);
         scene_free(&s);
     }
-    if (done != OK && (!status_message()[0] || strchr(status_message(), '\n'))) fuzz_fail("ended without a line", status_message());
+    if (done != OK && (!status_message()[0] || strchr(status_message(), '\n')))
+        fuzz_fail("ended without a line", status_message());
 }
 
 void fuzz_valid(const uint8_t *bytes, size_t n)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: functions that no small scene and no other command reaches, by file, in build-coverage/uncovered.txt: to be read, there is no
+# Functions that no small scene and no other command reaches, by file, in build-coverage/uncovered.txt: to be read, there is no
 # share to be met. Benchmarks are left out.
 test_name=long_coverage
 . tests/support/summary.sh

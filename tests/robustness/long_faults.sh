@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: every call of the whole process fails once, libraries included; and file systems that give no space, no names, no leave to write,
+# Every call of the whole process fails once, libraries included; and file systems that give no space, no names, no leave to write,
 # or go away. What was kept stays whole, and runs go on from it once they may.
 test_name=long_faults
 [ ! -w /dev/shm ] || export TMPDIR=/dev/shm       # no disk to wait for
@@ -75,7 +75,7 @@ for what in run run/frames; do
     mv "$work/gone/$what" "$work/gone/moved"
     wait $process
     result=$?
-    refusing "$what goes" "cannot write .*No such file"
+    refusing "$what goes" "cannot write .*No such file\|was moved, removed or exchanged"
 done
 result=0
 "$cleave" run -q -o "$work/$(awk 'BEGIN { for (k = 0; k < 300; k++) printf "n" }')" $small 2>"$work/err" || result=$?

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: the fuzzer on all of its targets, 40 seconds each or as many as the argument says; `make fuzz FUZZ_SECONDS=3600`. SEED repeats one.
+# The fuzzer on all of its targets, 40 seconds each or as many as the argument says; `make fuzz FUZZ_SECONDS=3600`. SEED repeats one.
 test_name=long_fuzz
 seconds=${1:-40} build=${BUILD:-build} seed=${SEED:-$(date +%s)}
 program=$(pwd)/$build/fuzz/fuzz inputs=$(pwd)/inputs failures=0

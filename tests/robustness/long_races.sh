@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: data races: small scenes of every kind on 2 and 3 threads under ThreadSanitizer, with clang's OpenMP library and Archer, which
+# Data races: small scenes of every kind on 2 and 3 threads under ThreadSanitizer, with clang's OpenMP library and Archer, which
 # tells the sanitizer what a team's barriers order. RACES_CC: clang by another name.
 test_name=long_races
 . tests/support/summary.sh

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: memory, undefined behaviour and leaks: small scenes of every kind, the other commands and refusals under the address and
+# Memory, undefined behaviour and leaks: small scenes of every kind, the other commands and refusals under the address and
 # the undefined-behaviour sanitizer. SETS: sets of kernels; the portable one alone as a rule, since each takes minutes to build.
 test_name=long_sanitizers
 . tests/support/summary.sh

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: the same bits under every setting of threads, allocator, locale, limits and environment.
+# The same bits under every setting of threads, allocator, locale, limits and environment.
 test_name=long_settings
 [ ! -w /dev/shm ] || export TMPDIR=/dev/shm       # no disk to wait for
 . tests/support/summary.sh

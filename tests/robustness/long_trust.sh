@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: test_trust.sh at length: 200 kills, stops at random moments, many threads, a full disk at every size.
+# Test_trust.sh at length: 200 kills, stops at random moments, many threads, a full disk at every size.
 test_name=long_trust
 . tests/support/summary.sh
 . tests/support/trust.sh

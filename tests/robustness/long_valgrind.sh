@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: values that are used before they are set, and memory that is lost: tiny scenes under valgrind, which knows no AVX-512, with
+# Values that are used before they are set, and memory that is lost: tiny scenes under valgrind, which knows no AVX-512, with
 # the portable kernels.
 test_name=long_valgrind
 . tests/support/summary.sh

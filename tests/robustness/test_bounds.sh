@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: what is past all sense: numbers that doubles cannot bear, cells that are folded, energies that leave, names that a terminal obeys.
+# What is past all sense: numbers that doubles cannot bear, cells that are folded, energies that leave, names that a terminal obeys.
 test_name=test_bounds
 . tests/support/summary.sh
 . tests/support/trust.sh

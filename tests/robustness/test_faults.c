@@ -1,6 +1,6 @@
-/* floor 5: nothing is lost: every call of ours fails once, runs are stopped and killed in the midst of what they do, checkpoints are
- * damaged; --resume always gets to the bits of a run that nobody disturbed. `test_faults whole` does the same with the calls of the
- * whole process, libraries included (tests/robustness/long_faults.sh). */
+/* Nothing is lost: every call of ours fails once, runs are stopped and killed in the midst of what they do,
+ * checkpoints are damaged; --resume always gets to the bits of a run that nobody disturbed. `test_faults whole` does
+ * the same with the calls of the whole process, libraries included (tests/robustness/long_faults.sh). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "faults.h"
 
 #ifndef __linux__
@@ -31,12 +32,13 @@ int main(void)
 #include <unistd.h>
 
 #include "fault_scenes.h"
+#include "same_files.h"
 #include "scene/scene.h"
 #include "trees.h"
 
 int __wrap_main(int argc, char **argv);
 
-enum { NAME = 256, SIGNAL = 1000, PATIENCE = 20 };             /* SIGNAL + 9: ended by signal 9; seconds until a run hangs */
+enum { NAME = 256, SIGNAL = 1000, PATIENCE = 20 };        /* SIGNAL + 9: ended by signal 9; seconds until a run hangs */
 static const struct fault_plan undisturbed = {.deed = DO_NOTHING};
 
 static long *count;                      /* of the last run, in shared memory */
@@ -53,7 +55,7 @@ static void complain(const char *format, ...)
     wrong++;
 }
 
-/* ---- files --------------------------------------------------------------------------------------------------------------- */
+/* ---- files ------------------------------------------------------------------------------------------------------- */
 
 /* A run: the folder it is in, its scene and what it said. */
 struct place { char folder[NAME], scene[NAME], said[NAME]; };
@@ -87,65 +89,20 @@ static const char *said(const struct place *p, int *lines)
     return line;
 }
 
-/* Two summaries agree as far as the machine has no part in them. */
-static bool same_figures(const char *a, const char *b)
-{
-    char x[1024], y[1024];
-    FILE *f = fopen(a, "r"), *g = fopen(b, "r");
-    bool same = f && g;
-    while (same && fgets(x, sizeof x, f) && !strstr(x, "\"threads\"")) same = fgets(y, sizeof y, g) && strcmp(x, y) == 0;
-    if (f) fclose(f);
-    if (g) fclose(g);
-    return same;
-}
-
-/* The walk over a reference: each of its files must be in the other folder, with the same bytes. */
-static const char *other;
-static size_t reference_length;
-static int files, differing;
-
-/* Checkpoints hold times taken; a lock that cannot be removed does not bind. */
-static bool is_beside(const char *name) { return name[0] == '.' || strncmp(name, "checkpoint", 10) == 0; }
-
-static int compare_one(const char *path, const struct stat *s, int type, struct FTW *walk)
-{
-    char there[2 * NAME];
-    (void)s;
-    if (type != FTW_F || is_beside(path + walk->base)) return 0;
-    snprintf(there, sizeof there, "%s%s", other, path + reference_length);
-    const bool same = strcmp(path + walk->base, "summary.json") == 0 ? same_figures(path, there) : fault_hash(path) == fault_hash(there);
-    files++;
-    if (!same) differing++, printf("    %s differs\n", there);
-    return 0;
-}
-
-static int count_one(const char *path, const struct stat *s, int type, struct FTW *walk)
-{
-    (void)s;
-    const size_t length = strlen(path);
-    if (type == FTW_F && !is_beside(path + walk->base)) files--;
-    if (length > 4 && strcmp(path + length - 4, ".tmp") == 0) files += 1000;
-    return 0;
-}
-
-/* The same files with the same bytes, and none besides. */
 static bool same(const struct place *reference, const struct place *p)
 {
-    other = p->folder, reference_length = strlen(reference->folder), files = differing = 0;
-    nftw(reference->folder, compare_one, 8, FTW_PHYS);
-    const bool some = files > 4;
-    nftw(p->folder, count_one, 8, FTW_PHYS);
-    if (files != 0) printf("    %s: other files than those of %s\n", p->folder, reference->folder);
-    return some && files == 0 && differing == 0;
+    return same_files(reference->folder, p->folder);
 }
 
-/* ---- runs ------------------------------------------------------------------------------------------------------------------- */
+/* ---- runs -------------------------------------------------------------------------------------------------------- */
 
 static _Noreturn void run_here(const struct fault_plan *plan, const struct place *p, int threads, bool resume)
 {
     char number[16];
     snprintf(number, sizeof number, "%d", threads);
-    char *words[] = {"cleave", "run", "-q", "-t", number, "-o", (char *)p->folder, (char *)p->scene, resume ? "--resume" : NULL, NULL};
+    char *words[] = {
+        "cleave", "run", "-q", "-t", number, "-o", (char *)p->folder, (char *)p->scene, resume ? "--resume" : NULL,
+        NULL};
     const int out = open("/dev/null", O_WRONLY), err = open(p->said, O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (out < 0 || err < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0) _exit(99);
     close(out), close(err);
@@ -210,10 +167,11 @@ static int in_two(void (*share)(int worker))
     return all;
 }
 
-/* ---- every call fails once --------------------------------------------------------------------------------------------------- */
+/* ---- every call fails once --------------------------------------------------------------------------------------- */
 
-/* Every `step`-th call of a run fails. A run that fails here is resumed for each `look`-th of these, and a resumed one, stopped at sample 2
- * before, meets them only then, too. `lossy`: libraries do not survive it; only that nothing is lost is asked for. */
+/* Every `step`-th call of a run fails. A run that fails here is resumed for each `look`-th of these, and a resumed
+ * one, stopped at sample 2 before, meets them only then, too. `lossy`: libraries do not survive it; only that
+ * nothing is lost is asked for. */
 struct sweep { enum fault_call call; int cause, step, look; bool lossy; };
 
 static const struct sweep own_sweeps[] = {
@@ -243,7 +201,8 @@ static void outcome(const char *what, const struct place *p, int end, int cause)
     }
     if (end != 1 && end != 2) complain("%s: status %d: %s", what, end, line);
     else if (lines != 1) complain("%s: %d lines: %s", what, lines, line);
-    else if (!strstr(line, strerror(cause)) && !(cause == ENOMEM && strstr(line, "memory"))) complain("%s: no cause in: %s", what, line);
+    else if (!strstr(line, strerror(cause)) && !(cause == ENOMEM && strstr(line, "memory")))
+        complain("%s: no cause in: %s", what, line);
 }
 
 static void fail_at(const struct sweep *s, long number, const struct place *p, bool resumed, bool look)
@@ -270,7 +229,9 @@ static void sweep_share(int worker)
         memcpy(most[resumed], count, sizeof most[resumed]);
     }
     for (const struct sweep *s = sweeps; s < sweeps + sweep_count; s++) {
-        if (worker == 0) printf("%s: %ld and %ld calls, one in %d\n", fault_name[s->call], most[0][s->call], most[1][s->call], s->step);
+        if (worker == 0)
+            printf("%s: %ld and %ld calls, one in %d\n", fault_name[s->call], most[0][s->call], most[1][s->call],
+                   s->step);
         if (most[0][s->call] + most[1][s->call] == 0) complain("%s: never called", fault_name[s->call]);
         for (int resumed = 0; resumed < 2; resumed++)
             for (long k = worker; 1 + k * s->step <= most[resumed][s->call]; k += 2) {
@@ -287,7 +248,7 @@ static void failing_calls_lose_nothing(void **state)
     assert_int_equal(in_two(sweep_share), 0);
 }
 
-/* ---- stopped and killed ------------------------------------------------------------------------------------------------------- */
+/* ---- stopped and killed ------------------------------------------------------------------------------------------ */
 
 static void every_probe_is_watched(void **state)
 {
@@ -295,7 +256,8 @@ static void every_probe_is_watched(void **state)
     (void)state;
     for (size_t k = 0; k < COUNT_OF(fault_scenes); k++) {
         struct scene s;
-        if (scene_read_text(&s, fault_scenes[k].text, strlen(fault_scenes[k].text), fault_scenes[k].name, NULL, 0) != OK)
+        if (scene_read_text(&s, fault_scenes[k].text, strlen(fault_scenes[k].text), fault_scenes[k].name, NULL, 0) !=
+            OK)
             fail_msg("%s", status_message());
         for (int q = 0; q < s.probes; q++) watched[s.probe[q].kind] = true;
         scene_free(&s);
@@ -304,8 +266,8 @@ static void every_probe_is_watched(void **state)
         if (!watched[kind]) fail_msg("no scene has probe %d", kind);
 }
 
-/* A run that is ended `times` times, each time by `deed` at the `number`-th call of `place` (0: such that it gets through), and goes on
- * each time on another number of threads. */
+/* A run that is ended `times` times, each time by `deed` at the `number`-th call of `place` (0: such that it gets
+ * through), and goes on each time on another number of threads. */
 static void disturb(const struct fault_scene *s, enum fault_call place, long number, enum fault_deed deed, int times)
 {
     const struct place reference = reference_of(s), p = place_of("disturbed", s);
@@ -317,7 +279,8 @@ static void disturb(const struct fault_scene *s, enum fault_call place, long num
     for (int k = 0; k < times; k++) {
         const int end = run(&plan, &p, 1 + k % 3, k > 0);
         int lines;
-        if (end != expected) complain("%s, ended at %s, time %d: status %d: %s", s->name, fault_name[place], k, end, said(&p, &lines));
+        if (end != expected)
+            complain("%s, ended at %s, time %d: status %d: %s", s->name, fault_name[place], k, end, said(&p, &lines));
     }
     snprintf(what, sizeof what, "%s, ended at %s", s->name, fault_name[place]);
     resumes(what, &reference, &p, 2);
@@ -325,7 +288,8 @@ static void disturb(const struct fault_scene *s, enum fault_call place, long num
 
 static void stop_share(int worker)
 {
-    for (size_t k = (size_t)worker; k < COUNT_OF(fault_scenes); k += 2) disturb(&fault_scenes[k], AT_SAMPLE, 0, DO_STOP, 4);
+    for (size_t k = (size_t)worker; k < COUNT_OF(fault_scenes); k += 2)
+        disturb(&fault_scenes[k], AT_SAMPLE, 0, DO_STOP, 4);
 }
 
 static void stopped_runs_resume(void **state)
@@ -347,7 +311,7 @@ static void killed_runs_resume(void **state)
     assert_int_equal(in_two(kill_share), 0);
 }
 
-/* ---- order -------------------------------------------------------------------------------------------------------------------- */
+/* ---- order ------------------------------------------------------------------------------------------------------- */
 
 static void folder_of(const char *path, char *folder)
 {
@@ -359,8 +323,8 @@ static void folder_of(const char *path, char *folder)
 
 struct log_line { char what[8], path[NAME], to[NAME]; unsigned long hash; };
 
-/* Line `from` and those before it (`step` -1) or behind it (1): the first sync of this path, -1 where there is none before a line of
- * `end` (NULL: none ends it). */
+/* Line `from` and those before it (`step` -1) or behind it (1): the first sync of this path, -1 where there is none
+ * before a line of `end` (NULL: none ends it). */
 static int find_sync(const struct log_line *line, int lines, int from, int step, const char *path, const char *end)
 {
     for (int k = from; k >= 0 && k < lines; k += step) {
@@ -390,7 +354,9 @@ static int read_log(struct log_line *line, int room)
     int lines = 0;
     FILE *f = fopen("log", "r");
     while (f && lines < room &&
-           fscanf(f, "%7s %255s %255s %lu\n", line[lines].what, line[lines].path, line[lines].to, &line[lines].hash) == 4) lines++;
+           fscanf(f, "%7s %255s %255s %lu\n", line[lines].what, line[lines].path, line[lines].to, &line[lines].hash) ==
+               4)
+        lines++;
     if (f) fclose(f);
     return lines;
 }
@@ -421,13 +387,14 @@ static void files_are_synced_in_order(void **state)
         if (strcmp(line[k].what, "mkdir") != 0) continue;
         folder_of(line[k].path, folder), folders++;
         const int synced = find_sync(line, lines, k, 1, folder, NULL);
-        if (synced < 0 || synced > checkpoint) complain("the name of the new folder %s is not on the disk", line[k].path);
+        if (synced < 0 || synced > checkpoint)
+            complain("the name of the new folder %s is not on the disk", line[k].path);
     }
     assert_true(renames > 10 && folders == 3);
     assert_int_equal(wrong, 0);
 }
 
-/* ---- damage ------------------------------------------------------------------------------------------------------------------- */
+/* ---- damage ------------------------------------------------------------------------------------------------------ */
 
 /* Inverts a bit of a file. */
 static bool flip(const char *path, uint64_t at)
@@ -455,9 +422,11 @@ static void flip_share(int worker)
         int lines;
         remove_tree(p.folder);
         snprintf(what, sizeof what, "flip %d", (int)k);
-        if (run(&stop, &p, 1, false) != 130 || !flip(newest, k * UINT64_C(0x9E3779B97F4A7C15) >> 16)) complain("%s: no checkpoint", what);
+        if (run(&stop, &p, 1, false) != 130 || !flip(newest, k * UINT64_C(0x9E3779B97F4A7C15) >> 16))
+            complain("%s: no checkpoint", what);
         resumes(what, &small_reference, &p, 1);
-        if (!strstr(said(&p, &lines), "resuming from checkpoint.previous.h5")) complain("%s is not found: %s", what, said(&p, &lines));
+        if (!strstr(said(&p, &lines), "resuming from checkpoint.previous.h5"))
+            complain("%s is not found: %s", what, said(&p, &lines));
     }
 }
 

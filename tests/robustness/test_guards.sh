@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: guards round a run: whose folder it is, what an older run there is worth, and descriptors that are not there.
+# Guards round a run: whose folder it is, what an older run there is worth, and descriptors that are not there.
 test_name=test_guards
 . tests/support/summary.sh
 . tests/support/trust.sh

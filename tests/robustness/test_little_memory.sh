@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: limits of memory: scenes that need more are refused, and whoever runs out, this program or a library, leaves one line.
+# Limits of memory: scenes that need more are refused, and whoever runs out, this program or a library, leaves one line.
 test_name=test_little_memory
 . tests/support/summary.sh
 . tests/support/trust.sh

@@ -1,5 +1,5 @@
-/* floor 5: every number of a frame is finite. `test_numbers FILE...` looks through frames, as tests/support/summary.sh does with those of all scripts;
- * without a file it looks whether it finds what it should. */
+/* Every number of a frame is finite. `test_numbers FILE...` looks through frames, as
+ * tests/support/summary.sh does with those of all scripts; without a file it looks whether it finds what it should. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,7 +38,7 @@ static double *numbers_of(hid_t list, hsize_t *n)
 
 struct search { const char *file; hsize_t bad, lists; };
 
-static herr_t look_at(hid_t file, const char *name, const H5O_info_t *info, void *context)
+static herr_t sync_near(hid_t file, const char *name, const H5O_info_t *info, void *context)
 {
     struct search *s = context;
     if (info->type != H5O_TYPE_DATASET) return 0;
@@ -59,7 +59,7 @@ static struct search look_through(const char *path)
     struct search s = {.file = path};
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) return s;
-    H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, look_at, &s);
+    H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, sync_near, &s);
     H5Fclose(file);
     return s;
 }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: what the program refuses: exit status 2, one line on standard error that says where and what, and nothing left behind.
+# What the program refuses: exit status 2, one line on standard error that says where and what, and nothing left behind.
 test_name=test_refusals
 . tests/support/summary.sh
 cd "$work" || exit 1

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: the sets of kernels: one scene is the same run with each, to round-off; each gives the same bits on any number of
+# The sets of kernels: one scene is the same run with each, to round-off; each gives the same bits on any number of
 # threads; info names them, and a wrong name is refused.
 test_name=test_sets
 . tests/support/summary.sh

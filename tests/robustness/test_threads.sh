@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: how many threads a run takes: physical cores, within the mask, on machines that hwloc makes up.
+# How many threads a run takes: physical cores, within the mask, on machines that hwloc makes up.
 set -eu
 cleave=$(cd "${BUILD:-build}" && pwd)/cleave
 unset OMP_NUM_THREADS OMP_PROC_BIND OMP_PLACES

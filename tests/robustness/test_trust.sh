@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: results can be trusted: the same bits on any number of threads and after any interruption, and no silent failure.
+# Results can be trusted: the same bits on any number of threads and after any interruption, and no silent failure.
 test_name=test_trust
 . tests/support/summary.sh
 . tests/support/trust.sh

@@ -1,6 +1,6 @@
 /* Folders of files, for tests that leave some: removed with all in them. */
-#ifndef CLEAVE_TEST_TREES_H
-#define CLEAVE_TEST_TREES_H
+#ifndef CLEAVE_TESTS_TREES
+#define CLEAVE_TESTS_TREES
 
 #include <ftw.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: second opinion: peridynamics of this program against LAMMPS (peri/pmb), particle by particle, 200 steps.
+# Second opinion: peridynamics of this program against LAMMPS (peri/pmb), particle by particle, 200 steps.
 # BUILD: the folder of the program.
 #
 # A plate of 30 x 30 particles is pulled, sheared and turned by an initial velocity gradient, without breaking (the last

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: the scenes of inputs/ at finer spacings and other time steps: what test_scenes.sh accepts does not hang on either.
+# The scenes of inputs/ at finer spacings and other time steps: what test_scenes.sh accepts does not hang on either.
 test_name=long_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: `method: auto` as users meet it: real scenes reach the accuracy that they ask for, say what was chosen, run again without
+# `method: auto` as users meet it: real scenes reach the accuracy that they ask for, say what was chosen, run again without
 # auto to the same bits; what it cannot do is refused with one line that says what is nearest.
 test_name=test_auto
 . tests/support/summary.sh
@@ -122,7 +122,7 @@ printf 'problem\nbar\n' >"$work/bad.csv"
 refused "a bad chart" "bad.csv:1:1: no chart" "$work/pulse.yaml" -s "accuracy_chart=$work/bad.csv"
 
 # A chart of one's own: with peridynamics alone, it is peridynamics.
-{ head -n 1 src/auto/chart.csv; grep '^bar,pulse,pd bond,' src/auto/chart.csv; } >"$work/own.csv"
+{ head -n 1 src/auto/cost_accuracy.csv; grep '^bar,pulse,pd bond,' src/auto/cost_accuracy.csv; } >"$work/own.csv"
 calm "$work/own" "$work/pulse.yaml" -s "accuracy_chart=own.csv" -s accuracy=5%
 is "a chart of one's own" "$(figure "$work/own" auto.picked)" "pd bond"
 finish

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: `cleave bench`: what it refuses, the table of efficiency on a coarse plate, and that of couplings. BUILD: the
+# `cleave bench`: what it refuses, the table of efficiency on a coarse plate, and that of couplings. BUILD: the
 # folder of the program.
 set -eu
 build=$(cd "${BUILD:-build}" && pwd)
@@ -47,18 +47,18 @@ for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; 
 cd ../..
 
 # Three runs of each method at other steps: means and scatter are what the runs say, to the nine digits written.
-"$cleave" bench scatter --quick >out || fail "scatter failed"
+"$cleave" bench sensitivity --quick >out || fail "scatter failed"
 cd results/bench
-[ "$(head -1 scatter.csv)" = \
-    scene,model,method,runs,start,start_scatter,angle_deg,angle_scatter_deg,x,y,z,place_scatter,spacing ] || fail "columns of scatter.csv"
-[ "$(wc -l <scatter.csv)" -eq 3 ] && [ "$(wc -l <scatter_runs.csv)" -eq 7 ] || fail "two methods, three runs each"
+[ "$(head -1 sensitivity.csv)" = \
+    scene,model,method,runs,start,start_scatter,angle_deg,angle_scatter_deg,x,y,z,place_scatter,spacing ] || fail "columns of sensitivity.csv"
+[ "$(wc -l <sensitivity.csv)" -eq 3 ] && [ "$(wc -l <sensitivity_runs.csv)" -eq 7 ] || fail "two methods, three runs each"
 awk -F, 'FNR == 1 { next }
-    FILENAME == "scatter_runs.csv" { n[$3]++; start[$3] += $5; square[$3] += $5 * $5; x[$3] += $7; step[$4] = 1; next }
+    FILENAME == "sensitivity_runs.csv" { n[$3]++; start[$3] += $5; square[$3] += $5 * $5; x[$3] += $7; step[$4] = 1; next }
     { mean = start[$3] / n[$3]; scatter = sqrt(square[$3] / n[$3] - mean * mean); d = ($9 - x[$3] / n[$3]) / $13
       if (!(n[$3] == $4 && $5 / mean < 1 + 1e-6 && $5 / mean > 1 - 1e-6 && d < 1e-6 && d > -1e-6)) bad = 1
       if (!($6 > 0 && $6 / scatter < 1 + 1e-3 && $6 / scatter > 1 - 1e-3)) bad = 1 }
-    END { for (k in step) steps++; exit bad || steps != 3 }' scatter_runs.csv scatter.csv || fail "figures of scatter.csv"
-for file in scatter.json scatter.png scatter.svg; do [ -s $file ] || fail "$file is missing"; done
+    END { for (k in step) steps++; exit bad || steps != 3 }' sensitivity_runs.csv sensitivity.csv || fail "figures of sensitivity.csv"
+for file in sensitivity.json sensitivity.png sensitivity.svg; do [ -s $file ] || fail "$file is missing"; done
 cd ../..
 
 # Scaling over threads and sizes: files, columns, and figures that follow from the others.
@@ -167,9 +167,9 @@ cp "$inputs/edge_crack_k1.yaml" "$inputs/inclined_crack.yaml" "$inputs/load_disp
     inputs
 sed 's/spacing: 0.25 mm/spacing: 0.5 mm/; s/step: 20 ns/step: 40 ns/' "$inputs/semi_infinite_crack.yaml" \
     >inputs/semi_infinite_crack.yaml
-"$cleave" bench factors --quick >out || fail "factors failed"
+"$cleave" bench sif --quick >out || fail "factors failed"
 cd results/bench
-for file in factors.csv factors.json factors.png edge_crack_convergence.csv edge_crack_convergence.png \
+for file in sif.csv sif.json sif.png edge_crack_convergence.csv edge_crack_convergence.png \
     edge_crack_convergence_paper_rings.csv inclined_crack.csv inclined_crack.svg moving_crack.csv moving_crack_curves.csv; do
     [ -s $file ] || fail "$file is missing"
 done

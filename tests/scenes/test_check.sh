@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: what `cleave check` says of a scene: its memory, what it does not resolve, what it does not need; and that it holds its
+# What `cleave check` says of a scene: its memory, what it does not resolve, what it does not need; and that it holds its
 # tongue where there is nothing to say. Run times are not tested: they hang on the machine's load.
 test_name=test_check
 . tests/support/summary.sh

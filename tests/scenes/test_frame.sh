@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: bodies in the reference frame (mpm.frame): beside peridynamics and closed forms, on any number of threads, after any
+# Bodies in the reference frame (mpm.frame): beside peridynamics and closed forms, on any number of threads, after any
 # interruption; and what cannot be there is refused.
 test_name=test_frame
 . tests/support/summary.sh

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: cracks that grow as they are told: what is refused, the same bits on any number of threads and after a stop in
+# Cracks that grow as they are told: what is refused, the same bits on any number of threads and after a stop in
 # the middle of fading, in peridynamics and among material points; stress-intensity factors, released energy and
 # oscillations beside the closed form (Freund 1990), with transition bonds and without (Imachi et al. 2019).
 test_name=test_growth

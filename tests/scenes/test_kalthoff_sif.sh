@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: a crack led by stress-intensity factors: the plate with two notches of inputs/kalthoff_sif.yaml, on regular and
+# A crack led by stress-intensity factors: the plate with two notches of inputs/kalthoff_sif.yaml, on regular and
 # irregular particles, with factors known at every step, and seldom.
 test_name=test_kalthoff_sif
 . tests/support/summary.sh

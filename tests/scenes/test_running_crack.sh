@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: cracks whose speed follows their toughness: a semi-infinite one that plane waves load, beside the crack-tip equation
+# Cracks whose speed follows their toughness: a semi-infinite one that plane waves load, beside the crack-tip equation
 # of motion k(v) K_still(t) = K_Ic (Freund 1990); two tips at once, each ruled by its own factors; threads and restarts; the
 # energy that cracks of given and of following speed release, beside A_I(v) K^2 (1 - nu^2)/E.
 test_name=test_running_crack

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: the scenes of inputs/ do what they promise, by the figures of summary.json.
+# The scenes of inputs/ do what they promise, by the figures of summary.json.
 test_name=test_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh

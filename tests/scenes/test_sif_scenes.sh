@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: stress-intensity factors of inputs/: an edge crack against the closed form, by all models, both solvers and in
+# Stress-intensity factors of inputs/: an edge crack against the closed form, by all models, both solvers and in
 # adaptive coupling, and an inclined crack in both modes.
 test_name=test_sif_scenes
 . tests/support/summary.sh

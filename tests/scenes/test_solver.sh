@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: static solvers from the command line: the edge crack by both, what the summary says, the same bits on any number of
+# Static solvers from the command line: the edge crack by both, what the summary says, the same bits on any number of
 # threads and after kills, and what is refused.
 test_name=test_solver
 . tests/support/summary.sh

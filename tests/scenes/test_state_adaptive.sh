@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: state-based bonds in adaptive runs: trust, momentum, a pulse across the interface, and cracks that turn.
+# State-based bonds in adaptive runs: trust, momentum, a pulse across the interface, and cracks that turn.
 test_name=test_state_adaptive
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,6 +1,6 @@
-/* floor 5: small bodies set by hand, a notched plate, and archives in memory, for what watches a run. */
-#ifndef CLEAVE_BODIES_H
-#define CLEAVE_BODIES_H
+/* Small bodies set by hand, a notched plate, and archives in memory, for what watches a run. */
+#ifndef CLEAVE_TESTS_BODIES
+#define CLEAVE_TESTS_BODIES
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 /* Sums of a few hundred terms of order one: their round-off is below a hundred times 2^-53. */
 #define ROUND_OFF 1e-13
 
-/* ---- a lattice of spacing 1 m, particles at half-integers --------------------------------------------- */
+/* ---- a lattice of spacing 1 m, particles at half-integers -------------------------------------------------------- */
 
 struct body { struct particles p; struct cells c; };
 
@@ -53,7 +53,7 @@ static inline int64_t particle_at(const struct body *b, real x, real y, real z)
 
 static inline void hurt(struct body *b, real x, real y, real z) { b->p.damage[particle_at(b, x, y, z)] = 0.5; }
 
-/* ---- archives in memory -------------------------------------------------------------------------------- */
+/* ---- archives in memory ------------------------------------------------------------------------------------------ */
 
 enum { ENTRIES = 64 };
 struct store { int n; struct { char name[64]; size_t size; char *data; } entry[ENTRIES]; };

@@ -1,6 +1,6 @@
-/* floor 4: small bodies made by hand for tests: a lattice, shaken if wanted, with its family, cells and bonds. */
-#ifndef CLEAVE_TEST_CLOUD_H
-#define CLEAVE_TEST_CLOUD_H
+/* Small bodies made by hand for tests: a lattice, shaken if wanted, with its family, cells and bonds. */
+#ifndef CLEAVE_TESTS_CLOUD
+#define CLEAVE_TESTS_CLOUD
 
 #include <math.h>
 #include <string.h>
@@ -92,7 +92,7 @@ static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
         p->kind[i] = KIND_PD;
         p->id[i] = (int32_t)i;
         for (int d = 0; d < dim && plan->optional & WITH_STRETCH; d++) p->stretch[d][i] = 1;
-        if (dim == 3 && plan->optional & WITH_TURNS) p->end_turn[ROTATION - 1][i] = 1;
+        if (dim == 3 && plan->optional & WITH_ROTATIONS) p->end_rotation[ROTATION - 1][i] = 1;
     }
     particles_list(p);
 }
@@ -106,10 +106,10 @@ static inline void cloud_exact(struct cloud *c)
 }
 
 /* All bonds where they are stored. */
-static inline void cloud_unfold(const struct bonds *b)
+static inline void cloud_unfold(struct bonds *b)
 {
-    for (int64_t g = 0; g < b->groups; g++)
-        if (b->folded[g]) group_unfold(b, g);
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        if (b->implicit[g]) row_block_expand(b, g);
 }
 
 /* What bonds are made from, once kinds, bodies and materials are as the test wants them. */
@@ -148,7 +148,7 @@ static inline void cloud_strain(struct cloud *c, const real strain[DIM_MAX][DIM_
 
 static inline void cloud_free(struct cloud *c)
 {
-    if (c->bonds.slot) bonds_free(&c->bonds);
+    if (c->bonds.column) bonds_free(&c->bonds);
     if (c->cells.start) cells_free(&c->cells);
     memory_free(c->neighbour_volume);
     particles_free(&c->p);

@@ -1,8 +1,8 @@
-/* floor 0: eigenvalues of small dense matrices, for tests: symmetric ones by Householder's reduction and QL (tred1, tql1), any
- * others by Hessenberg's form and QR (elmhes, hqr), after Wilkinson & Reinsch 1971. Matrices are row major and are
- * overwritten. */
-#ifndef CLEAVE_EIGEN_H
-#define CLEAVE_EIGEN_H
+/* Eigenvalues of small dense matrices, for tests: symmetric ones by Householder's reduction and QL (tred1,
+ * tql1), any others by Hessenberg's form and QR (elmhes, hqr), after Wilkinson & Reinsch 1971. Matrices are row
+ * major and are overwritten. */
+#ifndef CLEAVE_TESTS_EIGEN
+#define CLEAVE_TESTS_EIGEN
 
 #include <float.h>
 #include <math.h>
@@ -10,7 +10,7 @@
 
 #include "base/base.h"
 
-/* ---- symmetric -------------------------------------------------------------------------------------------------- */
+/* ---- symmetric --------------------------------------------------------------------------------------------------- */
 
 /* Row i of a symmetric matrix, of which the lower half is kept, loses all but one entry beside its diagonal. */
 static inline void eigen_reduce_row(real *a, int64_t n, int64_t i, real *d, real *e)
@@ -84,7 +84,7 @@ static inline void eigen_symmetric(real *a, int64_t n, real *d, real *e)
     qsort(d, (size_t)n, sizeof *d, eigen_ascending);
 }
 
-/* ---- any other -------------------------------------------------------------------------------------------------- */
+/* ---- any other --------------------------------------------------------------------------------------------------- */
 
 /* Similar to it, and 0 below the first diagonal under the main one. */
 static inline void eigen_hessenberg(real *a, int64_t n)
@@ -171,8 +171,8 @@ static inline void eigen_start(real *a, int64_t n, int64_t l, int64_t high, real
     eigen_double_step(a, n, l, m, high, p, q, r);
 }
 
-/* Largest |imaginary part| of the eigenvalues of any matrix, and in `real_least` the least real part; NAN where it does not
- * converge. */
+/* Largest |imaginary part| of the eigenvalues of any matrix, and in `real_least` the least real part; NAN where it
+ * does not converge. */
 static inline real eigen_imaginary(real *a, int64_t n, real *real_least)
 {
     real most = 0, shift = 0, norm = 0;

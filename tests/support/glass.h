@@ -1,6 +1,6 @@
-/* floor 4: the glass of Imachi et al. 2019, for tests of crack tips. */
-#ifndef CLEAVE_GLASS_H
-#define CLEAVE_GLASS_H
+/* The glass of Imachi et al. 2019, for tests of crack tips. */
+#ifndef CLEAVE_TESTS_GLASS
+#define CLEAVE_TESTS_GLASS
 
 #include "fracture/sif_fields.h"
 

@@ -1,6 +1,6 @@
-/* floor 3: a block of points in the reference frame for tests of its mesh, and the plain twin of its energy. */
-#ifndef CLEAVE_MESH_BLOCK_H
-#define CLEAVE_MESH_BLOCK_H
+/* A block of points in the reference frame for tests of its mesh, and the plain twin of its energy. */
+#ifndef CLEAVE_TESTS_MESH_BLOCK
+#define CLEAVE_TESTS_MESH_BLOCK
 
 #include "src/mesh/mesh_parts.h"
 
@@ -69,7 +69,7 @@ static real node_place(const struct mesh *mesh, int64_t I, int d)
 }
 
 /* u = (R - 1) X by an angle about z, then stretched along x. */
-static void turn(struct block *b, real angle, real stretch)
+static void rotation(struct block *b, real angle, real stretch)
 {
     const int dim = b->c.p.dim;
     for (int64_t I = 0; I < b->mesh.grid.n; I++) {
@@ -77,12 +77,13 @@ static void turn(struct block *b, real angle, real stretch)
         if (b->mesh.grid.mass[I] == 0) continue;
         for (int d = 0; d < dim; d++) X[d] = node_place(&b->mesh, I, d);
         x[0] = (1 + stretch) * X[0], x[1] = X[1], x[2] = X[2];
-        const real y[DIM_MAX] = {dim > 1 ? cos(angle) * x[0] - sin(angle) * x[1] : x[0], sin(angle) * x[0] + cos(angle) * x[1], x[2]};
+        const real y[DIM_MAX] = {dim > 1 ? cos(angle) * x[0] - sin(angle) * x[1] : x[0],
+                                 sin(angle) * x[0] + cos(angle) * x[1], x[2]};
         for (int d = 0; d < dim; d++) b->mesh.displacement[d][I] = y[d] - X[d];
     }
 }
 
-/* ---- plain twin: energy point by point -------------------------------------------------------------------- */
+/* ---- plain twin: energy point by point --------------------------------------------------------------------------- */
 
 static real point_energy(const struct block *b, int64_t i, bool finite)
 {
@@ -142,7 +143,8 @@ static real largest_force(const struct block *b)
 }
 
 /* Partial stress of every point: any symmetric T up to `most` of the shear modulus, M = T C^-1. */
-static void partial_of(struct partial_stress *partial, const struct particles *p, const struct material *material, real most)
+static void partial_of(struct partial_stress *partial, const struct particles *p, const struct material *material,
+                       real most)
 {
     const int n = symmetric_count(p->dim);
     uint64_t seed = 17;

@@ -1,6 +1,6 @@
-/* floor 5: the few assertions that cmocka lacks: numbers with a tolerance, and statuses with their message. */
-#ifndef CLEAVE_NEAR_H
-#define CLEAVE_NEAR_H
+/* The few assertions that cmocka lacks: numbers with a tolerance, and statuses with their message. */
+#ifndef CLEAVE_TESTS_NEAR
+#define CLEAVE_TESTS_NEAR
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,8 @@
-/* floor 5: the linearised operator of small bodies: the stiffness K of their internal forces by differences, through the engine.
- * Unknowns are the displacements of peridynamic particles and of the nodes of the reference frame's mesh that nothing holds. */
-#ifndef CLEAVE_OPERATOR_H
-#define CLEAVE_OPERATOR_H
+/* The linearised operator of small bodies: the stiffness K of their internal forces by differences, through
+ * the engine. Unknowns are the displacements of peridynamic particles and of the nodes of the reference frame's mesh
+ * that nothing holds. */
+#ifndef CLEAVE_TESTS_OPERATOR
+#define CLEAVE_TESTS_OPERATOR
 
 #include <string.h>
 
@@ -26,14 +27,14 @@ struct spectrum {
     real asymmetry;                      /* max |K - K^T| over max |K| */
     real lowest, highest;                /* [1/s^2] */
     int64_t zeros;                       /* eigenvalues below OPERATOR_ZERO of the highest */
-    real energy;                         /* |energy that the ledger has/(1/2 u K u) - 1| of a body shaken at random */
-    real imaginary;                      /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not asked for */
+    real energy;                   /* |energy that the energy balance has/(1/2 u K u) - 1| of a body shaken at random */
+    real imaginary;                   /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not asked for */
 };
 #define OPERATOR_ZERO 1e-9
 #define OPERATOR_SHAKE 1e-6              /* displacement [spacings]: terms of third order are as much of the energy */
-#define OPERATOR_STEP 2e-4               /* displacement [spacings]: four-point differences are off by 1e-14, round-off by 1e-11 */
+#define OPERATOR_STEP 2e-4    /* displacement [spacings]: four-point differences are off by 1e-14, round-off by 1e-11 */
 
-/* ---- unknowns ----------------------------------------------------------------------------------------------------- */
+/* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
 /* Components of particles that a driven region holds, and of nodes that walls hold or that follow others. */
 static inline uint8_t *operator_held(struct engine *e, bool node)
@@ -44,7 +45,7 @@ static inline uint8_t *operator_held(struct engine *e, bool node)
         const struct grid *g = &e->mesh.grid;
         loads_mesh_walls(&e->loads, &e->mesh, 0, e->dt);
         for (int64_t k = 0; k < g->walls; k++) held[g->wall[k].node] |= (uint8_t)(1 << g->wall[k].component);
-        for (int64_t k = 0; k < g->folds; k++) held[g->fold[k].node] = 7;
+        for (int64_t k = 0; k < g->mirror_nodes; k++) held[g->mirror_node[k].node] = 7;
         return held;
     }
     for (int b = 0; b < e->loads.n; b++)
@@ -70,7 +71,8 @@ static inline void operator_unknowns(struct operator *o)
     uint8_t *held = operator_held(e, false), *held_node = nodes > 0 ? operator_held(e, true) : NULL;
     real *mass = NEW("test.node_mass", nodes + 1, real);
     for (int64_t I = 0; I < nodes; I++) mass[I] = g->mass[I];
-    for (int64_t k = 0; nodes > 0 && k < g->folds; k++) mass[g->fold[k].image] += g->mass[g->fold[k].node];
+    for (int64_t k = 0; nodes > 0 && k < g->mirror_nodes; k++)
+        mass[g->mirror_node[k].image] += g->mass[g->mirror_node[k].node];
     for (int pass = 0; pass < 2; pass++) {
         if (pass > 0) o->unknown = NEW("test.unknown", o->n, struct unknown), o->mass = NEW("test.mass", o->n, real);
         o->n = 0;
@@ -84,7 +86,7 @@ static inline void operator_unknowns(struct operator *o)
     memory_free(mass);
 }
 
-/* ---- forces ------------------------------------------------------------------------------------------------------- */
+/* ---- forces ------------------------------------------------------------------------------------------------------ */
 
 static inline void operator_place(struct operator *o, struct unknown q, real u)
 {
@@ -98,15 +100,16 @@ static inline void operator_forces(struct operator *o, real *f)
 {
     struct engine *e = &o->e;
     struct grid *g = &e->mesh.grid;
-    const int64_t folds = e->mesh.points > 0 ? g->folds : 0;
-    for (int64_t k = 0; k < folds; k++)
+    const int64_t mirror_nodes = e->mesh.points > 0 ? g->mirror_nodes : 0;
+    for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
-            e->mesh.displacement[d][g->fold[k].node] = g->fold[k].sign[d] * e->mesh.displacement[d][g->fold[k].image];
-    if (getenv("OPERATOR_SHOW")) engine_mesh_show(e);
+            e->mesh.displacement[d][g->mirror_node[k].node] =
+                g->mirror_node[k].sign[d] * e->mesh.displacement[d][g->mirror_node[k].image];
+    if (getenv("OPERATOR_SHOW")) engine_mesh_sync(e);
     engine_forces(e);
-    for (int64_t k = 0; k < folds; k++)
+    for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
-            g->force[d][g->fold[k].image] += g->fold[k].sign[d] * g->force[d][g->fold[k].node];
+            g->force[d][g->mirror_node[k].image] += g->mirror_node[k].sign[d] * g->force[d][g->mirror_node[k].node];
     for (int64_t k = 0; k < o->n; k++) {
         const struct unknown q = o->unknown[k];
         f[k] = q.node ? g->force[q.d][q.at] : e->part.f[q.d][q.at];
@@ -132,7 +135,7 @@ static inline void operator_fill(struct operator *o)
     memory_free(f);
 }
 
-/* ---- the whole ------------------------------------------------------------------------------------------------------ */
+/* ---- the whole --------------------------------------------------------------------------------------------------- */
 
 static inline status operator_make(struct operator *o, const struct stability_case *c)
 {
@@ -153,7 +156,7 @@ static inline void operator_free(struct operator *o)
     bench_engine_free(&o->e, &o->s);
 }
 
-/* The ledger's energy of bonds and cells beside half u K u. */
+/* The energy balance's energy of bonds and cells beside half u K u. */
 static inline real operator_energy(struct operator *o)
 {
     struct engine *e = &o->e;
@@ -164,7 +167,8 @@ static inline real operator_energy(struct operator *o)
         operator_place(o, o->unknown[k], u[k]);
     }
     operator_forces(o, f);
-    const real W = e->kernels.bond_energy(&e->bonds, &e->part) + mesh_strain(&e->mesh, &e->part, e->cell_elastic, !o->s.small_strain);
+    const real W = e->kernels.bond_energy(&e->bonds, &e->part) +
+                   mesh_strain(&e->mesh, &e->part, e->cell_elastic, !o->s.small_strain);
     for (int64_t k = 0; k < o->n * o->n; k++) half += 0.5 * u[k / o->n] * o->K[k] * u[k % o->n];
     for (int64_t k = 0; k < o->n; k++) operator_place(o, o->unknown[k], 0);
     memory_free(u);
@@ -176,7 +180,8 @@ static inline struct spectrum operator_spectrum(struct operator *o, bool imagina
 {
     const int64_t n = o->n;
     struct spectrum s = {.imaginary = NAN, .energy = operator_energy(o)};
-    real *A = NEW("test.A", n * n, real), *d = NEW("test.d", n, real), *scratch = NEW("test.e", n, real), largest = 0, least;
+    real *A = NEW("test.A", n * n, real), *d = NEW("test.d", n, real), *scratch = NEW("test.e", n, real), largest = 0,
+         least;
     for (int64_t k = 0; k < n * n; k++) {
         const int64_t i = k / n, j = k % n;
         largest = real_max(largest, fabs(o->K[k]));
@@ -195,7 +200,8 @@ static inline struct spectrum operator_spectrum(struct operator *o, bool imagina
     return s;
 }
 
-/* One line an unknown (node or particle, its number, component, reference place [m], mass [kg]), then K row by row [N/m]. */
+/* One line an unknown (node or particle, its number, component, reference place [m], mass [kg]), then K row by row
+ * [N/m]. */
 static inline void operator_dump(const struct operator *o, const char *path)
 {
     FILE *to = fopen(path, "w");
@@ -206,8 +212,10 @@ static inline void operator_dump(const struct operator *o, const char *path)
         const struct grid *g = &o->e.mesh.grid;
         fprintf(to, "%d %d %d", q.node, q.at, q.d);
         for (int d = 0; d < DIM_MAX; d++)
-            fprintf(to, " %.9g", d >= o->e.part.dim ? 0 : q.node ? grid_position(g, d, q.at / g->stride[d] % g->count[d])
-                                                                 : o->e.part.X[d][q.at]);
+            fprintf(to, " %.9g",
+                    d >= o->e.part.dim ? 0
+                    : q.node           ? grid_position(g, d, q.at / g->stride[d] % g->count[d])
+                                       : o->e.part.X[d][q.at]);
         fprintf(to, " %.17g\n", o->mass[k]);
     }
     for (int64_t k = 0; k < o->n * o->n; k++) fprintf(to, "%.17g%c", o->K[k], k % o->n == o->n - 1 ? '\n' : ' ');

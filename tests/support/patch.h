@@ -1,9 +1,9 @@
-/* floor 4: a uniformly strained patch of particles of one or both kinds on a grid, and what its nodes feel. */
-#ifndef CLEAVE_TEST_PATCH_H
-#define CLEAVE_TEST_PATCH_H
+/* A uniformly strained patch of particles of one or both kinds on a grid, and what its nodes feel. */
+#ifndef CLEAVE_TESTS_PATCH
+#define CLEAVE_TESTS_PATCH
 
 #include "cloud.h"
-#include "coupling/convert.h"
+#include "coupling/conversion.h"
 #include "kernels/kernels.h"
 
 static inline void at_most(const char *what, real value, real most)

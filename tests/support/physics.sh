@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: what test_physics.sh needs besides: scenes written on the spot, means and fronts of series and profiles.
+# What test_physics.sh needs besides: scenes written on the spot, means and fronts of series and profiles.
 # Sourced after summary.sh and scenes.sh.
 
 # scene NAME: standard input becomes the scene NAME.

@@ -1,7 +1,7 @@
-/* floor 2: plain twins of the bond kernels, written from the formulas and not from the kernels: all pairs, one
+/* Plain twins of the bond kernels, written from the formulas and not from the kernels: all pairs, one
  * particle at a time, whole tensors, no vectors, no threads. Slow and obvious, so that they can be believed. */
-#ifndef CLEAVE_REFERENCE_H
-#define CLEAVE_REFERENCE_H
+#ifndef CLEAVE_TESTS_REFERENCE
+#define CLEAVE_TESTS_REFERENCE
 
 #include <math.h>
 #include <string.h>
@@ -134,10 +134,8 @@ static inline real *reference_table(const struct bonds *b, const struct particle
     real *w = NEW("reference.w", p->n * p->n, real);
     for (int64_t k = 0; k < p->n * p->n; k++) w[k] = NAN;
     for (int64_t row = 0; row < b->rows; row++)
-        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-            int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
-            if (b->inverse_length[q] != 0) w[b->particle[row] * p->n + b->nbr[q]] = b->w[q];
-        }
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+            w[b->particle[row] * p->n + it.bond.nbr] = it.bond.w;
     return w;
 }
 
@@ -229,7 +227,7 @@ static inline void reference_partial(const struct particles *p, const real *w, r
 
 /* T : C^-1 sigma, with C^-1 of the isotropic law written out. */
 static inline void reference_carried(const struct material *m, int dim, real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX],
-                                     const real *sigma, real *carried)
+                                     const real *sigma, real *grid_coupled)
 {
     real s[DIM_MAX][DIM_MAX], trace = 0;
     reference_tensor(sigma, dim, s);
@@ -243,7 +241,7 @@ static inline void reference_carried(const struct material *m, int dim, real T[D
                     real strain = dim == 1 ? s[0][0] / m->young : (s[c][d] - hydrostatic) / (2 * m->shear);
                     sum += T[a][b][c][d] * strain;
                 }
-            carried[reference_symmetric(dim, a, b)] = sum;
+            grid_coupled[reference_symmetric(dim, a, b)] = sum;
         }
 }
 

@@ -1,7 +1,7 @@
-/* floor 2: plain twins of the transfer kernels, written from the formulas of the material point method and not
+/* Plain twins of the transfer kernels, written from the formulas of the material point method and not
  * from the kernels: every particle meets every node, one node at a time, whole tensors, no threads. */
-#ifndef CLEAVE_REFERENCE_POINTS_H
-#define CLEAVE_REFERENCE_POINTS_H
+#ifndef CLEAVE_TESTS_REFERENCE_POINTS
+#define CLEAVE_TESTS_REFERENCE_POINTS
 
 #include "data/grid.h"
 #include "kernels/kernels.h"
@@ -213,8 +213,8 @@ static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][D
         }
 }
 
-/* sigma + W s - s W, s the stress of before below 3e-5 rad, half-way up to 1e-3 rad; beyond R sigma R^T with R = exp W, summed as its
- * power series. */
+/* sigma + W s - s W, s the stress of before below 3e-5 rad, half-way up to 1e-3 rad; beyond R sigma R^T with R = exp
+ * W, summed as its power series. */
 static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX][DIM_MAX], int dim)
 {
     real a[DIM_MAX][DIM_MAX], b[DIM_MAX][DIM_MAX], R[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, angle2 = 0;
@@ -224,7 +224,8 @@ static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX
     reference_product(W, sigma, a, dim);
     reference_product(sigma, W, b, dim);
     for (int i = 0; i < dim; i++)
-        for (int j = 0; j < dim; j++) turned[i][j] = sigma[i][j] + (sqrt(angle2) <= 3e-5 ? 0 : 0.5 * (a[i][j] - b[i][j]));
+        for (int j = 0; j < dim; j++)
+            turned[i][j] = sigma[i][j] + (sqrt(angle2) <= 3e-5 ? 0 : 0.5 * (a[i][j] - b[i][j]));
     reference_product(W, turned, a, dim);
     reference_product(turned, W, b, dim);
     for (int i = 0; i < dim && sqrt(angle2) <= 1e-3; i++)
@@ -242,7 +243,8 @@ static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX
     memcpy(sigma, b, sizeof b);
 }
 
-/* Step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain sym(L) dt - W W/2, volume, axial stretch. */
+/* Step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain sym(L) dt - W W/2, volume, axial
+ * stretch. */
 static inline void reference_stress(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
 {
     struct particles *p = s->p;
@@ -265,8 +267,8 @@ static inline void reference_stress(const struct reference_step *s, int64_t i, r
     for (int a = 0; a < p->dim && s->shape == SHAPE_CPGIMP; a++) p->stretch[a][i] *= 1 + s->dt * L[a][a];
 }
 
-/* Positions with the nodal velocity or, where bonds meet a point, that of the second map; gradient from the second map (FLIP) or
- * the nodal velocity itself (APIC). */
+/* Positions with the nodal velocity or, where bonds meet a point, that of the second map; gradient from the second
+ * map (FLIP) or the nodal velocity itself (APIC). */
 static inline void reference_gather(struct reference_step *s)
 {
     struct particles *p = s->p;

@@ -1,6 +1,6 @@
-/* floor 5: two bodies of particles, to the last bit. */
-#ifndef CLEAVE_TEST_SAME_H
-#define CLEAVE_TEST_SAME_H
+/* Two bodies of particles, to the last bit. */
+#ifndef CLEAVE_TESTS_SAME
+#define CLEAVE_TESTS_SAME
 
 #include "near.h"
 #include "data/particles.h"

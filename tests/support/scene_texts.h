@@ -1,6 +1,6 @@
-/* floor 5: scenes that hold every key between them, and their reading, for tests of scenes. */
-#ifndef CLEAVE_TEST_SCENE_TEXTS_H
-#define CLEAVE_TEST_SCENE_TEXTS_H
+/* Scenes that hold every key between them, and their reading, for tests of scenes. */
+#ifndef CLEAVE_TESTS_SCENE_TEXTS
+#define CLEAVE_TESTS_SCENE_TEXTS
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,6 +8,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "scene/scene.h"
 
 static const char plate[] =
@@ -126,7 +127,8 @@ static const char grown[] =
     "cracks: [{from: [-1 mm, 20 mm], to: [20 mm, 20 mm]}]\n"
     "growth:\n"
     "  - {name: told, at: [20 mm, 20 mm], direction: [3, 4], speed: 1 km/s, damping: 0, exponent: 1, length: 5 mm}\n"
-    "  - {at: [20 mm, 20 mm], direction: [1, 0], speed: 750 m/s, probe: sif, toughness: 68 MPa m^0.5, smoothing: 2 mm}\n"
+    "  - {at: [20 mm, 20 mm], direction: [1, 0], speed: 750 m/s, probe: sif, toughness: 68 MPa m^0.5, smoothing: 2 "
+    "mm}\n"
     "probes:\n"
     "  - sif: {outer: 10 mm}\n"
     "  - growth\n"

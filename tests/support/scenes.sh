@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: what test_scenes.sh and long_scenes.sh share: runs of inputs/, two at a time on one thread each: as fast as one after
+# What test_scenes.sh and long_scenes.sh share: runs of inputs/, two at a time on one thread each: as fast as one after
 # the other on two threads, and the bits are the same. Sourced after summary.sh.
 
 # start FOLDER SCENE [ARGUMENT...]: a run in the background; `wait` for it.

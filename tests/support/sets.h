@@ -1,10 +1,10 @@
 /* Every set of kernels that this processor can run, for tests of kernels:  FOR_EVERY_SET failures += ...; */
-#ifndef CLEAVE_TEST_SETS_H
-#define CLEAVE_TEST_SETS_H
+#ifndef CLEAVE_TESTS_SETS
+#define CLEAVE_TESTS_SETS
 
 #include <stdio.h>
 
-#include "engine/simd.h"
+#include "simd/simd.h"
 
 /* Takes the next set that runs here; NULL at the end. Says which ones do not. */
 static inline const struct simd_set *sets_next(const struct simd_set *set)

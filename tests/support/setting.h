@@ -1,6 +1,6 @@
-/* floor 5: a small scene made by hand: the ground that tests of filling stand on. */
-#ifndef CLEAVE_SETTING_H
-#define CLEAVE_SETTING_H
+/* A small scene made by hand: the ground that tests of filling stand on. */
+#ifndef CLEAVE_TESTS_SETTING
+#define CLEAVE_TESTS_SETTING
 
 #include <stdio.h>
 

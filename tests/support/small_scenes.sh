@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: small scenes of every kind, for tests that run them all under a tool. Each takes less than a second in a plain build.
+# Small scenes of every kind, for tests that run them all under a tool. Each takes less than a second in a plain build.
 # Sourced after summary.sh.
 
 # ---- scenes that no input has ------------------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: what the test scripts share: figures out of summary.json and history.csv with awk alone, and checks that are counted.
+# What the test scripts share: figures out of summary.json and history.csv with awk alone, and checks that are counted.
 # Sourced from the project's root, after `test_name` is set. Gives $cleave, $root and $work, a folder that goes at the end.
 set -u
 root=$(pwd)

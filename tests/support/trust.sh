@@ -1,5 +1,5 @@
 #!/bin/sh
-# floor 5: what test_trust.sh and long_trust.sh share: small scenes, and runs that are disturbed and must not show it.
+# What test_trust.sh and long_trust.sh share: small scenes, and runs that are disturbed and must not show it.
 # Sourced after summary.sh.
 
 # A small plate whose notches crack, a bar that spalls, a solid plate: name, scene and the arguments that make it small. All on the grid of

@@ -1,5 +1,5 @@
-/* floor 5: `method: auto`: the choice from a chart written by hand, whose cheapest point is known in closed form; what scenes
- * are like; the spacing that fits; and that the scene as run says the same without auto. */
+/* `method: auto`: the choice from a chart written by hand, whose cheapest point is known in closed form;
+ * what scenes are like; the spacing that fits; and that the scene as run says the same without auto. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,17 +10,20 @@
 
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "src/auto/auto.h"
 
 /* ---- a chart whose lines are powers ---------------------------------------------------------------------------------
  *
- * first   error 1/N, 1e-6 N^2 s;  second   error 10/N^2, 4e-6 N^2 s:  with errors met exactly 1e-6/e^2 and 4e-5/e s, so that
+ * first   error 1/N, 1e-6 N^2 s;  second   error 10/N^2, 4e-6 N^2 s:  with errors met exactly 1e-6/e^2 and 4e-5/e s, so
+ *            that
  * the second is cheaper below e = 1/40 */
 
 enum { POWERS = 6 };
 static const int resolutions[POWERS] = {10, 20, 40, 80, 160, 320};
 
-static void put_line(FILE *to, const char *at, const char *method, double factor, double order, double cost, const char *keys)
+static void put_line(FILE *to, const char *at, const char *method, double factor, double order, double cost,
+                     const char *keys)
 {
     for (int k = 0; k < POWERS; k++) {
         const double N = resolutions[k];
@@ -33,12 +36,12 @@ static const struct auto_kind smooth = {"bar", "pulse", "a pulse", "its width", 
 static const struct auto_kind rough = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false, 0, 0, 0};
 static const struct auto_kind cases = {"bar", NULL, "a pulse", "its width", 1, 1, 0, true, 0, 0, 0};
 
-static bool all(const struct chart_point *p, const void *context)
+static bool all(const struct cost_point *p, const void *context)
 {
     (void)p, (void)context;
     return true;
 }
-static bool not_second(const struct chart_point *p, const void *context)
+static bool not_second(const struct cost_point *p, const void *context)
 {
     (void)context;
     return strcmp(p->method, "second") != 0;
@@ -53,13 +56,13 @@ static struct chart two_lines(void)
     put_line(to, "pulse", "first", 1, 1, 1e-6, "method=pd");
     put_line(to, "pulse", "second", 10, 2, 4e-6, "method=mpm;mpm.frame=reference");
     fclose(to);
-    assert_int_equal(chart_read_text(&c, text, "text"), OK);
+    assert_int_equal(cost_accuracy_read_text(&c, text, "text"), OK);
     assert_int_equal(c.n, 2 * POWERS);
     return c;
 }
 
 static struct auto_found picked(const struct chart *c, const struct auto_kind *kind, double accuracy, double resolution,
-                                bool (*allows)(const struct chart_point *, const void *))
+                                bool (*allows)(const struct cost_point *, const void *))
 {
     const struct auto_match m = {.kind = kind, .cases = 1, .at = {"pulse"}, .feature = 1, .growth = 1};
     const struct auto_wish w = {.match = &m, .accuracy = accuracy, .resolution = resolution, .allows = allows};
@@ -68,7 +71,8 @@ static struct auto_found picked(const struct chart *c, const struct auto_kind *k
     return f;
 }
 
-/* The lines are powers, so the resolution between two runs is that of the closed form, for nine tenths of what is asked. */
+/* The lines are powers, so the resolution between two runs is that of the closed form, for nine tenths of what is
+ * asked. */
 static void cheapest_of_two_powers(void **state)
 {
     (void)state;
@@ -85,7 +89,7 @@ static void cheapest_of_two_powers(void **state)
     assert_string_equal(f.best.of->method, "second");
     assert_true(fabs(f.best.resolution / sqrt(10 / (0.9 * fine)) - 1) < 1e-12);
     assert_true(fabs(f.best.seconds / (4e-5 / (0.9 * fine)) - 1) < 1e-12);
-    chart_free(&c);
+    cost_accuracy_free(&c);
 }
 
 /* Where nothing says that errors are powers, a run of the chart; a run that is good enough as it is needs no margin. */
@@ -94,9 +98,10 @@ static void runs_where_it_is_not_smooth(void **state)
     (void)state;
     struct chart c = two_lines();
     assert_true(picked(&c, &rough, 0.09, 0, all).best.resolution == 20);     /* first: 1/20 */
-    assert_true(picked(&c, &rough, 0.003, 0, all).best.resolution == 80);        /* second: 10/80^2; first is never so good */
-    assert_true(picked(&c, &smooth, 0.1, 0, not_second).best.resolution == 10);  /* the coarsest: nothing coarser is known */
-    chart_free(&c);
+    assert_true(picked(&c, &rough, 0.003, 0, all).best.resolution == 80);  /* second: 10/80^2; first is never so good */
+    /* the coarsest: nothing coarser is known */
+    assert_true(picked(&c, &smooth, 0.1, 0, not_second).best.resolution == 10);
+    cost_accuracy_free(&c);
 }
 
 static void what_is_not_reached_is_said(void **state)
@@ -110,10 +115,11 @@ static void what_is_not_reached_is_said(void **state)
     f = picked(&c, &smooth, 1e-3, 0, not_second);
     assert_null(f.best.of);
     assert_true(fabs(f.finest.error * 320 - 1) < 1e-12);
-    chart_free(&c);
+    cost_accuracy_free(&c);
 }
 
-/* At the user's spacing: between runs with the margin, beyond the finest no better than it, below the coarsest nothing. */
+/* At the user's spacing: between runs with the margin, beyond the finest no better than it, below the coarsest
+ * nothing. */
 static void at_a_given_resolution(void **state)
 {
     (void)state;
@@ -129,7 +135,7 @@ static void at_a_given_resolution(void **state)
     assert_null(picked(&c, &smooth, 0.5, 5, all).best.of);
     f = picked(&c, &rough, 0.04, 30, all);
     assert_true(fabs(f.best.error / 0.025 - 1) < 1e-12);
-    chart_free(&c);
+    cost_accuracy_free(&c);
 }
 
 /* A coarse run that is better than finer ones of its method is luck, and not taken. */
@@ -140,8 +146,9 @@ static void dips_are_not_believed(void **state)
     c.point[2].error = 1e-4;                             /* first at 40 */
     const struct auto_found f = picked(&c, &smooth, 1e-3, 0, all);
     assert_string_equal(f.best.of->method, "second");
-    assert_true(picked(&c, &rough, 0.013, 0, not_second).best.resolution == 40);  /* as good as the next, 1/80, and no better */
-    chart_free(&c);
+    /* as good as the next, 1/80, and no better */
+    assert_true(picked(&c, &rough, 0.013, 0, not_second).best.resolution == 40);
+    cost_accuracy_free(&c);
 }
 
 /* A run that no finer one of its method bears out, and errors below what the reference itself is known to. */
@@ -157,7 +164,7 @@ static void what_is_alone_or_unknown(void **state)
     assert_null(picked(&c, &vague, 0.049, 0, all).best.of);
     assert_true(picked(&c, &vague, 0.05, 0, all).best.resolution == 20);
     assert_true(picked(&c, &vague, 0.05, 0, all).best.error == 0.05);
-    chart_free(&c);
+    cost_accuracy_free(&c);
 }
 
 static void worst_of_the_cases(void **state)
@@ -170,7 +177,7 @@ static void worst_of_the_cases(void **state)
     put_line(to, "b", "first", 3, 1, 2e-6, "method=pd");
     put_line(to, "a", "alone", 0.01, 1, 1e-6, "method=pd");      /* not known in b */
     fclose(to);
-    assert_int_equal(chart_read_text(&c, text, "text"), OK);
+    assert_int_equal(cost_accuracy_read_text(&c, text, "text"), OK);
     const struct auto_match m = {.kind = &cases, .cases = 2, .at = {"a", "b"}, .feature = 1, .growth = 1};
     const struct auto_wish w = {.match = &m, .accuracy = 0.03, .allows = all};
     struct auto_found f;
@@ -179,7 +186,7 @@ static void worst_of_the_cases(void **state)
     assert_true(fabs(f.best.resolution / (3 / (0.9 * 0.03)) - 1) < 1e-12);
     assert_true(fabs(f.best.seconds / (2e-6 * pow(3 / (0.9 * 0.03), 2)) - 1) < 1e-12);
     assert_null(f.second.of);
-    chart_free(&c);
+    cost_accuracy_free(&c);
 }
 
 static void charts_that_are_none(void **state)
@@ -192,13 +199,13 @@ static void charts_that_are_none(void **state)
                                CHART_HEADER "\nbar,pulse,pd,1\n",
                                CHART_HEADER "\nbar,pulse,pd,1,3,0.8,-0.1,1,1,1,method=pd\n",
                                CHART_HEADER "\nbar,pulse,pd,1,3,0.8,0.1,1,1,1,\n"};
-    for (size_t k = 0; k < COUNT_OF(bad); k++) assert_int_equal(chart_read_text(&c, bad[k], "bad"), REFUSED);
-    assert_int_equal(chart_read(&c, NULL), OK);          /* the program's own */
+    for (size_t k = 0; k < COUNT_OF(bad); k++) assert_int_equal(cost_accuracy_read_text(&c, bad[k], "bad"), REFUSED);
+    assert_int_equal(cost_accuracy_read(&c, NULL), OK);          /* the program's own */
     assert_true(c.n > 100);
-    chart_free(&c);
+    cost_accuracy_free(&c);
 }
 
-/* ---- scenes ------------------------------------------------------------------------------------------------------------ */
+/* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
 #define BAR                                                                                                            \
     "space: line\nduration: 4 ms\nmaterial: {young: 1e4, density: 1, critical_stretch: inf}\n"                         \
@@ -221,24 +228,53 @@ static status read_text(struct scene *s, const char *from)
 static void scenes_are_like(void **state)
 {
     (void)state;
-    static const struct { const char *text, *problem, *at[2]; double feature, growth; bool at_rest; } like[] = {
-        {BAR "initial: [{pulse: {at: [0.6], direction: [1], width: 0.1, velocity: 1e-5}}]\n", "bar", {"pulse"}, 0.1, 4, false},
+    static const struct { const char *text, *problem, *at[2]; double feature, growth; bool at_rest;
+    } like[] = {
+        {BAR "initial: [{pulse: {at: [0.6], direction: [1], width: 0.1, velocity: 1e-5}}]\n",
+         "bar",
+         {"pulse"},
+         0.1,
+         4,
+         false},
         {BAR "boundary: [{mirror: {axis: x, at: 0}}, {traction: [1], face: x+}]\n", "bar", {"step"}, 1.6, 1, false},
         {PLATE PULSE("[1, 0]", "[1, 0]"), "wave", {"P 0 deg"}, 0.1, 2, false},
         {PLATE PULSE("[0, -1]", "[1, 0]"), "wave", {"S 0 deg"}, 0.1, 2, false},
         {PLATE PULSE("[1, 1]", "[1, 1]"), "wave", {"P 45 deg"}, 0.1, 2, false},
-        {PLATE PULSE("[2, 1]", "[2, 1]"), "wave", {"P 22.5 deg", "P 45 deg"}, 0.1, 2, false},       /* 26.6 degrees */
-        {PLATE PULSE("[8, -1]", "[8, -1]"), "wave", {"P 0 deg", "P 22.5 deg"}, 0.1, 2, false},      /* -7.1 */
-        {PLATE "duration: 1\ncracks: [{from: [-1, 0], to: [-0.2, 0]}]\n" PULLED, "cracks", {"edge crack"}, 0.3, 1, true},
-        {PLATE "duration: 1\ncracks: [{from: [-0.2, -0.1], to: [0.2, 0.2]}]\n" PULLED, "cracks", {"inclined crack"}, 0.25, 1,
+        {PLATE PULSE("[2, 1]", "[2, 1]"), "wave", {"P 22.5 deg", "P 45 deg"}, 0.1, 2, false},  /* 26.6 degrees */
+        {PLATE PULSE("[8, -1]", "[8, -1]"), "wave", {"P 0 deg", "P 22.5 deg"}, 0.1, 2, false}, /* -7.1 */
+        {PLATE "duration: 1\ncracks: [{from: [-1, 0], to: [-0.2, 0]}]\n" PULLED,
+         "cracks",
+         {"edge crack"},
+         0.3,
+         1,
          true},
-        {PLATE "duration: 1 ms\ncracks: [{from: [-1, 0], to: [-0.2, 0]}]\n" PULLED, "sudden", {"at rest"}, 0.5, 1, false},
+        {PLATE "duration: 1\ncracks: [{from: [-0.2, -0.1], to: [0.2, 0.2]}]\n" PULLED,
+         "cracks",
+         {"inclined crack"},
+         0.25,
+         1,
+         true},
+        {PLATE "duration: 1 ms\ncracks: [{from: [-1, 0], to: [-0.2, 0]}]\n" PULLED,
+         "sudden",
+         {"at rest"},
+         0.5,
+         1,
+         false},
         {"space: plane stress\nthickness: 1\nduration: 1\nmaterial: {young: 1, density: 1}\nbody: [{box: "
-         "{from: [0, 0], to: [4, 4]}}, {subtract: {disc: {centre: [2, 2], radius: 0.3}}}]\n", "hole", {"pulled"}, 0.3, 1, true},
+         "{from: [0, 0], to: [4, 4]}}, {subtract: {disc: {centre: [2, 2], radius: 0.3}}}]\n",
+         "hole",
+         {"pulled"},
+         0.3,
+         1,
+         true},
         {"space: line\nduration: 1 ms\nmaterial: {young: 1e4, density: 1, critical_stretch: 1e-4}\nbody: "
          "{box: {from: [0], to: [1]}}\n"
-         "initial: [{velocity: [-1e-3], region: {box: {from: [0.9], to: [1]}}}]\n", "spall", {"spall"},
-         0.2, 1, false},
+         "initial: [{velocity: [-1e-3], region: {box: {from: [0.9], to: [1]}}}]\n",
+         "spall",
+         {"spall"},
+         0.2,
+         1,
+         false},
     };
     for (size_t k = 0; k < COUNT_OF(like); k++) {
         struct scene s;
@@ -290,7 +326,8 @@ static void spacing_fits(void **state)
     struct scene s;
     assert_int_equal(read_text(&s, plate), OK);
     assert_true(fabs(auto_spacing_fit(&s, 1, false) - 1) < 1e-12);
-    assert_true(fabs(auto_spacing_fit(&s, 0.99, false) - 10.0 / 11) < 1e-12);   /* 60, 40, 30 and 20: a whole part of 10 */
+    /* 60, 40, 30 and 20: a whole part of 10 */
+    assert_true(fabs(auto_spacing_fit(&s, 0.99, false) - 10.0 / 11) < 1e-12);
     assert_true(fabs(auto_spacing_fit(&s, 3.4, true) - 10.0 / 3) < 1e-12);      /* 60 and 40 over 20/3: 9 and 6 pairs */
     assert_true(fabs(auto_spacing_fit(&s, 1e-3, true) - 1e-3) < 1e-12);
     scene_free(&s);
@@ -323,8 +360,8 @@ static void echo_says_it_without_auto(void **state)
     }
 }
 
-/* A suddenly loaded crack is cheapest as a gap of one cell of points, from where it came in to its tip, and the probe finds
- * it; one that grows is none. */
+/* A suddenly loaded crack is cheapest as a gap of one cell of points, from where it came in to its tip, and the
+ * probe finds it; one that grows is none. */
 static void crack_becomes_a_gap(void **state)
 {
     (void)state;
@@ -338,7 +375,8 @@ static void crack_becomes_a_gap(void **state)
     assert_int_equal(s.body[0].shape.n, 2);
     const struct solid *gap = &s.body[0].shape.solid[1];
     assert_true(gap->subtract && gap->to[0] == 0 && gap->from[0] == -1);
-    assert_true(gap->from[1] == -s.spacing && gap->to[1] == s.spacing && s.has_grid_origin && s.grid_origin[1] == -s.spacing);
+    assert_true(gap->from[1] == -s.spacing && gap->to[1] == s.spacing && s.has_grid_origin &&
+                s.grid_origin[1] == -s.spacing);
     for (int k = 0; k < 2; k++) {
         assert_true(s.probe[k].has_at && s.probe[k].at[0] == 0 && s.probe[k].at[1] == 0);
         assert_true(s.probe[k].direction[0] == 1 && s.probe[k].direction[1] == 0);
@@ -360,11 +398,14 @@ static void what_is_written_stays(void **state)
      "velocity: 1e-5}}]\n";
     struct scene s;
     char full[2048];
-    snprintf(full, sizeof full, "%smpm: {shape: cubic, transfer: apic, frame: current}\npd: {surface: volume}\n", pulse);
+    snprintf(full, sizeof full, "%smpm: {shape: cubic, transfer: apic, frame: current}\npd: {surface: volume}\n",
+             pulse);
     assert_int_equal(read_text(&s, full), OK);
-    assert_true(s.method == METHOD_MPM && s.shape == SHAPE_CUBIC && s.transfer == TRANSFER_APIC && s.frame == FRAME_CURRENT);
+    assert_true(s.method == METHOD_MPM && s.shape == SHAPE_CUBIC && s.transfer == TRANSFER_APIC &&
+                s.frame == FRAME_CURRENT);
     scene_free(&s);
-    snprintf(full, sizeof full, "%sparticles: {horizon: 2.015}\nmpm: {frame: current, transfer: flip, shape: linear}\n", pulse);
+    snprintf(full, sizeof full, "%sparticles: {horizon: 2.015}\nmpm: {frame: current, transfer: flip, shape: linear}\n",
+             pulse);
     assert_int_equal(read_text(&s, full), OK);
     assert_true(s.method == METHOD_PD ? s.horizon == 2.015 : s.shape == SHAPE_LINEAR);
     scene_free(&s);

@@ -1,4 +1,4 @@
-/* floor 5: tests of the ground: status, memory, team, regions, functions of time, cracks, materials. */
+/* Tests of the ground: status, memory, team, regions, functions of time, cracks, materials. */
 #include "tests/support/near.h"
 
 #include <omp.h>
@@ -11,7 +11,7 @@
 #include "data/region.h"
 #include "base/team.h"
 
-/* ---- status and memory ----------------------------------------------------------------------------- */
+/* ---- status and memory ------------------------------------------------------------------------------------------- */
 
 static status inner(void) { return status_set(REFUSED, "%s: %d is %s", "x.yaml:3:1", 7, "too large"); }
 static status outer(void)
@@ -103,7 +103,7 @@ static void out_of_memory_says_so(void **state)
     assert_true(memory_peak() > 1000000);        /* a process with its libraries is larger than 1 MB */
 }
 
-/* ---- team ------------------------------------------------------------------------------------------ */
+/* ---- team -------------------------------------------------------------------------------------------------------- */
 
 static real harmonic(const void *context, int64_t i) { return *(const real *)context / (real)(i + 1); }
 
@@ -162,7 +162,7 @@ static void laps_book_time_where_it_went(void **state)
     for (int k = 0; k < LAPS; k++) assert_true(strlen(lap_name[k]) > 0);
 }
 
-/* ---- regions --------------------------------------------------------------------------------------- */
+/* ---- regions ----------------------------------------------------------------------------------------------------- */
 
 #define POINT(...) ((const real[DIM_MAX]){__VA_ARGS__})
 
@@ -232,7 +232,7 @@ static void bounds_hold_the_added_solids(void **state)
     assert_true(region_contains(&(struct region){1, &strip}, POINT(0.5, 1e30), 2, 0));
 }
 
-/* ---- functions of time ----------------------------------------------------------------------------- */
+/* ---- functions of time ------------------------------------------------------------------------------------------- */
 
 static void time_functions_follow_their_definitions(void **state)
 {
@@ -253,7 +253,7 @@ static void time_functions_follow_their_definitions(void **state)
     assert_exact(time_function_at(&(struct time_function){.kind = TIME_STEP, .until = INFINITY}, 1e9), 1);
 }
 
-/* ---- cracks ---------------------------------------------------------------------------------------- */
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 static void check_cut(const struct crack *c, const real *a, const real *b, int dim, bool cut)
 {
@@ -291,8 +291,8 @@ static void cracks_cut_in_three_dimensions(void **state)
     (void)state;
     real corner[][DIM_MAX] = {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {1, 3, 1}, {0, 2, 1}}, back[5][DIM_MAX];
     for (int k = 0; k < 5; k++) memcpy(back[k], corner[4 - k], sizeof back[k]);
-    for (int turn = 0; turn < 2; turn++) {                       /* either sense of rotation */
-        struct crack c = {5, turn ? back : corner};
+    for (int rotation = 0; rotation < 2; rotation++) {                       /* either sense of rotation */
+        struct crack c = {5, rotation ? back : corner};
         check_cut(&c, POINT(1, 1, 0), POINT(1, 1, 2), 3, true);
         check_cut(&c, POINT(0.5, 2.5, 0), POINT(0.5, 2.5, 2), 3, true);    /* on an oblique edge */
         check_cut(&c, POINT(0.4, 2.5, 0), POINT(0.4, 2.5, 2), 3, false);
@@ -324,7 +324,7 @@ static void cracks_are_symmetric_at_their_tips(void **state)
     assert_in_range(cut, 1000, 19000);           /* or round-off does not decide here */
 }
 
-/* ---- materials ------------------------------------------------------------------------------------- */
+/* ---- materials --------------------------------------------------------------------------------------------------- */
 
 static void elastic_constants_agree_with_closed_forms(void **state)
 {

@@ -1,4 +1,4 @@
-/* floor 5: what the speed-accuracy chart says of a cloud of points: its front, and the cheapest way to an error. */
+/* What the speed-accuracy chart says of a cloud of points: its front, and the cheapest way to an error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,13 +9,14 @@
 
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "bench/accuracy/accuracy.h"
-#include "src/auto/chart.h"
+#include "src/auto/cost_accuracy.h"
 #include "bench/common/manufactured.h"
 
 /* A staircase with points above it, two alike, one unstable and one that was not timed. */
-static const struct accuracy_dot cloud[] = {
-    {4, 0.001}, {1, 0.1}, {2, 0.02}, {2, 0.03}, {3, 0.02}, {1, 0.1}, {0.5, NAN}, {INFINITY, 1e-5}, {8, 0.0015}, {0.7, 0.3}};
+static const struct accuracy_dot cloud[] = {{4, 0.001}, {1, 0.1},   {2, 0.02},        {2, 0.03},   {3, 0.02},
+                                            {1, 0.1},   {0.5, NAN}, {INFINITY, 1e-5}, {8, 0.0015}, {0.7, 0.3}};
 enum { DOTS = COUNT_OF(cloud) };
 
 static void front_has_what_nothing_beats(void **state)
@@ -29,7 +30,8 @@ static void front_has_what_nothing_beats(void **state)
     assert_int_equal(accuracy_front(&cloud[6], 2, front), 0);
 }
 
-/* The definition, over random clouds: a point is on the front exactly if no other is as good in both and better in one. */
+/* The definition, over random clouds: a point is on the front exactly if no other is as good in both and better in
+ * one. */
 static void front_of_random_clouds(void **state)
 {
     (void)state;
@@ -63,7 +65,7 @@ static void cheapest_is_the_first_good_enough(void **state)
     assert_int_equal(accuracy_cheapest(cloud, DOTS, 1e-4), -1);
 }
 
-/* ---- exact forms satisfy rho u_tt = c12 grad div u + G (lap u + grad div u) + f ------------------------------------- */
+/* ---- exact forms satisfy rho u_tt = c12 grad div u + G (lap u + grad div u) + f ---------------------------------- */
 
 struct motion {
     int dim;
@@ -192,9 +194,11 @@ static void pulses_are_solutions(void **state)
     for (size_t k = 0; k < COUNT_OF(pulse); k++) {
         char text[1024];
         struct scene s;
-        snprintf(text, sizeof text, "space: plane stress\nthickness: 1\nduration: 1\nmethod: mpm\n"
+        snprintf(text, sizeof text,
+                 "space: plane stress\nthickness: 1\nduration: 1\nmethod: mpm\n"
                  "material: {young: 2, density: 1.3, poisson: 0.2}\nparticles: {spacing: 0.5}\n"
-                 "body: {box: {from: [0, 0], to: [1, 1]}}\ninitial: [{pulse: {at: [0.1, 0.2], width: 0.8, velocity: 0.01, %s}}]\n",
+                 "body: {box: {from: [0, 0], to: [1, 1]}}\ninitial: [{pulse: {at: [0.1, 0.2], width: 0.8, velocity: "
+                 "0.01, %s}}]\n",
                  pulse[k]);
         assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
         const struct material *m = &s.material[0];
@@ -224,7 +228,8 @@ static void particles_start_in_a_transverse_wave(void **state)
     for (int64_t i = 0; i < p.n; i++) {
         const real X[2] = {p.X[0][i], p.X[1][i]};
         const struct wave_state wave = wave_pulse_at(w, X, speed, 2);
-        const real traction[2] = {p.stress[0][i] * n[0] + p.stress[2][i] * n[1], p.stress[2][i] * n[0] + p.stress[1][i] * n[1]};
+        const real traction[2] = {p.stress[0][i] * n[0] + p.stress[2][i] * n[1],
+                                  p.stress[2][i] * n[0] + p.stress[1][i] * n[1]};
         for (int d = 0; d < 2; d++) {
             assert_true(fabs(p.v[d][i] - wave.velocity * w->polarisation[d]) <= 1e-15);
             assert_true(fabs(p.x[d][i] - X[d] - wave.displacement * w->polarisation[d]) <= 1e-15);
@@ -235,7 +240,7 @@ static void particles_start_in_a_transverse_wave(void **state)
     scene_free(&s);
 }
 
-/* ---- the chart of the program --------------------------------------------------------------------------------------- */
+/* ---- the chart of the program ------------------------------------------------------------------------------------ */
 
 static const struct accuracy_problem *problem_named(const char *name)
 {
@@ -258,15 +263,15 @@ static const struct accuracy_method *method_named(const char *name)
     return NULL;
 }
 
-/* Every line of src/auto/chart.csv is a run that the plan knows, of a method whose scene keys are still those of the line: otherwise
- * method auto would set keys that no one measured. */
+/* Every line of src/auto/cost_accuracy.csv is a run that the plan knows, of a method whose scene keys are still
+ * those of the line: otherwise method auto would set keys that no one measured. */
 static void the_chart_is_of_these_methods(void **state)
 {
     (void)state;
     struct chart c;
-    assert_int_equal(chart_read(&c, NULL), OK);
+    assert_int_equal(cost_accuracy_read(&c, NULL), OK);
     for (int k = 0; k < c.n; k++) {
-        const struct chart_point *p = &c.point[k];
+        const struct cost_point *p = &c.point[k];
         const struct accuracy_problem *q = problem_named(p->problem);
         const struct accuracy_method *m = method_named(p->method);
         assert_non_null(q);
@@ -284,10 +289,10 @@ static void the_chart_is_of_these_methods(void **state)
             const char *const apart[] = {"particles.", "time.", "output."};
             for (size_t a = 0; a < COUNT_OF(apart); a++) column |= strncmp(key, apart[a], strlen(apart[a])) == 0;
             for (int i = j + 1; i < s.set.n; i++) later |= strcmp(s.set.at[i].key, key) == 0;
-            if (!column && !later) assert_true(chart_says(p, key, s.set.at[j].value));
+            if (!column && !later) assert_true(cost_point_has(p, key, s.set.at[j].value));
         }
     }
-    chart_free(&c);
+    cost_accuracy_free(&c);
 }
 
 int main(void)

@@ -1,5 +1,5 @@
-/* floor 5: the problems of the speed-accuracy chart: every scene is sound, the exact field of the plate with a hole is one, and
- * a cheap point of each problem is as far off as it was measured to be. */
+/* The problems of the speed-accuracy chart: every scene is sound, the exact field of the plate with a hole
+ * is one, and a cheap point of each problem is as far off as it was measured to be. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -84,14 +84,23 @@ static const struct accuracy_method *method_called(const char *name)
 }
 
 /* Measured error, and a fifth more or less: compilers round differently, and cracks answer to that. */
-static const struct cheap { const struct accuracy_problem *problem; int at; const char *method; int resolution; double error; }
-    cheap[] = {
-        {&accuracy_hole, 0, "pd bond", 40, 0.0325},          {&accuracy_hole, 0, "mpm reference", 40, 0.0201},
-        {&accuracy_cracks, 0, "pd mospd", 32, 0.00825},      {&accuracy_cracks, 1, "pd bond", 32, 0.0166},
-        {&accuracy_cracks, 0, "mpm reference", 32, 0.0461},  {&accuracy_sudden, 0, "mpm reference", 20, 0.00288},
-        {&accuracy_sudden, 1, "pd bond", 20, 0.104},         {&accuracy_spall, 0, "pd bond", 200, 0.0403},
-        {&accuracy_spall, 0, "adaptive reference", 200, 0.0208}, {&accuracy_fracture, 0, "pd bond", 60, 0.163},
-        {&accuracy_fracture, 1, "adaptive reference", 100, 0.175}};
+static const struct cheap {
+    const struct accuracy_problem *problem;
+    int at;
+    const char *method;
+    int resolution;
+    double error;
+} cheap[] = {{&accuracy_hole, 0, "pd bond", 40, 0.0325},
+             {&accuracy_hole, 0, "mpm reference", 40, 0.0201},
+             {&accuracy_cracks, 0, "pd mospd", 32, 0.00825},
+             {&accuracy_cracks, 1, "pd bond", 32, 0.0166},
+             {&accuracy_cracks, 0, "mpm reference", 32, 0.0461},
+             {&accuracy_sudden, 0, "mpm reference", 20, 0.00288},
+             {&accuracy_sudden, 1, "pd bond", 20, 0.104},
+             {&accuracy_spall, 0, "pd bond", 200, 0.0403},
+             {&accuracy_spall, 0, "adaptive reference", 200, 0.0208},
+             {&accuracy_fracture, 0, "pd bond", 60, 0.163},
+             {&accuracy_fracture, 1, "adaptive reference", 100, 0.175}};
 
 static void points_are_as_far_off_as_measured(void **state)
 {
@@ -107,11 +116,13 @@ static void points_are_as_far_off_as_measured(void **state)
         double error, part[ACCURACY_PARTS];
         assert_true(p.problem->applies(&p));
         accuracy_scene_make(&p, &from);
-        assert_int_equal(bench_engine_make(&e, &s, "test", from.text, bench_overrides_ready(&from.set), from.set.n), OK);
+        assert_int_equal(bench_engine_make(&e, &s, "test", from.text, bench_overrides_ready(&from.set), from.set.n),
+                         OK);
         assert_int_equal(p.problem->run ? p.problem->run(&p, &e) : engine_run(&e), OK);
         assert_int_equal(p.problem->measure(&p, &e, &error, part), OK);
         if (fabs(error / cheap[k].error - 1) > 0.2)
-            fail_msg("%s, %s %d: error %g, %g was measured", p.problem->name, method->name, p.resolution, error, cheap[k].error);
+            fail_msg("%s, %s %d: error %g, %g was measured", p.problem->name, method->name, p.resolution, error,
+                     cheap[k].error);
         bench_engine_free(&e, &s);
     }
 }
@@ -121,7 +132,8 @@ static void references_converge(void **state)
 {
     (void)state;
     for (int at = 0; at < 2; at++) {
-        const struct fracture *f = fracture_reference[at], *finest = &f[FRACTURE_SPACINGS - 1], *used = &f[FRACTURE_QUARTER];
+        const struct fracture *f = fracture_reference[at], *finest = &f[FRACTURE_SPACINGS - 1],
+                              *used = &f[FRACTURE_QUARTER];
         double beside = 0;
         for (int r = 0; r < FRACTURE_RINGS; r++) beside += pow(used->angle[r] - finest->angle[r], 2) / FRACTURE_RINGS;
         assert_true(sqrt(beside) <= 0.043 && fabs(used->length / finest->length - 1) <= 0.009);

@@ -1,4 +1,4 @@
-/* floor 4: searches and bond rows against all pairs. */
+/* Searches and bond rows against all pairs. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "tests/support/reference.h"
 #include "base/team.h"
 
-/* ---- search ----------------------------------------------------------------------------------------- */
+/* ---- search ------------------------------------------------------------------------------------------------------ */
 
 static void search_equals_all_pairs(const struct particles *p, const struct cells *c, const real *X, real radius,
                                     int32_t skip)
@@ -67,7 +67,7 @@ static void test_search(void **state)
         }
 }
 
-/* ---- rows ------------------------------------------------------------------------------------------- */
+/* ---- rows -------------------------------------------------------------------------------------------------------- */
 
 enum { MIXED = 1, BODIES = 2, MATERIALS = 4, CRACKED = 8 };
 
@@ -182,22 +182,22 @@ static void check_row(const struct cloud *c, int64_t i)
     assert_true(fabs(c->bonds.family_volume[row] - whole) <= 1e-6 * whole);
     if (p->kind[i] == KIND_PD) assert_true(fabs(p->damage[i] - cut / whole) <= 1e-6);
     assert_true(c->bonds.trigger[row] <= smallest);
-    assert_true(c->bonds.trigger[row] > 0.999 * smallest || c->bonds.trigger[row] == smallest);    /* INFINITY: no bonds */
+    assert_true(c->bonds.trigger[row] > 0.999 * smallest || c->bonds.trigger[row] == smallest); /* INFINITY: no bonds */
 }
 
-/* What a slot claims about its lanes is so; no bond stands twice in a row; padding is harmless. */
-static void check_slots(const struct cloud *c)
+/* What a column claims about its lanes is so; no bond stands twice in a row; padding is harmless. */
+static void check_columns(const struct cloud *c)
 {
     const struct bonds *b = &c->bonds;
     int64_t stored = 0;
     uint8_t *seen = NEW("test.seen", c->p.n * c->p.n, uint8_t);
-    for (int64_t g = 0; g < b->groups; g++)
-        for (int64_t slot = b->slot[g]; slot < b->slot[g] + b->slot_count[g]; slot++)
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        for (int64_t column = b->column[g]; column < b->column[g] + b->column_count[g]; column++)
             for (int l = 0; l < LANES; l++) {
-                int64_t q = slot * LANES + l, row = g * LANES + l;
+                int64_t q = column * LANES + l, row = g * LANES + l;
                 real xi[DIM_MAX];
                 assert_in_range(b->nbr[q], 0, c->p.n_all + LANES - 1);
-                if (b->first[slot] >= 0) assert_int_equal(b->nbr[q], b->first[slot] + l);
+                if (b->first[column] >= 0) assert_int_equal(b->nbr[q], b->first[column] + l);
                 if (b->aligned[g]) assert_int_equal(b->particle[row], b->particle[g * LANES] + l);
                 if (b->inverse_length[q] == 0) assert_true(b->w[q] == 0);
                 if (b->inverse_length[q] == 0) continue;
@@ -236,9 +236,9 @@ static void check_rows(const struct cloud *c)
         for (int64_t j = 0; j < p->n; j++) check_bond(c, w, volume, i, j);
     }
     assert_int_equal(c->bonds.rows, rows);
-    for (int64_t r = rows; r < c->bonds.groups * LANES; r++)
+    for (int64_t r = rows; r < c->bonds.row_blocks * LANES; r++)
         assert_int_equal(c->bonds.particle[r], c->bonds.particle[rows - 1]);
-    check_slots(c);
+    check_columns(c);
     memory_free(volume);
     memory_free(w);
 }
@@ -257,37 +257,38 @@ static void test_rows(void **state)
     }
 }
 
-/* Slots of a group, wherever each stores them. */
-static void check_group_like_new(const struct bonds *b, int64_t slot, const struct bonds *new, int64_t of, int64_t slots)
+/* Slots of a row block, wherever each stores them. */
+static void check_row_block_like_new(const struct bonds *b, int64_t column, const struct bonds *new, int64_t of,
+                                     int64_t columns)
 {
-    assert_memory_equal(b->first + slot, new->first + of, (size_t)slots * sizeof *b->first);
-    assert_memory_equal(b->nbr + slot * LANES, new->nbr + of * LANES, (size_t)(slots * LANES) * sizeof *b->nbr);
-    for (int64_t k = 0; k < slots * LANES; k++) {
-        const int64_t q = slot * LANES + k, m = of * LANES + k;
+    assert_memory_equal(b->first + column, new->first + of, (size_t)columns * sizeof *b->first);
+    assert_memory_equal(b->nbr + column * LANES, new->nbr + of * LANES, (size_t)(columns * LANES) * sizeof *b->nbr);
+    for (int64_t k = 0; k < columns * LANES; k++) {
+        const int64_t q = column * LANES + k, m = of * LANES + k;
         assert_true(fabs(b->inverse_length[q]) == fabs(new->inverse_length[m]));
         assert_true(b->w[q] == new->w[m] || b->w[q] == 0);
     }
 }
 
-/* Are these rows, but for what load has broken, those that are made without knowing old ones? Returns how many groups have
- * as many bonds as before. */
-static int64_t check_like_new(const struct cloud *c, const struct bonds *old)
+/* Are these rows, but for what load has broken, those that are made without knowing old ones? Returns how many row
+ * blocks have as many bonds as before. */
+static int64_t check_like_new(struct cloud *c, const struct bonds *old)
 {
-    const struct bonds *b = &c->bonds;
+    struct bonds *b = &c->bonds;
     struct bonds new;
     struct particles p = c->p;
     int64_t taken = 0;
     p.damage = NEW("test.damage", p.n_all, real);        /* making rows sets it */
     bonds_make(&new, NULL, &p, &c->source);
     cloud_unfold(b), cloud_unfold(&new);
-    assert_int_equal(b->slots, new.slots);
+    assert_int_equal(b->columns, new.columns);
     assert_int_equal(b->n, new.n);
-    assert_memory_equal(b->slot_count, new.slot_count, (size_t)b->groups * sizeof *b->slot_count);
-    assert_memory_equal(b->made, new.made, (size_t)b->groups * sizeof *b->made);
+    assert_memory_equal(b->column_count, new.column_count, (size_t)b->row_blocks * sizeof *b->column_count);
+    assert_memory_equal(b->made, new.made, (size_t)b->row_blocks * sizeof *b->made);
     assert_memory_equal(b->trigger, new.trigger, (size_t)b->rows * sizeof *b->trigger);
     assert_memory_equal(b->family_volume, new.family_volume, (size_t)b->rows * sizeof *b->family_volume);
-    for (int64_t g = 0; g < b->groups; g++) {
-        check_group_like_new(b, b->slot[g], &new, new.slot[g], b->slot_count[g]);
+    for (int64_t g = 0; g < b->row_blocks; g++) {
+        check_row_block_like_new(b, b->column[g], &new, new.column[g], b->column_count[g]);
         const int32_t row = old->row_of[b->particle[g * LANES]];
         taken += row >= 0 && old->made[row / LANES] == b->made[g];
     }
@@ -316,7 +317,7 @@ static void test_rows_inherit(void **state)
         struct bonds old = c.bonds;
         bonds_make(&c.bonds, &old, p, &c.source);
         real *after = reference_table(&c.bonds, p);
-        check_slots(&c);
+        check_columns(&c);
         taken += check_like_new(&c, &old);
         for (int64_t q = 0; q < p->n * p->n; q++)                /* NAN: was no bond; w = 0: was broken or cut */
             if (!isnan(before[q])) assert_true(before[q] == after[q]);
@@ -357,9 +358,9 @@ static void test_rows_again(void **state)
             particles_list(&c.p);
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             moved += c.bonds.w != was, stayed += c.bonds.w == was;
-            assert_true(c.bonds.used <= c.bonds.room && c.bonds.used >= c.bonds.slots);
+            assert_true(c.bonds.used <= c.bonds.room && c.bonds.used >= c.bonds.columns);
             check_like_new(&c, &old);           /* unfolds */
-            check_slots(&c);
+            check_columns(&c);
             bonds_free(&old);
         }
         assert_true(moved > 1 && stayed > 1);
@@ -367,7 +368,8 @@ static void test_rows_again(void **state)
     }
 }
 
-/* Rows that the map of a lattice's sites tells are those of the search, bit by bit; bonds that may yield are always searched. */
+/* Rows that the map of a lattice's sites tells are those of the search, bit by bit; bonds that may yield are always
+ * searched. */
 static void test_rows_of_lattice(void **state)
 {
     (void)state;
@@ -375,7 +377,11 @@ static void test_rows_of_lattice(void **state)
         {.space = SPACE_LINE, .count = {50}, .horizon = 3},
         {.space = SPACE_PLANE_STRESS, .count = {32, 9}, .horizon = 3.015},
         {.space = SPACE_PLANE_STRESS, .count = {29, 9}, .horizon = 3.015, .surface = SURFACE_VOLUME},
-        {.space = SPACE_PLANE_STRESS, .count = {30, 12}, .horizon = 3, .volume = VOLUME_RAMP, .shells = SHELLS_ISOTROPIC},
+        {.space = SPACE_PLANE_STRESS,
+         .count = {30, 12},
+         .horizon = 3,
+         .volume = VOLUME_RAMP,
+         .shells = SHELLS_ISOTROPIC},
         {.space = SPACE_SOLID, .count = {16, 7, 8}, .horizon = 3.015, .surface = SURFACE_VOLUME},
         {.space = SPACE_SOLID, .count = {11, 6, 5}, .horizon = 2, .influence = INFLUENCE_GAUSSIAN},
     };
@@ -383,7 +389,7 @@ static void test_rows_of_lattice(void **state)
         struct cloud c;
         struct bonds searched;
         cloud_make(&c, &plan[k % COUNT_OF(plan)]);
-        if (k >= COUNT_OF(plan)) cloud_exact(&c);        /* then most follow patterns, if all are of one material */
+        if (k >= COUNT_OF(plan)) cloud_exact(&c);        /* then most follow stencils, if all are of one material */
         for (int64_t i = 0; i < c.p.n && k < COUNT_OF(plan); i++) c.p.material[i] = i % 3 == 0;
         for (int64_t i = 2 * c.p.n / 3; i < c.p.n && k % 2; i++) c.p.kind[i] = KIND_MPM;
         for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c.limit[m] = 0.01 + 0.001 * m;
@@ -400,20 +406,20 @@ static void test_rows_of_lattice(void **state)
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         const real step = bonds_critical_step_made(&c.bonds, &c.p);
         if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_step(&c.p, &c.source));
-        const struct bonds *b = &c.bonds;
+        struct bonds *b = &c.bonds;
         cloud_unfold(b), cloud_unfold(&searched);
-        const size_t slots = (size_t)b->slots, entries = slots * LANES, rows = (size_t)b->rows;
-        assert_int_equal(b->slots, searched.slots);
+        const size_t columns = (size_t)b->columns, entries = columns * LANES, rows = (size_t)b->rows;
+        assert_int_equal(b->columns, searched.columns);
         assert_int_equal(b->n, searched.n);
         assert_memory_equal(b->nbr, searched.nbr, entries * sizeof *b->nbr);
         assert_memory_equal(b->inverse_length, searched.inverse_length, entries * sizeof *b->inverse_length);
         assert_memory_equal(b->w, searched.w, entries * sizeof *b->w);
-        assert_memory_equal(b->first, searched.first, slots * sizeof *b->first);
-        assert_memory_equal(b->common, searched.common, slots * sizeof *b->common);
+        assert_memory_equal(b->first, searched.first, columns * sizeof *b->first);
+        assert_memory_equal(b->common, searched.common, columns * sizeof *b->common);
         assert_memory_equal(b->trigger, searched.trigger, rows * sizeof *b->trigger);
         assert_memory_equal(b->family_volume, searched.family_volume, rows * sizeof *b->family_volume);
         assert_memory_equal(b->broken_volume, searched.broken_volume, rows * sizeof *b->broken_volume);
-        assert_memory_equal(b->aligned, searched.aligned, (size_t)b->groups * sizeof *b->aligned);
+        assert_memory_equal(b->aligned, searched.aligned, (size_t)b->row_blocks * sizeof *b->aligned);
         bonds_free(&searched);
         cloud_free(&c);
     }
@@ -428,8 +434,8 @@ static void test_rows_threads(void **state)
             omp_set_num_threads(t + 1);
             case_make(&c[t], &rows_case[k]);
         }
-        size_t entries = (size_t)c[0].bonds.slots * LANES;
-        assert_int_equal(c[0].bonds.slots, c[1].bonds.slots);
+        size_t entries = (size_t)c[0].bonds.columns * LANES;
+        assert_int_equal(c[0].bonds.columns, c[1].bonds.columns);
         assert_memory_equal(c[0].bonds.nbr, c[1].bonds.nbr, entries * sizeof(int32_t));
         assert_memory_equal(c[0].bonds.w, c[1].bonds.w, entries * sizeof(real));
         assert_memory_equal(c[0].bonds.inverse_length, c[1].bonds.inverse_length, entries * sizeof(real));

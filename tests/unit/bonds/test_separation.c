@@ -1,5 +1,5 @@
-/* floor 2: the critical stretch of state-based bonds is that of their energy release rate: halves of a lattice are drawn
- * apart by the kernels until nothing holds them, and the work per area is G_c. */
+/* The critical stretch of state-based bonds is that of their energy release rate: halves of a lattice are
+ * drawn apart by the kernels until nothing holds them, and the work per area is G_c. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stddef.h>
@@ -27,7 +27,7 @@ static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enu
         b->modulus[k] = state_modulus_of(&b->c.material[k], plan.space, model == PD_MOSPD);
     }
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) b->c.limit[k] = STRETCH;
-    b->c.source.modulus = b->modulus, b->c.source.local = local, b->c.source.turns = model == PD_MOSPD;
+    b->c.source.modulus = b->modulus, b->c.source.local = local, b->c.source.rotates = model == PD_MOSPD;
     cloud_bonds(&b->c);
 }
 
@@ -69,8 +69,8 @@ static void test_rotations(void **state)
             }
 }
 
-/* The closed form of Madenci & Oterkus 2014 is of a continuum with omega = delta/r and a full Q: the lattice at m = 3.015
- * is within 3 % of it for every nu, and as much above, 5 to 9 %, as Q shrinks with the family. */
+/* The closed form of Madenci & Oterkus 2014 is of a continuum with omega = delta/r and a full Q: the lattice at m =
+ * 3.015 is within 3 % of it for every nu, and as much above, 5 to 9 %, as Q shrinks with the family. */
 static void test_ordinary(void **state)
 {
     (void)state;

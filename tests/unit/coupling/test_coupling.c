@@ -1,4 +1,4 @@
-/* floor 4: both methods together: the patch residual of a flat interface, and the energy of conversion. Numbers:
+/* Both methods together: the patch residual of a flat interface, and the energy of conversion. Numbers:
  * measured with an independent prototype. */
 #include <stdarg.h>
 #include <setjmp.h>
@@ -10,7 +10,7 @@
 
 #define STRAIN 1e-7          /* bonds stretch by finite geometry: deviations from linear theory of this order */
 
-/* ---- a flat interface ----------------------------------------------------------------------------------- */
+/* ---- a flat interface -------------------------------------------------------------------------------------------- */
 
 struct interface {
     struct cloud_plan plan;
@@ -81,13 +81,13 @@ static void test_interface_1d(void **state)
         }
 }
 
-/* h = 2D, linear shapes. S is sigma_xx (axial: uniaxial strain), C11 strain (biaxial), sigma_xy (shear). Of the prototype's
- * table the hand-shake's 0.50 and 0.63 are found with the interface on a node; its 0.38 for shear lies between the 0.42
- * found on a node and the 0.33 in the middle of a cell, its 0.017 for shear with partial stress is found in the middle
- * of a cell (0.034 on a node). What partial stress leaves is no fault of the coupling: the lattice transmits 1.1 % more
- * (axial), as much (biaxial), 3.4 % less (shear) than the points, all of it at one node or half of it at two. The
- * prototype's 0.0007 and 0.007 (axial, biaxial) were not found at any position of the interface; 0.0007 is less than half
- * of what C11 of this lattice is off. */
+/* h = 2D, linear shapes. S is sigma_xx (axial: uniaxial strain), C11 strain (biaxial), sigma_xy (shear). Of the
+ * prototype's table the hand-shake's 0.50 and 0.63 are found with the interface on a node; its 0.38 for shear lies
+ * between the 0.42 found on a node and the 0.33 in the middle of a cell, its 0.017 for shear with partial stress is
+ * found in the middle of a cell (0.034 on a node). What partial stress leaves is no fault of the coupling: the
+ * lattice transmits 1.1 % more (axial), as much (biaxial), 3.4 % less (shear) than the points, all of it at one node
+ * or half of it at two. The prototype's 0.0007 and 0.007 (axial, biaxial) were not found at any position of the
+ * interface; 0.0007 is less than half of what C11 of this lattice is off. */
 static void test_interface_2d(void **state)
 {
     (void)state;
@@ -146,21 +146,22 @@ static void test_share_given(void **state)
     cloud_free(&c);
 }
 
-/* Partial stress of a bar of 2 x 2 lines, half of it bonds; `off`: its last particle, which no bond reaches, stands beside the
- * lattice, so that nothing is looked up. */
+/* Partial stress of a bar of 2 x 2 lines, half of it bonds; `off`: its last particle, which no bond reaches, stands
+ * beside the lattice, so that nothing is looked up. */
 static void shares_make(struct cloud *c, struct partial_stress *partial, real horizon, bool off)
 {
     const struct cloud_plan plan = {.space = SPACE_SOLID, .count = {24, 2, 2}, .horizon = horizon};
     cloud_make(c, &plan);
     if (off)
-        for (int64_t i = 0; i < c->p.n; i++) c->p.X[0][i] += c->p.X[0][i] > 23 * CLOUD_SPACING ? 0.01 * CLOUD_SPACING : 0;
+        for (int64_t i = 0; i < c->p.n; i++)
+            c->p.X[0][i] += c->p.X[0][i] > 23 * CLOUD_SPACING ? 0.01 * CLOUD_SPACING : 0;
     for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = c->p.X[0][i] > 12 * CLOUD_SPACING ? KIND_MPM : KIND_PD;
     cloud_bonds(c);
     partial_stress_make(partial, &c->p, &c->bonds, &c->source, NULL, 0);
 }
 
-/* What tables answer is what is found bond by bond; where there are too many bonds for tables (8: 2108 in a family), nobody looks
- * them up. */
+/* What tables answer is what is found bond by bond; where there are too many bonds for tables (8: 2108 in a family),
+ * nobody looks them up. */
 static void test_wide_families(void **state)
 {
     (void)state;
@@ -174,7 +175,8 @@ static void test_wide_families(void **state)
             const int32_t a = partial[0].index[i], b = partial[1].index[i];
             assert_int_equal(a < 0, b < 0);
             for (int q = 0; q < SYM_MAX * SYM_MAX && a >= 0; q++)
-                is_near("share", partial[0].matrix[a * SYM_MAX * SYM_MAX + q], partial[1].matrix[b * SYM_MAX * SYM_MAX + q], 1e-12);
+                is_near("share", partial[0].matrix[a * SYM_MAX * SYM_MAX + q],
+                        partial[1].matrix[b * SYM_MAX * SYM_MAX + q], 1e-12);
             crossed += a >= 0;
         }
         assert_true(crossed >= 4 * (int)horizon[k]);
@@ -182,7 +184,7 @@ static void test_wide_families(void **state)
     }
 }
 
-/* ---- energy of conversion -------------------------------------------------------------------------------- */
+/* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
 /* Bonds, and half sigma_given : C^-1 sigma of the points [J]. */
 static real energy_of(const struct cloud *c, const struct partial_stress *partial)

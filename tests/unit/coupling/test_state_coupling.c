@@ -1,5 +1,5 @@
-/* floor 4: state-based bonds as partners of material points: what uniform strain across a flat interface leaves, the moment that
- * a point is told, and that converting a block costs nothing. */
+/* State-based bonds as partners of material points: what uniform strain across a flat interface leaves, the
+ * moment that a point is told, and that converting a block costs nothing. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -29,14 +29,14 @@ static void both_make(struct both *b, const struct partners *k)
     memset(b, 0, sizeof *b);
     struct cloud *c = &b->s.c;
     struct cloud_plan plan = k->plan;
-    plan.optional = WITH_ENDS | (k->model == PD_MOSPD ? WITH_TURNS : 0);
+    plan.optional = WITH_ENDS | (k->model == PD_MOSPD ? WITH_ROTATIONS : 0);
     cloud_make(c, &plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         c->material[m].poisson = k->poisson;
         material_derive(&c->material[m], k->plan.space);
         b->modulus[m] = state_modulus_of(&c->material[m], k->plan.space, k->model == PD_MOSPD);
     }
-    c->source.modulus = b->modulus, c->source.turns = k->model == PD_MOSPD;
+    c->source.modulus = b->modulus, c->source.rotates = k->model == PD_MOSPD;
 }
 
 /* Stress of Hooke's law in the material points. */
@@ -51,7 +51,8 @@ static void stress_set(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
     for (int64_t i = 0; i < c->p.n; i++)
         for (int s = 0; s < n; s++) {
             c->p.stress[s][i] = 0;
-            for (int t = 0; t < n && c->p.kind[i] == KIND_MPM; t++) c->p.stress[s][i] += stiffness[s * n + t] * vector[t];
+            for (int t = 0; t < n && c->p.kind[i] == KIND_MPM; t++)
+                c->p.stress[s][i] += stiffness[s * n + t] * vector[t];
         }
 }
 
@@ -60,7 +61,7 @@ static void forces(struct both *b, enum pd_model model)
 {
     struct cloud *c = &b->s.c;
     partial_stress_make(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
-    partial_ends_know(&b->s.partial, &c->p, c->material);
+    partial_ends_update(&b->s.partial, &c->p, c->material);
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
 }
 
@@ -86,14 +87,17 @@ static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MA
     return force;
 }
 
-/* What symmetry leaves, by model, ratio and load (axial, biaxial, shear), over S h, the interface on a node. The model with rotations: nothing of forces along a flat interface's normal, A/2 of what is not isotropic in the depth of its bonds, and in
- * shear half of what leaves their line. The ordinary model: the same by its own A, and what the lattice's fourth moments differ
- * by, as bonds do. Found with a program of a few hundred lines that adds up dense matrices, for these numbers. */
+/* What symmetry leaves, by model, ratio and load (axial, biaxial, shear), over S h, the interface on a node. The
+ * model with rotations: nothing of forces along a flat interface's normal, A/2 of what is not isotropic in the depth
+ * of its bonds, and in shear half of what leaves their line. The ordinary model: the same by its own A, and what the
+ * lattice's fourth moments differ by, as bonds do. Found with a program of a few hundred lines that adds up dense
+ * matrices, for these numbers. */
 static void test_flat(void **state)
 {
     (void)state;
     static const real load[][DIM_MAX][DIM_MAX] = {{{STRAIN}}, {{STRAIN}, {0, STRAIN}}, {{0, STRAIN}, {STRAIN, 0}}};
-    static const real left[2][2][3] = {{{0, 0.0088, 0.0441}, {0, 0.0137, 0.0441}}, {{0.0132, 0.0044, 0.0353}, {0.0097, 0.0053, 0.0353}}};
+    static const real left[2][2][3] = {{{0, 0.0088, 0.0441}, {0, 0.0137, 0.0441}},
+                                       {{0.0132, 0.0044, 0.0353}, {0.0097, 0.0053, 0.0353}}};
     struct partners k = {.plan = {.space = SPACE_PLANE_STRESS, .count = {32, 24}, .horizon = 3.015}, .split = 16};
     for (int m = 0; m < 2; m++)
         for (int n = 0; n < 2; n++)
@@ -103,7 +107,8 @@ static void test_flat(void **state)
             }
 }
 
-/* Bonds of two spacings end within one cell, in which what is left adds up to nothing; 5e-6 is round-off of positions over the strain. */
+/* Bonds of two spacings end within one cell, in which what is left adds up to nothing; 5e-6 is round-off of
+ * positions over the strain. */
 static void test_flat_solid(void **state)
 {
     (void)state;
@@ -113,16 +118,19 @@ static void test_flat_solid(void **state)
     at_most("solid", residual(&k, strain), 5e-6);
 }
 
-/* ---- torque ---------------------------------------------------------------------------------------------- */
+/* ---- torque ------------------------------------------------------------------------------------------------------ */
 
-/* A point at the end of bonds, which see a part of its family, is turned by them: the torque of its own force states is what its
- * cell is told, to round-off over the strain. */
+/* A point at the end of bonds, which see a part of its family, is turned by them: the torque of its own force states
+ * is what its cell is told, to round-off over the strain. */
 static void test_torque(void **state)
 {
     (void)state;
     static const real shear[DIM_MAX][DIM_MAX] = {{0, STRAIN}, {STRAIN, 0}};
-    const struct partners k = {.plan = {.space = SPACE_PLANE_STRESS, .count = {32, 24}, .horizon = 3.015,
-                                        .influence = INFLUENCE_INVERSE}, .model = PD_MOSPD, .poisson = 0.3, .split = 16};
+    const struct partners k = {
+        .plan = {.space = SPACE_PLANE_STRESS, .count = {32, 24}, .horizon = 3.015, .influence = INFLUENCE_INVERSE},
+        .model = PD_MOSPD,
+        .poisson = 0.3,
+        .split = 16};
     struct both b;
     int64_t points = 0;
     both_make(&b, &k);
@@ -136,11 +144,12 @@ static void test_torque(void **state)
     for (int64_t row = 0; row < bonds->rows; row++) {
         const int32_t i = bonds->particle[row];
         real torque = 0, size = 0;
-        for (int64_t c = 0; c < bonds->slot_count[row / LANES] && p->kind[i] == KIND_MPM; c++) {
+        for (int64_t c = 0; c < bonds->column_count[row / LANES] && p->kind[i] == KIND_MPM; c++) {
             const struct bond bond = bond_read(bonds, row / LANES, c, (int)(row % LANES));
             real y[2], T[2];
             for (int d = 0; d < 2; d++) y[d] = p->x[d][bond.nbr] - p->x[d][i];
-            for (int d = 0; d < 2; d++) T[d] = bond.w * bonds->state.spring[i] * (y[d] - (p->X[d][bond.nbr] - p->X[d][i]));
+            for (int d = 0; d < 2; d++)
+                T[d] = bond.w * bonds->state.spring[i] * (y[d] - (p->X[d][bond.nbr] - p->X[d][i]));
             torque += y[0] * T[1] - y[1] * T[0];
             size += fabs(y[0] * T[1]);
         }
@@ -152,7 +161,7 @@ static void test_torque(void **state)
     patch_free(&b.s);
 }
 
-/* ---- energy of conversion -------------------------------------------------------------------------------- */
+/* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
 /* Bonds, and half sigma_given : C^-1 sigma of the points [J]. */
 static real energy_of(const struct both *b, enum pd_model model)
@@ -179,7 +188,8 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
                                         .influence = INFLUENCE_INVERSE}, .model = model, .poisson = 0.3};
     struct solid box = {.kind = SOLID_BOX};
     struct both b;
-    for (int d = 0; d < 2; d++) box.from[d] = (16 - edge / 2) * CLOUD_SPACING, box.to[d] = (16 + edge / 2) * CLOUD_SPACING;
+    for (int d = 0; d < 2; d++)
+        box.from[d] = (16 - edge / 2) * CLOUD_SPACING, box.to[d] = (16 + edge / 2) * CLOUD_SPACING;
     both_make(&b, &k);
     struct cloud *c = &b.s.c;
     for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = KIND_MPM;
@@ -196,9 +206,9 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     return came;
 }
 
-/* The block's sides cost nothing: the energy is that of four corners, whatever its size, load and model: bonds round a
- * corner run less than half their way in material points. In the ordinary model the lattice differs from the points, by 1.4 %
- * axially and 3.4 % in shear (its fourth moments), over the block and half of the bonds round it. */
+/* The block's sides cost nothing: the energy is that of four corners, whatever its size, load and model: bonds round
+ * a corner run less than half their way in material points. In the ordinary model the lattice differs from the
+ * points, by 1.4 % axially and 3.4 % in shear (its fourth moments), over the block and half of the bonds round it. */
 #define CORNER (-0.08604)
 static void test_energy(void **state)
 {

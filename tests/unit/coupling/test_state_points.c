@@ -1,7 +1,9 @@
-/* floor 5: material points at the end of state-based bonds: forces on particles and nodes are the exact gradient of one energy,
- * also of bodies that turn; what a point on the grid is taken to know; and what stress it leaves to its bonds. */
+/* Material points at the end of state-based bonds: forces on particles and nodes are the exact gradient of
+ * one energy, also of bodies that turn; what a point on the grid is taken to know; and what stress it leaves to its
+ * bonds. */
 #include <string.h>
 
+#include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "engine/engine.h"
 #include "tests/support/near.h"
@@ -31,14 +33,14 @@ static void engine_from(struct engine *e, struct scene *s, const char *text)
     assert_int_equal(engine_make(e, s, NULL), OK);
 }
 
-/* ---- gradient ---------------------------------------------------------------------------------------- */
+/* ---- gradient ---------------------------------------------------------------------------------------------------- */
 
 /* Turned about z and shaken; a mirror's plane stays. */
 static real shaken(const struct engine *e, const real *X, int d, uint64_t *seed)
 {
     const real angle = TURN_MOST * X[0] / 20e-3;
-    const real turn[3] = {-angle * X[1], angle * X[1], 0.5 * angle * X[1]};
-    return turn[d] + cloud_between(seed, -SHAKE, SHAKE) * e->scene->spacing;
+    const real rotation[3] = {-angle * X[1], angle * X[1], 0.5 * angle * X[1]};
+    return rotation[d] + cloud_between(seed, -SHAKE, SHAKE) * e->scene->spacing;
 }
 
 static void shake(struct engine *e)
@@ -53,7 +55,8 @@ static void shake(struct engine *e)
     }
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
         real X[DIM_MAX] = {0};
-        for (int d = 0; d < p->dim; d++) X[d] = grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
+        for (int d = 0; d < p->dim; d++)
+            X[d] = grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
         for (int d = 0; d < p->dim; d++) mesh->displacement[d][I] = shaken(e, X, d, &seed);
     }
 }
@@ -61,7 +64,8 @@ static void shake(struct engine *e)
 static real energy_of(struct engine *e)
 {
     engine_forces(e);
-    return e->kernels.bond_energy(&e->bonds, &e->part) + mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain);
+    return e->kernels.bond_energy(&e->bonds, &e->part) +
+           mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain);
 }
 
 /* Force on one component against the slope of the energy. */
@@ -85,7 +89,8 @@ static real largest(const struct engine *e)
     return most;
 }
 
-/* Every few unknowns, of both kinds. What moves with an image or a plane of symmetry is left out: nodes beyond or on it. */
+/* Every few unknowns, of both kinds. What moves with an image or a plane of symmetry is left out: nodes beyond or on
+ * it. */
 static void check_gradient(struct engine *e)
 {
     struct particles *p = &e->part;
@@ -99,7 +104,9 @@ static void check_gradient(struct engine *e)
             if (++particles % 5 == 0) check_slope(e, &p->x[d][i], &p->f[d][i], scale);
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int d = 0; d < p->dim && mesh->grid.mass[I] > 0; d++)
-            if (grid_position(&mesh->grid, 1, I / mesh->grid.stride[1] % mesh->grid.count[1]) > 0.5 * e->scene->spacing && ++nodes % 5 == 0)
+            if (grid_position(&mesh->grid, 1, I / mesh->grid.stride[1] % mesh->grid.count[1]) >
+                    0.5 * e->scene->spacing &&
+                ++nodes % 5 == 0)
                 check_slope(e, &mesh->displacement[d][I], &mesh->grid.force[d][I], scale);
     assert_true(particles > 60 && nodes > 50);
 }
@@ -108,12 +115,14 @@ static void check_gradient(struct engine *e)
 static void test_gradient(void **state)
 {
     (void)state;
-    static const char *const text[] = {plate, block}, *const model[] = {"ospd", "mospd"}, *const coupling[] = {"partial stress", "handshake"};
+    static const char *const text[] = {plate, block}, *const model[] = {"ospd", "mospd"},
+                             *const coupling[] = {"partial stress", "handshake"};
     for (int k = 0; k < 8; k++) {
         struct scene s;
         struct engine e = {0};
         char whole[2048];
-        snprintf(whole, sizeof whole, "%smodel: %s\ncoupling: %s\nmpm: {frame: reference}\n", text[k / 4], model[k % 2], coupling[k / 2 % 2]);
+        snprintf(whole, sizeof whole, "%smodel: %s\ncoupling: %s\nmpm: {frame: reference}\n", text[k / 4], model[k % 2],
+                 coupling[k / 2 % 2]);
         engine_from(&e, &s, whole);
         check_gradient(&e);
         engine_free(&e);
@@ -121,7 +130,7 @@ static void test_gradient(void **state)
     }
 }
 
-/* ---- a point on the grid -------------------------------------------------------------------------------- */
+/* ---- a point on the grid ----------------------------------------------------------------------------------------- */
 
 /* Pressure of the strain that its bonds see and the rest by its stress; its own rotation. */
 static void check_point(const struct engine *e, int64_t row)
@@ -134,7 +143,7 @@ static void check_point(const struct engine *e, int64_t row)
     const real share = p->volume0[i] / b->state.weighted[row], *local = e->partial.local + e->partial.index[i] * n;
     real S = 0, compliance[SYM_MAX * SYM_MAX];
     material_compliance(&e->scene->material[0], dim, compliance);
-    for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
+    for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
         real y2 = 0, r = fabs(1 / bond.inverse_length);
         for (int d = 0; d < dim; d++) y2 += square(p->x[d][bond.nbr] - p->x[d][i]);
@@ -159,8 +168,8 @@ static void check_points(const char *text)
     shake(&e);
     for (int64_t i = 0; i < e.part.n; i++)
         for (int c = 0; c < symmetric_count(e.part.dim); c++) e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
-    engine_ends_know(&e);
-    families_know(&e.bonds, &e.part, &e.source);
+    engine_ends_update(&e);
+    states_precompute(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];
         if (e.part.kind[i] != KIND_MPM || e.partial.index[i] < 0 || !partial_end(&e.partial, i, e.part.dim)) continue;
@@ -179,7 +188,7 @@ static void test_points(void **state)
     check_points(block);
 }
 
-/* ---- partial stress ---------------------------------------------------------------------------------------- */
+/* ---- partial stress ---------------------------------------------------------------------------------------------- */
 
 /* Of a point, with the map of sites and by searching: the same bits. */
 static void same_partials(const struct partial_stress *a, const struct partial_stress *b, int64_t n, int dim)
@@ -189,8 +198,10 @@ static void same_partials(const struct partial_stress *a, const struct partial_s
     for (int64_t i = 0; i < n; i++) {
         assert_int_equal(a->index[i] >= 0, b->index[i] >= 0);
         if (a->index[i] < 0) continue;
-        assert_memory_equal(a->matrix + a->index[i] * size, b->matrix + b->index[i] * size, (size_t)size * sizeof(real));
-        assert_memory_equal(a->local + a->index[i] * symmetric, b->local + b->index[i] * symmetric, (size_t)symmetric * sizeof(real));
+        assert_memory_equal(a->matrix + a->index[i] * size, b->matrix + b->index[i] * size,
+                            (size_t)size * sizeof(real));
+        assert_memory_equal(a->local + a->index[i] * symmetric, b->local + b->index[i] * symmetric,
+                            (size_t)symmetric * sizeof(real));
         points++;
     }
     assert_true(points > 40);
@@ -209,12 +220,12 @@ static void check_partials(const char *text)
     while (e.part.kind[point] != KIND_MPM || e.bonds.row_of[point] < 0) point++;
     e.part.flag[point] |= FLAG_STRESSED;
     assert_true(convert(&e.conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.partial, NULL, 0) > 0);
-    assert_non_null(e.bonds.sites);
+    assert_non_null(e.bonds.site_map);
     bonds_make(&searched, NULL, &e.part, &e.source);
-    struct lattice *sites = searched.sites;
-    searched.sites = NULL;
+    struct lattice *sites = searched.site_map;
+    searched.site_map = NULL;
     partial_stress_make(&again, &e.part, &searched, &e.source, NULL, 0);
-    searched.sites = sites;
+    searched.site_map = sites;
     same_partials(&e.partial, &again, e.part.n, e.part.dim);
     partial_stress_free(&again);
     bonds_free(&searched);

@@ -1,4 +1,4 @@
-/* floor 5: tests of the particles' table of arrays, their sorting, lists and images. */
+/* Tests of the particles' table of arrays, their sorting, lists and images. */
 #include "tests/support/near.h"
 
 #include <omp.h>

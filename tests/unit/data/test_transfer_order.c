@@ -1,4 +1,4 @@
-/* floor 4: the order of transfers: colours, cells and growing grids. */
+/* The order of transfers: colours, cells and growing grids. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* floor 5: what a scene is said to need before it is made is about what it takes: scenes are refused by it. */
+/* What a scene is said to need before it is made is about what it takes: scenes are refused by it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,6 +7,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "base/memory.h"
 
@@ -16,15 +17,19 @@ static void takes_what_it_says(const char *space, const char *box, const char *p
     char text[1024];
     struct scene s = {0};
     struct engine e = {0};
-    snprintf(text, sizeof text, "name: block\nspace: %s\nmethod: pd\nduration: 1 us\ntime: {step: 50 ns}\nparticles: {%s}\nbody: {box: {%s}}\n"
-             "material: {young: 72e9, density: 2440, critical_stretch: 0.1}\noutput: {frames: 0, samples: 1}\n", space, particles, box);
+    snprintf(
+        text, sizeof text,
+        "name: block\nspace: %s\nmethod: pd\nduration: 1 us\ntime: {step: 50 ns}\nparticles: {%s}\nbody: {box: {%s}}\n"
+        "material: {young: 72e9, density: 2440, critical_stretch: 0.1}\noutput: {frames: 0, samples: 1}\n",
+        space, particles, box);
     if (scene_read_text(&s, text, strlen(text), "block", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
     e.quiet = true;
     if (engine_run(&e) != OK) fail_msg("%s", status_message());
     *taken = (double)memory_peak();
     const double said = engine_memory(&e);
-    print_message("%.5s, %s: said %.0f MB, with what was there before at most %.0f MB\n", space, particles, 1e-6 * said, 1e-6 * *taken);
+    print_message("%.5s, %s: said %.0f MB, with what was there before at most %.0f MB\n", space, particles, 1e-6 * said,
+                  1e-6 * *taken);
     assert_true(*taken < 1.1 * said + 30e6);     /* the program and its libraries */
     assert_true(*taken > 0.5 * said);
     engine_free(&e);
@@ -36,7 +41,8 @@ static void test_lattice_then_scattered(void **state)
     (void)state;
     double lattice, scattered, solid;
     takes_what_it_says("plane stress\nthickness: 1 mm", "from: [0, 0], to: [0.5, 0.5]", "spacing: 1 mm", &lattice);
-    takes_what_it_says("plane stress\nthickness: 1 mm", "from: [0, 0], to: [0.5, 0.5]", "spacing: 1 mm, irregularity: 0.1", &scattered);
+    takes_what_it_says("plane stress\nthickness: 1 mm", "from: [0, 0], to: [0.5, 0.5]",
+                       "spacing: 1 mm, irregularity: 0.1", &scattered);
     takes_what_it_says("solid", "from: [0, 0, 0], to: [0.05, 0.05, 0.05]", "spacing: 1 mm, irregularity: 0.1", &solid);
     assert_true(lattice < 0.5 * scattered);
 }

@@ -1,5 +1,5 @@
-/* floor 5: cracks that grow as they are told: what the tip crosses against a plain loop, the law of fading, its energy and
- * momentum, when it grows and where to, and restarts. */
+/* Cracks that grow as they are told: what the tip crosses against a plain loop, the law of fading, its
+ * energy and momentum, when it grows and where to, and restarts. */
 #include "fracture/growth.h"
 #include "kernels/kernels.h"
 
@@ -16,7 +16,7 @@ struct stage {
     struct state_modulus modulus[CLOUD_MATERIALS];
     struct growth_rule rule;
     struct growth g;
-    struct ruling K;
+    struct control K;
     bool ruled;
 };
 
@@ -24,8 +24,8 @@ struct stage {
 static void stage_lay(struct stage *s, enum pd_model model, bool local)
 {
     memset(s, 0, sizeof *s);
-    cloud_make(&s->c, &(struct cloud_plan){.space = SPACE_PLANE_STRAIN, .count = {24, 24}, .horizon = 3.015, .shake = 0.2,
-                                           .seed = 11});
+    cloud_make(&s->c, &(struct cloud_plan){
+                          .space = SPACE_PLANE_STRAIN, .count = {24, 24}, .horizon = 3.015, .shake = 0.2, .seed = 11});
     for (int k = 0; k < CLOUD_MATERIALS && model != PD_BOND; k++) {
         struct material *m = &s->c.material[k];
         m->poisson = 0.3;
@@ -34,7 +34,7 @@ static void stage_lay(struct stage *s, enum pd_model model, bool local)
                                          : (struct state_modulus){4 * m->c12, 4 * m->shear};
     }
     if (model != PD_BOND) s->c.source.modulus = s->modulus;
-    s->c.source.local = local, s->c.source.turns = model == PD_MOSPD;
+    s->c.source.local = local, s->c.source.rotates = model == PD_MOSPD;
     s->rule = (struct growth_rule){.name = "crack", .at = {7.3e-3, 11.1e-3}, .direction = {0.96, 0.28}, .speed = SPEED,
                                    .length = INFINITY, .damping = 0.5 * HORIZON, .exponent = 4};
 }
@@ -77,7 +77,7 @@ static void force(struct stage *s, enum pd_model model)
     k.bond_force(&s->c.bonds, &s->c.p, &s->c.source.limit, NULL);
 }
 
-/* ---- which bonds, and how much of them -------------------------------------------------------------------- */
+/* ---- which bonds, and how much of them --------------------------------------------------------------------------- */
 
 static real side(const real *a, const real *b, const real *x)
 {
@@ -105,12 +105,12 @@ static void check_weights(struct stage *s, real damping, real exponent, int64_t 
     stage_lay(&whole, PD_OSPD, true);
     stage_set(&whole);
     const int64_t released = steps(s, 0, STEPS);
-    const struct bonds *b = &s->c.bonds;
+    struct bonds *b = &s->c.bonds;
     int64_t gone = 0;
     const real advance = SPEED * STEP;
     for (int64_t row = 0; row < b->rows; row++)
-        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-            const int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
+            const int64_t q = bond_to_write(b, row / LANES, k, (int)(row % LANES));
             real X[DIM_MAX], Y[DIM_MAX];
             particle_place(&s->c.p, b->particle[row], X);
             particle_place(&s->c.p, b->nbr[q], Y);
@@ -145,7 +145,7 @@ static void test_law(void **state)
     }
 }
 
-/* ---- energy and momentum ------------------------------------------------------------------------------------ */
+/* ---- energy and momentum ----------------------------------------------------------------------------------------- */
 
 static real energy_of(struct stage *s, enum pd_model model)
 {
@@ -226,7 +226,7 @@ static void test_energy_of_breaking(void **state)
     }
 }
 
-/* ---- when, where to ------------------------------------------------------------------------------------------ */
+/* ---- when, where to ---------------------------------------------------------------------------------------------- */
 
 static void test_length(void **state)
 {
@@ -259,10 +259,10 @@ static void test_rule(void **state)
     steps(&s, 0, 2);
     assert_exact(s.g.grown, 0);
     s.ruled = true;
-    s.K = (struct ruling){.factors.K = {0.9e6, 0}, .along = {1, 0}};
+    s.K = (struct control){.factors.K = {0.9e6, 0}, .along = {1, 0}};
     steps(&s, 2, 2);
     assert_exact(s.g.grown, 0);
-    s.K = (struct ruling){.factors.K = {1e6, -0.2e6}, .along = {1, 0}};
+    s.K = (struct control){.factors.K = {1e6, -0.2e6}, .along = {1, 0}};
     const real first = crack_direction(s.K.factors.K);
     assert_true(first > 0.3 && first < 0.4);
     steps(&s, 4, 3);
@@ -271,12 +271,12 @@ static void test_rule(void **state)
     stage_free(&s);
 }
 
-/* ---- a speed that follows the toughness ---------------------------------------------------------------------------- */
+/* ---- a speed that follows the toughness -------------------------------------------------------------------------- */
 
 #define TOUGHNESS 1e6                    /* [Pa m^(1/2)] */
 
-/* Runs until `end` [s] under K = k(v_seen) K_still(t), v_seen behind the speed by `delay` [s]: Freund's law for any body,
- * and what a field at a distance makes of it. Returns the largest speed on the way. */
+/* Runs until `end` [s] under K = k(v_seen) K_still(t), v_seen behind the speed by `delay` [s]: Freund's law for any
+ * body, and what a field at a distance makes of it. Returns the largest speed on the way. */
 static real follow(struct stage *s, real (*still)(real t), real delay, real end)
 {
     real seen = 0, fastest = 0;
@@ -324,8 +324,8 @@ static void test_follows(void **state)
     }
 }
 
-/* Rests while K is too small, stops for good when it gets so, is never faster than it may be, and starts as K passes K_Ic;
- * while K rises as sqrt(t) it is behind by the smoothing alone. */
+/* Rests while K is too small, stops for good when it gets so, is never faster than it may be, and starts as K passes
+ * K_Ic; while K rises as sqrt(t) it is behind by the smoothing alone. */
 static void test_follows_and_rests(void **state)
 {
     (void)state;
@@ -368,7 +368,7 @@ static void test_points(void **state)
     stage_free(&s);
 }
 
-/* ---- restarts ------------------------------------------------------------------------------------------------ */
+/* ---- restarts ---------------------------------------------------------------------------------------------------- */
 
 struct drawer { char name[8][64]; char data[8][200000]; size_t size[8]; int n; };
 
@@ -405,17 +405,23 @@ static void test_restart(void **state)
     growth_make(&again.g, &again.rule);
     assert_ok(growth_archive(&again.g, 3, &(struct archive){.exchange = exchange, .file = &drawer}));
     steps(&again, STEPS / 2, STEPS - STEPS / 2);
-    assert_memory_equal(again.c.bonds.w, s.c.bonds.w, (size_t)(s.c.bonds.slots * LANES) * sizeof(real));
-    assert_memory_equal(again.c.bonds.fracture_energy, s.c.bonds.fracture_energy, (size_t)s.c.bonds.rows * sizeof(real));
+    assert_memory_equal(again.c.bonds.w, s.c.bonds.w, (size_t)(s.c.bonds.columns * LANES) * sizeof(real));
+    assert_memory_equal(again.c.bonds.fracture_energy, s.c.bonds.fracture_energy,
+                        (size_t)s.c.bonds.rows * sizeof(real));
     assert_memory_equal(again.g.place, s.g.place, sizeof s.g.place);
     stage_free(&s), stage_free(&again);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_law),    cmocka_unit_test(test_energy_of_fading), cmocka_unit_test(test_energy_of_breaking),
-        cmocka_unit_test(test_length), cmocka_unit_test(test_rule),             cmocka_unit_test(test_points),
-        cmocka_unit_test(test_follows), cmocka_unit_test(test_follows_and_rests), cmocka_unit_test(test_restart)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_law),
+                                       cmocka_unit_test(test_energy_of_fading),
+                                       cmocka_unit_test(test_energy_of_breaking),
+                                       cmocka_unit_test(test_length),
+                                       cmocka_unit_test(test_rule),
+                                       cmocka_unit_test(test_points),
+                                       cmocka_unit_test(test_follows),
+                                       cmocka_unit_test(test_follows_and_rests),
+                                       cmocka_unit_test(test_restart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

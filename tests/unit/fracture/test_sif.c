@@ -1,11 +1,11 @@
-/* floor 5: tests of crack-tip fields and of the interaction integral of exact fields. */
+/* Tests of crack-tip fields and of the interaction integral of exact fields. */
 #include <math.h>
 
 #include "tests/support/glass.h"
 #include "tests/support/near.h"
 #include "fracture/sif.h"
 
-/* ---- fields ------------------------------------------------------------------------------------------------ */
+/* ---- fields ------------------------------------------------------------------------------------------------------ */
 
 /* Largest entry of the difference of two states over the largest of the second, gradients and stresses apart. */
 static real state_difference(const struct crack_state *a, const struct crack_state *b)
@@ -43,8 +43,8 @@ static void field_is_a_solution(const struct crack_medium *m, enum crack_mode mo
                             1e-8 * size);
             }
             assert_near(balance, 0, 1e-8);                /* of stresses of 0.3 Pa; differences cost half the digits */
-            assert_near((to[0][1].state.velocity[i] - to[0][0].state.velocity[i]) / (2 * e), here.state.velocity_along[i],
-                        1e-8 * size * (v + 1));
+            assert_near((to[0][1].state.velocity[i] - to[0][0].state.velocity[i]) / (2 * e),
+                        here.state.velocity_along[i], 1e-8 * size * (v + 1));
         }
     }
     for (int sign = -1; sign <= 1; sign += 2) {
@@ -146,7 +146,7 @@ static void direction_is_that_of_the_largest_hoop_stress(void **state)
     assert_exact(crack_direction((const real[]){1, 0}), 0);
 }
 
-/* ---- the integral from exact fields --------------------------------------------------------------------------- */
+/* ---- the integral from exact fields ------------------------------------------------------------------------------ */
 
 /* Gauss points of five in [0, 1]. */
 static const real gauss_place[] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,

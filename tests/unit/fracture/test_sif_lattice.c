@@ -1,4 +1,4 @@
-/* floor 5: tests of stress-intensity factors from particles: gradients on clouds, and the integral over lattices that
+/* Tests of stress-intensity factors from particles: gradients on clouds, and the integral over lattices that
  * carry exact crack-tip fields. */
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "tests/support/near.h"
 #include "fracture/sif.h"
 
-/* ---- gradients ------------------------------------------------------------------------------------------------- */
+/* ---- gradients --------------------------------------------------------------------------------------------------- */
 
 /* A shaken square of particles with room for two fields. */
 struct patch { struct particles p; struct cells c; real *u[2]; };
@@ -152,7 +152,7 @@ static void gradients_fall_back(void **state)
     }
 }
 
-/* ---- the integral from particles ---------------------------------------------------------------------------------- */
+/* ---- the integral from particles --------------------------------------------------------------------------------- */
 
 /* An even lattice of spacing 1 round the tip at (shift), displaced by the exact field of a crack at an angle. */
 struct lattice {
@@ -352,7 +352,8 @@ static void lattice_sums_of_a_moving_crack(void **state)
         const real J = crack_universal(&l.tip.medium, MODE_I, l.tip.speed) * square(K[0])
                        + crack_universal(&l.tip.medium, MODE_II, l.tip.speed) * square(K[1]);
         print_message("moving at %g m/s, %g deg: %.4f %%, %.4f %%, J %.4f %%\n", l.tip.speed, degrees[n % 2],
-                      100 * sif_error(&s, K), 100 * sif_error(&large, K), 100 * (large.J * l.tip.medium.modulus / J - 1));
+                      100 * sif_error(&s, K), 100 * sif_error(&large, K),
+                      100 * (large.J * l.tip.medium.modulus / J - 1));
         assert_near(sif_error(&s, K), 0, 0.0007);
         assert_near(sif_error(&large, K), 0, 0.0004);
         assert_near(large.J * l.tip.medium.modulus, J, 0.001);

@@ -1,4 +1,4 @@
-/* floor 5: tests of crack tips, on damage set by hand. */
+/* Tests of crack tips, on damage set by hand. */
 #include "tests/support/bodies.h"
 
 static void tip_starts_only_where_the_body_goes_on(void **state)

@@ -1,4 +1,4 @@
-/* floor 2: bonds that yield: the path of one bond against its closed form, all lanes against a scalar twin, the work
+/* Bonds that yield: the path of one bond against its closed form, all lanes against a scalar twin, the work
  * they book, both ends alike, and what they take over from material points. */
 #include "kernels/kernels.h"
 
@@ -9,14 +9,14 @@
 #define YIELD 5e-5
 #define HARDENING 1.0                    /* E_t = E/2 */
 
-/* ---- one bond ----------------------------------------------------------------------------------------- */
+/* ---- one bond ---------------------------------------------------------------------------------------------------- */
 
 /* Force over stiffness and weight of the one bond of two particles at stretch s. */
 static real pulled(struct cloud *c, real s)
 {
     c->p.x[0][1] = c->p.x[0][0] + (c->p.X[0][1] - c->p.X[0][0]) * (1 + s);
     bond_force_table[1][PD_BOND_PLASTIC](&c->bonds, &c->p, &c->source.limit, NULL);
-    int64_t q = bond_index(&c->bonds, 0, 0, 0);
+    int64_t q = bond_to_write(&c->bonds, 0, 0, 0);
     assert_exact(c->p.f[0][0], -c->p.f[0][1]);
     return c->p.f[0][0] / (c->bonds.stiffness * c->bonds.w[q]);
 }
@@ -26,12 +26,12 @@ static void pair_make(struct cloud *c)
     cloud_make(c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     c->yield[0] = YIELD, c->hardening[0] = HARDENING;
     cloud_bonds(c);
-    assert_int_equal(c->bonds.slots, 1);
+    assert_int_equal(c->bonds.columns, 1);
 }
 
-/* Loaded to 3 s_y, unloaded through 0 to reverse yield, on to -4 s_y, reloaded to yield again: the corners and the places
- * between of the bilinear law with isotropic hardening, slope E_t/E = H/(1 + H) once it yields. Stretches of 1e-4 are
- * differences of lengths: round-off 1e-16/1e-4, so 1e-12 of the yield force. */
+/* Loaded to 3 s_y, unloaded through 0 to reverse yield, on to -4 s_y, reloaded to yield again: the corners and the
+ * places between of the bilinear law with isotropic hardening, slope E_t/E = H/(1 + H) once it yields. Stretches of
+ * 1e-4 are differences of lengths: round-off 1e-16/1e-4, so 1e-12 of the yield force. */
 static void test_path(void **state)
 {
     (void)state;
@@ -48,7 +48,8 @@ static void test_path(void **state)
     real dissipated = 0;
     pair_make(&c);
     for (size_t k = 0; k < COUNT_OF(path); k++) {
-        assert_near(pulled(&c, path[k][0]), path[k][1], 1e-12 * y * 10 + 0x1p-50);    /* stretches are multiples of 2^-49 */
+        /* stretches are multiples of 2^-49 */
+        assert_near(pulled(&c, path[k][0]), path[k][1], 1e-12 * y * 10 + 0x1p-50);
         real work = bond_plastic_work(&c.bonds);
         assert_true(work >= dissipated);
         dissipated = work;
@@ -56,8 +57,9 @@ static void test_path(void **state)
     cloud_free(&c);
 }
 
-/* Work put into a bond along the same path, by the trapezoidal rule on 40,000 steps (exact for a force linear between
- * them; at three corners off by half a step of the slope's change times the step: 1e-9): elastic energy and plastic work. */
+/* Work put into a bond along the same path, by the trapezoidal rule on 40,000 steps (exact for a force linear
+ * between them; at three corners off by half a step of the slope's change times the step: 1e-9): elastic energy and
+ * plastic work. */
 static void test_work(void **state)
 {
     (void)state;
@@ -65,7 +67,7 @@ static void test_work(void **state)
     struct cloud c;
     real work = 0, before = 0;
     pair_make(&c);
-    int64_t q = bond_index(&c.bonds, 0, 0, 0);
+    int64_t q = bond_to_write(&c.bonds, 0, 0, 0);
     const real scale = c.bonds.stiffness * c.bonds.w[q] / c.bonds.inverse_length[q];
     enum { STEPS = 10000 };
     for (size_t k = 1; k < COUNT_OF(corner); k++)
@@ -79,7 +81,7 @@ static void test_work(void **state)
     cloud_free(&c);
 }
 
-/* ---- many bonds --------------------------------------------------------------------------------------- */
+/* ---- many bonds -------------------------------------------------------------------------------------------------- */
 
 struct twin { real plastic, path; };
 
@@ -96,7 +98,8 @@ static real twin_force(struct twin *t, real stretch, real yield, real hardening)
 
 static void body_make(struct cloud *c, enum space space, uint64_t seed)
 {
-    cloud_make(c, &(struct cloud_plan){.space = space, .count = {9, 7, 5}, .horizon = 2.015, .shake = 0.2, .seed = seed});
+    cloud_make(c,
+               &(struct cloud_plan){.space = space, .count = {9, 7, 5}, .horizon = 2.015, .shake = 0.2, .seed = seed});
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->yield[k] = 1e-3 * (1 + k), c->hardening[k] = 0.5 * k;
     for (int64_t i = 0; i < c->p.n; i++) c->p.material[i] = (uint8_t)(i % 2);
     c->yield[2] = c->yield[1], c->hardening[2] = c->hardening[1];
@@ -116,8 +119,8 @@ static void twin_row(const struct cloud *c, struct twin *twin, int64_t r, real *
     const struct bonds *b = &c->bonds;
     const struct particles *p = &c->p;
     const int32_t i = b->particle[r];
-    for (int64_t k = 0; k < b->slot_count[r / LANES]; k++) {
-        int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES));
+    for (int64_t k = 0; k < b->column_count[r / LANES]; k++) {
+        int64_t q = bond_read(b, r / LANES, k, (int)(r % LANES)).entry;
         if (b->w[q] == 0) continue;
         int32_t j = b->nbr[q];
         real y[DIM_MAX], Y2 = 0, y2 = 0;
@@ -140,7 +143,7 @@ static void test_lanes(void **state)
         struct cloud c;
         uint64_t seed = 5;
         body_make(&c, spaces[dim - 1], 3);
-        struct twin *twin = NEW("test.twin", c.bonds.slots * LANES, struct twin);
+        struct twin *twin = NEW("test.twin", c.bonds.columns * LANES, struct twin);
         for (int step = 0; step < 12; step++) {
             shake(&c, &seed);
             bond_force_table[dim][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL);
@@ -171,11 +174,11 @@ static void test_ends(void **state)
         bond_force_table[2][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL);
     }
     for (int64_t r = 0; r < b->rows; r++)
-        for (int64_t k = 0; k < b->slot_count[r / LANES]; k++) {
-            int64_t q = bond_index(b, r / LANES, k, (int)(r % LANES)), other = b->row_of[b->nbr[q]];
+        for (int64_t k = 0; k < b->column_count[r / LANES]; k++) {
+            int64_t q = bond_read(b, r / LANES, k, (int)(r % LANES)).entry, other = b->row_of[b->nbr[q]];
             if (b->w[q] == 0) continue;
-            for (int64_t m = 0; m < b->slot_count[other / LANES]; m++) {
-                int64_t o = bond_index(b, other / LANES, m, (int)(other % LANES));
+            for (int64_t m = 0; m < b->column_count[other / LANES]; m++) {
+                int64_t o = bond_read(b, other / LANES, m, (int)(other % LANES)).entry;
                 if (b->w[o] == 0 || b->nbr[o] != b->particle[r]) continue;
                 assert_exact(b->plastic_stretch[o], b->plastic_stretch[q]);
                 assert_exact(b->plastic_path[o], b->plastic_path[q]);
@@ -186,7 +189,7 @@ static void test_ends(void **state)
     cloud_free(&c);
 }
 
-/* ---- taken over from material points ------------------------------------------------------------------ */
+/* ---- taken over from material points ----------------------------------------------------------------------------- */
 
 /* Points of a bar under uniform stretch that have yielded become peridynamic: every bond then carries their stress. */
 static void test_taken_over(void **state)

@@ -1,4 +1,4 @@
-/* floor 4: every bond kernel in the tables against its plain twin, and partial stresses against brute force. Transfers
+/* Every bond kernel in the tables against its plain twin, and partial stresses against brute force. Transfers
  * have a file of their own. */
 #include <stdarg.h>
 #include <setjmp.h>
@@ -8,7 +8,7 @@
 
 #include "tests/support/cloud.h"
 #include "tests/support/eigen.h"
-#include "coupling/convert.h"
+#include "coupling/conversion.h"
 #include "tests/support/reference.h"
 #include "tests/support/same.h"
 #include "tests/support/sets.h"
@@ -48,7 +48,7 @@ static void body_make(struct cloud *c, int dim, int way)
     cloud_bonds(c);
 }
 
-/* ---- force and breaking ------------------------------------------------------------------------------- */
+/* ---- force and breaking ------------------------------------------------------------------------------------------ */
 
 static void check_force(const struct cloud *c, const struct particles *before, const real *w)
 {
@@ -172,38 +172,41 @@ static void test_bond_momentum(void **state)
             }
 }
 
-/* ---- what slots have in common -------------------------------------------------------------------------- */
+/* ---- what columns have in common --------------------------------------------------------------------------------- */
 
 /* A lattice of one material, displaced; some bonds broken by load, one faded. */
 static void lattice_make(struct cloud *c, int dim, bool state)
 {
     uint64_t seed = 5;
-    cloud_make(c, &(struct cloud_plan){.space = space_of[dim], .count = {17, 11, 9}, .horizon = dim == 3 ? 2.015 : 3.015,
+    cloud_make(c, &(struct cloud_plan){.space = space_of[dim],
+                                       .count = {17, 11, 9},
+                                       .horizon = dim == 3 ? 2.015 : 3.015,
                                        .surface = SURFACE_VOLUME});
     static struct state_modulus modulus;
     modulus = state_modulus_of(&c->material[0], space_of[dim], true);
-    if (state) c->source.modulus = &modulus, c->source.turns = true, c->source.local = true;
+    if (state) c->source.modulus = &modulus, c->source.rotates = true, c->source.local = true;
     for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c->limit[m] = 0.02;
     cloud_bonds(c);
     for (int d = 0; d < dim; d++)
-        for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
-    const struct bonds *b = &c->bonds;
-    const int64_t row = b->row_of[c->p.n / 2], q = bond_index(b, row / LANES, 2, (int)(row % LANES));
+        for (int64_t i = 0; i < c->p.n; i++)
+            c->p.x[d][i] = c->p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
+    struct bonds *b = &c->bonds;
+    const int64_t row = b->row_of[c->p.n / 2], q = bond_to_write(b, row / LANES, 2, (int)(row % LANES));
     bond_fade(&c->bonds, &c->p, row, q, 0.5f * b->w[q]);
 }
 
-/* Forces with `alike` and then `lattice` taken from all slots: [3][dim n]. Says which kinds of slots there were. */
+/* Forces with `alike` and then `lattice` taken from all columns: [3][dim n]. Says which kinds of columns there were. */
 static real *forces_by_kind(struct cloud *c, bond_force_fn *force, bool kinds[3])
 {
     const int64_t all = c->p.dim * c->p.n;
     real *f = NEW("test.forces", 3 * all, real);
     assert_true(force(&c->bonds, &c->p, &c->source.limit, NULL) > 0);
-    for (int64_t slot = 0; slot < c->bonds.slots; slot++)
-        kinds[c->bonds.common[slot].alike ? 2 : c->bonds.common[slot].lattice ? 1 : 0] = true;
+    for (int64_t column = 0; column < c->bonds.columns; column++)
+        kinds[c->bonds.common[column].alike ? 2 : c->bonds.common[column].lattice ? 1 : 0] = true;
     for (int pass = 0; pass < 3; pass++) {
-        for (int64_t slot = 0; slot < c->bonds.slots && pass > 0; slot++) {
-            c->bonds.common[slot].alike = 0;
-            if (pass == 2) c->bonds.common[slot].lattice = 0;
+        for (int64_t column = 0; column < c->bonds.columns && pass > 0; column++) {
+            c->bonds.common[column].alike = 0;
+            if (pass == 2) c->bonds.common[column].lattice = 0;
         }
         assert_int_equal(force(&c->bonds, &c->p, &c->source.limit, NULL), 0);
         for (int d = 0; d < c->p.dim; d++)
@@ -212,9 +215,10 @@ static real *forces_by_kind(struct cloud *c, bond_force_fn *force, bool kinds[3]
     return f;
 }
 
-/* However a slot is read the forces are the same: to the last bit, but for lengths that are mere factors of state-based
- * ones; those differ by the round-off of positions, 17 spacings of 1.1e-16 over one, summed over a family. */
-static void test_slot_kinds(void **unused)
+/* However a column is read the forces are the same: to the last bit, but for lengths that are mere factors of
+ * state-based ones; those differ by the round-off of positions, 17 spacings of 1.1e-16 over one, summed over a
+ * family. */
+static void test_column_kinds(void **unused)
 {
     (void)unused;
     bool kinds[3] = {false};
@@ -235,7 +239,7 @@ static void test_slot_kinds(void **unused)
     assert_true(kinds[0] && kinds[1] && kinds[2]);
 }
 
-/* ---- energy and stress --------------------------------------------------------------------------------- */
+/* ---- energy and stress ------------------------------------------------------------------------------------------- */
 
 static void test_bond_energy(void **state)
 {
@@ -282,7 +286,7 @@ static void test_bond_stress(void **state)
             }
 }
 
-/* ---- motion -------------------------------------------------------------------------------------------- */
+/* ---- motion ------------------------------------------------------------------------------------------------------ */
 
 static void test_pd_move(void **state)
 {
@@ -311,7 +315,7 @@ static void test_pd_move(void **state)
         }
 }
 
-/* ---- threads ------------------------------------------------------------------------------------------- */
+/* ---- threads ----------------------------------------------------------------------------------------------------- */
 
 static void test_bond_threads(void **state)
 {
@@ -336,9 +340,10 @@ static void test_bond_threads(void **state)
             }
 }
 
-/* ---- partial stress -------------------------------------------------------------------------------------- */
+/* ---- partial stress ---------------------------------------------------------------------------------------------- */
 
-/* The least eigenvalue of (1 - M) C, what a point keeps of its stiffness, M over symmetric components of stress [Pa]. */
+/* The least eigenvalue of (1 - M) C, what a point keeps of its stiffness, M over symmetric components of stress
+ * [Pa]. */
 static real least_kept(const struct material *m, int dim, const real *M)
 {
     const int n = symmetric_count(dim);
@@ -356,7 +361,8 @@ static real least_kept(const struct material *m, int dim, const real *M)
     return least;
 }
 
-/* The matrix of point q applied to unit stresses against T : C^-1 sigma in whole tensors. False: bonds would carry more than all. */
+/* The matrix of point q applied to unit stresses against T : C^-1 sigma in whole tensors. False: bonds would carry
+ * more than all. */
 static bool check_partial(const struct cloud *c, const struct partial_stress *partial, const real *w, int64_t q)
 {
     const struct particles *p = &c->p;
@@ -364,11 +370,11 @@ static bool check_partial(const struct cloud *c, const struct partial_stress *pa
     real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX], expected[SYM_MAX * SYM_MAX], got[SYM_MAX * SYM_MAX] = {0}, largest = 0;
     reference_partial(p, w, c->bonds.stiffness, c->source.family.section, q, T);
     for (int b = 0; b < n; b++) {
-        real sigma[SYM_MAX] = {0}, carried[SYM_MAX];
+        real sigma[SYM_MAX] = {0}, grid_coupled[SYM_MAX];
         sigma[b] = 1;
-        reference_carried(&c->material[p->material[q]], p->dim, T, sigma, carried);
+        reference_carried(&c->material[p->material[q]], p->dim, T, sigma, grid_coupled);
         for (int a = 0; a < n; a++) {
-            expected[a * n + b] = p->kind[q] == KIND_MPM ? carried[a] : 0;
+            expected[a * n + b] = p->kind[q] == KIND_MPM ? grid_coupled[a] : 0;
             largest = fmax(largest, fabs(expected[a * n + b]));
             if (partial->index[q] >= 0) got[a * n + b] = partial->matrix[(partial->index[q] * n + a) * n + b];
         }
@@ -446,7 +452,7 @@ int main(void)
         cmocka_unit_test(test_bond_force),
         cmocka_unit_test(test_equality_keeps),
         cmocka_unit_test(test_bond_momentum),
-        cmocka_unit_test(test_slot_kinds),
+        cmocka_unit_test(test_column_kinds),
         cmocka_unit_test(test_bond_energy),
         cmocka_unit_test(test_bond_stress),
         cmocka_unit_test(test_pd_move),

@@ -1,4 +1,5 @@
-/* floor 4: nodes that APIC's points have hardly reached take accelerations from their neighbours (kernels/mpm/grid_move.c). */
+/* Nodes that APIC's points have hardly reached take accelerations from their neighbours
+ * (kernels/mpm/grid_move.c). */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -12,7 +13,8 @@
 
 enum { BORDER = 4 };
 
-/* Mass of node I of a body that ends at node BORDER of the first two axes but for a share of 1e-7 of a node; none beyond. */
+/* Mass of node I of a body that ends at node BORDER of the first two axes but for a share of 1e-7 of a node; none
+ * beyond. */
 static real light_body(const struct grid *g, int64_t I, uint64_t *seed)
 {
     real mass = cloud_between(seed, 0.5, 1);
@@ -24,8 +26,9 @@ static real light_body(const struct grid *g, int64_t I, uint64_t *seed)
     return mass;
 }
 
-/* Accelerations of APIC's nodes by a force on one of them: m a of all is that force and has its moment; a_i by a force at j is a_j
- * by one at i; and a light node is no livelier than its neighbours, though it weighs a ten millionth of them. */
+/* Accelerations of APIC's nodes by a force on one of them: m a of all is that force and has its moment; a_i by a
+ * force at j is a_j by one at i; and a light node is no livelier than its neighbours, though it weighs a ten
+ * millionth of them. */
 static void test_light_nodes(void **state)
 {
     (void)state;
@@ -49,13 +52,14 @@ static void test_light_nodes(void **state)
                 const real own = mass[I] > 0 ? g.velocity[0][I] - 3 : 0;
                 a[I * g.n + J] = own, largest = fmax(largest, fabs(own));
                 total += mass[I] * own;
-                if (dim > 1) moment += mass[I] * own * (real)(I / g.stride[1] % g.count[1] - J / g.stride[1] % g.count[1]);
+                if (dim > 1)
+                    moment += mass[I] * own * (real)(I / g.stride[1] % g.count[1] - J / g.stride[1] % g.count[1]);
             }
             assert_near(total, 1, 1e-12);
             assert_near(moment, 0, 1e-5);    /* but for what the light ones themselves weigh */
         }
         for (int64_t k = 0; k < g.n * g.n; k++) assert_near(a[k], a[k % g.n * g.n + k / g.n], 1e-12 * largest);
-        assert_true(largest < 30);           /* (2 + 1)^2 of the heavy ones' 1/m, each below 2, and no more at corners */
+        assert_true(largest < 30);          /* (2 + 1)^2 of the heavy ones' 1/m, each below 2, and no more at corners */
         memory_free(mass);
         memory_free(a);
         grid_free(&g);

@@ -1,12 +1,12 @@
-/* floor 3: the return mappings against the conditions that define them, against each other and against closed forms; the
- * plastic part of the ledger against the work done on a point. */
+/* The return mappings against the conditions that define them, against each other and against closed forms;
+ * the plastic part of the energy balance against the work done on a point. */
 #include "tests/support/near.h"
 
 #include "tests/support/cloud.h"
 #include "kernels/mpm/plastic.h"
 #include "tests/support/sets.h"
 #include "kernels/mpm/stress.h"
-#include "probes/watch.h"
+#include "probes/diagnostics.h"
 
 /* A few dozen roundings of 1.1e-16, some at stresses beyond the result. */
 #define CLOSE 1e-12
@@ -43,7 +43,8 @@ static struct elastic steel(enum space space, real hardening)
 static real step(struct point *p, const struct elastic *m, const real *L)
 {
     const int dim = space_dim(m->space);
-    const struct elastic_points constants = {.c11 = points_of(m->c11), .c12 = points_of(m->c12), .shear = points_of(m->shear)};
+    const struct elastic_points constants = {
+        .c11 = points_of(m->c11), .c12 = points_of(m->c12), .shear = points_of(m->shear)};
     row_of_points stress[SYM_MAX], gradient[DIM_MAX * DIM_MAX];
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = points_of(p->s[c]);
     for (int k = 0; k < dim * dim; k++) gradient[k] = points_of(L[k]);
@@ -86,10 +87,11 @@ static void strain_of(const real *s, real poisson, real *strain)
     for (int c = 0; c < SYM_MAX; c++) strain[c] = (1 + poisson) * s[c] - (c < 3 ? poisson * trace : 0);
 }
 
-/* ---- the conditions ------------------------------------------------------------------------------------ */
+/* ---- the conditions ---------------------------------------------------------------------------------------------- */
 
-/* Where the return went: on the surface, along its normal there, never back; and only what is beyond it moves. The strain
- * that flow has taken from the trial stress must be da dq/dsigma. In plane strain eps_zz is that of the trial, too. */
+/* Where the return went: on the surface, along its normal there, never back; and only what is beyond it moves. The
+ * strain that flow has taken from the trial stress must be da dq/dsigma. In plane strain eps_zz is that of the
+ * trial, too. */
 static void check_return(const struct elastic *m, const struct point *trial, const struct point *p, real more)
 {
     real before[SYM_MAX], after[SYM_MAX], strain[SYM_MAX];
@@ -173,7 +175,7 @@ static void test_rotation(void **state)
         struct point p = {.a = 0};
         const real pull2[] = {9e-3, 4e-3, 2e-3, -3e-3}, pull3[] = {9e-3, 4e-3, 1e-3, 2e-3, -3e-3, 2e-3, 0, 5e-3, 1e-3};
         const real spin2[] = {0, 0.02, -0.02, 0}, spin3[] = {0, 0.02, 0.01, -0.02, 0, -0.03, -0.01, 0.03, 0};
-        real turn[DIM_MAX * DIM_MAX];        /* W + W W/2: free of strain */
+        real rotation[DIM_MAX * DIM_MAX];        /* W + W W/2: free of strain */
         const bool solid = spaces[s] == SPACE_SOLID;
         assert_true(step(&p, &m, solid ? pull3 : pull2) > 0);
         const struct point start = p;
@@ -182,17 +184,17 @@ static void test_rotation(void **state)
         const int dim = solid ? 3 : 2;
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < dim; b++) {
-                turn[a * dim + b] = W[a * dim + b];
-                for (int k = 0; k < dim; k++) turn[a * dim + b] += 0.5 * W[a * dim + k] * W[k * dim + b];
+                rotation[a * dim + b] = W[a * dim + b];
+                for (int k = 0; k < dim; k++) rotation[a * dim + b] += 0.5 * W[a * dim + k] * W[k * dim + b];
             }
-        for (int n = 0; n < 100; n++) step(&p, &m, turn);
+        for (int n = 0; n < 100; n++) step(&p, &m, rotation);
         assert_near(equivalent_of(&p, &m), q, 100 * 1e-15 * q);
         assert_near(p.a, start.a, 100 * 1e-15);
         assert_true(fabs(p.s[0] - start.s[0]) > 0.1 * q);      /* it did turn */
     }
 }
 
-/* ---- one space against another --------------------------------------------------------------------------- */
+/* ---- one space against another ----------------------------------------------------------------------------------- */
 
 /* eps_zz = 0 in the solid, along a crooked path with spin. */
 static void test_plane_strain_is_solid(void **state)
@@ -248,23 +250,23 @@ static void test_plane_stress_is_solid(void **state)
     assert_true(p.a > 10 * YIELD);
 }
 
-/* ---- closed forms -------------------------------------------------------------------------------------- */
+/* ---- closed forms ------------------------------------------------------------------------------------------------ */
 
-/* A bar pulled and pushed: on the curve of slope E_t where it yields, slope E elsewhere, reverse yield where |sigma| has
- * been before. */
+/* A bar pulled and pushed: on the curve of slope E_t where it yields, slope E elsewhere, reverse yield where |sigma|
+ * has been before. */
 static void test_bilinear_law(void **state)
 {
     (void)state;
     const struct elastic m = steel(SPACE_LINE, 1);                /* E_t = 1/2 */
     struct point p = {.a = 0};
-    static const struct { real strain, stress; } turn[] = {      /* in units of the yield strain and stress */
+    static const struct { real strain, stress; } rotation[] = {      /* in units of the yield strain and stress */
         {1, 1}, {3, 2}, {2, 1}, {3, 2}, {5, 3}, {-1, -3}, {-3, -4}, {1, 0}, {5, 4}, {7, 5}};
     real strain = 0;
-    for (size_t k = 0; k < COUNT_OF(turn); k++) {
-        const real L = (turn[k].strain * YIELD - strain) / 50;
+    for (size_t k = 0; k < COUNT_OF(rotation); k++) {
+        const real L = (rotation[k].strain * YIELD - strain) / 50;
         for (int n = 0; n < 50; n++) step(&p, &m, &L);
-        strain = turn[k].strain * YIELD;
-        assert_near(p.s[0], turn[k].stress * YIELD, CLOSE * YIELD);
+        strain = rotation[k].strain * YIELD;
+        assert_near(p.s[0], rotation[k].stress * YIELD, CLOSE * YIELD);
     }
     assert_near(p.a, 4 * YIELD, CLOSE * YIELD);                  /* H a = |sigma| - sigma_y */
 }
@@ -349,10 +351,10 @@ static void test_uniaxial_stress(void **state)
     }
 }
 
-/* ---- the ledger ------------------------------------------------------------------------------------------ */
+/* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* One particle of unit volume with the state of p; energies of the ledger. */
-static real ledger_energy(const struct point *p, const struct material *m, enum space space,
+/* One particle of unit volume with the state of p; energies of the energy balance. */
+static real balance_energy(const struct point *p, const struct material *m, enum space space,
                           const struct partial_stress *partial)
 {
     const int dim = space_dim(space);
@@ -361,13 +363,14 @@ static real ledger_energy(const struct point *p, const struct material *m, enum 
     for (int c = 0; c < symmetric_count(dim); c++) body.stress[c][0] = p->s[c];
     body.volume[0] = 1, body.plastic_strain[0] = p->a;
     if (body.out_of_plane) body.out_of_plane[0] = p->zz;
-    const real energy = watch_strain(&body, m, partial) + watch_plastic(&body, m, partial);
+    const real energy = diagnostics_strain(&body, m, partial) + diagnostics_plastic(&body, m, partial);
     particles_free(&body);
     return energy;
 }
 
-/* Work of the stress on the strain of a path is what the ledger holds: strain energy and plastic work. There and half-way
- * back in other proportions; the mean of the stress before and after a step leaves its square: 2e3 steps, below 1e-5. */
+/* Work of the stress on the strain of a path is what the energy balance holds: strain energy and plastic work. There
+ * and half-way back in other proportions; the mean of the stress before and after a step leaves its square: 2e3
+ * steps, below 1e-5. */
 static void test_work_is_booked(void **state)
 {
     (void)state;
@@ -392,7 +395,7 @@ static void test_work_is_booked(void **state)
                 }
         }
         assert_true(p.a > 0.5 * YIELD && (spaces[s] != SPACE_PLANE_STRAIN || fabs(p.zz) > 0.05 * YIELD));
-        const real energy = ledger_energy(&p, &given, spaces[s], NULL);
+        const real energy = balance_energy(&p, &given, spaces[s], NULL);
         assert_close(energy, work, 1e-5);
 
         /* a point that leaves half its stress to bonds has half of both */
@@ -400,7 +403,7 @@ static void test_work_is_booked(void **state)
         real half[SYM_MAX * SYM_MAX] = {0};
         for (int c = 0; c < n; c++) half[c * n + c] = 0.5;
         struct partial_stress partial = {.index = &entry, .matrix = half, .entries = 1, .room = 1};
-        assert_close(ledger_energy(&p, &given, spaces[s], &partial), 0.5 * energy, CLOSE);
+        assert_close(balance_energy(&p, &given, spaces[s], &partial), 0.5 * energy, CLOSE);
     }
 }
 

@@ -1,4 +1,4 @@
-/* floor 2: what every shape function owes, through the kernels that scatter with it: weights that add up to one and
+/* What every shape function owes, through the kernels that scatter with it: weights that add up to one and
  * slopes that see a linear field exactly, at any place, for any width, in one, two and three dimensions. */
 #include <stdarg.h>
 #include <setjmp.h>
@@ -34,7 +34,8 @@ static void points_make(struct points *s, int dim)
     particles_list(&s->p);
 }
 
-/* Anywhere between -4 and 4, every fourth on a node or in the middle of a cell; stretched up to a width of two cells. */
+/* Anywhere between -4 and 4, every fourth on a node or in the middle of a cell; stretched up to a width of two
+ * cells. */
 static void points_place(struct points *s, uint64_t *seed)
 {
     for (int64_t i = 0; i < POINTS; i++)
@@ -76,8 +77,9 @@ static void check_weights(struct points *s, enum shape shape)
     memory_free(field);
 }
 
-/* sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0: the forces of a point of unit volume under the unit stress of
- * component `c`, one point at a time. Slopes are means over at least a twentieth of a cell: round-off 20 times larger. */
+/* sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0: the forces of a point of unit volume under the unit stress
+ * of component `c`, one point at a time. Slopes are means over at least a twentieth of a cell: round-off 20 times
+ * larger. */
 static void check_slopes(struct points *s, enum shape shape, enum transfer transfer)
 {
     static const int component[DIM_MAX + 1][DIM_MAX][DIM_MAX] = {

@@ -1,5 +1,5 @@
-/* floor 2: state-based peridynamics: patch tests against classical energies, finite rotation, force as the exact gradient
- * of energy on irregular cracked bodies, momentum and angular momentum, and the critical step. */
+/* State-based peridynamics: patch tests against classical energies, finite rotation, force as the exact
+ * gradient of energy on irregular cracked bodies, momentum and angular momentum, and the critical step. */
 #include "engine/critical_step.h"
 #include "kernels/kernels.h"
 
@@ -8,7 +8,7 @@
 #include "tests/support/sets.h"
 
 
-/* ---- bodies ------------------------------------------------------------------------------------------- */
+/* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
 struct body {
     struct cloud c;
@@ -19,7 +19,7 @@ struct body {
 static void body_make(struct body *b, const struct cloud_plan *plan, enum pd_model model, real poisson, bool local)
 {
     const real D = space_dim(plan->space);
-    const bool turns = model == PD_MOSPD;
+    const bool rotates = model == PD_MOSPD;
     memset(b, 0, sizeof *b);
     b->model = model;
     cloud_make(&b->c, plan);
@@ -27,21 +27,24 @@ static void body_make(struct body *b, const struct cloud_plan *plan, enum pd_mod
         struct material *m = &b->c.material[k];
         m->poisson = poisson;
         material_derive(m, plan->space);
-        b->modulus[k] = (struct state_modulus){D * D * (turns ? m->c12 : m->c12 - m->shear),
-                                               turns ? 2 * D * m->shear : D * (D + 2) * m->shear};
+        b->modulus[k] = (struct state_modulus){D * D * (rotates ? m->c12 : m->c12 - m->shear),
+                                               rotates ? 2 * D * m->shear : D * (D + 2) * m->shear};
     }
     b->c.source.modulus = b->modulus;
-    b->c.source.local = local, b->c.source.turns = turns;
+    b->c.source.local = local, b->c.source.rotates = rotates;
 }
 
-static void force(struct body *b) { state_force_table[b->c.p.dim][b->model](&b->c.bonds, &b->c.p, &b->c.source.limit, NULL); }
+static void force(struct body *b)
+{
+    state_force_table[b->c.p.dim][b->model](&b->c.bonds, &b->c.p, &b->c.source.limit, NULL);
+}
 static real energy(struct body *b)
 {
     force(b);
     return state_energy_table[b->c.p.dim][b->model](&b->c.bonds, &b->c.p);
 }
 
-/* ---- patch tests -------------------------------------------------------------------------------------- */
+/* ---- patch tests ------------------------------------------------------------------------------------------------- */
 
 #define STRAIN 1e-6                      /* its square is not seen */
 
@@ -101,8 +104,8 @@ static real patch_ratio(struct body *b, const int *count, enum patch_load load, 
     return ratio;
 }
 
-/* A body that is stretched and then turned by a quarter about z: what was sigma_xx is sigma_yy, and no more than round-off of
- * STRAIN is left of it. */
+/* A body that is stretched and then turned by a quarter about z: what was sigma_xx is sigma_yy, and no more than
+ * round-off of STRAIN is left of it. */
 static void check_quarter_turn(struct body *b)
 {
     struct particles *p = &b->c.p;
@@ -129,8 +132,8 @@ static void check_quarter_turn(struct body *b)
     memory_free(before);
 }
 
-/* Silling et al. 2007 on a lattice: dilatation exact, shear by the lattice's fourth moments. Figures of plane stress, nu
- * = 0.3, printed with three decimals. */
+/* Silling et al. 2007 on a lattice: dilatation exact, shear by the lattice's fourth moments. Figures of plane
+ * stress, nu = 0.3, printed with three decimals. */
 static void test_ospd_plane_stress(void **state)
 {
     (void)state;
@@ -150,8 +153,8 @@ static void test_ospd_plane_stress(void **state)
         }
 }
 
-/* With effective displacements only second moments enter: exact on every lattice, for every influence function, Poisson's
- * ratio and space. 1e-5: squares of the strain and the single precision of weights. */
+/* With effective displacements only second moments enter: exact on every lattice, for every influence function,
+ * Poisson's ratio and space. 1e-5: squares of the strain and the single precision of weights. */
 static void test_mospd_exact(void **state)
 {
     (void)state;
@@ -163,8 +166,12 @@ static void test_mospd_exact(void **state)
             for (int load = 0; load < PATCH_LOADS; load++)
                 for (int local = 0; local < 2; local++) {
                     struct body b;
-                    body_make(&b, &(struct cloud_plan){.space = spaces[s], .count = {15, 15, 15}, .horizon = 3.015,
-                                                       .influence = (enum influence)(k + 1)}, PD_MOSPD, poisson[k], local);
+                    body_make(&b,
+                              &(struct cloud_plan){.space = spaces[s],
+                                                   .count = {15, 15, 15},
+                                                   .horizon = 3.015,
+                                                   .influence = (enum influence)(k + 1)},
+                              PD_MOSPD, poisson[k], local);
                     cloud_bonds(&b.c);
                     assert_near(patch_ratio(&b, count, (enum patch_load)load, spaces[s]), 1, 1e-5);
                     cloud_free(&b.c);
@@ -176,10 +183,12 @@ static void test_turned_stress(void **state)
     (void)state;
     static const enum space spaces[] = {SPACE_PLANE_STRAIN, SPACE_SOLID};
     for (size_t s = 0; s < COUNT_OF(spaces); s++)
-        for (int turns = 0; turns < 2; turns++) {
+        for (int rotates = 0; rotates < 2; rotates++) {
             struct body b;
-            body_make(&b, &(struct cloud_plan){.space = spaces[s], .count = {9, 9, 9}, .horizon = 3.015, .influence = INFLUENCE_ONE},
-                      turns ? PD_MOSPD : PD_OSPD, 0.3, true);
+            body_make(&b,
+                      &(struct cloud_plan){
+                          .space = spaces[s], .count = {9, 9, 9}, .horizon = 3.015, .influence = INFLUENCE_ONE},
+                      rotates ? PD_MOSPD : PD_OSPD, 0.3, true);
             cloud_bonds(&b.c);
             check_quarter_turn(&b);
             cloud_free(&b.c);
@@ -235,7 +244,7 @@ static void test_ospd_spaces(void **state)
             }
 }
 
-/* ---- irregular cracked bodies ------------------------------------------------------------------------- */
+/* ---- irregular cracked bodies ------------------------------------------------------------------------------------ */
 
 static const enum pd_model models[] = {PD_OSPD, PD_MOSPD};
 
@@ -246,9 +255,10 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
     const int dim = space_dim(space);
     body_make(b, &plan, model, 0.3, local);
     cloud_bonds(&b->c);
-    for (int64_t g = 0; g < b->c.bonds.groups; g++) group_unfold(&b->c.bonds, g);
-    for (int64_t g = 0; g < b->c.bonds.groups; g++)          /* a cut along x = 4.5, up to y = 4 */
-        for (int64_t q = b->c.bonds.slot[g] * LANES; q < (b->c.bonds.slot[g] + b->c.bonds.slot_count[g]) * LANES; q++) {
+    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) row_block_expand(&b->c.bonds, g);
+    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++)          /* a cut along x = 4.5, up to y = 4 */
+        for (int64_t q = b->c.bonds.column[g] * LANES; q < (b->c.bonds.column[g] + b->c.bonds.column_count[g]) * LANES;
+             q++) {
             int32_t i = b->c.bonds.particle[g * LANES + q % LANES], j = b->c.bonds.nbr[q];
             const real *X = b->c.p.X[0], *Y = b->c.p.X[1], line = 4.5 * CLOUD_SPACING;
             if (b->c.bonds.w[q] == 0 || (X[i] < line) == (X[j] < line) || Y[i] + Y[j] > 8 * CLOUD_SPACING) continue;
@@ -262,8 +272,8 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             b->c.p.x[d][i] = b->c.p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
 }
 
-/* f = -dE/dx by central differences of step 1e-6 of a spacing: their error is (1e-6)^2 over strains of 0.02, and round-off
- * 1e-16 E/(1e-6): 1e-6 of the largest force. Momentum and angular momentum of the forces are round-off. */
+/* f = -dE/dx by central differences of step 1e-6 of a spacing: their error is (1e-6)^2 over strains of 0.02, and
+ * round-off 1e-16 E/(1e-6): 1e-6 of the largest force. Momentum and angular momentum of the forces are round-off. */
 static void gradient_case(enum space space, enum pd_model model, bool local)
 {
     struct body b;
@@ -340,11 +350,11 @@ static void test_rotation(void **state)
             }
 }
 
-/* ---- critical step ------------------------------------------------------------------------------------ */
+/* ---- critical step ----------------------------------------------------------------------------------------------- */
 
-/* Plane stress, m = 3.015, nu = 0.3: OSPD 1.79, MOSPD 1.94 D/c of large plates; a block's free surfaces move them by some
- * percent, and two percent are taken off. Bond-based: 2.00 D/c, nu = 1/3. It goes with the root of the density over all
- * magnitudes: the powers of a light or fine body's large frequencies must not overflow. */
+/* Plane stress, m = 3.015, nu = 0.3: OSPD 1.79, MOSPD 1.94 D/c of large plates; a block's free surfaces move them by
+ * some percent, and two percent are taken off. Bond-based: 2.00 D/c, nu = 1/3. It goes with the root of the density
+ * over all magnitudes: the powers of a light or fine body's large frequencies must not overflow. */
 static void test_critical_step(void **state)
 {
     (void)state;
@@ -355,9 +365,11 @@ static void test_critical_step(void **state)
                                            .influence = INFLUENCE_INVERSE},
                   want[k].model, want[k].nu, true);
         cloud_bonds(&b.c);
-        real step = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000, (real[]){1, 1}, NULL);
+        real step =
+            critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000, (real[]){1, 1}, NULL);
         assert_close(step * b.c.material[0].wave_speed / CLOUD_SPACING, want[k].limit, 0.06);
-        const real light = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000 * 0x1p-80, (real[]){1, 1}, NULL);
+        const real light = critical_step_of_lattice(&b.c.source, state_force_table[2][want[k].model], 8000 * 0x1p-80,
+                                                    (real[]){1, 1}, NULL);
         assert_close(light, step * 0x1p-40, 1e-12);
         cloud_free(&b.c);
     }
@@ -365,9 +377,10 @@ static void test_critical_step(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ospd_plane_stress), cmocka_unit_test(test_mospd_exact), cmocka_unit_test(test_turned_stress), cmocka_unit_test(test_ospd_spaces),
-        cmocka_unit_test(test_gradient), cmocka_unit_test(test_rotation), cmocka_unit_test(test_critical_step)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_ospd_plane_stress), cmocka_unit_test(test_mospd_exact),
+                                       cmocka_unit_test(test_turned_stress),     cmocka_unit_test(test_ospd_spaces),
+                                       cmocka_unit_test(test_gradient),          cmocka_unit_test(test_rotation),
+                                       cmocka_unit_test(test_critical_step)};
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -1,5 +1,5 @@
-/* floor 4: motion in the sweep of forces against all forces first: the same bits for every law, any number of threads, whoever
- * waits for loads, sleeps, or is moved by the grid. */
+/* Motion in the sweep of forces against all forces first: the same bits for every law, any number of
+ * threads, whoever waits for loads, sleeps, or is moved by the grid. */
 #include <stdlib.h>
 
 #include "tests/support/cloud.h"
@@ -13,25 +13,27 @@ enum { SHAKEN = 1, MIXED = 2, LOADED = 4, ASLEEP = 8, WAYS = 16 };
 enum { THREADS_MOST = 7 };
 
 static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
-/* Long enough for every thread to have groups that only its own part reads. */
+/* Long enough for every thread to have row blocks that only its own part reads. */
 static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 61}};
 
 struct body { struct cloud c; struct state_modulus modulus[CLOUD_MATERIALS]; uint8_t *loaded; };
 
-/* Every third group, but for the first: its particles neither feel nor move, and know of their families what they did. */
+/* Every third row block, but for the first: its particles neither feel nor move, and know of their families what
+ * they did. */
 static void put_to_sleep(struct bonds *b, struct particles *p, enum pd_model model)
 {
-    if (model >= PD_OSPD) state_know_table[p->dim][model](b, p);
-    for (int64_t g = 1; g < b->groups; g += 3) b->rest.level[g] = 0;
-    rest_list(&b->rest);
+    if (model >= PD_OSPD) state_precompute_table[p->dim][model](b, p);
+    for (int64_t g = 1; g < b->row_blocks; g += 3) b->active.level[g] = 0;
+    active_set_list(&b->active);
 }
 
 static void body_make(struct body *b, int dim, enum pd_model model, int way)
 {
-    struct cloud_plan plan = {.space = space_of[dim], .horizon = dim == 3 ? 1.5 : 3.015, .seed = 3, .shake = way & SHAKEN ? 0.3 : 0};
+    struct cloud_plan plan = {
+        .space = space_of[dim], .horizon = dim == 3 ? 1.5 : 3.015, .seed = 3, .shake = way & SHAKEN ? 0.3 : 0};
     uint64_t seed = 77 + (uint64_t)way;
     memcpy(plan.count, count_of[dim], sizeof plan.count);
-    plan.optional = model >= PD_OSPD ? WITH_ENDS | (model == PD_MOSPD ? WITH_TURNS : 0) : 0;
+    plan.optional = model >= PD_OSPD ? WITH_ENDS | (model == PD_MOSPD ? WITH_ROTATIONS : 0) : 0;
     cloud_make(&b->c, &plan);
     struct particles *p = &b->c.p;
     b->loaded = NEW("test.loaded", p->n + LANES, uint8_t);
@@ -45,8 +47,10 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
         }
     }
     for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) b->c.limit[m] = 0.04;
-    for (int m = 0; m < CLOUD_MATERIALS; m++) b->modulus[m] = state_modulus_of(&b->c.material[m], space_of[dim], model == PD_MOSPD);
-    if (model >= PD_OSPD) b->c.source.modulus = b->modulus, b->c.source.turns = model == PD_MOSPD, b->c.source.local = true;
+    for (int m = 0; m < CLOUD_MATERIALS; m++)
+        b->modulus[m] = state_modulus_of(&b->c.material[m], space_of[dim], model == PD_MOSPD);
+    if (model >= PD_OSPD)
+        b->c.source.modulus = b->modulus, b->c.source.rotates = model == PD_MOSPD, b->c.source.local = true;
     cloud_bonds(&b->c);
     if (way & ASLEEP) put_to_sleep(&b->c.bonds, p, model);
 }
@@ -72,9 +76,10 @@ static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way,
     int64_t n = 0, broken = force(&b->c.bonds, p, &b->c.source.limit, NULL);
     for (int64_t i = 0; i < p->n; i++) {
         const bool waits = way & LOADED && b->loaded[i];
-        if (p->kind[i] == KIND_PD && !waits && bonds->rest.level[bonds->row_of[i] / LANES] > 0) list[n++] = (int32_t)i;
+        if (p->kind[i] == KIND_PD && !waits && bonds->active.level[bonds->row_of[i] / LANES] > 0)
+            list[n++] = (int32_t)i;
     }
-    motion->wild = pd_move_table[p->dim](p, list, n, motion);
+    motion->diverged = pd_move_table[p->dim](p, list, n, motion);
     memory_free(list);
     return broken;
 }
@@ -87,14 +92,14 @@ static void check_sweep(int dim, enum pd_model model, int way, real fastest)
     struct pd_motion motion = motion_of(&plain, way, fastest);
     const int64_t broken = forces_then_motion(&plain, force, way, &motion);
     assert_true(broken > 0);
-    assert_int_equal(motion.wild, fastest < 1);
+    assert_int_equal(motion.diverged, fastest < 1);
     for (int threads = 1; threads <= THREADS_MOST; threads++) {
         struct body b;
         team_make(threads);
         body_make(&b, dim, model, way);
         struct pd_motion at_once = motion_of(&b, way, fastest);
         assert_int_equal(force(&b.c.bonds, &b.c.p, &b.c.source.limit, &at_once), broken);
-        assert_int_equal(at_once.wild, motion.wild);
+        assert_int_equal(at_once.diverged, motion.diverged);
         assert_same_particles(&plain.c.p, &b.c.p, 0);
         body_free(&b);
     }
@@ -123,14 +128,14 @@ static void test_reach(void **state)
             body_make(&b, dim, PD_BOND, way);
             const struct bonds *bonds = &b.c.bonds;
             int64_t farthest = 0;
-            for (int64_t g = 0; g < bonds->groups; g++)
-                for (int64_t k = 0; k < bonds->slot_count[g]; k++)
+            for (int64_t g = 0; g < bonds->row_blocks; g++)
+                for (int64_t k = 0; k < bonds->column_count[g]; k++)
                     for (int l = 0; l < LANES && g * LANES + l < bonds->rows; l++) {
                         const int64_t row = bonds->row_of[bond_read(bonds, g, k, l).nbr];
                         if (row >= 0 && llabs(row / LANES - g) > farthest) farthest = llabs(row / LANES - g);
                     }
             assert_true(bonds->reach >= farthest);
-            assert_true(bonds->reach <= bonds->groups / 8);
+            assert_true(bonds->reach <= bonds->row_blocks / 8);
             body_free(&b);
         }
 }

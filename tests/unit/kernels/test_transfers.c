@@ -1,4 +1,4 @@
-/* floor 4: every transfer kernel in the tables against its plain twin: maps, nodal updates, stresses. */
+/* Every transfer kernel in the tables against its plain twin: maps, nodal updates, stresses. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@
 /* Sums over all points against sums over all nodes: round-off only, of the sum of magnitudes. */
 #define CONSERVED 1e-13
 
-/* ---- a cloud on a grid -------------------------------------------------------------------------------- */
+/* ---- a cloud on a grid ------------------------------------------------------------------------------------------- */
 
 struct scene {
     struct cloud c;
@@ -144,7 +144,7 @@ static void for_all(void (*check)(const struct choice *k))
             for (int transfer = 0; transfer < TRANSFERS; transfer++) check(&(struct choice){dim, shape, transfer});
 }
 
-/* ---- kernels against their twins ---------------------------------------------------------------------- */
+/* ---- kernels against their twins --------------------------------------------------------------------------------- */
 
 static void check_fields(real *const *got, real *const *expected, int dim, int64_t n)
 {
@@ -264,7 +264,7 @@ static void step_cases(const struct choice *k)
 
 static void test_steps(void **state) { (void)state, for_all(step_cases); }
 
-/* ---- conservation --------------------------------------------------------------------------------------- */
+/* ---- conservation ------------------------------------------------------------------------------------------------ */
 
 struct total { real mass, momentum[DIM_MAX], size; };
 
@@ -286,7 +286,7 @@ static void conserved(const struct choice *k)
 {
     for (int walls = 0; walls < 2; walls++) {
         struct scene s;
-        real impulse[DIM_MAX] = {0}, work = 0, mass = 0, carried[DIM_MAX] = {0}, given[DIM_MAX] = {0},
+        real impulse[DIM_MAX] = {0}, work = 0, mass = 0, grid_coupled[DIM_MAX] = {0}, given[DIM_MAX] = {0},
              expected_work = 0;
         scene_make(&s, k, 2);
         struct particles *p = &s.c.p;
@@ -295,10 +295,11 @@ static void conserved(const struct choice *k)
         p2g_table[k->dim][k->shape][k->transfer](&s.g, p, &s.t);
         for (int64_t I = 0; I < s.g.n; I++) {
             mass += s.g.mass[I];
-            for (int d = 0; d < s.dim; d++) carried[d] += s.g.momentum[d][I];
+            for (int d = 0; d < s.dim; d++) grid_coupled[d] += s.g.momentum[d][I];
         }
         assert_true(fabs(mass - before.mass) <= CONSERVED * before.mass);
-        for (int d = 0; d < s.dim; d++) assert_true(fabs(carried[d] - before.momentum[d]) <= CONSERVED * before.size);
+        for (int d = 0; d < s.dim; d++)
+            assert_true(fabs(grid_coupled[d] - before.momentum[d]) <= CONSERVED * before.size);
 
         s.smallest_mass = 1e-30;                   /* no node with any mass rests */
         for (int64_t I = 0; I < s.g.n && walls; I += 7)
@@ -362,8 +363,8 @@ static void linear_field(const struct choice *k)
 
 static void test_linear_field(void **state) { (void)state, for_all(linear_field); }
 
-/* Stress of a body that only turns turns with it, to second order in the angle w below 1e-3 rad, exactly above, and nothing strains
- * it: displacements of the step W + W W/2, W its spin. */
+/* Stress of a body that only turns turns with it, to second order in the angle w below 1e-3 rad, exactly above, and
+ * nothing strains it: displacements of the step W + W W/2, W its spin. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -380,10 +381,11 @@ static void test_rotation(void **state)
                 for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = 0;
                 for (int c = 0; c < symmetric_count(dim); c++) p->stress[c][i] = 0;
                 p->stress[0][i] = 1e8;
-                const real turn = angle / s.t.dt, inwards = -0.5 * angle * turn;
+                const real rotation = angle / s.t.dt, inwards = -0.5 * angle * rotation;
                 p->gradient[0][i] = p->gradient[dim + 1][i] = inwards;
-                p->gradient[1][i] = -turn, p->gradient[dim][i] = turn;
-                p->v[0][i] = inwards * p->x[0][i] - turn * p->x[1][i], p->v[1][i] = turn * p->x[0][i] + inwards * p->x[1][i];
+                p->gradient[1][i] = -rotation, p->gradient[dim][i] = rotation;
+                p->v[0][i] = inwards * p->x[0][i] - rotation * p->x[1][i],
+                p->v[1][i] = rotation * p->x[0][i] + inwards * p->x[1][i];
             }
             scene_step(&s, &choice, impulse, &work);
             for (int64_t i = 0; i < p->n; i++) {
@@ -397,7 +399,7 @@ static void test_rotation(void **state)
         }
 }
 
-/* ---- one field of few points ---------------------------------------------------------------------------- */
+/* ---- one field of few points ------------------------------------------------------------------------------------- */
 
 static void spread_case(const struct choice *k)
 {
@@ -422,7 +424,7 @@ static void spread_case(const struct choice *k)
 
 static void test_spread(void **state) { (void)state, for_all(spread_case); }
 
-/* ---- threads -------------------------------------------------------------------------------------------- */
+/* ---- threads ----------------------------------------------------------------------------------------------------- */
 
 static void same_bits(const struct choice *k)
 {

@@ -1,4 +1,5 @@
-/* floor 2: the weights and slopes of every shape in one dimension against their definitions, in every piece and at its edges. */
+/* The weights and slopes of every shape in one dimension against their definitions, in every piece and at
+ * its edges. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -44,7 +45,8 @@ static void test_shapes(void **state)
             check_shape((enum shape)shape, 0.25 * k, 0.25);
             check_shape((enum shape)shape, 0.25 * k, 0.5);
             check_shape((enum shape)shape, 0.25 * k + 1e-15, 0.25);
-            if (shape == SHAPE_CPGIMP) check_shape(SHAPE_CPGIMP, 0.25 * k, 0.75), check_shape(SHAPE_CPGIMP, 0.25 * k, 1);
+            if (shape == SHAPE_CPGIMP)
+                check_shape(SHAPE_CPGIMP, 0.25 * k, 0.75), check_shape(SHAPE_CPGIMP, 0.25 * k, 1);
         }
     }
 }

@@ -1,5 +1,5 @@
-/* floor 5: clamped planes (`mirror: ..., tangential: held`): forces have an energy, in any model, at corners and on scattered
- * particles; beams run long; supports and loads balance. */
+/* Clamped planes (`mirror: ..., tangential: held`): forces have an energy, in any model, at corners and on
+ * scattered particles; beams run long; supports and loads balance. */
 #include <math.h>
 #include <omp.h>
 #include <setjmp.h>
@@ -9,6 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "tests/support/eigen.h"
 #include "engine/engine.h"
@@ -17,11 +18,11 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* Differences of forces: a step of 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry, and the last bits
- * of stretches, 2^-49, are 1e-10 of it. */
+/* Differences of forces: a step of 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry, and
+ * the last bits of stretches, 2^-49, are 1e-10 of it. */
 #define STEP 2e-5
 #define SYMMETRIC 1e-8                   /* of the largest entry; without the energy it is 0.1 */
-#define NEGATIVE 1e-8                    /* of the largest entry: round-off of zero modes, of which a clamped body has none */
+#define NEGATIVE 1e-8              /* of the largest entry: round-off of zero modes, of which a clamped body has none */
 /* Energies: differences over 2e-4 of a spacing miss by its square, 4e-8, times third derivatives of order one. */
 #define SLIDE 2e-4
 #define GRADIENT 1e-6
@@ -33,8 +34,8 @@
 #define BELOW_FREE "  - {mirror: {axis: y, at: 0, tangential: free}}\n"
 #define BELOW_HELD "  - {mirror: {axis: y, at: 0, tangential: held}}\n"
 #define FREE_FIRST "boundary:\n" BELOW_FREE "  - {mirror: {axis: x, at: 0, tangential: held}}\n"
-#define BLOCK                                                                                                        \
-    "space: solid\nduration: 1 us\nmethod: pd\nmaterial: {young: 200 GPa, poisson: 1/4, density: 7850}\n"           \
+#define BLOCK                                                                                                          \
+    "space: solid\nduration: 1 us\nmethod: pd\nmaterial: {young: 200 GPa, poisson: 1/4, density: 7850}\n"              \
     "body: {box: {from: [0, 0, 0], to: [4 mm, 5 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 2.015}\n"
 
 struct body { struct scene s; struct engine e; };
@@ -76,7 +77,7 @@ static real energy(struct engine *e)
     return e->kernels.bond_energy(&e->bonds, &e->part);
 }
 
-/* ---- the operator ---------------------------------------------------------------------------------------------- */
+/* ---- the operator ------------------------------------------------------------------------------------------------ */
 
 /* -df/dx at the reference positions, n by n. */
 static real *stiffness_of(struct engine *e)
@@ -107,10 +108,12 @@ static void check_operator(struct engine *e, const char *name)
             skew = real_max(skew, fabs(K[k * n + j] - K[j * n + k]));
             K[k * n + j] = K[j * n + k] = 0.5 * (K[k * n + j] + K[j * n + k]);
         }
-    if (!(skew <= SYMMETRIC * largest)) fail_msg("%s: the operator's odd part is %.3g of its largest entry", name, skew / largest);
+    if (!(skew <= SYMMETRIC * largest))
+        fail_msg("%s: the operator's odd part is %.3g of its largest entry", name, skew / largest);
     real *d = NEW("test.eigenvalue", 2 * n, real);
     eigen_symmetric(K, n, d, d + n);
-    if (!(d[0] >= -NEGATIVE * largest)) fail_msg("%s: a mode gains energy: %.3g of the largest entry", name, d[0] / largest);
+    if (!(d[0] >= -NEGATIVE * largest))
+        fail_msg("%s: a mode gains energy: %.3g of the largest entry", name, d[0] / largest);
     memory_free(d);
     memory_free(K);
 }
@@ -143,7 +146,8 @@ static void check_gradient(struct engine *e, const char *name)
     memory_free(way);
 }
 
-static const struct { const char *name, *text, *with[6]; } body_case[] = {
+static const struct { const char *name, *text, *with[6];
+} body_case[] = {
     {"bonds", PLANE STEEL SMALL LEFT, {NULL}},
     {"bonds, plain surface", PLANE STEEL SMALL LEFT, {"pd.surface=none"}},
     {"bonds, isotropic", PLANE STEEL SMALL LEFT, {"pd.weights=isotropic", "particles.horizon=2.015"}},
@@ -156,18 +160,24 @@ static const struct { const char *name, *text, *with[6]; } body_case[] = {
     {"bonds, cracked", PLANE STEEL SMALL "cracks: [{from: [-1 mm, 3 mm], to: [3 mm, 3 mm]}]\n" LEFT, {NULL}},
     {"ospd", PLANE STEEL SMALL LEFT, {"model=ospd", "material.poisson=0.3"}},
     {"ospd, nu 0.45", PLANE STEEL SMALL LEFT, {"model=ospd", "material.poisson=0.45", "space=plane strain"}},
-    {"ospd, bulk, scattered", PLANE STEEL SMALL LEFT, {"model=ospd", "pd.normalisation=bulk", "particles.irregularity=0.4"}},
+    {"ospd, bulk, scattered",
+     PLANE STEEL SMALL LEFT,
+     {"model=ospd", "pd.normalisation=bulk", "particles.irregularity=0.4"}},
     {"ospd, clamp and symmetry", PLANE STEEL SMALL LEFT BELOW_FREE, {"model=ospd"}},
     {"mospd", PLANE STEEL SMALL LEFT, {"model=mospd", "material.poisson=0.2"}},
     {"mospd, nu 0.45", PLANE STEEL SMALL LEFT, {"model=mospd", "material.poisson=0.45", "space=plane strain"}},
-    {"mospd, local, horizon 1.5", PLANE STEEL SMALL LEFT, {"model=mospd", "pd.normalisation=local", "particles.horizon=1.5"}},
+    {"mospd, local, horizon 1.5",
+     PLANE STEEL SMALL LEFT,
+     {"model=mospd", "pd.normalisation=local", "particles.horizon=1.5"}},
     {"mospd, scattered", PLANE STEEL SMALL LEFT, {"model=mospd", "particles.irregularity=0.4"}},
     {"mospd, symmetry and clamp", PLANE STEEL SMALL FREE_FIRST, {"model=mospd"}},
     {"mospd, two clamps", PLANE STEEL SMALL LEFT BELOW_HELD, {"model=mospd"}},
     {"block", BLOCK LEFT, {NULL}},
     {"block, ospd, corner", BLOCK LEFT BELOW_FREE, {"model=ospd"}},
     {"block, mospd", BLOCK LEFT, {"model=mospd", "material.poisson=0.4"}},
-    {"block, mospd, three planes", BLOCK LEFT BELOW_FREE "  - {mirror: {axis: z, at: 0, tangential: held}}\n", {"model=mospd"}},
+    {"block, mospd, three planes",
+     BLOCK LEFT BELOW_FREE "  - {mirror: {axis: z, at: 0, tangential: held}}\n",
+     {"model=mospd"}},
 };
 
 static void test_energy(void **state)
@@ -186,8 +196,8 @@ static void test_energy(void **state)
 /* ---- threads ----------------------------------------------------------------------------------------------------- */
 
 /* So many bonds that a team shares them. */
-#define WALL                                                                                                                   \
-    "space: solid\nduration: 1 us\nmethod: pd\nmodel: mospd\nmaterial: {young: 200 GPa, poisson: 1/4, density: 7850}\n"       \
+#define WALL                                                                                                           \
+    "space: solid\nduration: 1 us\nmethod: pd\nmodel: mospd\nmaterial: {young: 200 GPa, poisson: 1/4, density: 7850}\n"\
     "body: {box: {from: [0, 0, 0], to: [3 mm, 16 mm, 16 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT
 
 static void test_threads(void **state)
@@ -225,19 +235,19 @@ static real run(struct engine *e)
     while (e->step < e->steps) {
         assert_ok(engine_step(e));
         assert_ok(engine_report(e));
-        most = real_max(most, fabs(e->watch.now.balance_error));
+        most = real_max(most, fabs(e->diagnostics.now.balance_error));
     }
-    assert_true(e->watch.now.momentum_error < 1e-11);        /* round-off of 1e5 steps; supports are in the account */
+    assert_true(e->diagnostics.now.momentum_error < 1e-11);    /* round-off of 1e5 steps; supports are in the account */
     return most;
 }
 
-#define BEAM                                                                                                         \
-    "space: plane stress\nthickness: 1 mm\nduration: 36 ms\nmethod: pd\n" STEEL                                      \
-    "body: {box: {from: [0, 0], to: [20 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT             \
+#define BEAM                                                                                                           \
+    "space: plane stress\nthickness: 1 mm\nduration: 36 ms\nmethod: pd\n" STEEL                                        \
+    "body: {box: {from: [0, 0], to: [20 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
 
-/* A beam let go: 1e5 steps and more. The ledger, of second order in the step, closes to 2e-4. Without the energy the first three are
- * stopped after 3e3 to 3e4 steps and the last gains 5 %. */
+/* A beam let go: 1e5 steps and more. The energy balance, of second order in the step, closes to 2e-4. Without the
+ * energy the first three are stopped after 3e3 to 3e4 steps and the last gains 5 %. */
 static void test_long(void **state)
 {
     (void)state;
@@ -256,12 +266,12 @@ static void test_long(void **state)
     }
 }
 
-/* Material points beside bonds at the clamp, in the reference frame, with the plane on nodes and half-way between two, whose mesh moves
- * nodes as images of others. */
-#define COUPLED                                                                                                      \
-    "space: plane stress\nthickness: 1 mm\nduration: 4 ms\nmethod: adaptive\n" STEEL                               \
-    "body: {box: {from: [0, 0], to: [40 mm, 12 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                 \
-    "pd: {region: {box: {from: [-inf, -inf], to: [16 mm, 6 mm]}}}\n" LEFT                                           \
+/* Material points beside bonds at the clamp, in the reference frame, with the plane on nodes and half-way between
+ * two, whose mesh moves nodes as images of others. */
+#define COUPLED                                                                                                        \
+    "space: plane stress\nthickness: 1 mm\nduration: 4 ms\nmethod: adaptive\n" STEEL                                   \
+    "body: {box: {from: [0, 0], to: [40 mm, 12 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                    \
+    "pd: {region: {box: {from: [-inf, -inf], to: [16 mm, 6 mm]}}}\n" LEFT                                              \
     "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
 
 static void test_coupled(void **state)
@@ -302,11 +312,11 @@ static void test_in_plane(void **state)
     body_free(&a);
 }
 
-#define STRIP                                                                                                        \
-    "space: plane stress\nthickness: 1 mm\nduration: 20 us\nmethod: pd\n" STEEL                                      \
-    "body: {box: {from: [0, 0], to: [40 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                   \
-    "boundary:\n  - {mirror: {axis: x, at: 0, tangential: free}}\n"                                                  \
-    "  - {mirror: {axis: y, at: 0, tangential: free}}\n  - {mirror: {axis: y, at: 4 mm, tangential: free}}\n"        \
+#define STRIP                                                                                                          \
+    "space: plane stress\nthickness: 1 mm\nduration: 20 us\nmethod: pd\n" STEEL                                        \
+    "body: {box: {from: [0, 0], to: [40 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                     \
+    "boundary:\n  - {mirror: {axis: x, at: 0, tangential: free}}\n"                                                    \
+    "  - {mirror: {axis: y, at: 0, tangential: free}}\n  - {mirror: {axis: y, at: 4 mm, tangential: free}}\n"          \
     "  - traction: [1 MPa, 0]\n    face: x+\n    time: {pulse: {from: 0, until: 4 us}}\n"
 
 /* A plane wave comes back from a clamp as from a plane of symmetry: there is no motion along it. */
@@ -332,14 +342,15 @@ static void test_reflection(void **state)
     }
 }
 
-#define TORN                                                                                                         \
-    "space: plane stress\nthickness: 1 mm\nduration: 6 us\nmethod: pd\n"                                             \
-    "material: {young: 200 GPa, poisson: 1/3, density: 7850, critical_stretch: 0.004}\n"                             \
-    "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT             \
+#define TORN                                                                                                           \
+    "space: plane stress\nthickness: 1 mm\nduration: 6 us\nmethod: pd\n"                                               \
+    "material: {young: 200 GPa, poisson: 1/3, density: 7850, critical_stretch: 0.004}\n"                               \
+    "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "initial: [{velocity: [50, 20]}]\n"
 
-/* A body that tears itself off its clamp: bonds break at their images only, with half their reaction in that step, so what breaking
- * leaves of the balance falls with the square of the step (on the average: each step breaks other bonds). */
+/* A body that tears itself off its clamp: bonds break at their images only, with half their reaction in that step,
+ * so what breaking leaves of the balance falls with the square of the step (on the average: each step breaks other
+ * bonds). */
 static void test_torn(void **state)
 {
     (void)state;
@@ -362,13 +373,13 @@ static void test_torn(void **state)
 
 /* ---- statics ----------------------------------------------------------------------------------------------------- */
 
-#define CANTILEVER                                                                                                   \
-    "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\nsolver: cg\nsolver_tolerance: 1e-5\n" STEEL    \
-    "body: {box: {from: [0, 0], to: [50 mm, 10 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT            \
+#define CANTILEVER                                                                                                     \
+    "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\nsolver: cg\nsolver_tolerance: 1e-5\n" STEEL      \
+    "body: {box: {from: [0, 0], to: [50 mm, 10 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT               \
     "  - body_force: [0, 1e4]\n"
 
-/* Tip of a cantilever under its own weight b: b L^4/(8 E h^2/12) + b L^2/(2 G 5/6) (Timoshenko 1921), with the softness of ten
- * spacings of each model's faces; the clamp carries the weight. */
+/* Tip of a cantilever under its own weight b: b L^4/(8 E h^2/12) + b L^2/(2 G 5/6) (Timoshenko 1921), with the
+ * softness of ten spacings of each model's faces; the clamp carries the weight. */
 static void test_cantilever(void **state)
 {
     (void)state;
@@ -379,17 +390,18 @@ static void test_cantilever(void **state)
     const real beam = b * L * L * L * L / (8 * young * h * h / 12) + b * L * L / (2 * shear * 5 / 6);
     for (size_t k = 0; k < COUNT_OF(model); k++) {
         struct body a;
-        real tip = 0, carried = 0;
+        real tip = 0, grid_coupled = 0;
         body_make(&a, CANTILEVER, model[k].with);
         assert_ok(engine_run(&a.e));
         forces(&a.e);
         for (int64_t i = 0; i < a.e.part.n; i++) {
             tip = real_max(tip, a.e.part.x[1][i] - a.e.part.X[1][i]);
-            carried += a.e.part.f[1][i];
+            grid_coupled += a.e.part.f[1][i];
         }
-        printf("cantilever %s: tip %.4g of a beam's in %lld steps\n", model[k].with[0], tip / beam, (long long)a.e.step);
+        printf("cantilever %s: tip %.4g of a beam's in %lld steps\n", model[k].with[0], tip / beam,
+               (long long)a.e.step);
         assert_close(tip, model[k].over * beam, 0.03);
-        assert_close(carried, -b * L * h * 1e-3, 1e-4);
+        assert_close(grid_coupled, -b * L * h * 1e-3, 1e-4);
         body_free(&a);
     }
 }

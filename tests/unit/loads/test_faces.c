@@ -1,8 +1,9 @@
-/* floor 5: tractions: on every body the resultant is the traction times the area that the body shows along the face's normal,
- * whatever its shape, which particles carry it, and what it gives in a run. */
+/* Tractions: on every body the resultant is the traction times the area that the body shows along the
+ * face's normal, whatever its shape, which particles carry it, and what it gives in a run. */
 #include <string.h>
 #include <unistd.h>
 
+#include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "engine/engine.h"
 #include "src/engine/engine_report.h"
@@ -22,10 +23,17 @@ static void sample_try(struct sample *a, const char *space, const char *body, co
 {
     char text[TEXT];
     memset(a, 0, sizeof *a);
-    snprintf(text, sizeof text, "space: %s\n%sduration: 1 us\nmethod: pd\nmaterial: {young: 72 GPa, poisson: %s, density: 2440}\n"
-                                "%sparticles: {spacing: 1 mm, horizon: 3.015%s}\nboundary: [{name: pull, %s}]\n",
-             space, strncmp(space, "plane", 5) == 0 ? "thickness: 2 mm\n" : strcmp(space, "line") == 0 ? "section: 3 mm^2\n" : "",
-             strcmp(space, "plane stress") == 0 ? "1/3" : strcmp(space, "line") == 0 ? "0" : "1/4", body, more, traction);
+    snprintf(text, sizeof text,
+             "space: %s\n%sduration: 1 us\nmethod: pd\nmaterial: {young: 72 GPa, poisson: %s, density: 2440}\n"
+             "%sparticles: {spacing: 1 mm, horizon: 3.015%s}\nboundary: [{name: pull, %s}]\n",
+             space,
+             strncmp(space, "plane", 5) == 0 ? "thickness: 2 mm\n"
+             : strcmp(space, "line") == 0    ? "section: 3 mm^2\n"
+                                             : "",
+             strcmp(space, "plane stress") == 0 ? "1/3"
+             : strcmp(space, "line") == 0       ? "0"
+                                                : "1/4",
+             body, more, traction);
     if (scene_read_text(&a->s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(fill_particles(&a->p, &a->s, 0));
     const status made = loads_make(&a->l, a->s.boundary, a->s.boundaries, &a->p, a->s.spacing, 3 * H, 0);
@@ -79,7 +87,7 @@ static int64_t lattice_columns(const struct particles *p, int face)
     return n;
 }
 
-/* ---- lattices ------------------------------------------------------------------------------------------------- */
+/* ---- lattices ---------------------------------------------------------------------------------------------------- */
 
 #define BOX(x0, y0, x1, y1) "{box: {from: [" #x0 " mm, " #y0 " mm], to: [" #x1 " mm, " #y1 " mm]}}"
 #define CUT(x0, y0, x1, y1) "{subtract: " BOX(x0, y0, x1, y1) "}"
@@ -105,12 +113,22 @@ static const struct solid_shown {
     {"hole", "plane stress", holed, {30e-3, 30e-3}, {H, H}},
     {"two discs", "plane stress", "body: [" DISC(0, 0, 10) ", " DISC(24, 5, 6) "]\n", {21e-3, 32e-3}, {H, 2 * H}},
     {"ball", "solid", "body: " BALL(0, 0, 0, 8) "\n", {201.06e-6, 201.06e-6, 201.06e-6}, {50.3e-6, 50.3e-6, 50.3e-6}},
-    {"shell", "solid", "body: [" BALL(0, 0, 0, 8) ", {subtract: " BALL(0, 0, 0, 5) "}]\n", {201.06e-6, 201.06e-6, 201.06e-6},
+    {"shell",
+     "solid",
+     "body: [" BALL(0, 0, 0, 8) ", {subtract: " BALL(0, 0, 0, 5) "}]\n",
+     {201.06e-6, 201.06e-6, 201.06e-6},
      {50.3e-6, 50.3e-6, 50.3e-6}},
-    {"cylinder", "solid", "body: {cylinder: {from: [0, 0, 0], to: [0, 0, 12 mm], radius: 7 mm}}\n", {168e-6, 168e-6, 153.94e-6},
+    {"cylinder",
+     "solid",
+     "body: {cylinder: {from: [0, 0, 0], to: [0, 0, 12 mm], radius: 7 mm}}\n",
+     {168e-6, 168e-6, 153.94e-6},
      {26e-6, 26e-6, 44e-6}},
     {"bar", "line", "body: [{box: {from: [0], to: [20 mm]}}]\n", {1}, {1e-9}},
-    {"broken bar", "line", "body: [{box: {from: [0], to: [20 mm]}}, {subtract: {box: {from: [5 mm], to: [9 mm]}}}]\n", {1}, {1e-9}},
+    {"broken bar",
+     "line",
+     "body: [{box: {from: [0], to: [20 mm]}}, {subtract: {box: {from: [5 mm], to: [9 mm]}}}]\n",
+     {1},
+     {1e-9}},
 };
 
 /* Shaken by less than half a spacing, a lattice has the columns that it had. */
@@ -129,8 +147,8 @@ static void check_shape(const struct solid_shown *q, int face, int side)
         if (k == 0) columns = lattice_columns(&a.p, face);
         for (int d = 0; d < a.p.dim; d++) {
             if (!(fabs(area(&a, d) - (real)columns * column) <= 1e-12 * (real)columns * column))
-                fail_msg("%s%s, face %s: %.15g of %lld columns along %d", q->name, shaken[k], name, area(&a, d) / column,
-                         (long long)columns, d);
+                fail_msg("%s%s, face %s: %.15g of %lld columns along %d", q->name, shaken[k], name,
+                         area(&a, d) / column, (long long)columns, d);
             assert_near(area(&a, d), q->shows[face] * section, q->spacing[face] * section);
         }
         sample_free(&a);
@@ -145,17 +163,18 @@ static void test_shapes(void **state)
             for (int side = -1; side <= 1; side += 2) check_shape(&shapes[k], face, side);
 }
 
-/* ---- particles that carry it ------------------------------------------------------------------------------------------- */
+/* ---- particles that carry it ------------------------------------------------------------------------------------- */
 
-/* Steps are seen, what an overhang hides and the bottom of a hole are not; a region that leaves out what hides them loads
- * them, with no more than their own width. */
+/* Steps are seen, what an overhang hides and the bottom of a hole are not; a region that leaves out what hides them
+ * loads them, with no more than their own width. */
 static void test_hidden(void **state)
 {
     (void)state;
     struct sample a;
     sample_make(&a, "plane stress", staircase, "", "traction: [0, 1], face: y+");
     for (int step = 0; step < 3; step++)
-        for (int k = 0; k < 10; k++) assert_close(share_at(&a, 1, (10 * step + k + 0.5) * H, (29.5 - 10 * step) * H), H * T, 1e-12);
+        for (int k = 0; k < 10; k++)
+            assert_close(share_at(&a, 1, (10 * step + k + 0.5) * H, (29.5 - 10 * step) * H), H * T, 1e-12);
     sample_free(&a);
 
     sample_make(&a, "plane stress", overhang, "", "traction: [0, 1], face: y+");
@@ -177,7 +196,8 @@ static void test_hidden(void **state)
         assert_true(a.p.X[1][i] < 15 * H && hypot(a.p.X[0][i] - 15 * H, a.p.X[1][i] - 15 * H) < 7.5 * H);
     }
     sample_free(&a);
-    sample_make(&a, "plane stress", holed, ", irregularity: 0.5", "traction: [0, 1], face: y+, region: " DISC(15, 15, 8));
+    sample_make(&a, "plane stress", holed, ", irregularity: 0.5",
+                "traction: [0, 1], face: y+, region: " DISC(15, 15, 8));
     assert_close(area(&a, 1), 12 * H * T, 1e-12);
     sample_free(&a);
 }
@@ -186,20 +206,23 @@ static void test_refused(void **state)
 {
     (void)state;
     struct sample a;
-    sample_try(&a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " BOX(0, 2, 30, 6),
-               "boundary pull: every particle in its region has one of its body before it towards y+; let the region hold");
+    sample_try(
+        &a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " BOX(0, 2, 30, 6),
+        "boundary pull: every particle in its region has one of its body before it towards y+; let the region hold");
     sample_free(&a);
-    sample_try(&a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " BOX(40, 2, 50, 6), "no particle lies in its region");
+    sample_try(&a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " BOX(40, 2, 50, 6),
+               "no particle lies in its region");
     sample_free(&a);
 }
 
-/* Bodies hide each other where the traction acts on all of them, also with lattices that do not meet; one that is named stands
- * alone. */
+/* Bodies hide each other where the traction acts on all of them, also with lattices that do not meet; one that is
+ * named stands alone. */
 static void test_bodies(void **state)
 {
     (void)state;
-    static const char towers[] = "bodies:\n  - {name: a, shape: [" BOX(0, 0, 20, 10) "]}\n  - {name: b, shape: [" BOX(22, 0, 30, 5) "]}\n"
-                                 "  - {name: c, shape: [" BOX(5.5, 10, 12.5, 15) "]}\n";
+    static const char towers[] = "bodies:\n  - {name: a, shape: [" BOX(0, 0, 20, 10) "]}\n  - {name: b, shape: [" BOX(
+        22, 0, 30, 5) "]}\n"
+                      "  - {name: c, shape: [" BOX(5.5, 10, 12.5, 15) "]}\n";
     static const struct { const char *traction; int face; real shows; } row[] = {
         {"traction: [0, 1], face: y+", 1, 28e-3}, {"traction: [0, 1], face: y-", 1, 28e-3},
         {"traction: [1, 0], face: x+", 0, 15e-3}, {"traction: [1, 0], face: x-", 0, 15e-3},
@@ -214,8 +237,8 @@ static void test_bodies(void **state)
         }
 }
 
-/* What acts along a stepped face does so half a spacing outside of every column's first particle: its moment is that of the
- * steps. Where a column has but one particle, there it acts. */
+/* What acts along a stepped face does so half a spacing outside of every column's first particle: its moment is that
+ * of the steps. Where a column has but one particle, there it acts. */
 static void test_along(void **state)
 {
     (void)state;
@@ -231,12 +254,12 @@ static void test_along(void **state)
     sample_free(&a);
 }
 
-/* ---- lists ------------------------------------------------------------------------------------------------------ */
+/* ---- lists ------------------------------------------------------------------------------------------------------- */
 
 static char list_name[64];
 
-/* Rings of a disc of radius 20, hexagons, two sizes of squares, nodes on the border with halves and quarters, a lattice as
- * wide as 1.3 spacings: all fill their solid [mm]. */
+/* Rings of a disc of radius 20, hexagons, two sizes of squares, nodes on the border with halves and quarters, a
+ * lattice as wide as 1.3 spacings: all fill their solid [mm]. */
 enum list { RINGS, HEXAGONS, TWO_SIZES, NODES, WIDE, LISTS };
 
 static void put_list(FILE *out, enum list list)
@@ -246,12 +269,13 @@ static void put_list(FILE *out, enum list list)
         for (int ring = 0; ring < 20; ring++) {
             const int n = (int)nearbyint(2 * M_PI * (ring + 0.5));
             for (int k = 0; k < n; k++)
-                fprintf(out, "%.9g,%.9g,%.9g\n", (ring + 0.5) * H * cos(2 * M_PI * k / n), (ring + 0.5) * H * sin(2 * M_PI * k / n),
-                        M_PI * (2 * ring + 1) / n * H * H * T);
+                fprintf(out, "%.9g,%.9g,%.9g\n", (ring + 0.5) * H * cos(2 * M_PI * k / n),
+                        (ring + 0.5) * H * sin(2 * M_PI * k / n), M_PI * (2 * ring + 1) / n * H * H * T);
         }
     for (int y = 0; y < 24 && list == HEXAGONS; y++)
         for (int x = 0; x < 30; x++)
-            fprintf(out, "%.9g,%.9g,%.9g\n", (x + 0.25 + 0.5 * (y % 2)) * H, (y + 0.5) * sqrt(0.75) * H, sqrt(0.75) * H * H * T);
+            fprintf(out, "%.9g,%.9g,%.9g\n", (x + 0.25 + 0.5 * (y % 2)) * H, (y + 0.5) * sqrt(0.75) * H,
+                    sqrt(0.75) * H * H * T);
     for (int y = 0; y < 20 && list == TWO_SIZES; y++)
         for (int x = 0; x < 20; x++) fprintf(out, "%.9g,%.9g,%.9g\n", (x + 0.5) * H, (y + 0.5) * H, H * H * T);
     for (int y = 0; y < 10 && list == TWO_SIZES; y++)
@@ -260,7 +284,8 @@ static void put_list(FILE *out, enum list list)
         for (int x = 0; x < 31; x++)
             fprintf(out, "%.9g,%.9g,%.9g\n", x * H, y * H, (x % 30 ? 1 : 0.5) * (y % 20 ? 1 : 0.5) * H * H * T);
     for (int y = 0; y < 10 && list == WIDE; y++)
-        for (int x = 0; x < 20; x++) fprintf(out, "%.9g,%.9g,%.9g\n", (x + 0.5) * 1.3 * H, (y + 0.5) * 1.3 * H, 1.69 * H * H * T);
+        for (int x = 0; x < 20; x++)
+            fprintf(out, "%.9g,%.9g,%.9g\n", (x + 0.5) * 1.3 * H, (y + 0.5) * 1.3 * H, 1.69 * H * H * T);
 }
 
 static void test_lists(void **state)
@@ -277,7 +302,8 @@ static void test_lists(void **state)
         for (int face = 0; face < 4; face++) {
             struct sample a;
             char traction[80], body[120];
-            snprintf(traction, sizeof traction, "traction: [1, 1], face: %s", (const char *[]){"x+", "x-", "y+", "y-"}[face]);
+            snprintf(traction, sizeof traction, "traction: [1, 1], face: %s",
+                     (const char *[]){"x+", "x-", "y+", "y-"}[face]);
             snprintf(body, sizeof body, "bodies: [{name: grains, particles: %s}]\n", list_name);
             sample_make(&a, "plane stress", body, "", traction);
             for (int d = 0; d < 2; d++) {
@@ -322,32 +348,45 @@ static void test_packed(void **state)
     remove(list_name);
 }
 
-/* ---- in a run ----------------------------------------------------------------------------------------------------- */
+/* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* A free body has the momentum t A T after a time T, whatever moves it: the sum of the momenta, not what the loads say they
- * gave. */
+/* A free body has the momentum t A T after a time T, whatever moves it: the sum of the momenta, not what the loads
+ * say they gave. */
 static void check_impulse(const struct solid_shown *q, int64_t columns, const char *method, const char *more)
 {
     enum { STEPS = 12 };
     struct scene s;
     struct engine *e = NEW("test.engine", 1, struct engine);
-    struct watch w;
+    struct diagnostics w;
     char text[TEXT];
     const bool three = strcmp(q->space, "solid") == 0, one = strcmp(q->space, "line") == 0;
-    snprintf(text, sizeof text, "space: %s\n%sduration: 1 ms\n%s\nmaterial: {young: 72 GPa, poisson: %s, density: 2440}\n"
-                                "%sparticles: {spacing: 1 mm, horizon: 3.015%s}\nconversion: {criteria: none}\n"
-                                "boundary: [{traction: [%s], face: x+}]\n",
-             q->space, three ? "" : one ? "section: 3 mm^2\n" : "thickness: 2 mm\n", method,
-             strcmp(q->space, "plane stress") == 0 ? "1/3" : one ? "0" : "1/4", q->body, more,
-             one ? "3e5" : three ? "3e5, 2e5, -1e5" : "3e5, -2e5");
+    snprintf(text, sizeof text,
+             "space: %s\n%sduration: 1 ms\n%s\nmaterial: {young: 72 GPa, poisson: %s, density: 2440}\n"
+             "%sparticles: {spacing: 1 mm, horizon: 3.015%s}\nconversion: {criteria: none}\n"
+             "boundary: [{traction: [%s], face: x+}]\n",
+             q->space,
+             three ? ""
+             : one ? "section: 3 mm^2\n"
+                   : "thickness: 2 mm\n",
+             method,
+             strcmp(q->space, "plane stress") == 0 ? "1/3"
+             : one                                 ? "0"
+                                                   : "1/4",
+             q->body, more,
+             one     ? "3e5"
+             : three ? "3e5, 2e5, -1e5"
+                     : "3e5, -2e5");
     if (scene_read_text(&s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(e, &s, NULL) != OK) fail_msg("%s", status_message());
     e->quiet = true;
     assert_ok(engine_report_start(e));
     for (int step = 0; step < STEPS; step++) assert_ok(engine_step(e));
-    watch_make(&w);
-    watch_momentum(&w, &e->part, &e->mesh.grid, (const real[DIM_MAX]){0});
-    const real t = engine_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) * (one ? 3e-6 : three ? 1 : T);
+    diagnostics_make(&w);
+    diagnostics_momentum(&w, &e->part, &e->mesh.grid, (const real[DIM_MAX]){0});
+    const real t = engine_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
+                                                          (one     ? 3e-6
+                                                           : three ? 1
+                                                                   : T);
     for (int d = 0; d < s.dim; d++) {
         const real given = (const real[]){3e5, three || one ? 2e5 : -2e5, -1e5}[d] * shows * t;
         if (!(fabs(w.now.momentum[d] - given) <= 1e-10 * fabs(given)))      /* of 3e5: round-off of 12 steps */
@@ -368,7 +407,7 @@ static void test_impulse(void **state)
         "method: adaptive\nmpm: {frame: reference}\npd: {region: {half-space: {point: [%s], normal: [1%s]}}}"};
     for (size_t k = 0; k < COUNT_OF(shapes); k++) {
         struct sample a;
-        if (strcmp(shapes[k].name, "shell") == 0 || strcmp(shapes[k].name, "cylinder") == 0) continue;    /* as the ball */
+        if (strcmp(shapes[k].name, "shell") == 0 || strcmp(shapes[k].name, "cylinder") == 0) continue; /* as the ball */
         sample_make(&a, shapes[k].space, shapes[k].body, "",
                     *shapes[k].space == 'l' ? "traction: 1, face: x+"
                     : *shapes[k].space == 'p' ? "traction: [1, 0], face: x+" : "traction: [1, 0, 0], face: x+");
@@ -387,9 +426,10 @@ static void test_impulse(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_shapes), cmocka_unit_test(test_hidden), cmocka_unit_test(test_refused),
-                                       cmocka_unit_test(test_bodies), cmocka_unit_test(test_along), cmocka_unit_test(test_lists), cmocka_unit_test(test_packed),
-                                       cmocka_unit_test(test_impulse)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_shapes),  cmocka_unit_test(test_hidden),
+                                       cmocka_unit_test(test_refused), cmocka_unit_test(test_bodies),
+                                       cmocka_unit_test(test_along),   cmocka_unit_test(test_lists),
+                                       cmocka_unit_test(test_packed),  cmocka_unit_test(test_impulse)};
     snprintf(list_name, sizeof list_name, "faces%ld.csv", (long)getpid());
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

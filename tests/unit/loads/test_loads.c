@@ -1,4 +1,4 @@
-/* floor 3: applied forces: what a body force that varies over the body gives to every particle. */
+/* Applied forces: what a body force that varies over the body gives to every particle. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -52,17 +52,26 @@ static void test_sine(void **state)
     cloud_free(&c);
 }
 
-/* Loads of the same particles go together, with terms of equal shares as one; what they give is that of each alone, on any
- * number of threads. Two of one profile, one of another, one of a part of the body, one whose region is every particle but in
- * other words, and a traction. */
+/* Loads of the same particles go together, with terms of equal shares as one; what they give is that of each alone,
+ * on any number of threads. Two of one profile, one of another, one of a part of the body, one whose region is every
+ * particle but in other words, and a traction. */
 static void check_together(int threads, bool together, real *impulse, real *work, real *f)
 {
     const real length = 5 * CLOUD_SPACING, dt = 1e-6;
     const struct profile wave = {PROFILE_SINE, length, {0}, {3, 4}};
     const struct boundary row[] = {
         {.name = "steady", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6}, .profile = wave},
-        {.name = "ramp", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {5e6, 1e6}, .profile = wave, .time = {.kind = TIME_RAMP, .until = 4}},
-        {.name = "other", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {0, 7e6}, .profile = {PROFILE_SINE, length, {0}, {1, -1}}},
+        {.name = "ramp",
+         .kind = BOUNDARY_BODY_FORCE,
+         .body = -1,
+         .value = {5e6, 1e6},
+         .profile = wave,
+         .time = {.kind = TIME_RAMP, .until = 4}},
+        {.name = "other",
+         .kind = BOUNDARY_BODY_FORCE,
+         .body = -1,
+         .value = {0, 7e6},
+         .profile = {PROFILE_SINE, length, {0}, {1, -1}}},
         {.name = "even", .kind = BOUNDARY_BODY_FORCE, .body = 0, .value = {1e6, 0}},
         {.name = "first", .kind = BOUNDARY_BODY_FORCE, .body = 1, .value = {-4e6, 4e6}},
         {.name = "face", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 2e6}, .face = 1, .side = 1}};
@@ -74,7 +83,8 @@ static void check_together(int threads, bool together, real *impulse, real *work
     for (int64_t i = 0; i < c.p.n; i++) c.p.body[i] = i % 3 == 0;
     impulse[0] = impulse[1] = *work = 0;
     for (size_t k = 0; k < (together ? 1 : COUNT_OF(row)); k++) {
-        assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+        assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING,
+                             3 * CLOUD_SPACING, 0));
         if (k == 0) loads_clear(&l, &c.p);
         loads_apply(&l, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++)
@@ -99,7 +109,8 @@ static void test_together(void **state)
     static real f[4][2 * N];
     real impulse[4][2], work[4];
     check_together(1, false, impulse[0], &work[0], f[0]);
-    for (int threads = 1; threads <= 3; threads++) check_together(threads, true, impulse[threads], &work[threads], f[threads]);
+    for (int threads = 1; threads <= 3; threads++)
+        check_together(threads, true, impulse[threads], &work[threads], f[threads]);
     for (int i = 0; i < 2 * N; i++) assert_near(f[1][i], f[0][i], 1e-14 * 2e7 * square(CLOUD_SPACING) * 2e-3);
     for (int d = 0; d < 2; d++) assert_close(impulse[1][d], impulse[0][d], 1e-12);
     assert_close(work[1], work[0], 1e-10);           /* terms of both signs, 1e-3 of them left */
@@ -111,8 +122,9 @@ static void test_together(void **state)
     team_make(2);
 }
 
-/* Leap-frog: a half kick, then whole ones, each round the instant of its forces. What a force gives up to the velocities
- * is its integral in time: exactly for what is linear in it or switches at a whole step, else to second order. */
+/* Leap-frog: a half kick, then whole ones, each round the instant of its forces. What a force gives up to the
+ * velocities is its integral in time: exactly for what is linear in it or switches at a whole step, else to second
+ * order. */
 static void test_kicks(void **state)
 {
     (void)state;
@@ -146,9 +158,9 @@ static void even_volumes(struct particles *p)
     for (int64_t i = 0; i < p->n; i++) p->volume0[i] = square(CLOUD_SPACING) * 2e-3;
 }
 
-/* A traction's force is t A and its moment that of a force on the face, half a spacing outside the particles, whatever its
- * direction and however far the lattice is shaken (shifts of 0.3 spacings: a layer 0.6 thick); the moment of what acts
- * along the face is exact on the lattice, where the layers' depths are. */
+/* A traction's force is t A and its moment that of a force on the face, half a spacing outside the particles,
+ * whatever its direction and however far the lattice is shaken (shifts of 0.3 spacings: a layer 0.6 thick); the
+ * moment of what acts along the face is exact on the lattice, where the layers' depths are. */
 static void test_traction(void **state)
 {
     (void)state;
@@ -194,7 +206,7 @@ static void test_relief(void **state)
                                         .seed = 3});
     even_volumes(&c.p);
     assert_ok(loads_make(&l, shear, 2, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
-    assert_true(loads_static_balance(&l, &c.p) > 0.3);       /* nothing but moment, not at the farthest from the centre */
+    assert_true(loads_static_balance(&l, &c.p) > 0.3);     /* nothing but moment, not at the farthest from the centre */
     loads_static_force(&l, &c.p);
     for (int64_t i = 0; i < c.p.n; i++) {
         for (int d = 0; d < 2; d++) sum[d] += c.p.f[d][i], size += fabs(c.p.f[d][i]);
@@ -208,8 +220,9 @@ static void test_relief(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks), cmocka_unit_test(test_together),
-                                       cmocka_unit_test(test_traction), cmocka_unit_test(test_relief)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks),
+                                       cmocka_unit_test(test_together), cmocka_unit_test(test_traction),
+                                       cmocka_unit_test(test_relief)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

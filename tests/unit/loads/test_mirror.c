@@ -1,4 +1,4 @@
-/* floor 4: a quarter of a body between two mirrors against the whole body: forces, energy, surface correction, partial
+/* A quarter of a body between two mirrors against the whole body: forces, energy, surface correction, partial
  * stresses, conversion. */
 #include <stdarg.h>
 #include <setjmp.h>
@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "tests/support/cloud.h"
-#include "coupling/convert.h"
+#include "coupling/conversion.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
 #include "tests/support/near.h"
@@ -195,7 +195,7 @@ static void test_mirror_convert(void **state)
         if (fabs(fabs(whole->X[0][j]) - part->X[0][marked]) + fabs(fabs(whole->X[1][j]) - part->X[1][marked]) < 1e-9)
             whole->flag[j] |= FLAG_STRESSED;
     int looks[LOOKS_MOST] = {0};
-    const struct conversion_look look = {count_looks, looks};
+    const struct conversion_sync look = {count_looks, looks};
     int64_t converted = convert(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], &look, 1e-6);
     for (int64_t i = 0; i < part->n; i++) {
         assert_true(looks[i] > 0 || part->kind[i] == KIND_MPM);
@@ -210,7 +210,7 @@ static void test_mirror_convert(void **state)
     quarter_free(&q);
 }
 
-/* ---- material points ------------------------------------------------------------------------------------ */
+/* ---- material points --------------------------------------------------------------------------------------------- */
 
 /* A quarter or all of a body of material points on a grid. */
 struct points {
@@ -224,7 +224,8 @@ struct points {
 
 static const struct elastic steel = {.c11 = 2e11, .c12 = 7e10, .shear = 6.5e10, .trigger = INFINITY};
 
-/* A motion and stresses that the mirrors leave as they are, in a body so deformed that points stand anywhere in cells. */
+/* A motion and stresses that the mirrors leave as they are, in a body so deformed that points stand anywhere in
+ * cells. */
 static void points_state(struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -337,7 +338,7 @@ static void points_case(enum space space, enum shape shape, enum transfer transf
             assert_near(reaction, given, CLOSE * fabs(before[d]));
         }
     }
-    assert_true(part.g.folds > 0);
+    assert_true(part.g.mirror_nodes > 0);
     points_free(&part);
     points_free(&whole);
     memory_free(q.twin);
@@ -357,8 +358,9 @@ static void test_mirror_points(void **state)
             }
 }
 
-/* Of a strip between two mirrors, far from the origin of one and near that of the other, moved by less than a bond can
- * resolve: i is as far from the image of j as j from that of i, to the last bit, so no force remains along the mirrors. */
+/* Of a strip between two mirrors, far from the origin of one and near that of the other, moved by less than a bond
+ * can resolve: i is as far from the image of j as j from that of i, to the last bit, so no force remains along the
+ * mirrors. */
 static void test_mirror_places(void **state)
 {
     (void)state;

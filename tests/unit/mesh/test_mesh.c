@@ -1,12 +1,12 @@
-/* floor 3: the mesh of the reference frame against plain sums over its points: forces are the exact gradient of the energy,
- * patches carry uniform strain, nothing resists a rotation, momentum of both kinds is kept, converted points take their
- * share along, and the critical step is that of the mesh. */
+/* The mesh of the reference frame against plain sums over its points: forces are the exact gradient of the
+ * energy, patches carry uniform strain, nothing resists a rotation, momentum of both kinds is kept, converted points
+ * take their share along, and the critical step is that of the mesh. */
 #include "tests/support/mesh_block.h"
 
-#include "coupling/convert.h"
+#include "coupling/conversion.h"
 
-/* f = -dW/du by central differences of the plain energy of the cells round a node. Their error is third derivatives times the
- * square of the step, and round-off of the energy over the step: 1e-7 of the largest force together. */
+/* f = -dW/du by central differences of the plain energy of the cells round a node. Their error is third derivatives
+ * times the square of the step, and round-off of the energy over the step: 1e-7 of the largest force together. */
 static void gradient_of(enum space space, bool finite, bool cubic)
 {
     struct block b;
@@ -72,7 +72,8 @@ static void test_whole_and_cut(void **state)
             forces(&b, finite);
             for (int64_t I = 0; I < b.mesh.grid.n; I++)
                 for (int d = 0; d < b.c.p.dim; d++)
-                    assert_near(b.mesh.grid.force[d][I], whole[d][I], 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
+                    assert_near(b.mesh.grid.force[d][I], whole[d][I],
+                                1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
             partial_stress_free(&nothing);
             for (int d = 0; d < b.c.p.dim; d++) memory_free(whole[d]);
             block_free(&b);
@@ -96,7 +97,8 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     for (int k = 0; k < n; k++) {
         int a, d;
         symmetric_axes(dim, k, &a, &d);
-        s[k] = a == d ? (m->c11 - m->c12) * g[a * dim + a] + m->c12 * trace : m->shear * (g[a * dim + d] + g[d * dim + a]);
+        s[k] =
+            a == d ? (m->c11 - m->c12) * g[a * dim + a] + m->c12 * trace : m->shear * (g[a * dim + d] + g[d * dim + a]);
     }
     for (int k = 0; k < n; k++) {
         int a, d;
@@ -105,8 +107,8 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     }
 }
 
-/* Cut cells that leave any part of their stress to bonds that has an energy, against sums of V P grad N point by point: round-off
- * of a few hundred terms. What changes after the mesh is made is followed, cell by cell. */
+/* Cut cells that leave any part of their stress to bonds that has an energy, against sums of V P grad N point by
+ * point: round-off of a few hundred terms. What changes after the mesh is made is followed, cell by cell. */
 static void test_partial(void **state)
 {
     (void)state;
@@ -140,7 +142,8 @@ static void test_partial(void **state)
                 for (int a = 0; a < dim; a++)
                     for (int k = 0; k < dim; k++)
                         b.mesh.grid.force[a][(b.mesh.place[i] >> dim) + b.mesh.corner[c]] +=
-                            b.mesh.volume * P[a * dim + k] * mesh_slope(dim, c, b.mesh.place[i] & ((1 << dim) - 1), k) / b.mesh.grid.h;
+                            b.mesh.volume * P[a * dim + k] * mesh_slope(dim, c, b.mesh.place[i] & ((1 << dim) - 1), k) /
+                            b.mesh.grid.h;
         }
         assert_near(largest_force(&b), 0, 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
         partial_stress_free(&partial);
@@ -148,8 +151,8 @@ static void test_partial(void **state)
     }
 }
 
-/* Uniform strain leaves no force inside, whole cells and cut ones: round-off of sums of stresses times faces. Inside are nodes
- * all of whose neighbours have their full mass. */
+/* Uniform strain leaves no force inside, whole cells and cut ones: round-off of sums of stresses times faces. Inside
+ * are nodes all of whose neighbours have their full mass. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -157,7 +160,7 @@ static void test_patch(void **state)
         for (int finite = 0; finite < 2; finite++) {
             struct block b;
             block_make(&b, spaces[s], false, false);
-            turn(&b, finite ? 0.7 : 0, 0.01);
+            rotation(&b, finite ? 0.7 : 0, 0.01);
             forces(&b, finite);
             real full = 0;
             int inside = 0;
@@ -174,8 +177,8 @@ static void test_patch(void **state)
         }
 }
 
-/* A rotation costs nothing at finite strain, and any displacement leaves neither force nor moment on the whole body: 1e-13 of
- * the sums' terms. Small strain keeps the force, and fails the moment. */
+/* A rotation costs nothing at finite strain, and any displacement leaves neither force nor moment on the whole body:
+ * 1e-13 of the sums' terms. Small strain keeps the force, and fails the moment. */
 static void test_momentum(void **state)
 {
     (void)state;
@@ -184,7 +187,7 @@ static void test_momentum(void **state)
             struct block b;
             block_make(&b, spaces[s], true, true);
             if (finite) {
-                turn(&b, 2.5, 0);
+                rotation(&b, 2.5, 0);
                 forces(&b, true);
                 assert_near(largest_force(&b), 0, 1e-13 * b.elastic[0].c11 * b.mesh.volume / CLOUD_SPACING);
             }
@@ -193,7 +196,8 @@ static void test_momentum(void **state)
             real sum[DIM_MAX] = {0}, moment = 0, scale = 0, arms = 0;
             for (int64_t I = 0; I < b.mesh.grid.n; I++) {
                 real x[2];
-                for (int d = 0; d < b.c.p.dim; d++) sum[d] += b.mesh.grid.force[d][I], scale += fabs(b.mesh.grid.force[d][I]);
+                for (int d = 0; d < b.c.p.dim; d++)
+                    sum[d] += b.mesh.grid.force[d][I], scale += fabs(b.mesh.grid.force[d][I]);
                 for (int d = 0; d < 2; d++) x[d] = node_place(&b.mesh, I, d) + b.mesh.displacement[d][I];
                 moment += x[0] * b.mesh.grid.force[1][I] - x[1] * b.mesh.grid.force[0][I];
                 arms += fabs(x[0] * b.mesh.grid.force[1][I]) + fabs(x[1] * b.mesh.grid.force[0][I]);
@@ -205,8 +209,8 @@ static void test_momentum(void **state)
         }
 }
 
-/* Least squares give linear fields back to their nodes, and to the points again: the residual's tolerance times the condition of
- * the mass matrix. */
+/* Least squares give linear fields back to their nodes, and to the points again: the residual's tolerance times the
+ * condition of the mass matrix. */
 static void test_start(void **state)
 {
     (void)state;
@@ -219,7 +223,8 @@ static void test_start(void **state)
         mesh_project(&b.mesh, p, p->v, b.mesh.grid.velocity);
         for (int64_t I = 0; I < b.mesh.grid.n; I++) {
             if (b.mesh.grid.mass[I] == 0) continue;
-            const real exact = 3 + 1000 * node_place(&b.mesh, I, 0) - (p->dim > 1 ? 400 * node_place(&b.mesh, I, 1) : 0);
+            const real exact =
+                3 + 1000 * node_place(&b.mesh, I, 0) - (p->dim > 1 ? 400 * node_place(&b.mesh, I, 1) : 0);
             assert_near(b.mesh.grid.velocity[0][I], exact, 1e-9 * 20);
         }
         block_free(&b);
@@ -236,7 +241,8 @@ static void test_release(void **state)
         block_make(&fresh, spaces[s], true, false);
         struct particles *p = &b.c.p;
         uint64_t seed = 9;
-        for (int64_t I = 0; I < b.mesh.grid.n; I++) b.mesh.grid.velocity[0][I] = b.mesh.grid.mass[I] > 0 ? cloud_random(&seed) : 0;
+        for (int64_t I = 0; I < b.mesh.grid.n; I++)
+            b.mesh.grid.velocity[0][I] = b.mesh.grid.mass[I] > 0 ? cloud_random(&seed) : 0;
         real before = 0, after = 0, kinetic = mesh_kinetic(&b.mesh);
         for (int64_t I = 0; I < b.mesh.grid.n; I++) before += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
         mesh_points_move(&b.mesh, p);
@@ -247,7 +253,8 @@ static void test_release(void **state)
             assert_exact(b.mesh.grid.mass[I], fresh.mesh.grid.mass[I]);
         }
         for (int64_t i = 0; i < p->n; i++)
-            if (p->kind[i] == KIND_PD) after += p->mass[i] * p->v[0][i], kinetic -= 0.5 * p->mass[i] * square(p->v[0][i]);
+            if (p->kind[i] == KIND_PD)
+                after += p->mass[i] * p->v[0][i], kinetic -= 0.5 * p->mass[i] * square(p->v[0][i]);
         assert_close(after, before, 1e-14);
         assert_close(kinetic, mesh_kinetic(&b.mesh), 1e-13);
         assert_int_equal(b.mesh.points, fresh.mesh.points);
@@ -258,8 +265,8 @@ static void test_release(void **state)
     }
 }
 
-/* Whole cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a single point in a cell to 1.5 D/c: omega^2 = 16/3
- * (1 + nu) c^2/h^2. In a bar h/c. */
+/* Whole cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a single point in a cell to 1.5 D/c: omega^2 =
+ * 16/3 (1 + nu) c^2/h^2. In a bar h/c. */
 static void test_step(void **state)
 {
     (void)state;
@@ -269,11 +276,13 @@ static void test_step(void **state)
     for (int m = 0; m < CLOUD_MATERIALS; m++) density[m] = b.c.material[m].density;
     b.source.materials = 1;
     const real c = b.c.material[0].wave_speed;
-    assert_close(mesh_critical_step(&b.mesh, &b.source, density, true), sqrt(0.75 / (4.0 / 3)) * 2 * CLOUD_SPACING / c, 0.002);
+    assert_close(mesh_critical_step(&b.mesh, &b.source, density, true), sqrt(0.75 / (4.0 / 3)) * 2 * CLOUD_SPACING / c,
+                 0.002);
     block_free(&b);
     block_make(&b, SPACE_LINE, false, false);
     b.source.materials = 1;
-    assert_close(mesh_critical_step(&b.mesh, &b.source, density, false), 2 * CLOUD_SPACING / b.c.material[0].wave_speed * sqrt(0.75), 0.002);
+    assert_close(mesh_critical_step(&b.mesh, &b.source, density, false),
+                 2 * CLOUD_SPACING / b.c.material[0].wave_speed * sqrt(0.75), 0.002);
     block_free(&b);
 }
 

@@ -1,4 +1,4 @@
-/* floor 5: tests of checkpoints: what comes back, and what damage, kills and a full disk may not do. */
+/* Tests of checkpoints: what comes back, and what damage, kills and a full disk may not do. */
 #include <errno.h>
 #include <fcntl.h>
 #include <libgen.h>
@@ -22,7 +22,7 @@
 
 static const char scene_text[] = "name: toy\nspace: plane stress\n";
 
-/* ---- helpers --------------------------------------------------------------------------------------- */
+/* ---- helpers ----------------------------------------------------------------------------------------------------- */
 
 static void open_fresh(struct output *o, const char *folder)
 {
@@ -124,7 +124,7 @@ static void flip(const char *path, int64_t at)
     close(fd);
 }
 
-/* ---- what comes back ------------------------------------------------------------------------------- */
+/* ---- what comes back --------------------------------------------------------------------------------------------- */
 
 static void state_comes_back(void **state)
 {
@@ -168,7 +168,7 @@ static void hdf5_ignores_the_footer(void **state)
     output_close(&o);
 }
 
-/* ---- damage ---------------------------------------------------------------------------------------- */
+/* ---- damage ------------------------------------------------------------------------------------------------------ */
 
 static void every_flip_is_found(void **state)
 {
@@ -316,7 +316,7 @@ static void fault_of_a_module_loses_nothing(void **state)
     output_close(&o);
 }
 
-/* ---- a full disk ----------------------------------------------------------------------------------- */
+/* ---- a full disk ------------------------------------------------------------------------------------------------- */
 
 /* Child: every write must fail cleanly; returns the number of the first expectation that does not hold. */
 static int write_to_full_disk(struct output *o, bool frame_first)

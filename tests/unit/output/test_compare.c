@@ -1,4 +1,4 @@
-/* floor 5: tests of what reads runs back: summary.json, history.csv, `cleave compare`, `cleave plot`. */
+/* Tests of what reads runs back: summary.json, history.csv, `cleave compare`, `cleave plot`. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "../src/app/commands.h"
-#include "../src/plot/plot.h"
+#include "plot/plot.h"
 #include "output/history.h"
 #include "base/memory.h"
 #include "output/summary_read.h"
@@ -34,7 +34,7 @@ static bool is_there(const char *path)
     return stat(path, &found) == 0;
 }
 
-/* ---- summary.json ---------------------------------------------------------------------------------- */
+/* ---- summary.json ------------------------------------------------------------------------------------------------ */
 
 static const char sound[] =
     "{ \"name\" : \"a \\\"b\\\"\", \"steps\": 12, \"x\": -1.5e-3,\n \"crack\": {\"start\": null, \"tips\": "
@@ -98,7 +98,7 @@ static void unsound_files_are_refused(void **state)
     assert_int_equal(summary_number("nowhere", "steps", &value), FAILED);
 }
 
-/* ---- history.csv ----------------------------------------------------------------------------------- */
+/* ---- history.csv ------------------------------------------------------------------------------------------------- */
 
 static void history_is_read_by_name(void **state)
 {
@@ -122,7 +122,7 @@ static void history_is_read_by_name(void **state)
     assert_int_equal(history_read(&h, "history"), FAILED);
 }
 
-/* ---- runs ------------------------------------------------------------------------------------------ */
+/* ---- runs -------------------------------------------------------------------------------------------------------- */
 
 /* A square plate whose right half moves apart by `gap`; `shift` is added to every displacement. */
 static void fill_plate(struct particles *p, double gap, double shift)
@@ -275,7 +275,7 @@ static void wrong_words_are_refused(void **state)
     assert_non_null(strstr(printed, CLEAVE_VERSION));
 }
 
-/* ---- pictures -------------------------------------------------------------------------------------- */
+/* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
 /* Width of a PNG picture [pixel]; its signature and first chunk are checked. */
 static int picture_width(const char *path)
@@ -352,11 +352,11 @@ static void bodies_are_closed_and_gaps_open(void **state)
     cloud_make(&c, &f);
     assert_true(covered(&c, 0.5 * SIDE + 0.2, 0.5 * SIDE + 1.8) == 0);    /* two spacings apart */
     cloud_free(&c);
-    const double turn = 0.5;                         /* radian: a turned lattice is closed too */
+    const double rotation = 0.5;                         /* radian: a turned lattice is closed too */
     for (int64_t i = 0; i < f.n; i++) {
         double x = f.X[0][i] - 6e-3, y = f.X[1][i] - 6e-3;
-        f.u[0][i] = (float)(x * cos(turn) - y * sin(turn) - x);
-        f.u[1][i] = (float)(x * sin(turn) + y * cos(turn) - y);
+        f.u[0][i] = (float)(x * cos(rotation) - y * sin(rotation) - x);
+        f.u[1][i] = (float)(x * sin(rotation) + y * cos(rotation) - y);
     }
     cloud_make(&c, &f);
     assert_false(c.aligned);
@@ -368,7 +368,7 @@ static void bodies_are_closed_and_gaps_open(void **state)
     frame_free(&f);
 }
 
-/* ---- a folder for all ------------------------------------------------------------------------------ */
+/* ---- a folder for all -------------------------------------------------------------------------------------------- */
 
 static char folder[] = "/tmp/cleave_compare_XXXXXX";
 

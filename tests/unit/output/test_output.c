@@ -1,4 +1,4 @@
-/* floor 5: tests of output.h: frames, indices, history, checkpoints, and what a full disk or damaged bytes do. */
+/* Tests of output.h: frames, indices, history, checkpoints, and what a full disk or damaged bytes do. */
 #include <errno.h>
 #include <ftw.h>
 #include <libgen.h>
@@ -20,7 +20,7 @@
 static const char scene_text[] = "name: toy\nspace: plane stress\n";
 enum { PARTICLES = 1000 };
 
-/* ---- helpers --------------------------------------------------------------------------------------- */
+/* ---- helpers ----------------------------------------------------------------------------------------------------- */
 
 static int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)
 {
@@ -80,7 +80,7 @@ static void assert_message(const char *part)
     if (!strstr(status_message(), part)) fail_msg("message \"%s\" lacks \"%s\"", status_message(), part);
 }
 
-/* ---- frames ---------------------------------------------------------------------------------------- */
+/* ---- frames ------------------------------------------------------------------------------------------------------ */
 
 static void check_frame(const struct frame *f, const struct particles *p)
 {
@@ -192,7 +192,8 @@ static void indices_list_all_frames(void **state)
     for (int k = 0; k < 40; k++) assert_int_equal(output_frame(&o, &p, k / 7.0, k, scene_text), OK);
     assert_int_equal(frames_list("indices", &n, &list), OK);
     assert_int_equal(n, 40);
-    for (int k = 0; k < n; k++) assert_true(list[k].number == k && list[k].time == k / 7.0);   /* 17 digits: the same double */
+    /* 17 digits: the same double */
+    for (int k = 0; k < n; k++) assert_true(list[k].number == k && list[k].time == k / 7.0);
     memory_free(list);
     assert_int_equal(file_get("indices/frames.xdmf", &text, &length), OK);
     assert_non_null(strstr(text, "frames/000039.hdf:/VTKHDF/PointData/velocity"));
@@ -238,7 +239,7 @@ static void damaged_frames_are_refused(void **state)
     output_close(&o);
 }
 
-/* ---- folder ---------------------------------------------------------------------------------------- */
+/* ---- folder ------------------------------------------------------------------------------------------------------ */
 
 static void folders_of_others_are_refused(void **state)
 {
@@ -342,7 +343,7 @@ static void history_on_a_full_disk_fails(void **state)
     output_close(&o);
 }
 
-/* ---- the summary ----------------------------------------------------------------------------------- */
+/* ---- the summary ------------------------------------------------------------------------------------------------- */
 
 static void summary_has_the_figures(void **state)
 {
@@ -356,7 +357,7 @@ static void summary_has_the_figures(void **state)
     e->scene = &s, e->out = &o, e->step = 7, e->t = 0.1, e->loop_seconds = 1e-3;
     e->part.n = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
     e->particle_steps[KIND_PD] = 1000;
-    e->watch.break_time = NAN;
+    e->diagnostics.break_time = NAN;
     e->conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
     e->tips = (struct tips){.dim = 2, .n = 1, .spacing = 1e-3};
     e->tips.tip[0] = (struct tip){.along = {1}, .place = {0, 2e-3}, .growth = 2e-3, .start_time = 0.06,

@@ -1,5 +1,5 @@
-/* floor 5: closed forms of bars against what does not know them: characteristics, jump conditions, the wave equation; the
- * bond flux against all pairs; the figures of an exact probe on fields made by hand. */
+/* Closed forms of bars against what does not know them: characteristics, jump conditions, the wave
+ * equation; the bond flux against all pairs; the figures of an exact probe on fields made by hand. */
 #include <stdlib.h>
 
 #include "tests/support/cloud.h"
@@ -7,7 +7,7 @@
 #include "probes/probes.h"
 #include "src/probes/probes_parts.h"
 
-/* ---- step bar: characteristics ------------------------------------------------------------------------------ */
+/* ---- step bar: characteristics ----------------------------------------------------------------------------------- */
 
 enum { CELLS = 40, TRANSITS = 5 };
 
@@ -20,9 +20,9 @@ static void waves_step(struct waves *w, const struct exact *e, real impedance, r
     real right[CELLS], left[CELLS];
     int in = e->loaded > 0 ? CELLS - 1 : 0, far = CELLS - 1 - in;
     for (int k = 0; k + 1 < CELLS; k++) right[k + 1] = w->right[k], left[k] = w->left[k + 1];
-    real *enters = e->loaded > 0 ? &left[in] : &right[in], *returns = e->loaded > 0 ? &right[far] : &left[far];
+    real *enters = e->loaded > 0 ? &left[in] : &right[in], *reversions = e->loaded > 0 ? &right[far] : &left[far];
     *enters = 2 * e->load - (e->loaded > 0 ? w->right[in] : w->left[in]);                /* sigma = F */
-    *returns = e->reflection[e->loaded > 0 ? 0 : 1] * (e->loaded > 0 ? w->left[far] : w->right[far]);
+    *reversions = e->reflection[e->loaded > 0 ? 0 : 1] * (e->loaded > 0 ? w->left[far] : w->right[far]);
     for (int k = 0; k < CELLS; k++) {        /* a wave passes the middle of its cell at half a step */
         real old = (w->left[k] - w->right[k]) / (2 * impedance), now = (left[k] - right[k]) / (2 * impedance);
         w->displacement[k] += 0.5 * dt * (old + now);
@@ -87,7 +87,7 @@ static void step_bar_fronts_and_plateaus(void **state)
     assert_near(exact_at(&e, 1, 0.0125).displacement, 1.25e-4, 1e-18);
 }
 
-/* ---- plastic bar: jump conditions ---------------------------------------------------------------------------- */
+/* ---- plastic bar: jump conditions -------------------------------------------------------------------------------- */
 
 static void plastic_bar_jumps(void **state)
 {
@@ -133,11 +133,11 @@ static void plastic_bar_jumps(void **state)
     }
 }
 
-/* ---- smooth forms: the wave equation --------------------------------------------------------------------------- */
+/* ---- smooth forms: the wave equation ----------------------------------------------------------------------------- */
 
-/* Differences of the displacement against velocity, strain and, for pulses, the wave equation. Central differences are
- * off by h^2/6 of the third derivative; those of the wave equation, with c k = h, cancel but for round-off of paths up to
- * 5 long under strains up to 0.02: 4 x 5 x 0.02 x 2^-53 / h^2, where u_xx is of order 1. */
+/* Differences of the displacement against velocity, strain and, for pulses, the wave equation. Central differences
+ * are off by h^2/6 of the third derivative; those of the wave equation, with c k = h, cancel but for round-off of
+ * paths up to 5 long under strains up to 0.02: 4 x 5 x 0.02 x 2^-53 / h^2, where u_xx is of order 1. */
 static void check_smooth(const struct exact *e, real X, real t, real scale, real tolerance, bool wave)
 {
     real c = sqrt(e->young / e->density), h = 1e-3 * scale, k = h / c;
@@ -185,7 +185,7 @@ static void manufactured_is_its_formula(void **state)
     }
 }
 
-/* ---- bond flux ------------------------------------------------------------------------------------------------- */
+/* ---- bond flux --------------------------------------------------------------------------------------------------- */
 
 /* A shaken row with its images in a wall at 0, a third of it material points; every pair of points within the horizon
  * bonds unless it joins two material points. */
@@ -226,7 +226,8 @@ static void flux_is_the_force_across(void **state)
         for (int i = 0; i < 40; i++)
             for (int j = 0; j < p->n_all; j++) {
                 real r = fabs(p->X[0][j] - p->X[0][i]), X = p->X[0][k];
-                if (j <= i || r > c.source.family.cutoff || (p->kind[i] == KIND_MPM && p->kind[j] == KIND_MPM)) continue;
+                if (j <= i || r > c.source.family.cutoff || (p->kind[i] == KIND_MPM && p->kind[j] == KIND_MPM))
+                    continue;
                 real low = real_min(p->X[0][i], p->X[0][j]), high = real_max(p->X[0][i], p->X[0][j]);
                 real share = X > low && X < high ? 1 : k == i || k == j ? 0.5 : 0;
                 sum += share * modulus * p->volume0[i] * p->volume0[j] * (fabs(p->x[0][j] - p->x[0][i]) / r - 1);
@@ -241,7 +242,7 @@ static void flux_is_the_force_across(void **state)
     cloud_free(&c);
 }
 
-/* ---- the probe ------------------------------------------------------------------------------------------------- */
+/* ---- the probe --------------------------------------------------------------------------------------------------- */
 
 struct figures { int n; char name[32][NAME_MAX_LENGTH]; real value[32]; };
 

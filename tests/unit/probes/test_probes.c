@@ -1,4 +1,4 @@
-/* floor 5: tests of probes, on particles, supports and bonds set by hand. */
+/* Tests of probes, on particles, supports and bonds set by hand. */
 #include <unistd.h>
 
 #include "tests/support/bodies.h"
@@ -180,7 +180,7 @@ static void probe_of_a_tip(void **state)
     notched_free(&b, &t);
 }
 
-/* ---- probes of breaks, on real bonds ------------------------------------------------------------------------ */
+/* ---- probes of breaks, on real bonds ----------------------------------------------------------------------------- */
 
 struct bar { struct body b; struct material m; struct bonds bonds; real stretch; };
 
@@ -188,7 +188,8 @@ static void bar_bond(struct bar *bar)
 {
     bar->m = steel(SPACE_LINE);
     bar->stretch = 1;
-    struct bond_source source = {.cells = &bar->b.c, .material = &bar->m, .materials = 1, .limit = {&bar->stretch, 1, false}};
+    struct bond_source source = {
+        .cells = &bar->b.c, .material = &bar->m, .materials = 1, .limit = {&bar->stretch, 1, false}};
     family_make(&source.family, SPACE_LINE, 1, 3.015, 1);
     particles_list(&bar->b.p);
     bonds_make(&bar->bonds, NULL, &bar->b.p, &source);
@@ -201,8 +202,8 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
     struct particles *p = &bar->b.p;
     for (int64_t row = 0; row < b->rows; row++) {
         int32_t i = b->particle[row];
-        for (int64_t k = 0; k < b->slot_count[row / LANES]; k++) {
-            int64_t q = bond_index(b, row / LANES, k, (int)(row % LANES));
+        for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
+            int64_t q = bond_to_write(b, row / LANES, k, (int)(row % LANES));
             int32_t j = b->nbr[q];
             bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);
             if (b->w[q] == 0 || !across || fabs(p->X[0][i] - p->X[0][j]) < shortest - 0.5) continue;

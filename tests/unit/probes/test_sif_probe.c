@@ -1,4 +1,4 @@
-/* floor 5: tests of the probe of stress-intensity factors: binding, refusals, a tip at rest and one that moves. */
+/* Tests of the probe of stress-intensity factors: binding, refusals, a tip at rest and one that moves. */
 #include "tests/support/bodies.h"
 #include "tests/support/glass.h"
 #include "probes/probes.h"
@@ -158,8 +158,8 @@ static void bad_requests_are_refused(void **state)
     plate_free(&p);
 }
 
-/* A tip that has grown by 12 at 1000 m/s: velocities half a step before and after give acceleration and velocity; speed,
- * place and direction are those of the tip. What a checkpoint keeps is enough to go on. */
+/* A tip that has grown by 12 at 1000 m/s: velocities half a step before and after give acceleration and velocity;
+ * speed, place and direction are those of the tip. What a checkpoint keeps is enough to go on. */
 static void tip_in_motion(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* floor 5: tests of filling: lattices, irregularity, initial state, refusals. */
+/* Tests of filling: lattices, irregularity, initial state, refusals. */
 #include "tests/support/same.h"
 
 #include <omp.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "tests/support/setting.h"
 
-/* ---- lattices -------------------------------------------------------------------------------------- */
+/* ---- lattices ---------------------------------------------------------------------------------------------------- */
 
 static void boxes_are_filled_in_every_space(void **state)
 {
@@ -198,7 +198,7 @@ static void threads_change_no_bit(void **state)
     particles_free(&p[0]), particles_free(&p[1]);
 }
 
-/* ---- initial state --------------------------------------------------------------------------------- */
+/* ---- initial state ----------------------------------------------------------------------------------------------- */
 
 static void later_initial_entries_overwrite(void **state)
 {
@@ -270,7 +270,7 @@ static void initial_strain_is_hooke(void **state)
     }
 }
 
-/* ---- refusals -------------------------------------------------------------------------------------- */
+/* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
 static void bad_bodies_are_refused(void **state)
 {
@@ -297,6 +297,8 @@ static void bad_bodies_are_refused(void **state)
     s.scene.initials = 1;
     s.initial[0].sets_strain = true;
     s.initial[0].displacement_gradient[0] = -1.5;
+    assert_refused(fill_particles(&p, &s.scene, 0), "inside out");
+    s.initial[0].displacement_gradient[s.scene.dim + 1] = 3;     /* stretched across as much as that and more */
     assert_refused(fill_particles(&p, &s.scene, 0), "inside out");
     s.scene.bodies = 0;
     assert_refused(fill_particles(&p, &s.scene, 0), "no bodies");

@@ -1,4 +1,4 @@
-/* floor 5: tests of lists of particles: CSV and HDF5 files that fill bodies, and what is refused about them. */
+/* Tests of lists of particles: CSV and HDF5 files that fill bodies, and what is refused about them. */
 #include "tests/support/near.h"
 
 #include <hdf5.h>
@@ -166,14 +166,15 @@ static void hdf5_lists_are_read(void **state)
     remove(name);
 }
 
-/* Positions that are not what they seem: a link out of the file or inside it, numbers in a file beside it or in another dataset, and
- * far more of them than the file has bytes. */
+/* Positions that are not what they seem: a link out of the file or inside it, numbers in a file beside it or in
+ * another dataset, and far more of them than the file has bytes. */
 static void hdf5_lists_are_whole(void **state)
 {
     (void)state;
     enum { OUTSIDE, INSIDE, BESIDE, VIRTUAL, CLAIMED, WAYS };
-    static const char *const said[WAYS] = {"positions is a link", "positions is a link", "positions has its numbers in other files",
-                                            "positions has its numbers in other files", "claims 100000000 entries"};
+    static const char *const said[WAYS] = {"positions is a link", "positions is a link",
+                                           "positions has its numbers in other files",
+                                           "positions has its numbers in other files", "claims 100000000 entries"};
     const double X[3][2] = {{0, 0}, {1, 0}, {0, 1}}, volume[3] = {1, 2, 3};
     const hsize_t rows[] = {3, 2}, many[] = {100000000, 2}, chunk[] = {1000000, 2};
     struct setting s;
@@ -185,15 +186,18 @@ static void hdf5_lists_are_whole(void **state)
     write_table(file, "positions", 2, rows, H5T_NATIVE_DOUBLE, X);
     H5Fclose(file);
     for (int kind = 0; kind < WAYS; kind++) {
-        hid_t how = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(2, kind == CLAIMED ? many : rows, NULL), set = -1;
+        hid_t how = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(2, kind == CLAIMED ? many : rows, NULL),
+              set = -1;
         file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
         write_table(file, "volumes", 1, rows, H5T_NATIVE_DOUBLE, volume);
-        if (kind == OUTSIDE) assert_true(H5Lcreate_external("other.h5", "/positions", file, "positions", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+        if (kind == OUTSIDE)
+            assert_true(H5Lcreate_external("other.h5", "/positions", file, "positions", H5P_DEFAULT, H5P_DEFAULT) >= 0);
         if (kind == INSIDE) assert_true(H5Lcreate_soft("/volumes", file, "positions", H5P_DEFAULT, H5P_DEFAULT) >= 0);
         if (kind == BESIDE) assert_true(H5Pset_external(how, "numbers.bin", 0, H5F_UNLIMITED) >= 0);
         if (kind == VIRTUAL) assert_true(H5Pset_virtual(how, space, "other.h5", "/positions", space) >= 0);
         if (kind == CLAIMED) assert_true(H5Pset_chunk(how, 2, chunk) >= 0);
-        if (kind >= BESIDE) set = H5Dcreate2(file, "positions", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT);
+        if (kind >= BESIDE)
+            set = H5Dcreate2(file, "positions", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT);
         if (set >= 0) H5Dclose(set);
         H5Sclose(space);
         H5Pclose(how);
@@ -204,10 +208,11 @@ static void hdf5_lists_are_whole(void **state)
     remove("other.h5");
 }
 
-/* ---- lists in another unit than the scene ------------------------------------------------------------- */
+/* ---- lists in another unit than the scene ------------------------------------------------------------------------ */
 
-/* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` places `apart` from each other; the
- * first `single` places have one particle alone. Volumes fill the space up to the nearest neighbour `times` over, 0: once. */
+/* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` places `apart` from
+ * each other; the first `single` places have one particle alone. Volumes fill the space up to the nearest neighbour
+ * `times` over, 0: once. */
 struct grains { int side, together, single; real near, apart, times; };
 
 static void write_grains(const char *name, int dim, const struct grains *g)
@@ -233,34 +238,55 @@ static void units_of_lists_are_told(void **state)
 {
     (void)state;
     enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
-    static const struct { enum space space; int method; real spacing; struct grains g; const char *says; } c[] = {
+    static const struct { enum space space; int method; real spacing; struct grains g; const char *says;
+    } c[] = {
         /* metres meant, millimetres written, and the other way round */
-        {SPACE_PLANE_STRESS, PD, 1e-3, {10, 1, 0, 0, 1, 0}, "100 % of its particles have no neighbour within 3.015 "
+        {SPACE_PLANE_STRESS,
+         PD,
+         1e-3,
+         {10, 1, 0, 0, 1, 0},
+         "100 % of its particles have no neighbour within 3.015 "
          "spacings of 0.001 m: those of the list are 1 m apart; a list in m is expected "
          "(is it in mm?), or a particles.spacing of about 1 m"},
         {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1, 0}, "no neighbour within 2 spacings of 0.001 m"},
-        {SPACE_PLANE_STRESS, BOTH, 1e-3, {20, 1, 0, 0, 1, 0}, "about 100 % of its particles have no neighbour within 3.015 spacings"},
+        {SPACE_PLANE_STRESS,
+         BOTH,
+         1e-3,
+         {20, 1, 0, 0, 1, 0},
+         "about 100 % of its particles have no neighbour within 3.015 spacings"},
         {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in cm?)"},
         {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1, 0}, "100 % of its particles"},
-        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
+        {SPACE_PLANE_STRESS,
+         PD,
+         1,
+         {10, 1, 0, 0, 1e-3, 0},
+         "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
          "particles.spacing of about 0.001 m is expected (is it in mm?), or a list in m"},
         {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart"},
         {SPACE_SOLID, BOTH, 1, {5, 1, 0, 0, 0.1, 0}, "neighbours of the list are 0.1 m apart"},
-        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 1e9}, "volumes of its particles are 1e+09 times the space up to their neighbours, which are 1 m "
+        {SPACE_SOLID,
+         PD,
+         1,
+         {5, 1, 0, 0, 1, 1e9},
+         "volumes of its particles are 1e+09 times the space up to their neighbours, which are 1 m "
          "apart; volumes in m^3 are expected (are they in mm^3?)"},
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1, 1e-3}, "volumes of its particles are 0.001 times the space up to their neighbours, "
+        {SPACE_PLANE_STRESS,
+         MPM,
+         1,
+         {10, 1, 0, 0, 1, 1e-3},
+         "volumes of its particles are 0.001 times the space up to their neighbours, "
          "which are 1 m apart, times the thickness; volumes in m^3 are expected"},
         /* what a list may be */
-        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL},             /* heavy knots of a net */
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL}, /* heavy knots of a net */
         {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1, 0}, NULL},
-        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3, 0}, NULL},         /* neighbours at the rim of the horizon */
+        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3, 0}, NULL}, /* neighbours at the rim of the horizon */
         {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 3, 0}, "no neighbour within 2 spacings"},
-        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2, 0}, NULL},               /* a graded body's fine part */
-        {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50, 0}, NULL},        /* grains of two, far apart */
+        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2, 0}, NULL},        /* a graded body's fine part */
+        {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50, 0}, NULL}, /* grains of two, far apart */
         {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 0, 1, 50, 0}, NULL},
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50, 0}, NULL},      /* 60 chips beside 40 such grains: 43 % */
+        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50, 0}, NULL}, /* 60 chips beside 40 such grains: 43 % */
         {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 72, 1, 50, 0}, "56 % of its particles"},
-        {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50, 0}, NULL},                 /* seven mass points */
+        {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50, 0}, NULL}, /* seven mass points */
         {SPACE_LINE, PD, 1, {8, 1, 0, 0, 50, 0}, "100 % of its particles"},
     };
     char name[] = "grains.csv";
@@ -268,7 +294,8 @@ static void units_of_lists_are_told(void **state)
         struct setting s;
         struct particles p;
         setting_make(&s, c[k].space, (real[]){1, 1, 1});
-        s.scene.method = (enum method)c[k].method, s.scene.spacing = c[k].spacing, s.scene.horizon = 3.015, s.scene.cell = 2;
+        s.scene.method = (enum method)c[k].method, s.scene.spacing = c[k].spacing, s.scene.horizon = 3.015,
+        s.scene.cell = 2;
         s.body[0].file = name;
         snprintf(s.body[0].place, sizeof s.body[0].place, "a.yaml:7:3: particles: ");
         write_grains(name, s.scene.dim, &c[k].g);

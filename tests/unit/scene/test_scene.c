@@ -1,4 +1,4 @@
-/* floor 5: scenes: every key is read, units are exact, overrides lay over. */
+/* Scenes: every key is read, units are exact, overrides lay over. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "tests/support/scene_texts.h"
 
-/* ---- every key ------------------------------------------------------------------------------------------ */
+/* ---- every key --------------------------------------------------------------------------------------------------- */
 
 static void test_plate_scalars(void **state)
 {
@@ -150,7 +150,8 @@ static void test_closed_forms_and_frame_times(void **state)
     scene_free(&s);
     static const struct scene_override o[] = {{"output.times", ""}, {"probes[0].exact", "plastic bar"}};
     s = read_ok(rod, o, 2);
-    assert_true(s.frames == 20 && s.times.n == 0 && s.probe[0].form == EXACT_PLASTIC_BAR && strstr(s.text, "frames: 20"));
+    assert_true(s.frames == 20 && s.times.n == 0 && s.probe[0].form == EXACT_PLASTIC_BAR &&
+                strstr(s.text, "frames: 20"));
     scene_free(&s);
 }
 
@@ -180,7 +181,7 @@ static void test_block(void **state)
     scene_free(&s);
 }
 
-/* ---- units ---------------------------------------------------------------------------------------------- */
+/* ---- units ------------------------------------------------------------------------------------------------------- */
 
 static void test_units(void **state)
 {
@@ -221,7 +222,7 @@ static void test_units(void **state)
     }
 }
 
-/* ---- overrides ------------------------------------------------------------------------------------------ */
+/* ---- overrides --------------------------------------------------------------------------------------------------- */
 
 static void test_overrides(void **state)
 {
@@ -255,7 +256,8 @@ static void test_overrides(void **state)
     assert_true(s.boundary[0].components == 3 && s.boundary[0].value[1] == 20 && s.boundary[3].time.value[1] == 0.25);
     assert_true(s.boundaries == 7 && s.boundary[4].kind == BOUNDARY_VELOCITY && s.boundary[4].components == 1);
     assert_true(s.crack[0].corner[1][0] == 0.05 && s.crack[1].corner[1][0] == 0.051);
-    assert_true(s.probe[6].at[1] == 3 && s.probe[7].from[0] == 0.003 && s.probe[7].points == 13 && s.probe[0].at[1] == 4);
+    assert_true(s.probe[6].at[1] == 3 && s.probe[7].from[0] == 0.003 && s.probe[7].points == 13 &&
+                s.probe[0].at[1] == 4);
     scene_free(&s);
     static const struct scene_override sections[] = {{"pd.volume", "ramp"}, {"method", "pd"}, {"method", "mpm"}};
     s = read_ok(bar, sections, 3);       /* a section the file does not have; the later of two wins */

@@ -9,6 +9,7 @@
 #include <unistd.h>
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "scene/scene.h"
 
 static const char good[] =
@@ -50,7 +51,8 @@ static const char good[] =
     "  - reaction: {boundary: impact}\n";
 
 /* piece of the good scene, what stands in its place, message after the file's name */
-static const struct { const char *piece, *instead, *message; } cases[] = {
+static const struct { const char *piece, *instead, *message;
+} cases[] = {
     {"duration: 50 us", "duraton: 50 us", "4:1: duraton: unknown key; the nearest is duration"},
     {"  young: 190 GPa\n", "", "6:1: young: missing in material; a stress is expected, as 190 GPa"},
     {"duration: 50 us\n", "", "1:1: duration: missing; a time is expected, as 20 us"},
@@ -85,17 +87,20 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
      "8:3: critical_stretch: given beside energy_release_rate; one of the two fixes the other"},
     {"poisson: 1/3", "toughness: 60 MPa",
      "8:3: toughness: given beside energy_release_rate; one of the two fixes the other"},
-    {"poisson: 1/3", "yield_hardening: -1 GPa", "8:3: yield_hardening: -1 GPa is out of range; a stress from 0 on is expected, as 190 GPa"},
+    {"poisson: 1/3", "yield_hardening: -1 GPa",
+     "8:3: yield_hardening: -1 GPa is out of range; a stress from 0 on is expected, as 190 GPa"},
     {"poisson: 1/3", "young: 2 GPa", "8:3: young: given twice, first in line 7; keep one"},
     {"method: adaptive", "method: fem", "5:1: method: fem is unknown; pd, mpm, adaptive or auto is expected"},
     {"method: adaptive", "model: lps", "5:1: model: lps is unknown; bond, ospd or mospd is expected"},
-    {"method: adaptive", "solver: newton", "5:1: solver: newton is unknown; explicit, relaxation, cg or static is expected"},
+    {"method: adaptive", "solver: newton",
+     "5:1: solver: newton is unknown; explicit, relaxation, cg or static is expected"},
     {"method: adaptive", "solver: cg", "5:1: solver: cg is for method pd; relaxation is expected with material points"},
     {"method: adaptive", "solver_tolerance: 0",
      "5:1: solver_tolerance: 0 is out of range; a plain number from 1e-12 to 0.1 is expected"},
     {"method: adaptive", "accuracy: 1e-3", "5:1: accuracy: has no meaning without method: auto"},
     {"method: adaptive", "accuracy_chart: chart.csv", "5:1: accuracy_chart: has no meaning without method: auto"},
-    {"method: adaptive", "solver: static", "5:1: solver: static leaves the choice to method auto; relaxation is expected"},
+    {"method: adaptive", "solver: static",
+     "5:1: solver: static leaves the choice to method auto; relaxation is expected"},
     {"method: adaptive", "coupling: glue",
      "5:1: coupling: glue is unknown; partial stress, handshake, pm, pg, pmg or pgg is expected"},
     {"method: adaptive", "horizon: 3", "5:1: horizon: does not belong here; it is the key particles.horizon"},
@@ -178,7 +183,8 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
      "30:44: profile: has no meaning without body_force; leave it out"},
     {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: wave",
      "30:38: profile: wave is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected"},
-    {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {}", "30:38: profile: has 0 keys; sine is expected"},
+    {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {}",
+     "30:38: profile: has 0 keys; sine is expected"},
     {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {sine: {}}",
      "30:48: wavelength: missing in boundary.profile.sine; a length is expected, as 0.5 mm"},
     {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {sine: {wavelength: 0}}",
@@ -197,12 +203,14 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
      "34:11: direction: has no length; the direction ahead of the tip is expected"},
     {"  - tip\n", "  - sif: {contours: [2 mm, 1 mm]}\n",
      "34:28: contours[1]: 1 mm does not lie after the one before; they ascend"},
-    {"probes:\n", "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [1, 1]}}]\nprobes:\n",
-     "33:74: polarisation: lies neither along direction nor across it; particles of a plane wave move in one of the two ways"},
-    {"probes:\n", "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [0, 0]}}]\nprobes:\n",
+    {"probes:\n",
+     "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [1, 1]}}]\nprobes:\n",
+     "33:74: polarisation: lies neither along direction nor across it; particles of a plane wave move in one of the "
+     "two ways"},
+    {"probes:\n",
+     "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [0, 0]}}]\nprobes:\n",
      "33:74: polarisation: has no length; direction, or a vector across it, is expected"},
-    {"  - tip\n", "  - exact: step bar\n",
-     "34:5: exact: closed forms are those of a bar; space line is expected"},
+    {"  - tip\n", "  - exact: step bar\n", "34:5: exact: closed forms are those of a bar; space line is expected"},
     {"  - tip\n", "  - exact\n",
      "34:5: form: missing in probes.exact; step bar, plastic bar, pulse or manufactured is expected"},
     {"  - tip\n", "  - exact: rod\n",
@@ -244,7 +252,9 @@ static const struct { const char *piece, *instead, *message; } cases[] = {
      "1:22: nested deeper than 16 levels; no key of a scene is"},
     {"  - reaction: {boundary: impact}\n", "---\nname: b\n",
      "36:1: a second document (---) begins; a file holds one scene"},
-    {"name: plate\nspace", "name: pla\377""te\nspace",
+    {"name: plate\nspace",
+     "name: pla\377"
+     "te\nspace",
      "1:10: not YAML: invalid leading UTF-8 octet; spaces (not tabs) indent, a key ends in `: `, brackets close"},
 };
 
@@ -310,7 +320,8 @@ static void test_bytes(void **state)
 static void test_overrides(void **state)
 {
     (void)state;
-    static const struct { struct scene_override o; const char *message; } wrong[] = {
+    static const struct { struct scene_override o; const char *message;
+    } wrong[] = {
         {{"material.yuong", "70e9"}, "-s material.yuong=70e9: yuong: unknown key; the nearest is young"},
         {{"material.young", "70 kg"},
          "-s material.young=70 kg: young: 70 kg is not a stress; a stress is expected, as 190 GPa"},
@@ -322,10 +333,12 @@ static void test_overrides(void **state)
         {{"materiel.young", "1"}, "-s materiel.young=1: materiel: unknown key; the nearest is material"},
         {{"material", "steel"}, "-s material=steel: material: steel is not a mapping of keys to values"},
         {{"boundary.velocity", "[1, 0]"},
-         "-s boundary.velocity=[1, 0]: boundary: has 2 items; velocity is the name of none; they go by number (the first is 0) "
+         "-s boundary.velocity=[1, 0]: boundary: has 2 items; velocity is the name of none; they go by number (the "
+         "first is 0) "
          "or by name (impact, pull)"},
         {{"boundary.2.velocity", "[1, 0]"},
-         "-s boundary.2.velocity=[1, 0]: boundary: has 2 items; 2 is behind the last; they go by number (the first is 0) "
+         "-s boundary.2.velocity=[1, 0]: boundary: has 2 items; 2 is behind the last; they go by number (the first is "
+         "0) "
          "or by name (impact, pull)"},
         {{"boundary.0.velocity.2", "1"},
          "-s boundary.0.velocity.2=1: velocity: has 2 items; 2 is behind the last; they go by number (the first is 0)"},
@@ -346,7 +359,8 @@ static void test_overrides(void **state)
         {{"material..young", "1"},
          "-s material..young=1: material..young: not a path of keys; material.young or boundary.0.velocity is one"},
         {{"", "1"}, "-s =1: no key; material.young=70e9 is an override"},
-        {{"boundary[0][0].velocity", "2"}, "-s boundary[0][0].velocity=2: boundary[0]: is no list in this scene; [0] has no meaning"},
+        {{"boundary[0][0].velocity", "2"},
+         "-s boundary[0][0].velocity=2: boundary[0]: is no list in this scene; [0] has no meaning"},
         {{"[0]", "1"}, "-s [0]=1: is no list in this scene; [0] has no meaning"},
         {{"particles.irregularity", ""},
          "-s particles.irregularity=: irregularity: is not in the scene; an empty value takes a key away"},

@@ -1,4 +1,4 @@
-/* floor 5: scenes written and read again bit by bit, any bytes at all, help and manual. */
+/* Scenes written and read again bit by bit, any bytes at all, help and manual. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,10 +8,11 @@
 #include <math.h>
 #include <cmocka.h>
 
+#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "tests/support/scene_texts.h"
 
-/* ---- round trip ----------------------------------------------------------------------------------------- */
+/* ---- round trip -------------------------------------------------------------------------------------------------- */
 
 /* Name and path aside, the second reading is the first: same text, same numbers. */
 static void check_round_trip(const struct scene *a)
@@ -56,7 +57,7 @@ static void test_round_trip(void **state)
     scene_free(&s);
 }
 
-/* ---- any bytes ------------------------------------------------------------------------------------------ */
+/* ---- any bytes --------------------------------------------------------------------------------------------------- */
 
 static unsigned draw(uint64_t *seed)
 {
@@ -113,7 +114,7 @@ static void test_mutations(void **state)
     assert_true(accepted > 100 && accepted < 19000);
 }
 
-/* ---- help ----------------------------------------------------------------------------------------------- */
+/* ---- help -------------------------------------------------------------------------------------------------------- */
 
 static char *help_of(const char *key, status expected)
 {

@@ -1,0 +1,251 @@
+/* The speed floor: whole steps of Kalthoff's plate beside the probes, on one thread and on two, and memory.
+ * Probes and runs take turns; the fastest repetition counts. Where a step's time goes, by phase. */
+#include <math.h>
+#include <stdio.h>
+
+#include "bench/common/bench.h"
+#include "output/output_files.h"
+
+#define SCENE "inputs/kalthoff_winkler.yaml"
+
+/* A run: some steps to warm up, then pieces on one thread and on two in turn; it ends before the crack starts. */
+enum { STEPS_WARM = 4, STEPS_TIMED = 40, ROUNDS = 3 };
+
+/* A way to run the scene at 0.5 mm, with all of its particles in every step: what rests is not left out, or the
+ * limits of the machine would say nothing. `sampled`: as often as the scene asks, else one sample in STEPS_TIMED. */
+struct way {
+    const char *name;
+    bool sampled;
+    int overrides;
+    struct scene_override override[5];
+};
+
+#define COMMON {"particles.spacing", "0.5mm"}, {"time.rest", "false"}
+#define POINTS(SHAPE) COMMON, {"method", "mpm"}, {"mpm.shape", SHAPE}, {"mpm.transfer", "flip"}
+
+enum { WAY_PD, WAY_POINTS, WAY_GIMP, WAY_ADAPTIVE, WAY_PD_SAMPLED, WAY_ADAPTIVE_SAMPLED, WAYS };
+static const struct way ways[WAYS] = {
+    [WAY_PD] = {"pd", false, 3, {COMMON, {"method", "pd"}}},
+    [WAY_POINTS] = {"mpm linear flip", false, 5, {POINTS("linear")}},
+    [WAY_GIMP] = {"mpm gimp flip", false, 5, {POINTS("gimp")}},
+    [WAY_ADAPTIVE] = {"adaptive", false, 3, {COMMON, {"method", "adaptive"}}},
+    [WAY_PD_SAMPLED] = {"pd sampled as the scene asks", true, 3, {COMMON, {"method", "pd"}}},
+    [WAY_ADAPTIVE_SAMPLED] = {"adaptive sampled as the scene asks", true, 3, {COMMON, {"method", "adaptive"}}},
+};
+
+/* The fastest repetition of a way, by threads - 1. */
+struct timing {
+    double seconds[FLOOR_THREADS];
+    struct laps laps[FLOOR_THREADS];
+    double particles, bonds;
+};
+
+struct floor_bench {
+    int threads; /* 1 or 2 */
+    struct timing way[WAYS];
+    double cell_stencil[FLOOR_THREADS], points[FLOOR_THREADS];
+};
+
+/* ---- timing ------------------------------------------------------------------------------------------------------ */
+
+static double loop_of(const struct laps *l)
+{
+    double sum = 0;
+    for (int k = 0; k < LAPS; k++) sum += k == LAP_OUTPUT ? 0 : l->spent[k];
+    return sum;
+}
+
+static void keep_fastest(struct timing *t, int threads, const struct laps *spent)
+{
+    const double seconds = loop_of(spent) / STEPS_TIMED;
+    if (seconds >= t->seconds[threads - 1]) return;
+    t->seconds[threads - 1] = seconds;
+    t->laps[threads - 1] = *spent;
+}
+
+static status targets_time_way(struct floor_bench *b, int which)
+{
+    const struct way *w = &ways[which];
+    struct timing *t = &b->way[which];
+    struct scene s;
+    struct engine e;
+    team_make(1);
+    TRY(bench_engine_make(&e, &s, SCENE, NULL, w->override, w->overrides));
+    const real rate = w->sampled ? (real)s.samples / (real)e.steps : 0; /* samples a step */
+    s.samples = 0;
+    t->particles = (double)e.part.n, t->bonds = (double)e.bonds.n;
+    status ran = bench_engine_run(&e, STEPS_WARM, NULL);
+    for (int k = 0; k < ROUNDS * b->threads && ran == OK; k++) {
+        const int threads = 1 + k % b->threads;
+        struct laps spent = {0};
+        team_make(threads);
+        s.samples = (int)(rate * (real)(e.step + STEPS_TIMED)); /* of the piece, as the engine counts them */
+        ran = bench_engine_run(&e, e.step + STEPS_TIMED, &spent);
+        if (ran == OK) keep_fastest(t, threads, &spent);
+    }
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+static void time_probes(struct floor_bench *b, struct stencil_probe *cell_stencil, struct point_probe *points)
+{
+    for (int threads = 1; threads <= b->threads; threads++) {
+        team_make(threads);
+        for (int k = 0; k < 20; k++) {
+            b->cell_stencil[threads - 1] = fmin(b->cell_stencil[threads - 1], stencil_probe_run(cell_stencil));
+            b->points[threads - 1] = fmin(b->points[threads - 1], point_probe_run(points));
+        }
+    }
+}
+
+static status time_everything(struct floor_bench *b, int repetitions)
+{
+    struct stencil_probe *cell_stencil = stencil_probe_make(2);
+    struct point_probe *points = point_probe_make();
+    status s = OK;
+    for (int r = 0; r < repetitions && s == OK; r++)
+        for (int w = 0; w < WAYS && s == OK; w++) {
+            time_probes(b, cell_stencil, points);
+            s = targets_time_way(b, w);
+        }
+    stencil_probe_free(cell_stencil);
+    point_probe_free(points);
+    team_make(1);
+    return s;
+}
+
+/* ---- figures ----------------------------------------------------------------------------------------------------- */
+
+static void add_figure(struct floor *f, struct floor_figure figure)
+{
+    if (f->figures < FLOOR_FIGURES_MAX) f->figure[f->figures++] = figure;
+}
+
+static void add_speed(struct floor *f, const struct floor_bench *b)
+{
+    const struct timing *pd = &b->way[WAY_PD], *sampled = &b->way[WAY_PD_SAMPLED], *points = &b->way[WAY_POINTS];
+    add_figure(f, (struct floor_figure){"full PD, whole step, per directed bond", "ns", 1e9, pd->seconds[0] / pd->bonds,
+                                        b->cell_stencil[0], 2.5, false});
+    add_figure(f, (struct floor_figure){"the same with all samples of the scene", "ns", 1e9,
+                                        sampled->seconds[0] / sampled->bonds, b->cell_stencil[0], 2.5, false});
+    add_figure(f, (struct floor_figure){"all MPM (linear, FLIP), per particle", "ns", 1e9,
+                                        points->seconds[0] / points->particles, b->points[0], 3, false});
+    if (b->threads < 2) return;
+    add_figure(f, (struct floor_figure){"gain of two threads, full PD", "", 1, pd->seconds[0] / pd->seconds[1],
+                                        b->cell_stencil[0] / b->cell_stencil[1], 0.9, true});
+    add_figure(f, (struct floor_figure){"gain of two threads, all MPM", "", 1, points->seconds[0] / points->seconds[1],
+                                        b->points[0] / b->points[1], 0.9, true});
+}
+
+static void add_laps(struct floor *f, const struct floor_bench *b)
+{
+    bench_table_make(&f->laps, "laps", "method,threads,bonds_s,scatter_s,grid_s,gather_s,convert_s,watch_s,step_s");
+    for (int w = 0; w < WAYS; w++)
+        for (int threads = 1; threads <= b->threads; threads++) {
+            const struct timing *t = &b->way[w];
+            bench_text(&f->laps, ways[w].name);
+            bench_number(&f->laps, threads);
+            for (int k = 0; k < LAP_OUTPUT; k++)
+                bench_number(&f->laps, t->laps[threads - 1].spent[k] / STEPS_TIMED / t->particles);
+            bench_number(&f->laps, t->seconds[threads - 1] / t->particles);
+        }
+}
+
+status bench_floor_speed(struct floor *f, bool quick)
+{
+    struct floor_bench b = {.threads = team_machine().threads_allowed < 2 ? 1 : 2};
+    if (!path_is_file(SCENE)) return OK;
+    for (int k = 0; k < FLOOR_THREADS; k++) {
+        b.cell_stencil[k] = b.points[k] = INFINITY;
+        for (int w = 0; w < WAYS; w++) b.way[w].seconds[k] = INFINITY;
+    }
+    TRY(time_everything(&b, quick ? 1 : 4));
+    add_speed(f, &b);
+    add_laps(f, &b);
+    return OK;
+}
+
+/* ---- memory ------------------------------------------------------------------------------------------------------ */
+
+static status peak_per_particle(const struct way *w, double *peak)
+{
+    static const char *const key[] = {"memory_peak_bytes", "particles"};
+    struct scene_override override[8] = {{"output.frames", "0"}, {"output.samples", "10"}, {"duration", "1us"}};
+    double value[2];
+    for (int k = 0; k < w->overrides; k++) override[3 + k] = w->override[k];
+    TRY(bench_child_figures(SCENE, override, 3 + w->overrides, key, value, 2));
+    *peak = value[0] / value[1];
+    return OK;
+}
+
+status bench_floor_memory(struct floor *f)
+{
+    static const struct {
+        int way;
+        const char *name;
+        double asked;
+    } asked[] = {{WAY_PD, "peak memory per particle, full PD", 1200},
+                 {WAY_POINTS, "peak memory per particle, all MPM", 500}};
+    if (!bench_scene_exists(SCENE)) return OK;
+    for (size_t k = 0; k < COUNT_OF(asked); k++) {
+        double peak;
+        if (peak_per_particle(&ways[asked[k].way], &peak) != OK)
+            printf("  %s: not measured: %s\n", asked[k].name, status_message());
+        else
+            add_figure(f, (struct floor_figure){asked[k].name, "B", 1, peak, 1, asked[k].asked, false});
+    }
+    return OK;
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
+
+static bool met(const struct floor_figure *a)
+{
+    const double ratio = a->measured / a->limit;
+    return a->at_least ? ratio >= a->asked : ratio <= a->asked;
+}
+
+static void print_laps(const struct bench_table *t)
+{
+    printf("  where a step goes, ns per particle (0.5 mm; one sample in %d steps unless said otherwise)\n    %-36s",
+           STEPS_TIMED, "threads");
+    for (int k = 0; k < LAP_OUTPUT; k++) printf(" %8s", lap_name[k]);
+    printf(" %8s\n", "step");
+    for (int64_t row = 0; row < t->cells; row += t->columns) {
+        printf("    %-34s %1.0f", t->cell[row].text, t->cell[row + 1].number);
+        for (int c = 2; c < t->columns; c++) printf(" %8.2f", 1e9 * t->cell[row + c].number);
+        printf("\n");
+    }
+    printf("\n");
+}
+
+void bench_floor_print(const struct floor *f)
+{
+    printf("  speed floor: " SCENE " at 0.5 mm spacing, one thread; gains against the probes' own\n"
+           "    %-42s %10s %10s %8s %8s\n",
+           "", "measured", "limit", "ratio", "asked");
+    for (int k = 0; k < f->figures; k++) {
+        const struct floor_figure *a = &f->figure[k];
+        char beside[32] = ""; /* memory has no limit to stand beside */
+        if (a->limit != 1)
+            snprintf(beside, sizeof beside, "%10.3f %8.3f", a->limit * a->factor, a->measured / a->limit);
+        printf("    %-42s %7.3f %-2s %19s  %s %5.4g  %s\n", a->name, a->measured * a->factor, a->unit, beside,
+               a->at_least ? ">=" : "<=", a->asked, met(a) ? "ok" : "NOT MET");
+    }
+    printf("\n");
+    if (f->laps.cells) print_laps(&f->laps);
+}
+
+void bench_floor_table(const struct floor *f, struct bench_table *t)
+{
+    bench_table_make(t, "floor", "figure,measured,limit,ratio,asked,met");
+    for (int k = 0; k < f->figures; k++) {
+        const struct floor_figure *a = &f->figure[k];
+        const double number[] = {a->measured, a->limit, a->measured / a->limit, a->asked, met(a)};
+        char name[NAME_MAX_LENGTH];
+        snprintf(name, sizeof name, "%s", a->name);
+        for (char *c = name; *c; c++) *c = *c == ',' ? ';' : *c; /* a csv field */
+        bench_text(t, name);
+        for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(t, number[c]);
+    }
+}

@@ -1,0 +1,290 @@
+/* One case of the long map: a small body at the automatic step, its energy, growth and angular momentum. */
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "energy_drift.h"
+#include "base/memory.h"
+
+#define LOUD 1e-4                        /* velocities over that of waves: strains of 1e-4, nothing breaks */
+enum { SAMPLES = 400 };
+
+/* ---- motion ------------------------------------------------------------------------------------------------------ */
+
+/* What has mass and moves by itself: particles, but those of a mesh, then nodes. */
+struct mover { real m, x[DIM_MAX], *v[DIM_MAX]; };
+
+static int64_t energy_drift_run_movers_of(const struct engine *e)
+{
+    return e->part.n + (e->mesh.points > 0 ? e->mesh.grid.n : 0);
+}
+
+static struct mover mover_at(const struct engine *e, int64_t k)
+{
+    const struct particles *p = &e->part;
+    const struct grid *g = &e->mesh.grid;
+    struct mover a = {0};
+    const int64_t I = k - p->n;
+    if (I < 0) a.m = p->flag[k] & FLAG_MESHED ? 0 : p->mass[k];
+    else a.m = g->mass[I];
+    for (int d = 0; d < p->dim; d++) {
+        a.v[d] = I < 0 ? &p->v[d][k] : &g->velocity[d][I];
+        a.x[d] = I < 0 ? p->x[d][k] : grid_position(g, d, I / g->stride[d] % g->count[d]) + e->mesh.displacement[d][I];
+    }
+    return a;
+}
+
+static int turns_of(int dim) { return dim * (dim - 1) / 2; }
+
+/* The axes of turn t: xy, yz, zx. */
+static void turn_axes(int t, int *a, int *b) { *a = t, *b = (t + 1) % DIM_MAX; }
+
+/* Sums of m (x - x0) x v about the axes, and of m |x - x0| |v|; x0 is the centre of mass. */
+static void angular_momentum(const struct engine *e, const real *centre, real *L, real *size)
+{
+    for (int t = 0; t < DIM_MAX; t++) L[t] = 0;
+    *size = 0;
+    for (int64_t k = 0; k < energy_drift_run_movers_of(e); k++) {
+        const struct mover m = mover_at(e, k);
+        real r2 = 0, v2 = 0;
+        if (m.m == 0) continue;
+        for (int d = 0; d < e->part.dim; d++) r2 += square(m.x[d] - centre[d]), v2 += square(*m.v[d]);
+        *size += m.m * sqrt(r2 * v2);
+        for (int t = 0; t < turns_of(e->part.dim); t++) {
+            int a, b;
+            turn_axes(t, &a, &b);
+            L[t] += m.m * ((m.x[a] - centre[a]) * *m.v[b] - (m.x[b] - centre[b]) * *m.v[a]);
+        }
+    }
+}
+
+static void centre_of(const struct engine *e, real *centre)
+{
+    real mass = 0;
+    for (int d = 0; d < DIM_MAX; d++) centre[d] = 0;
+    for (int64_t k = 0; k < energy_drift_run_movers_of(e); k++) {
+        const struct mover m = mover_at(e, k);
+        mass += m.m;
+        for (int d = 0; d < e->part.dim && m.m > 0; d++) centre[d] += m.m * m.x[d];
+    }
+    for (int d = 0; d < e->part.dim; d++) centre[d] /= mass;
+}
+
+/* Turns bodies back by the mean of what they turn about each axis: a body that turns on has another energy at small
+ * strain. Exact for bodies as symmetric as ours. */
+static void stop_turning(struct engine *e, const real *centre)
+{
+    real L[DIM_MAX], size, inertia[DIM_MAX] = {0};
+    angular_momentum(e, centre, L, &size);
+    for (int pass = 0; pass < 2; pass++)
+        for (int64_t k = 0; k < energy_drift_run_movers_of(e); k++) {
+            struct mover m = mover_at(e, k);
+            for (int t = 0; t < turns_of(e->part.dim) && m.m > 0; t++) {
+                int a, b;
+                turn_axes(t, &a, &b);
+                const real ra = m.x[a] - centre[a], rb = m.x[b] - centre[b];
+                if (pass == 0) inertia[t] += m.m * (ra * ra + rb * rb);
+                else *m.v[b] -= L[t] / inertia[t] * ra, *m.v[a] += L[t] / inertia[t] * rb;
+            }
+        }
+}
+
+/* Velocities at random, as seldom moving or turning as a whole as may be. */
+static void energy_drift_run_shake(struct engine *e, const real *centre)
+{
+    uint64_t seed = 1;
+    for (int d = 0; d < e->part.dim; d++) {
+        real momentum = 0, mass = 0;
+        for (int64_t k = 0; k < energy_drift_run_movers_of(e); k++) {
+            struct mover m = mover_at(e, k);
+            if (m.m == 0) continue;
+            *m.v[d] = LOUD * e->wave_speed * bench_random(&seed);
+            momentum += m.m * *m.v[d], mass += m.m;
+        }
+        for (int64_t k = 0; k < energy_drift_run_movers_of(e); k++) {
+            struct mover m = mover_at(e, k);
+            if (m.m > 0) *m.v[d] -= momentum / mass;
+        }
+    }
+    stop_turning(e, centre);
+}
+
+/* Velocities of particles and nodes before a step. */
+struct earlier { real *v[2][DIM_MAX]; };
+
+static void earlier_make(struct earlier *b, const struct engine *e)
+{
+    for (int d = 0; d < e->part.dim; d++) {
+        b->v[0][d] = NEW("lasting.before", e->part.n, real);
+        b->v[1][d] = NEW("lasting.before", e->mesh.grid.n + 1, real);
+    }
+}
+
+static void earlier_free(struct earlier *b)
+{
+    for (int k = 0; k < 2; k++)
+        for (int d = 0; d < DIM_MAX; d++) memory_free(b->v[k][d]);
+}
+
+static void earlier_take(struct earlier *b, const struct engine *e)
+{
+    for (int d = 0; d < e->part.dim; d++) {
+        memcpy(b->v[0][d], e->part.v[d], (size_t)e->part.n * sizeof(real));
+        if (e->mesh.points > 0) memcpy(b->v[1][d], e->mesh.grid.velocity[d], (size_t)e->mesh.grid.n * sizeof(real));
+    }
+}
+
+/* 1/2 m v_before . v_after, and in `after` 1/2 m v_after^2. The first is what leap-frog steps conserve beside the
+ * energy of places. The energy balance has the same of bonds and cells, but of material points the mean of both
+ * squares, which is more: by a quarter of itself where all is noise. */
+static real kinetic_between(const struct earlier *b, const struct engine *e, real *after)
+{
+    real sum = 0;
+    *after = 0;
+    for (int64_t k = 0; k < energy_drift_run_movers_of(e); k++) {
+        const struct mover m = mover_at(e, k);
+        const bool node = k >= e->part.n;
+        for (int d = 0; d < e->part.dim && m.m > 0; d++) {
+            sum += 0.5 * m.m * *m.v[d] * b->v[node][d][k - (node ? e->part.n : 0)];
+            *after += 0.5 * m.m * square(*m.v[d]);
+        }
+    }
+    return sum;
+}
+
+/* ---- the run ----------------------------------------------------------------------------------------------------- */
+
+/* So many steps of the automatic step of the scene, with evenly spread samples. */
+static status energy_drift_body_make(struct engine *e, struct scene *s, const struct lasting_case *l, int64_t steps)
+{
+    struct bench_overrides o = {0};
+    char text[4096];
+    stability_text(&l->c, text, sizeof text);
+    TRY(bench_engine_make(e, s, "body", text, NULL, 0));
+    const real dt = s->safety * e->dt_critical;
+    bench_engine_free(e, s);
+    bench_override(&o, "time.step", "%.17g", dt);
+    bench_override(&o, "duration", "%.17g", dt * (real)steps);
+    bench_override(&o, "output.samples", "%d", SAMPLES);
+    bench_override(&o, "output.frames", "0");
+    return bench_engine_make(e, s, "body", text, bench_overrides_ready(&o), o.n);
+}
+
+/* `energy` is what stable steps keep, `plain` has the squares of velocities after the step in it. */
+struct course { int n; double step[SAMPLES + 8], energy[SAMPLES + 8], plain[SAMPLES + 8], work[SAMPLES + 8]; };
+
+static void course_add(struct course *c, const struct engine *e, const struct earlier *before)
+{
+    const struct energy_balance *now = &e->diagnostics.now;
+    const struct energy *u = &now->energy;
+    if (c->n >= (int)COUNT_OF(c->step)) return;
+    c->step[c->n] = (double)e->step;
+    real after;
+    const real between = kinetic_between(before, e, &after), stored = u->strain + u->plastic + u->fracture;
+    c->energy[c->n] = between + stored, c->plain[c->n] = after + stored;
+    c->work[c->n++] = now->external_work;
+}
+
+/* Slope of the logarithm of the energy over the second half of the samples, by least squares [1/step]. */
+static double rate_of(const struct course *c, const double *energy)
+{
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    const double origin = c->n > 0 ? c->step[c->n / 2] : 0;
+    for (int k = c->n / 2; k < c->n; k++) {
+        const double size = fabs(energy[k]), at = c->step[k] - origin, log_energy = log(size);
+        if (!(size > 0 && isfinite(size))) continue;
+        n++, x += at, y += log_energy, xx += at * at, xy += at * log_energy;
+    }
+    return n > 2 ? (n * xy - x * y) / (n * xx - x * x) : NAN;
+}
+
+static void judge(const struct course *c, struct lasting *to)
+{
+    double scale = c->n > 0 ? c->energy[0] : 0;
+    for (int k = 0; k < c->n; k++)
+        if (c->work[k] != 0) scale = fmax(scale, c->energy[k]);
+    to->largest = to->end = to->least = to->loudest = 0;
+    for (int k = 0; k < c->n; k++) {
+        to->end = (c->energy[k] - c->work[k] - c->energy[0]) / scale;
+        if (!isfinite(to->end)) to->end = INFINITY;
+        to->largest = fmax(to->largest, to->end), to->least = fmin(to->least, to->end);
+        to->inverted |= c->energy[k] < -LASTING_ENERGY * scale;
+        to->loudest = fmax(to->loudest, c->plain[k] / scale);
+    }
+    to->rate = rate_of(c, to->loudest > LASTING_LOUDEST ? c->plain : c->energy);
+}
+
+/* A held body's angular momentum goes into its support, and small strain knows no rotations. */
+static bool energy_drift_run_is_free(const struct engine *e)
+{
+    return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->mesh.points > 0 && e->scene->small_strain);
+}
+
+static double turned(const struct engine *e, const real *centre, const real *L, real size)
+{
+    real now[DIM_MAX], scale, most = 0;
+    angular_momentum(e, centre, now, &scale);
+    for (int t = 0; t < turns_of(e->part.dim); t++) most = real_max(most, fabs(now[t] - L[t]));
+    return most / size;
+}
+
+static status energy_drift_run_body(struct engine *e, const struct lasting_case *l, struct lasting *to)
+{
+    struct course *c = NEW("lasting.course", 1, struct course);
+    struct earlier before = {{{0}}};
+    real centre[DIM_MAX], L[DIM_MAX], size;
+    earlier_make(&before, e);
+    centre_of(e, centre);
+    if (!l->moves) energy_drift_run_shake(e, centre);
+    status s = bench_engine_run(e, 1, NULL);             /* makes the record of the first sample, of step 0 */
+    c->energy[c->n] = c->plain[c->n] = e->diagnostics.energy_start, c->n++;
+    angular_momentum(e, centre, L, &size);
+    to->free = energy_drift_run_is_free(e), to->turn = to->free ? 0 : NAN;
+    while (s == OK && e->step < e->steps) {
+        earlier_take(&before, e);
+        s = engine_step(e);
+        if (s == OK) s = engine_stability_check(e);
+        if (s != OK || !e->sampling.due) continue;
+        course_add(c, e, &before);
+        if (to->free) to->turn = fmax(to->turn, turned(e, centre, L, size));
+    }
+    judge(c, to);
+    to->stopped = s == OK ? 0 : e->step > 0 ? e->step : 1;
+    to->converted = (double)(e->part.n_of[KIND_PD] - e->conversion.start) / (double)e->part.n;
+    if (s != OK) snprintf(to->why, sizeof to->why, "%s", status_message());
+    memory_free(c);
+    earlier_free(&before);
+    return s == OK || s == FAILED ? OK : s;
+}
+
+status lasting_run(const struct lasting_case *l, int64_t steps, struct lasting *to)
+{
+    struct engine e;
+    struct scene s;
+    const int team = omp_get_max_threads();
+    *to = (struct lasting){.steps = steps};
+    omp_set_num_threads(1);
+    status made = energy_drift_body_make(&e, &s, l, steps);
+    if (made == OK) {
+        to->particles = e.part.n;
+        to->keeps = e.part.n_free == 0 && e.part.n_grid_coupled == 0;
+        made = energy_drift_run_body(&e, l, to);
+        bench_engine_free(&e, &s);
+    } else if (made == REFUSED) {
+        to->refused = true;
+        snprintf(to->why, sizeof to->why, "%s", status_message());
+        made = OK;
+    }
+    omp_set_num_threads(team);
+    return made;
+}
+
+bool lasting_holds(const struct lasting_case *l, const struct lasting *r)
+{
+    const bool within = r->largest <= LASTING_ENERGY && r->loudest <= LASTING_LOUDEST;
+    if (r->refused || r->stopped > 0 || r->inverted || !within) return false;
+    if (l->converts && r->converted > 0) return false;
+    if (!r->keeps) return !(r->rate > LASTING_RATE);
+    return r->least >= -LASTING_ENERGY && !(r->free && !l->moves && !(r->turn <= LASTING_TURN));
+}

@@ -1,0 +1,74 @@
+/* The table of failing scenes, and how they are made. */
+#include "limits_scenes.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+const struct failing_scene *const failing_scene[FAILING_SCENES] = {
+    &failing_crossing, &failing_homologous, &failing_null_mode,  &failing_faces,  &failing_spin,    &failing_disc,
+    &failing_corner,   &failing_shear,      &failing_vibration,  &failing_million, &failing_modes,  &failing_softest,
+    &failing_single,   &failing_inversion,  &failing_closing,    &failing_beyond, &failing_twins,   &failing_renumbered,
+};
+
+status failing_measure(const struct failing_scene *s, const struct failing_row *r, double figure[FAILING_FIGURES])
+{
+    const int team = omp_get_max_threads();
+    for (int k = 0; k < FAILING_FIGURES; k++) figure[k] = NAN;
+    omp_set_num_threads(1);
+    const status done = s->measure(r, figure);
+    omp_set_num_threads(team);
+    return done;
+}
+
+void failing_label(const struct failing_scene *s, const struct failing_row *r, char *text, size_t size)
+{
+    char given[64];
+    snprintf(given, sizeof given, s->given ? s->given : "", r->given);
+    snprintf(text, size, "%s%s%s", r->method, s->given ? ", " : "", given);
+}
+
+int failing_figures(const struct failing_scene *s)
+{
+    int n = 0;
+    while (n < FAILING_FIGURES && s->figure[n].quantity) n++;
+    return n;
+}
+
+bool failing_holds(const struct failing_scene *s, const double *figure)
+{
+    for (int k = 0; k < failing_figures(s); k++)
+        if (!(figure[k] <= s->figure[k].threshold)) return false;
+    return true;
+}
+
+status failing_make(struct engine *e, struct scene *s, const struct failing_row *r, const char *text, ...)
+{
+    struct bench_overrides o = {0};
+    char whole[4096];
+    va_list more;
+    va_start(more, text);
+    vsnprintf(whole, sizeof whole, text, more);
+    va_end(more);
+    if (!strstr(whole, "frame:")) bench_override(&o, "mpm.frame", "current");     /* rows of the other say so */
+    for (const char *const *k = r->set; *k; k += 2) bench_override(&o, k[0], "%s", k[1]);
+    return bench_engine_make(e, s, "failing", whole, bench_overrides_ready(&o), o.n);
+}
+
+void failing_start(struct engine *e, failing_field *field, const void *context)
+{
+    struct grid *g = &e->mesh.grid;
+    real X[DIM_MAX], v[DIM_MAX];
+    for (int64_t i = 0; i < e->part.n; i++) {
+        for (int d = 0; d < e->part.dim; d++) X[d] = e->part.X[d][i];
+        field(context, X, v);
+        for (int d = 0; d < e->part.dim; d++) e->part.v[d][i] = v[d];
+    }
+    for (int64_t I = 0; e->mesh.points > 0 && I < g->n; I++) {
+        if (!(e->mesh.inverse_mass[I] > 0)) continue;
+        for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+        field(context, X, v);
+        for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
+    }
+}

@@ -1,0 +1,161 @@
+/* What bonds do when they are torn, turned inside out, or gone where faces meet. */
+#include <math.h>
+
+#include "limits_scenes.h"
+
+/* ---- particles that come off ------------------------------------------------------------------------------------- */
+
+/* A corner torn off: every family it was in has lost it, and its own is empty. Breaking is second order in the step:
+ * at a fifth of the critical one bonds leave some percent of this energy too much or too little. */
+static status single(const struct failing_row *r, double *to)
+{
+    struct engine e;
+    struct scene s;
+    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
+                     "material: {young: 72e9, density: 2440, critical_stretch: 0.01, poisson: 1/3}\n"
+                     "body: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
+                     "particles: {spacing: 1e-3}\n"
+                     "initial:\n  - {velocity: [400, 300], region: {box: {from: [11e-3, 11e-3], to: [inf, inf]}}}\n"
+                     "output: {frames: 0, samples: 20}\n"));
+    const status ran = engine_run(&e);
+    const int64_t i = e.part.n - 1;
+    to[0] = isfinite(e.part.x[0][i]) && e.part.v[0][i] > 100 ? 0 : 1;
+    to[1] = e.diagnostics.now.momentum_error;
+    to[2] = fabs(e.diagnostics.now.balance_error);
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+#define LAW(law, kind, ...) .method = law " " kind, .set = {"model", law, "method", kind, __VA_ARGS__}
+#define SINGLE(law, kind) {LAW(law, kind, NULL), .known = {{0, 0}, {0, 1e-13}, {0, 0.05}}}
+static const struct failing_row singles[] = {
+    SINGLE("bond", "pd"), SINGLE("ospd", "pd"), SINGLE("mospd", "pd"),
+    SINGLE("bond", "adaptive"), SINGLE("ospd", "adaptive"), SINGLE("mospd", "adaptive"),
+};
+const struct failing_scene failing_single = {
+    "a single particle comes off",
+    NULL,
+    {{"particles lost", 0}, {"error of momentum", 1e-12}, {"error of energy", 0.05}},
+    ROWS(singles),
+    single};
+
+/* ---- compression past inversion ---------------------------------------------------------------------------------- */
+
+/* Neighbours in a row that have changed sides. */
+static int inverted(const struct particles *p)
+{
+    int pairs = 0;
+    for (int64_t i = 0; i + 1 < p->n; i++) pairs += p->X[0][i + 1] > p->X[0][i] && p->x[0][i + 1] < p->x[0][i];
+    return pairs;
+}
+
+/* Halves of a plate meet at +-`given` of the wave speed of a bar. */
+static status inversion(const struct failing_row *r, double *to)
+{
+    struct engine e;
+    struct scene s;
+    TRY(failing_make(
+        &e, &s, r,
+        "space: plane stress\nthickness: 1\nduration: 0.3\ntime: {safety: 0.2}\nmethod: pd\n"
+        "material: {young: 1e4, density: 1}\nbody: {box: {from: [0, 0], to: [40, 6]}}\nparticles: {spacing: 1}\n"
+        "initial:\n  - {velocity: [%g, 0]}\n"
+        "  - {velocity: [%g, 0], region: {box: {from: [20, -inf], to: [inf, inf]}}}\n"
+        "output: {frames: 0, samples: 10}\n",
+        100 * r->given, -100 * r->given));
+    const status ran = engine_run(&e);
+    if (e.mesh.points > 0) engine_mesh_sync(&e);
+    to[0] = inverted(&e.part);
+    to[1] = fabs(e.diagnostics.now.balance_error);
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+/* A bond of no length has a finite force: at 0.2 c, a compression of 45 %, neighbours stay in their order, at 0.6 c,
+ * they have passed through each other and nothing is said. Energies balance all the same. */
+#define NO_INVERSION "none in bonds yet; frame: reference"
+#define INVERSION(law) \
+    {LAW(law, "pd", NULL), .given = 0.2, .known = {{0, 0}, {0, 0.05}}}, \
+    {LAW(law, "pd", NULL), .given = 0.6, .known = {{1, 200}, {0, 0.05}}, .remedy = NO_INVERSION}
+static const struct failing_row inversions[] = {
+    INVERSION("bond"),
+    INVERSION("ospd"),
+    INVERSION("mospd"),
+    {.method = "gimp apic",
+     .set = {"method", "mpm", "mpm.transfer", "apic"},
+     .given = 0.6,
+     .known = {{0, 0}, {0.1, 0.25}},
+     .remedy = "frame: reference"},
+    {.method = "reference frame",
+     .set = {"method", "mpm", "mpm.frame", "reference"},
+     .given = 0.6,
+     .known = {{0, 0}, {0, 0.01}}},
+};
+const struct failing_scene failing_inversion = {"compression past inversion",
+                                                "at %g of the wave speed",
+                                                {{"pairs that changed sides", 0}, {"error of energy", 0.05}},
+                                                ROWS(inversions),
+                                                inversion};
+
+/* ---- faces of a crack that close --------------------------------------------------------------------------------- */
+
+/* How far the columns beside the crack have gone into each other, in spacings. */
+static double overlap(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    double left = -INFINITY, right = INFINITY;
+    for (int64_t i = 0; i < p->n; i++)
+        if (fabs(p->X[0][i] - 12) < 1) {
+            if (p->X[0][i] < 12) left = fmax(left, p->x[0][i]);
+            else right = fmin(right, p->x[0][i]);
+        }
+    return left - right + 1;
+}
+
+/* Halves of a plate that is cut through meet at +-0.04 c, c = 106: two bars of 12 spacings that throw each other
+ * back until 0.226, or two spacings deep in each other at 0.25. Most overlap of the faces, and the share of their
+ * momentum that they keep. */
+static status closing(const struct failing_row *r, double *to)
+{
+    struct engine e;
+    struct scene s;
+    TRY(failing_make(&e, &s, r,
+                     "space: plane stress\nthickness: 1\nduration: 0.25\nmaterial: {young: 1e4, density: 1}\n"
+                     "bodies:\n  - {name: left, shape: {box: {from: [0, 0], to: [12, 6]}}, velocity: [4, 0]}\n"
+                     "  - {name: right, shape: {box: {from: [12, 0], to: [24, 6]}}, velocity: [-4, 0]}\n"
+                     "particles: {spacing: 1}\noutput: {frames: 0, samples: 1}\n"));
+    status ran = bench_engine_run(&e, 1, NULL);
+    to[0] = 0, to[1] = 0;
+    while (ran == OK && e.step < e.steps - 1) {
+        ran = engine_step(&e);
+        to[0] = fmax(to[0], overlap(&e));
+    }
+    for (int64_t i = 0; i < e.part.n; i++) to[1] += e.part.v[0][i] * (e.part.body[i] ? -1 : 1) / 4 / (double)e.part.n;
+    to[1] = fmax(0, to[1]);
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+/* A spring that is gone pushes no more: faces pass through each other. On the grid bodies meet before they touch,
+ * and points beside a crack stay on it. */
+#define CRACK "cracks", "[{from: [12, -1], to: [12, 7]}]"
+#define BONDS_BESIDE "pd.region", "[{box: {from: [6, 0], to: [18, 6]}}]"
+#define NO_CONTACT "none in bonds yet; material points meet on the grid"
+static const struct failing_row closings[] = {
+    {LAW("bond", "pd", CRACK), .known = {{1.8, 2}, {0.99, 1.001}}, .remedy = NO_CONTACT},
+    {LAW("ospd", "pd", CRACK), .known = {{1.8, 2}, {0.99, 1.001}}, .remedy = NO_CONTACT},
+    {LAW("mospd", "pd", CRACK), .known = {{1.8, 2}, {0.99, 1.001}}, .remedy = NO_CONTACT},
+    {.method = "partial stress, bonds beside the crack",
+     .set = {"method", "adaptive", CRACK, BONDS_BESIDE},
+     .known = {{1.8, 2}, {0.99, 1.001}},
+     .remedy = NO_CONTACT},
+    {.method = "partial stress, points beside the crack",
+     .set = {"method", "adaptive", CRACK, "conversion.criteria", "none"},
+     .known = {{0, 0.1}, {0, 0.1}}},
+    {.method = "gimp flip", .set = {"method", "mpm"}, .known = {{0, 0.1}, {0, 0.1}}},
+    {.method = "gimp apic", .set = {"method", "mpm", "mpm.transfer", "apic"}, .known = {{0, 0.1}, {0, 0.1}}},
+};
+const struct failing_scene failing_closing = {"faces of a crack close",
+                                              NULL,
+                                              {{"overlap [spacings]", 0.1}, {"momentum not handed over", 0.1}},
+                                              ROWS(closings),
+                                              closing};

@@ -1,0 +1,156 @@
+/* Motions of free bodies of bonds that cost nothing though they are not rigid, and the softest that do
+ * cost. */
+#include <math.h>
+
+#include "limits_scenes.h"
+#include "base/memory.h"
+
+/* M^-1/2 K M^-1/2 of a free body, n by n. */
+struct matrix { int64_t n; real *at; };
+
+/* Column by column; what differs between both halves is the error of differences, 1e-7. */
+static struct matrix matrix_of(struct engine *e)
+{
+    struct bond_body body = bond_body_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
+    struct matrix m = {.n = e->part.dim * e->part.n};
+    real *unit = NEW("modes.unit", m.n, real);
+    m.at = NEW("modes.matrix", m.n * m.n, real);
+    for (int64_t k = 0; k < m.n; k++) {
+        unit[k] = 1;
+        bond_body_stiffness(&body, unit, &m.at[k * m.n]);
+        unit[k] = 0;
+    }
+    for (int64_t k = 0; k < m.n; k++)
+        for (int64_t j = 0; j < k; j++)
+            m.at[k * m.n + j] = m.at[j * m.n + k] = 0.5 * (m.at[k * m.n + j] + m.at[j * m.n + k]);
+    memory_free(unit);
+    bond_body_free(&body);
+    return m;
+}
+
+/* How many eigenvalues lie below x: negative pivots of A - x I (Sylvester 1852). */
+static int64_t limits_modes_below(const struct matrix *m, real x)
+{
+    const int64_t n = m->n;
+    int64_t count = 0;
+    real *a = NEW("modes.pivots", n * n, real);
+    for (int64_t k = 0; k < n * n; k++) a[k] = m->at[k] - (k % (n + 1) == 0 ? x : 0);
+    for (int64_t k = 0; k < n; k++) {
+        count += a[k * n + k] < 0;
+        for (int64_t i = k + 1; i < n; i++) {
+            const real share = a[i * n + k] / a[k * n + k];
+            for (int64_t j = k + 1; share != 0 && j < n; j++) a[i * n + j] -= share * a[k * n + j];
+        }
+    }
+    memory_free(a);
+    return count;
+}
+
+/* The eigenvalue that has `lower` ones below it, to 1e-4, found below `high`. */
+static real eigenvalue(const struct matrix *m, int64_t lower, real high)
+{
+    real low = 0;
+    while (high - low > 1e-4 * high) {
+        const real middle = 0.5 * (low + high);
+        if (limits_modes_below(m, middle) > lower) high = middle;
+        else low = middle;
+    }
+    return high;
+}
+
+/* Largest sum of a row: above all eigenvalues (Gershgorin). */
+static real bound(const struct matrix *m)
+{
+    real most = 0;
+    for (int64_t i = 0; i < m->n; i++) {
+        real sum = 0;
+        for (int64_t k = 0; k < m->n; k++) sum += fabs(m->at[i * m->n + k]);
+        most = fmax(most, sum);
+    }
+    return most;
+}
+
+#define SIDE 12
+#define NOTHING 1e-6                /* of the stiffest mode: differences leave 1e-7, the softest elastic one has 1e-2 */
+enum { RIGID = 3 };
+
+static status square_make(struct engine *e, struct scene *s, const struct failing_row *r, double poisson)
+{
+    return failing_make(e, s, r, "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
+                        "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
+                        "body: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"
+                        "output: {frames: 0, samples: 1}\n", poisson, SIDE, SIDE);
+}
+
+/* ---- motions that cost nothing ----------------------------------------------------------------------------------- */
+
+static status modes(const struct failing_row *r, double *to)
+{
+    struct engine e;
+    struct scene s;
+    TRY(square_make(&e, &s, r, 1.0 / 3));
+    struct matrix m = matrix_of(&e);
+    *to = (double)(limits_modes_below(&m, NOTHING * bound(&m)) - RIGID);
+    memory_free(m.at);
+    bench_engine_free(&e, &s);
+    return OK;
+}
+
+/* Springs between nearest neighbours of a square lattice hold no angle: 2 n^2 coordinates, 2 n (n - 1) springs in
+ * straight rows that depend on nothing else leave 2 n motions, three of them rigid. */
+#define LATTICE(law, reach) .method = law ", horizon " reach, .set = {"model", law, "particles.horizon", reach}
+#define CLOUD(law, reach) .method = law ", horizon " reach ", irregular 0.5", \
+                          .set = {"model", law, "particles.horizon", reach, "particles.irregularity", "0.5"}
+#define LOOSE 2 * SIDE - RIGID
+#define LONGER "a horizon of 1.5 or more, or mospd"
+static const struct failing_row costless[] = {
+    {LATTICE("bond", "1"), .known = {{LOOSE, LOOSE}}, .remedy = LONGER},
+    {LATTICE("ospd", "1"), .known = {{LOOSE, LOOSE}}, .remedy = LONGER},
+    {LATTICE("mospd", "1"), .known = {{0, 0}}},
+    {LATTICE("bond", "1.5"), .known = {{0, 0}}}, {LATTICE("ospd", "1.5"), .known = {{0, 0}}}, {LATTICE("mospd", "1.5"),
+     .known = {{0, 0}}},
+    {CLOUD("bond", "1.5"), .known = {{0, 0}}}, {CLOUD("ospd", "1.5"), .known = {{0, 0}}}, {CLOUD("mospd", "1.5"),
+     .known = {{0, 0}}},
+    {CLOUD("bond", "3.015"), .known = {{0, 0}}}, {CLOUD("ospd", "3.015"), .known = {{0, 0}}}, {CLOUD("mospd", "3.015"),
+     .known = {{0, 0}}},
+};
+const struct failing_scene failing_modes = {
+    "motions that cost nothing", NULL, {{"zero-energy modes that are not rigid", 0}}, ROWS(costless), modes};
+
+/* ---- the softest elastic motion ---------------------------------------------------------------------------------- */
+
+/* omega L/c_p of the lowest motion in the plane of a free square, nu = 0.3 (Bardell, Langley & Dunsdon 1996, table 2);
+ * families that surfaces cut short make it softer or stiffer. */
+#define LOWEST 2.321
+
+static status softest(const struct failing_row *r, double *to)
+{
+    struct engine e;
+    struct scene s;
+    TRY(square_make(&e, &s, r, 0.3));
+    struct matrix m = matrix_of(&e);
+    const double c = sqrt(72e9 / (1 - 0.3 * 0.3) / 2440);
+    *to = fabs(sqrt(eigenvalue(&m, RIGID, bound(&m))) * SIDE * 1e-3 / c / LOWEST - 1);
+    memory_free(m.at);
+    bench_engine_free(&e, &s);
+    return OK;
+}
+
+static const struct failing_row soft[] = {
+    {LATTICE("ospd", "1.5"), .known = {{0.02, 0.04}}},
+    {LATTICE("mospd", "1.5"), .known = {{0, 0.01}}},
+    {CLOUD("ospd", "1.5"), .known = {{0.12, 0.2}}, .remedy = "a horizon of 3.015, or mospd"},
+    {CLOUD("mospd", "1.5"), .known = {{0, 0.01}}},
+    {LATTICE("ospd", "3.015"), .known = {{0, 0.01}}},
+    {LATTICE("mospd", "3.015"), .known = {{0.01, 0.02}}},
+    {CLOUD("ospd", "3.015"), .known = {{0.01, 0.03}}},
+    {CLOUD("mospd", "3.015"), .known = {{0.06, 0.1}}},
+    {.method = "mospd, horizon 3.015, local",
+     .set = {"model", "mospd", "pd.normalisation", "local"},
+     .known = {{0.07, 0.1}}},
+    {.method = "ospd, horizon 3.015, bulk",
+     .set = {"model", "ospd", "pd.normalisation", "bulk"},
+     .known = {{0.03, 0.06}}},
+};
+const struct failing_scene failing_softest = {
+    "softest mode of a small free body: surfaces", NULL, {{"error of the frequency", 0.1}}, ROWS(soft), softest};

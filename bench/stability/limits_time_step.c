@@ -1,0 +1,62 @@
+/* Steps beyond the limit must be caught, with place, step and cure. */
+#include <math.h>
+#include <string.h>
+
+#include "limits_scenes.h"
+#include "stability.h"
+
+static bool says_all(const char *message)
+{
+    static const char *const part[] = {"unstable at step ", ": particle ",
+                                       "choose a smaller time.step (now dt = ", " of the critical "};
+    for (size_t k = 0; k < COUNT_OF(part); k++)
+        if (!strstr(message, part[k])) return false;
+    return true;
+}
+
+status stability_caught(const struct stability_case *c, double times, double *step)
+{
+    static const char *const at[] = {"", "[3e-3], direction: [1]", "[3e-3, 3e-3], direction: [1, 0.2]",
+                                     "[3e-3, 3e-3, 3e-3], direction: [1, 0.2, 0.1]"};
+    struct stability_limits l;
+    struct bench_overrides o = {0};
+    struct engine e;
+    struct scene s;
+    char text[4096];
+    TRY(stability_observe(c, 250, 0, &l));
+    stability_text(c, text, sizeof text);
+    bench_override(&o, "time.step", "%.17g", times * l.observed);
+    bench_override(&o, "duration", "%.17g", 1000 * times * l.observed);
+    bench_override(&o, "initial", "[{pulse: {at: %s, width: 5e-3, velocity: 1}}]", at[c->dim]);
+    bench_override(&o, "output.samples", "100");
+    TRY(bench_engine_make(&e, &s, "block", text, bench_overrides_ready(&o), o.n));
+    *step = engine_run(&e) == FAILED && says_all(status_message()) ? (double)e.step : INFINITY;
+    bench_engine_free(&e, &s);
+    return OK;
+}
+
+/* ---- on the map -------------------------------------------------------------------------------------------------- */
+
+static const struct stability_case beyond[] = {
+    {.dim = 2, .method = "pd"},
+    {.dim = 2, .method = "pd", .model = "mospd"},
+    {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "flip"},
+    {.group = GROUP_POINTS, .dim = 2, .method = "mpm", .shape = "gimp", .transfer = "apic"},
+    {.dim = 2, .method = "adaptive"},
+    {.dim = 2, .method = "mpm", .frame = "reference"},
+};
+
+/* `given`: which of them. */
+static status caught(const struct failing_row *r, double *to)
+{
+    return stability_caught(&beyond[(int)r->given], 1.2, to);
+}
+
+#define BEYOND(name, k) {.method = name, .given = k, .known = {{1, 1000}}}
+static const struct failing_row steps[] = {
+    BEYOND("bonds", 0), BEYOND("mospd", 1), BEYOND("gimp flip", 2), BEYOND("gimp apic", 3),
+    BEYOND("partial stress, gimp flip", 4),
+    BEYOND("reference frame", 5),
+};
+const struct failing_scene failing_beyond = {
+    "1.2 times the critical step", NULL, {{"steps until it is stopped", 1000}}, ROWS(steps), caught};

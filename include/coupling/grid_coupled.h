@@ -1,0 +1,32 @@
+/* The couplings of Zeng et al. 2021, in which the grid also moves peridynamic particles: those in the cells
+ * at the interface (PM, PG), or all of them (PMG, PGG: one unified grid). Carried particles give mass, momentum and
+ * the force of their bonds to the nodes and take velocity and position from them, but give no stress: their bonds
+ * are their stress. */
+#ifndef CLEAVE_GRID_COUPLED
+#define CLEAVE_GRID_COUPLED
+
+#include "conversion.h"
+#include "data/grid.h"
+#include "data/transfer_order.h"
+
+struct grid_coupled {
+    struct transfer_order order;         /* of the carried particles                                  */
+    int32_t *list;                       /* [room] their numbers, ascending                           */
+    uint8_t *occupied;                   /* [cells_room] cells of the grid that hold a material point */
+    int64_t n, room, cells_room;
+};
+
+/* Does the grid move peridynamic particles with this coupling, and all of them? */
+static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
+static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
+
+/* Before the forces of a step: lists and flags (FLAG_CARRIED) the peridynamic particles that the grid moves, and
+ * sorts them. At the interface these are the particles in cells that share a node with a cell that holds a material
+ * point; so the choice does not depend on the shape functions. The grid must cover all material points, in a unified
+ * grid all. */
+void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g);
+/* None: no material point is left. */
+void grid_coupled_none(struct grid_coupled *c, struct particles *p);
+void grid_coupled_free(struct grid_coupled *c);
+
+#endif

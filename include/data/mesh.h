@@ -1,0 +1,118 @@
+/* A mesh of linear cells in the reference frame: the material point method for bodies that keep their
+ * neighbours.
+ *
+ * In the reference frame points never leave their cell, so that weights are constants and velocity and displacement
+ * can stay on the nodes: mapping them to points and back would change nothing but lose energy. What is left is a
+ * mesh of linear cells of two spacings; the material points, at a quarter and three quarters of each edge, are their
+ * quadrature and carry what happened to the material (total Lagrangian MPM: de Vaucorbeil, Nguyen & Hutchinson
+ * 2020).
+ *
+ * Layout: nodes are those of a struct grid that never changes. A cell is named by its lowest node I; its corner c
+ * has the node I + mesh->corner[c], and its point of place c lies next to that corner (bit d of c: upper in
+ * direction d).
+ *
+ *     cell I     0 .. 2^dim - 1      point[(I << dim) + c]: the particle there, -1 without
+ *
+ * Cells with all their points, of one material, none beside bonds, are whole: runs of them along x are swept eight
+ * at a time in closed form. All other cells that hold points are cut: each has its own stiffness, and eight are
+ * swept side by side. */
+#ifndef CLEAVE_MESH
+#define CLEAVE_MESH
+
+#include "data/grid.h"
+#include "data/particles.h"
+#include "data/active_set.h"
+
+enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 18 };
+
+/* Whole cells side by side. */
+struct mesh_run {
+    int32_t cell, cells;                 /* first of them; how many                                   */
+    uint8_t material;
+    bool stressed;                       /* a point of it may have passed the trigger                 */
+};
+
+/* Points of a cell whose motion is needed in every step, by place. */
+struct mesh_exposed { int32_t cell; uint8_t places; };
+
+/* A material point at the end of state-based bonds, and the lane of its cell in the group of cut cells. */
+struct mesh_end { int32_t point, lane; };
+
+struct mesh {
+    struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused      */
+    int64_t points;                      /* particles in the mesh; 0: there is no mesh                */
+    int32_t corner[CORNERS_MAX];         /* node distance of a cell's corners                         */
+    real *displacement[DIM_MAX];         /* of the nodes                                    [m]       */
+    real *inverse_mass;                  /* of the nodes; 0 where there is no mass          [1/kg]    */
+    int32_t *point;                      /* [grid.n << dim] particle of a place of a cell, -1 without */
+    uint8_t *kind;                       /* [grid.n] of cells: empty, whole or cut                    */
+    int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh        */
+    real volume;                         /* of a point in the reference frame               [m^3]     */
+
+    int64_t rows;                        /* of nodes along x                                          */
+    int32_t *span;                       /* [rows][2] first node of a row that has mass, and behind the last */
+    int64_t bands, *band;               /* layers of cells in bands: runs of band b: run[band[b]] .. run[band[b+1]-1] */
+    int64_t runs, runs_room;
+    struct mesh_run *run;
+    int64_t cuts, cuts_room;
+    int32_t *cut;                        /* [cuts, filled up to whole groups of LANES] cut cells, ascending */
+    uint8_t *cut_material;               /* [as cut] of their points, the one that converts first     */
+    bool *cut_stressed;                  /* [as cut] as of a run                                      */
+    real *stiffness;                     /* [groups][modes (modes + 1)/2][LANES] half of it, by modes
+                                          * (mesh_cut.h), of all the cell's volume            [Pa]    */
+    /* [groups + 1] points at the end of state-based bonds in the cells of a group: end[ends[group]] ..
+     * end[ends[group + 1] - 1]; NULL: there are none */
+    int32_t *ends;
+    struct mesh_end *end;
+    real *end_share;                   /* [ends][modes] what a cell's modes add to a point's particles.end_strain [1] */
+    int32_t *alike;                      /* [groups] one of the same stiffness to the last bit, still in the cache */
+    real *cut_force;                     /* [groups][corners dim][LANES]                      [N]     */
+    int64_t exposed, exposed_room;
+    struct mesh_exposed *exposed_list;               /* [seen] by ascending cell                                  */
+    struct active_set active;                    /* of blocks of nodes                                        */
+    int64_t segments;                    /* blocks in a row of nodes                                  */
+    real rounding;                       /* displacements lose what its last bit does not hold [m]    */
+};
+
+/* Modes that a cell's energy hangs on: of its mean strain, and what bends it. */
+static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }
+static inline int mesh_modes(int dim) { return symmetric_count(dim) + mesh_bends(dim); }
+
+/* Groups of cut cells side by side. */
+static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->cuts + LANES - 1) / LANES; }
+
+/* Block of a node. */
+static inline int64_t mesh_block(const struct mesh *mesh, int64_t I)
+{
+    return I / mesh->grid.count[0] * mesh->segments + I % mesh->grid.count[0] / LANES;
+}
+
+/* Levels of the blocks of a row of nodes; true if eight nodes, or cells, from the k-th of the row on are inactive. */
+static inline const uint8_t *mesh_levels(const struct mesh *mesh, int64_t row)
+{
+    return mesh->active.level + row * mesh->segments;
+}
+static inline bool mesh_asleep(const uint8_t *levels, int64_t k)
+{
+    return (levels[k / LANES] | levels[(k + LANES - 1) / LANES]) == 0;
+}
+
+/* Share of node `corner` in a point at `place` of its cell: 3/4 or 1/4 by direction. */
+static inline real mesh_weight(int dim, int corner, int place)
+{
+    static const real weight[DIM_MAX + 1][CORNERS_MAX] = {     /* by the directions in which they are apart */
+        {1}, {0.75, 0.25}, {0.5625, 0.1875, 0.1875, 0.0625},
+        {0.421875, 0.140625, 0.140625, 0.046875, 0.140625, 0.046875, 0.046875, 0.015625}};
+    return weight[dim][corner ^ place];
+}
+
+/* Slope of that share along direction d [1/h]. */
+static inline real mesh_slope(int dim, int corner, int place, int d)
+{
+    real slope = corner >> d & 1 ? 1 : -1;
+    for (int b = 0; b < dim; b++)
+        if (b != d) slope *= (corner ^ place) >> b & 1 ? 0.25 : 0.75;
+    return slope;
+}
+
+#endif

@@ -1,0 +1,84 @@
+/* The energy balance of energy and momentum, the first break, and the alarm for unstable runs. */
+#ifndef CLEAVE_DIAGNOSTICS
+#define CLEAVE_DIAGNOSTICS
+
+#include "base/archive.h"
+#include "bonds/bonds.h"
+#include "coupling/conversion.h"
+#include "kernels/kernels.h"
+#include "loads/loads.h"
+#include "data/particles.h"
+
+struct energy {
+    real kinetic;                        /* 1/2 m v_before . v_after of the velocity update      [J]  */
+    real strain, plastic;                /* of bonds and material points                         [J]  */
+    real fracture;                       /* of bonds broken                                      [J]  */
+    real damped;                         /* taken by the damping of the rim (interface_zone.h)              [J]  */
+};
+
+struct energy_balance {
+    real time;                           /* [s]                                                       */
+    struct energy energy;
+    real external_work;                  /* of loads and supports since the start                [J]  */
+    real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far     [1]  */
+    real momentum[DIM_MAX];              /* [kg m/s]                                                  */
+    real momentum_error;                 /* |p - p_0 - impulse| / largest sum |m v|, most so far [1]  */
+};
+
+struct diagnostics {
+    struct energy_balance now;
+    real energy_start, energy_scale;     /* [J] */
+    real momentum_start[DIM_MAX], momentum_scale;   /* [kg m/s] */
+    bool started;
+    real break_time;                     /* first bond broken by load, driven particles' aside; NAN before [s] */
+    real break_place[DIM_MAX];           /* mean reference position of the particles cut in that step [m] */
+    int64_t bonds_broken;                /* directed, by load                                         */
+};
+
+/* Nothing seen yet. Call once, before step 0. */
+void diagnostics_make(struct diagnostics *w);
+
+/* Kinetic energy 1/2 sum m v^2 of the body, without points of a mesh, which has its own [J]. */
+real diagnostics_kinetic(const struct particles *p);
+/* Strain energy of the material points on the grid: 1/2 sum sigma_given : C^-1 sigma V, and in plane strain what
+ * flow has added to sigma_zz [J]. */
+real diagnostics_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial);
+
+/* The same of the material points among `n` listed particles. */
+real diagnostics_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
+                     const int32_t *list, int64_t n);
+
+/* Plastic work of the material points: sum V (sigma_y a + H a^2/2) of the accumulated plastic strain a [J]. */
+real diagnostics_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial);
+
+/* What the mean of 1/2 m v^2 before and after a leap-frog kick has too much over 1/2 m v_before . v_after, the
+ * kinetic energy that the scheme conserves: 1/4 sum m (v - before)^2 of the body without points of a mesh; `before`
+ * NULL where nothing is on the grid: 1/4 sum m (dt f/m)^2, f as it was [J]. */
+real diagnostics_kick(const struct particles *p, real *const *before, real dt);
+
+/* Momentum of p, and of the nodes of a mesh for its points (NULL: none), beside the impulse [N s] of loads and
+ * supports up to the same velocities. */
+void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *mesh,
+                          const real *impulse);
+
+/* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After diagnostics_momentum. */
+void diagnostics_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
+
+/* (E - E_0 - work)/E_0 at the last sample, what was damped left out of E [1]; NAN without energy at the start. */
+real diagnostics_energy_change(const struct diagnostics *w);
+
+/* Books the first break of the run from FLAG_CRACKED. */
+void diagnostics_breaks(struct diagnostics *w, const struct particles *p, int64_t broken, real t);
+
+/* Largest speed among `n` listed particles [m/s]. */
+real diagnostics_fastest(const struct particles *p, const int32_t *list, int64_t n);
+
+/* FAILED with place, step and cause if a position or velocity is not finite or a particle is faster than `limit`
+ * [m/s] (the fastest wave of the scene). Peridynamic particles and points of a mesh are checked only if their flags
+ * are set: the kernels that move them check them already. */
+status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step,
+                              real t);
+
+status diagnostics_archive(struct diagnostics *w, struct archive *a);
+
+#endif

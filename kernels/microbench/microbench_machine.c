@@ -1,0 +1,166 @@
+/* Limits of the machine: the arithmetic of one bond, and the memory bandwidth. */
+#include <math.h>
+#include <string.h>
+
+#include "kernels/simd/lanes.h"
+#include "base/memory.h"
+#include "microbench.h"
+#include "base/team.h"
+#include "kernels/simd/variants.h"
+
+/* ---- lattice stencil ---------------------------------------------------------------------------------------------
+ *
+ * The bond law of bond_force.c on a whole lattice, where all data of a bond follow from its direction: neighbours at
+ * fixed index distances, fixed lengths, one stiffness. What remains is the arithmetic: one reciprocal root and some
+ * twenty operations. No bond breaks. */
+
+enum { STENCIL_MOST = 128, MARGIN = 3 };
+
+struct stencil_probe {
+    int dim;
+    int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all; /* particles, index of the first; all: with margins */
+    int neighbours;
+    int64_t offset[STENCIL_MOST];
+    real inverse_length[STENCIL_MOST];
+    real *x[DIM_MAX], *f[DIM_MAX];
+};
+
+/* Eight particles from index i on. */
+static ALWAYS_INLINE void stencil_row_block(const struct stencil_probe *s, int64_t i, const int dim)
+{
+    const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;
+    const lanes x2 = dim > 2 ? lanes_load(s->x[2] + i) : x0;
+    lanes f0 = lanes_of(0), f1 = f0, f2 = f0;
+    for (int k = 0; k < s->neighbours; k++) {
+        const int64_t j = i + s->offset[k];
+        const lanes d0 = lanes_load(s->x[0] + j) - x0;
+        const lanes d1 = dim > 1 ? lanes_load(s->x[1] + j) - x1 : d0;
+        const lanes d2 = dim > 2 ? lanes_load(s->x[2] + j) - x2 : d0;
+        lanes distance2 = d0 * d0;
+        if (dim > 1) distance2 += d1 * d1;
+        if (dim > 2) distance2 += d2 * d2;
+        const lanes inverse = lanes_inverse_root(distance2);
+        const lanes force = (distance2 * inverse * s->inverse_length[k] - 1.0) * inverse;
+        f0 += force * d0;
+        if (dim > 1) f1 += force * d1;
+        if (dim > 2) f2 += force * d2;
+    }
+    lanes_store(s->f[0] + i, f0);
+    if (dim > 1) lanes_store(s->f[1] + i, f1);
+    if (dim > 2) lanes_store(s->f[2] + i, f2);
+}
+
+#define SWEEP(D)                                                                                                       \
+    static void stencil_sweep_##D##d(struct stencil_probe *s)                                                          \
+    {                                                                                                                  \
+        const int64_t rows = s->count[1] * s->count[2];                                                                \
+        _Pragma("omp parallel for schedule(static)") for (int64_t row = 0; row < rows; row++)                          \
+        {                                                                                                              \
+            const int64_t i = s->first + row % s->count[1] * s->stride[1] + row / s->count[1] * s->stride[2];          \
+            for (int64_t k = 0; k < s->count[0]; k += LANES) stencil_row_block(s, i + k, D);                           \
+        }                                                                                                              \
+    }
+DIM_VARIANTS(SWEEP)
+
+#define SWEEP_ENTRY(D) [D] = stencil_sweep_##D##d,
+static void (*const stencil_sweep[DIM_MAX + 1])(struct stencil_probe *) = {DIM_VARIANTS(SWEEP_ENTRY)};
+
+static void find_neighbours(struct stencil_probe *s)
+{
+    const int reach[DIM_MAX] = {MARGIN, s->dim > 1 ? MARGIN : 0, s->dim > 2 ? MARGIN : 0};
+    for (int c = -reach[2]; c <= reach[2]; c++)
+        for (int b = -reach[1]; b <= reach[1]; b++)
+            for (int a = -reach[0]; a <= reach[0]; a++) {
+                const real r = sqrt((real)(a * a + b * b + c * c));
+                if (r == 0 || r > 3.015) continue;
+                s->offset[s->neighbours] = a + b * s->stride[1] + c * s->stride[2];
+                s->inverse_length[s->neighbours++] = 1 / r;
+            }
+}
+
+/* Lattice positions with a small non-uniform strain, so that no operand has a special value. */
+static void place_lattice(struct stencil_probe *s)
+{
+    for (int64_t i = 0; i < s->all; i++) {
+        const int64_t place[DIM_MAX] = {i % s->stride[1], i / s->stride[1] % (s->stride[2] / s->stride[1]),
+                                        i / s->stride[2]};
+        for (int d = 0; d < s->dim; d++) s->x[d][i] = (real)place[d] * (1 + 1e-4 * (d + 1)) + 1e-4 * sin((real)i);
+    }
+}
+
+struct stencil_probe *stencil_probe_make(int dim)
+{
+    static const int64_t counts[DIM_MAX + 1][DIM_MAX] = {{0}, {80000, 1, 1}, {200, 400, 1}, {40, 40, 50}};
+    struct stencil_probe *s = NEW("bench.stencil", 1, struct stencil_probe);
+    s->dim = dim;
+    s->n = s->all = 1;
+    for (int d = 0; d < DIM_MAX; d++) {
+        const int margin = d < dim ? d == 0 ? LANES : MARGIN : 0;
+        s->count[d] = counts[dim][d];
+        s->stride[d] = s->all;
+        s->first += margin * s->stride[d];
+        s->n *= s->count[d];
+        s->all *= s->count[d] + 2 * margin;
+    }
+    for (int d = 0; d < dim; d++) {
+        s->x[d] = NEW("bench.stencil.x", s->all + LANES, real);
+        s->f[d] = NEW("bench.stencil.f", s->all + LANES, real);
+    }
+    find_neighbours(s);
+    place_lattice(s);
+    return s;
+}
+
+double stencil_probe_run(struct stencil_probe *s)
+{
+    double start = team_clock();
+    stencil_sweep[s->dim](s);
+    return (team_clock() - start) / (double)(s->n * s->neighbours);
+}
+
+void stencil_probe_free(struct stencil_probe *s)
+{
+    for (int d = 0; d < s->dim; d++) {
+        memory_free(s->x[d]);
+        memory_free(s->f[d]);
+    }
+    memory_free(s);
+}
+
+/* ---- triad ------------------------------------------------------------------------------------------------------- */
+
+struct triad_probe {
+    int64_t n;
+    real *a, *b, *c;
+};
+
+/* Each array twice the last-level cache, at least 64 MB. */
+struct triad_probe *triad_probe_make(void)
+{
+    struct triad_probe *t = NEW("bench.triad", 1, struct triad_probe);
+    int64_t bytes = 2 * team_machine().cache[3];
+    t->n = (bytes > 64000000 ? bytes : 64000000) / (int64_t)sizeof(real);
+    t->a = NEW("bench.triad.a", t->n, real);
+    t->b = NEW("bench.triad.b", t->n, real);
+    t->c = NEW("bench.triad.c", t->n, real);
+    return t;
+}
+
+double triad_probe_run(struct triad_probe *t)
+{
+    real *restrict a = t->a;
+    const real *restrict b = t->b, *restrict c = t->c;
+    const real q = 3;
+    double start = team_clock();
+#pragma omp parallel for simd schedule(static)
+    for (int64_t i = 0; i < t->n; i++) a[i] = b[i] + q * c[i];
+    return 3.0 * sizeof(real) * (double)t->n / (team_clock() - start);
+}
+
+void triad_probe_free(struct triad_probe *t)
+{
+    memory_free(t->a);
+    memory_free(t->b);
+    memory_free(t->c);
+    memory_free(t);
+}

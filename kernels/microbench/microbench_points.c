@@ -1,0 +1,197 @@
+/* A plain material point method, as a reference for timing: 2D, linear shapes, MUSL, FLIP, elastic with Jaumann's rate.
+ *
+ * Points are stored sorted by cell, four a cell, and stay there (sorting is not timed). Each of the three maps goes
+ * cell by cell: sums for the four nodes of the cell are local variables, added to the grid once. Rows of cells of one
+ * colour share no node, so that threads can process them in parallel. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "microbench.h"
+#include "base/team.h"
+
+enum { CELLS_X = 100, CELLS_Y = 200, CORNERS = 4, NODES_X = CELLS_X + 1, NODES = NODES_X * (CELLS_Y + 1) };
+
+struct point_probe {
+    int64_t n;
+    real h, dt, c11, c12, shear;
+    int32_t *start; /* points of cell c: start[c] .. start[c+1]-1 */
+    real *x, *y, *vx, *vy, *mass, *volume, *sxx, *syy, *sxy;
+    real *m, *px, *py, *fx, *fy, *ux, *uy; /* nodes: mass, momentum, force, velocity */
+};
+
+/* Hat functions and their slopes at the corners of the point's cell. */
+struct corner {
+    real N[CORNERS], gx[CORNERS], gy[CORNERS];
+};
+
+static ALWAYS_INLINE struct corner corner_make(const struct point_probe *p, int64_t i, int cx, int cy)
+{
+    const real inverse = 1 / p->h, r = p->x[i] * inverse - cx, s = p->y[i] * inverse - cy;
+    return (struct corner){.N = {(1 - r) * (1 - s), r * (1 - s), (1 - r) * s, r * s},
+                           .gx = {-(1 - s) * inverse, (1 - s) * inverse, -s * inverse, s * inverse},
+                           .gy = {-(1 - r) * inverse, -r * inverse, (1 - r) * inverse, r * inverse}};
+}
+
+static ALWAYS_INLINE int64_t corner_node(int cx, int cy, int k) { return (int64_t)(cy + k / 2) * NODES_X + cx + k % 2; }
+
+static void add_corners(real *field, int cx, int cy, const real *sum)
+{
+    for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
+}
+
+/* First map of one cell: mass, momentum and force to its nodes. */
+static void cell_scatter(struct point_probe *p, int cx, int cy)
+{
+    const int c = cy * CELLS_X + cx;
+    real m[CORNERS] = {0}, px[CORNERS] = {0}, py[CORNERS] = {0}, fx[CORNERS] = {0}, fy[CORNERS] = {0};
+    for (int32_t i = p->start[c]; i < p->start[c + 1]; i++) {
+        const struct corner w = corner_make(p, i, cx, cy);
+        const real mass = p->mass[i], mx = mass * p->vx[i], my = mass * p->vy[i], V = p->volume[i];
+        const real sxx = V * p->sxx[i], syy = V * p->syy[i], sxy = V * p->sxy[i];
+        for (int k = 0; k < CORNERS; k++) {
+            m[k] += mass * w.N[k];
+            px[k] += mx * w.N[k], py[k] += my * w.N[k];
+            fx[k] -= sxx * w.gx[k] + sxy * w.gy[k], fy[k] -= sxy * w.gx[k] + syy * w.gy[k];
+        }
+    }
+    add_corners(p->m, cx, cy, m);
+    add_corners(p->px, cx, cy, px), add_corners(p->py, cx, cy, py);
+    add_corners(p->fx, cx, cy, fx), add_corners(p->fy, cx, cy, fy);
+}
+
+/* Second map of one cell: velocities receive the change of the nodal velocities (in fx, fy), and the momentum of the
+ * points is mapped back to the nodes. */
+static void cell_remap(struct point_probe *p, int cx, int cy)
+{
+    const int c = cy * CELLS_X + cx;
+    real dx[CORNERS], dy[CORNERS], px[CORNERS] = {0}, py[CORNERS] = {0};
+    for (int k = 0; k < CORNERS; k++) dx[k] = p->fx[corner_node(cx, cy, k)], dy[k] = p->fy[corner_node(cx, cy, k)];
+    for (int32_t i = p->start[c]; i < p->start[c + 1]; i++) {
+        const struct corner w = corner_make(p, i, cx, cy);
+        for (int k = 0; k < CORNERS; k++) p->vx[i] += w.N[k] * dx[k], p->vy[i] += w.N[k] * dy[k];
+        const real mx = p->mass[i] * p->vx[i], my = p->mass[i] * p->vy[i];
+        for (int k = 0; k < CORNERS; k++) px[k] += mx * w.N[k], py[k] += my * w.N[k];
+    }
+    add_corners(p->px, cx, cy, px), add_corners(p->py, cx, cy, py);
+}
+
+static ALWAYS_INLINE void microbench_point_stress(struct point_probe *p, int64_t i, real xx, real yy, real xy,
+                                                  real spin)
+{
+    const real sxx = p->sxx[i], syy = p->syy[i], sxy = p->sxy[i];
+    p->sxx[i] = sxx + 2 * sxy * spin + p->c11 * xx + p->c12 * yy;
+    p->syy[i] = syy - 2 * sxy * spin + p->c12 * xx + p->c11 * yy;
+    p->sxy[i] = sxy + (syy - sxx) * spin + 2 * p->shear * xy;
+    p->volume[i] *= 1 + xx + yy;
+}
+
+/* Last map of one cell: motion and stress of its points. */
+static void cell_gather(struct point_probe *p, int cx, int cy)
+{
+    const int c = cy * CELLS_X + cx;
+    real ux[CORNERS], uy[CORNERS], px[CORNERS], py[CORNERS];
+    for (int k = 0; k < CORNERS; k++) {
+        const int64_t I = corner_node(cx, cy, k);
+        ux[k] = p->ux[I], uy[k] = p->uy[I], px[k] = p->px[I], py[k] = p->py[I];
+    }
+    for (int32_t i = p->start[c]; i < p->start[c + 1]; i++) {
+        const struct corner w = corner_make(p, i, cx, cy);
+        real vx = 0, vy = 0, xx = 0, xy = 0, yx = 0, yy = 0;
+        for (int k = 0; k < CORNERS; k++) {
+            vx += w.N[k] * ux[k], vy += w.N[k] * uy[k];
+            xx += px[k] * w.gx[k], xy += px[k] * w.gy[k], yx += py[k] * w.gx[k], yy += py[k] * w.gy[k];
+        }
+        p->x[i] += p->dt * vx, p->y[i] += p->dt * vy;
+        microbench_point_stress(p, i, xx * p->dt, yy * p->dt, 0.5 * (xy + yx) * p->dt, 0.5 * (xy - yx) * p->dt);
+    }
+}
+
+/* One map over all cells: even rows, then odd rows. */
+#define MAP(NAME)                                                                                                      \
+    static void map_##NAME(struct point_probe *p)                                                                      \
+    {                                                                                                                  \
+        _Pragma("omp parallel") for (int colour = 0; colour < 2; colour++)                                             \
+        {                                                                                                              \
+            _Pragma("omp for schedule(static)") for (int cy = colour; cy < CELLS_Y; cy += 2) for (int cx = 0;          \
+                                                                                                  cx < CELLS_X; cx++)  \
+                cell_##NAME(p, cx, cy);                                                                                \
+        }                                                                                                              \
+    }
+MAP(scatter)
+MAP(remap)
+MAP(gather)
+
+static void nodes_clear(struct point_probe *p)
+{
+#pragma omp parallel for schedule(static)
+    for (int I = 0; I < NODES; I++) p->m[I] = p->px[I] = p->py[I] = p->fx[I] = p->fy[I] = 0;
+}
+
+static void nodes_move(struct point_probe *p)
+{
+#pragma omp parallel for schedule(static)
+    for (int I = 0; I < NODES; I++) {
+        const real inverse = 1 / p->m[I];
+        p->fx[I] *= p->dt * inverse, p->fy[I] *= p->dt * inverse;
+        p->ux[I] = p->px[I] * inverse + p->fx[I], p->uy[I] = p->py[I] * inverse + p->fy[I];
+        p->px[I] = p->py[I] = 0;
+    }
+}
+
+static void nodes_remapped(struct point_probe *p)
+{
+#pragma omp parallel for schedule(static)
+    for (int I = 0; I < NODES; I++) p->px[I] /= p->m[I], p->py[I] /= p->m[I];
+}
+
+double point_probe_run(struct point_probe *p)
+{
+    double start = team_clock();
+    nodes_clear(p);
+    map_scatter(p);
+    nodes_move(p);
+    map_remap(p);
+    nodes_remapped(p);
+    map_gather(p);
+    return (team_clock() - start) / (double)p->n;
+}
+
+/* Steel, spacing 0.5 mm; a weak wave, so that points stay in their cells during the measurement. */
+static void place_points(struct point_probe *p)
+{
+    for (int c = 0; c < CELLS_X * CELLS_Y; c++) {
+        p->start[c + 1] = p->start[c] + 4;
+        for (int k = 0; k < 4; k++) {
+            const int64_t i = p->start[c] + k;
+            p->x[i] = p->h * (c % CELLS_X + 0.25 + 0.5 * (k % 2));
+            p->y[i] = p->h * (c / CELLS_X + 0.25 + 0.5 * (k / 2));
+            p->vx[i] = 1e-3 * sin(40 * p->x[i]), p->vy[i] = 1e-3 * cos(40 * p->y[i]);
+            p->volume[i] = 0.25 * p->h * p->h * 0.01;
+            p->mass[i] = 7800 * p->volume[i];
+        }
+    }
+}
+
+struct point_probe *point_probe_make(void)
+{
+    struct point_probe *p = NEW("bench.points", 1, struct point_probe);
+    p->n = 4 * CELLS_X * CELLS_Y, p->h = 1e-3, p->dt = 5e-8;
+    p->c11 = 214e9, p->c12 = 71e9, p->shear = 71e9;
+    p->start = NEW("bench.points.start", CELLS_X * CELLS_Y + 1, int32_t);
+    real **const particle[] = {&p->x, &p->y, &p->vx, &p->vy, &p->mass, &p->volume, &p->sxx, &p->syy, &p->sxy};
+    real **const node[] = {&p->m, &p->px, &p->py, &p->fx, &p->fy, &p->ux, &p->uy};
+    for (size_t k = 0; k < COUNT_OF(particle); k++) *particle[k] = NEW("bench.points.particle", p->n, real);
+    for (size_t k = 0; k < COUNT_OF(node); k++) *node[k] = NEW("bench.points.node", NODES, real);
+    place_points(p);
+    return p;
+}
+
+void point_probe_free(struct point_probe *p)
+{
+    real *const arrays[] = {p->x,   p->y, p->vx, p->vy, p->mass, p->volume, p->sxx, p->syy,
+                            p->sxy, p->m, p->px, p->py, p->fx,   p->fy,     p->ux,  p->uy};
+    for (size_t k = 0; k < COUNT_OF(arrays); k++) memory_free(arrays[k]);
+    memory_free(p->start);
+    memory_free(p);
+}

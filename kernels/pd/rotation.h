@@ -1,0 +1,79 @@
+/* Rotations of particles as state-based sweeps keep and apply them, eight at once: R - 1, times the spring
+ * g.
+ *
+ * In space four numbers, not nine: with the quaternion (q, q0) of R, and (a, s) = sqrt(2 g) (q, q0),
+ *
+ *     g (R - 1) v = 2 g [q0 q x v + q x (q x v)] = a x (s v + a x v)
+ *
+ * Neighbours are read at any place, and seven of eight such loads touch two cache lines: they cost more than
+ * products do. Where R is 1 to the last bit, so is a 0, and nothing comes of it. */
+#ifndef CLEAVE_KERNELS_ROTATION
+#define CLEAVE_KERNELS_ROTATION
+
+#include "bonds/bonds.h"
+#include "kernels/simd/lanes.h"
+
+#define TURN_TINY 1e-300                 /* keeps the root of nothing finite */
+
+/* A row of the matrix 4 (q, q0) (q, q0)^T, that with the largest diagonal: never by a small component (Shepperd
+ * 1978). */
+static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
+{
+    const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};
+    const lanes size[ROTATION_NUMBERS] = {1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8], 1.0 - R[0] - R[4] + R[8],
+                              1.0 + R[0] + R[4] + R[8]};
+    const lanes rows[3][ROTATION_NUMBERS] = {{size[0], even[0], even[2], odd[0]},
+                                 {even[0], size[1], even[1], odd[1]},
+                                 {even[2], even[1], size[2], odd[2]}};
+    lanes largest = size[3];
+    for (int c = 0; c < ROTATION_NUMBERS; c++) row[c] = c < 3 ? odd[c] : size[3];
+    for (int k = 0; k < 3; k++) {
+        const lanes_mask larger = size[k] > largest;
+        for (int c = 0; c < ROTATION_NUMBERS; c++) row[c] = lanes_choose(larger, rows[k][c], row[c]);
+        largest = lanes_choose(larger, size[k], largest);
+    }
+    return largest;
+}
+
+/* What is kept of R, row major, and g. */
+static ALWAYS_INLINE void rotation_make(lanes *rotation, const lanes *R, lanes spring, const int dim)
+{
+    if (dim == 2) {
+        for (int c = 0; c < ROTATION_NUMBERS; c++) rotation[c] = spring * (R[c] - (c % 3 == 0 ? 1.0 : 0.0));
+        return;
+    }
+    const lanes size = quaternion_row(R, rotation),
+                scale = spring * lanes_inverse_root(2.0 * spring * size + TURN_TINY);
+    for (int c = 0; c < ROTATION_NUMBERS; c++) rotation[c] *= scale;
+}
+
+/* f less g (R - 1) arm. The matrix in the plane is (a, -c; c, a). */
+static ALWAYS_INLINE void rotate_back(lanes *f, const lanes *rotation, const lanes *arm, const int dim)
+{
+    if (dim == 2) {
+        f[0] += rotation[2] * arm[1] - rotation[0] * arm[0];
+        f[1] -= rotation[2] * arm[0] + rotation[0] * arm[1];
+        return;
+    }
+    lanes u[DIM_MAX];
+    for (int d = 0; d < 3; d++) {
+        const int e = (d + 1) % 3, h = (d + 2) % 3;
+        u[d] = rotation[3] * arm[d] + rotation[e] * arm[h] - rotation[h] * arm[e];
+    }
+    for (int d = 0; d < 3; d++) {
+        const int e = (d + 1) % 3, h = (d + 2) % 3;
+        f[d] += rotation[h] * u[e] - rotation[e] * u[h];
+    }
+}
+
+/* Is entry c read by rotate_back? */
+static ALWAYS_INLINE bool rotation_reads(int c, const int dim) { return dim > 2 || c % 2 == 0; }
+
+/* Does entry c change its sign in a mirror normal to an axis? A rotation's own axis is not turned round by a mirror
+ * across it, but all others are. */
+static inline bool rotation_antisymmetric(int c, int axis, int dim)
+{
+    return axis >= 0 && (dim == 2 ? c == 1 || c == 2 : c < 3 && c != axis);
+}
+
+#endif

@@ -1,0 +1,128 @@
+/* Which cells of material points nothing has reached. */
+#include "active/active_points.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+/* A plane of symmetry moves no particle that is at rest. */
+static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
+
+static bool active_points_is_inactive(const struct loads *l, const struct particles *p, const struct bonds *b,
+                                      int32_t i, bool has_gradient)
+{
+    const int dim = p->dim;
+    bool quiet = !is_loaded(l, i) && (!b->row_of || b->row_of[i] < 0);
+    for (int d = 0; d < dim && quiet; d++) quiet = bits_equal(p->v[d][i], 0) && p->f[d][i] == 0;
+    for (int c = 0; c < dim * (dim + 1) / 2 && quiet; c++) quiet = bits_equal(p->stress[c][i], 0);
+    for (int c = 0; has_gradient && c < dim * dim && quiet; c++) quiet = bits_equal(p->gradient[c][i], 0);
+    return quiet;
+}
+
+static int64_t active_points_cell_of(const struct grid *g, const struct particles *p, int32_t i)
+{
+    int64_t I = 0;
+    for (int d = 0; d < g->dim; d++)
+        I += (grid_cell(g, d, p->x[d][i]) - g->first[d]) * g->stride[d];
+    return I;
+}
+
+/* Every cell within `reach` of a marked one along an axis is marked. */
+static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int axis, int64_t reach)
+{
+    const int64_t stride = g->stride[axis], count = g->count[axis], lines = g->n / count;
+#pragma omp parallel for schedule(static)
+    for (int64_t line = 0; line < lines; line++) {
+        const int64_t start = line / stride * stride * count + line % stride;
+        int64_t last = -reach - 1;                       /* marked so far */
+        for (int64_t k = 0; k < count; k++) {
+            if (from[start + k * stride]) last = k;
+            to[start + k * stride] = k - last <= reach;
+        }
+        last = count + reach;
+        for (int64_t k = count - 1; k >= 0; k--) {
+            if (from[start + k * stride]) last = k;
+            to[start + k * stride] |= last - k <= reach;
+        }
+    }
+}
+
+/* Cells that a map joins share a node: the next one, or, where shapes reach over a cell, the third; FLIP maps twice.
+ * Planes of symmetry join the nodes on both sides of them. */
+static int64_t active_points_reach_of(const struct grid *g, enum shape shape, enum transfer transfer)
+{
+    const int shared = shape == SHAPE_LINEAR ? 1 : 3;
+    return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
+}
+
+/* Cells that were left out until now are as quiet as they were. */
+static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
+                               const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
+{
+    memset(r->busy, 0, (size_t)g->n);
+#pragma omp parallel for schedule(static)
+    for (int32_t c = 0; c < now->cells; c++) {
+        bool quiet = true;
+        for (int32_t k = now->cell_start[c]; k < now->cell_start[c + 1] && quiet; k++)
+            quiet = active_points_is_inactive(l, p, b, now->particle[k], has_gradient);
+        if (!quiet) r->busy[active_points_cell_of(g, p, now->particle[now->cell_start[c]])] = 1;
+    }
+    for (int64_t k = 0; k < g->walls; k++)
+        if (moves(l, g->wall[k].load)) r->busy[g->wall[k].node] = 1;
+}
+
+static void make_room(struct active_points *r, const struct grid *g)
+{
+    if (r->nodes >= g->n) return;
+    memory_free(r->busy), memory_free(r->near);
+    r->nodes = g->n;
+    r->busy = NEW("rest.busy", g->n, uint8_t), r->near = NEW("rest.near", g->n, uint8_t);
+}
+
+/* The cells of `all` that are marked, in their order. */
+static void active_points_take(struct active_points *r, const struct transfer_order *all, const struct particles *p,
+                               const struct grid *g)
+{
+    struct transfer_order *a = &r->active;
+    transfer_order_room(a, all->n, all->blocks, all->cells);
+    memcpy(a->blocks_of, all->blocks_of, sizeof a->blocks_of);
+    a->blocks = all->blocks, a->cells = 0, a->n = 0;
+    for (int block = 0; block < all->blocks; block++) {
+        a->block_start[block] = (int32_t)a->n, a->block_cell[block] = a->cells;
+        for (int32_t c = all->block_cell[block]; c < all->block_cell[block + 1]; c++) {
+            const int32_t *list = all->particle + all->cell_start[c], n = all->cell_start[c + 1] - all->cell_start[c];
+            if (!r->busy[active_points_cell_of(g, p, list[0])]) continue;
+            a->cell_start[a->cells++] = (int32_t)a->n;
+            memcpy(a->particle + a->n, list, (size_t)n * sizeof *list);
+            a->n += n;
+        }
+    }
+    a->block_start[all->blocks] = (int32_t)a->n, a->block_cell[all->blocks] = a->cells;
+    a->cell_start[a->cells] = (int32_t)a->n;
+}
+
+const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *all,
+                                              const struct transfer_order *now, const struct particles *p,
+                                              const struct grid *grid, const struct bonds *b, const struct loads *l,
+                                              enum shape shape, enum transfer transfer)
+{
+    const int64_t reach = active_points_reach_of(grid, shape, transfer);
+    make_room(r, grid);
+    active_points_mark(r, now, p, grid, b, l, transfer == TRANSFER_APIC);
+    for (int d = 0; d < grid->dim; d++) {
+        uint8_t *from = r->busy;
+        widen(grid, from, r->near, d, reach);
+        r->busy = r->near, r->near = from;
+    }
+    active_points_take(r, all, p, grid);
+    r->over = r->active.n == all->n;
+    return r->over ? all : &r->active;
+}
+
+void active_points_free(struct active_points *r)
+{
+    transfer_order_free(&r->active);
+    memory_free(r->busy);
+    memory_free(r->near);
+    *r = (struct active_points){0};
+}

@@ -1,0 +1,114 @@
+/* The active set of row blocks: which row blocks of bonds are inactive, and which motion activates. */
+#include "active/active_rows.h"
+
+#include <string.h>
+
+/* What knows its family by places and tells it to its bonds is felt at two horizons. */
+static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
+
+static bool has_moved(const struct bonds *b, const struct particles *p, int64_t row_block)
+{
+    for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
+        for (int d = 0; d < p->dim; d++)
+            if (!bits_equal(p->x[d][b->particle[row]], p->X[d][b->particle[row]])) return true;
+    return false;
+}
+
+/* Neither places, velocities nor forces differ from nothing, and nothing but bonds will move its particles. */
+static bool active_set_is_inactive(const struct bonds *b, const struct particles *p, const struct loads *l,
+                                   int64_t row_block)
+{
+    for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
+        const int32_t i = b->particle[row];
+        if (is_loaded(l, i) || particle_on_grid(p, i)) return false;
+        for (int d = 0; d < p->dim; d++)
+            if (!bits_equal(p->v[d][i], 0) || p->f[d][i] != 0) return false;
+    }
+    return !has_moved(b, p, row_block);
+}
+
+/* Row block of the neighbour in a lane of a column; -1: none, or it has no row. Padding may point at any particle. */
+static int64_t row_block_of(const struct bonds *b, const struct particles *p, const struct loads *l,
+                            const struct column_copy *column, int lane)
+{
+    if (column->inverse_length[lane] == 0) return -1;
+    const int32_t row = b->row_of[image_root(p, l->image, column->nbr[lane])];
+    return row < 0 ? -1 : row / LANES;
+}
+
+/* Gives a row block a level, and its neighbours one less, recursively. */
+static void wake(struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block, int level)
+{
+    if (b->active.level[row_block] >= level) return;
+    b->active.level[row_block] = (uint8_t)level;
+    for (int64_t k = 0; k < b->column_count[row_block] && level > 1; k++) {
+        struct column_copy column;
+        column_read(&column, b, row_block, k);
+        for (int lane = 0; lane < LANES; lane++) {
+            const int64_t next = row_block_of(b, p, l, &column, lane);
+            if (next >= 0) wake(b, p, l, next, level - 1);
+        }
+    }
+}
+
+static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
+                       int level)
+{
+    for (int64_t k = 0; k < b->column_count[row_block]; k++) {
+        struct column_copy column;
+        column_read(&column, b, row_block, k);
+        for (int lane = 0; lane < LANES; lane++) {
+            const int64_t next = row_block_of(b, p, l, &column, lane);
+            if (next >= 0 && b->active.level[next] == level) return true;
+        }
+    }
+    return false;
+}
+
+/* Finds levels from scratch. Rows are made anew after every conversion, so row blocks that may be inactive are
+ * found, not those that are active. */
+static void settle(struct bonds *b, const struct particles *p, const struct loads *l)
+{
+    struct active_set *r = &b->active;
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < r->blocks; k++) r->level[k] = active_set_is_inactive(b, p, l, k) ? 0 : (uint8_t)most_of(b);
+    for (int level = most_of(b) - 1; level > 0; level--) {
+#pragma omp parallel for schedule(static)
+        for (int64_t k = 0; k < r->blocks; k++) r->moved[k] = r->level[k] == 0 && is_next_to(b, p, l, k, level + 1);
+        for (int64_t k = 0; k < r->blocks; k++)
+            if (r->moved[k]) r->level[k] = (uint8_t)level;
+    }
+    memset(r->moved, 0, (size_t)r->blocks);
+    r->is_current = true;
+}
+
+/* Only active row blocks that have not moved yet can have begun to move. */
+static void active_set_follow(struct bonds *b, const struct particles *p, const struct loads *l)
+{
+    struct active_set *r = &b->active;
+    const int most = most_of(b);
+    int64_t still = 0, moved = 0;
+    if (r->over) return;
+#pragma omp parallel for schedule(static) reduction(+ : still, moved)
+    for (int64_t k = 0; k < r->active; k++) {
+        if (r->level[r->list[k]] >= most) continue;
+        r->moved[r->list[k]] = has_moved(b, p, r->list[k]);
+        moved += r->moved[r->list[k]], still++;
+    }
+    r->over = still == 0 && !r->resumed;
+    if (moved == 0 && !r->resumed) return;
+    for (int64_t k = 0; k < r->active; k++)
+        if (r->moved[r->list[k]]) wake(b, p, l, r->list[k], most);
+    active_set_list(r);
+    r->resumed = false;
+}
+
+void active_rows_update(struct bonds *b, const struct particles *p, const struct loads *l)
+{
+    if (b->active.is_current) {
+        active_set_follow(b, p, l);
+        return;
+    }
+    settle(b, p, l);
+    active_set_list(&b->active);
+}

@@ -1,0 +1,233 @@
+/* Eight rows become a row block: which neighbours share a column, and what is stored of them. */
+#include <string.h>
+
+#include "bonds_parts.h"
+#include "base/memory.h"
+
+/* Are these the index distances of a row? */
+static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
+{
+    int32_t other = 0;
+    if (row->n != n) return false;
+    for (int k = 0; k < n; k++) other |= row->nbr[k] - particle - offset[k];
+    return other == 0;
+}
+
+/* Distinct index distances of the row block's bonds, ascending. */
+static int row_block_offsets(struct row_block_room *g, const int32_t *particle, int rows)
+{
+    int n = g->row[0].n;
+    for (int k = 0; k < n; k++) g->offset[k] = g->row[0].nbr[k] - particle[0];
+    for (int l = 1; l < rows; l++)
+        for (int k = 0, at = 0; k < g->row[l].n && (k > 0 || !offsets_are(g->offset, n, &g->row[l], particle[l]));
+             k++) {
+            int32_t offset = g->row[l].nbr[k] - particle[l];
+            while (at < n && g->offset[at] < offset) at++;
+            if (at < n && g->offset[at] == offset) continue;
+            memmove(g->offset + at + 1, g->offset + at, (size_t)(n - at) * sizeof *g->offset);
+            g->offset[at] = offset, n++;
+        }
+    return n;
+}
+
+/* Slots the row block needs; `by_offset` tells whether a column holds one index distance (a lattice) or the rows are
+ * simply packed (an irregular cloud, where distances differ and columns by distance would be mostly padding). */
+int row_block_columns(struct row_block_room *g, const int32_t *particle, int rows, bool *by_offset)
+{
+    int longest = 0;
+    for (int l = 0; l < rows; l++)
+        if (g->row[l].n > longest) longest = g->row[l].n;
+    int offsets = row_block_offsets(g, particle, rows);
+    *by_offset = columns_by_offset(offsets, longest);
+    return *by_offset ? offsets : longest;
+}
+
+static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t i, int32_t j)
+{
+    return p->material[i] * b->yield.materials + p->material[j];
+}
+
+static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plastic, int32_t pair)
+{
+    b->plastic_stretch[q] = plastic.stretch;
+    b->plastic_path[q] = plastic.path;
+    b->pair[q] = pair;
+}
+
+/* What is known of the rows of a row block. */
+static void row_block_note(struct bonds *b, const struct row_block_room *room, int64_t g, int rows)
+{
+    bool aligned = rows == LANES;
+    for (int l = 1; l < rows; l++) aligned = aligned && b->particle[g * LANES + l] == b->particle[g * LANES] + l;
+    b->aligned[g] = aligned;
+    for (int l = 0; l < rows; l++) {
+        int64_t r = g * LANES + l;
+        b->trigger[r] = room->row[l].trigger;
+        b->family_volume[r] = (float)room->row[l].family_volume;
+        b->broken_volume[r] = (float)room->row[l].cut_volume;
+    }
+    for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
+}
+
+/* Has row l bond number `used` at the index distance of column k? Packed rows take whatever comes next. */
+static bool row_has(const struct row_block_room *room, const int32_t *particle, int l, int used, bool by_offset, int k)
+{
+    const struct row *row = &room->row[l];
+    return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
+}
+
+void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int rows, bool by_offset,
+                    const struct particles *p)
+{
+    const int32_t *particle = b->particle + g * LANES;
+    int used[LANES] = {0}, columns = b->column_count[g];
+    for (int k = 0; k < columns; k++) {
+        struct column_copy *column = &room->column[k];
+        for (int l = 0; l < LANES; l++) {
+            const struct row *row = &room->row[l];
+            const int64_t other = by_offset ? particle[l] + (l < rows ? room->offset[k] : 0) : particle[l];
+            /* padding may point at any particle */
+            column->nbr[l] = other < 0 || other >= p->n_all ? particle[l] : (int32_t)other;
+            column->inverse_length[l] = column->w[l] = 0;
+            if (l >= rows || !row_has(room, particle, l, used[l], by_offset, k)) continue;
+            const int n = used[l]++;
+            column->nbr[l] = row->nbr[n], column->inverse_length[l] = row->inverse_length[n], column->w[l] = row->w[n];
+            if (b->plastic_stretch)
+                plastic_put(b, (b->column[g] + k) * LANES + l, row->plastic[n],
+                            pair_of(b, p, particle[l], row->nbr[n]));
+        }
+        bool consecutive = true;
+        for (int l = 1; l < LANES; l++) consecutive = consecutive && column->nbr[l] == column->nbr[0] + l;
+        column->first = consecutive ? column->nbr[0] : -1;
+    }
+    row_block_note(b, room, g, rows);
+    row_block_store(b, room, g, p);
+}
+
+/* What the columns in a row block's room would follow; false: they have something of their own. */
+static bool stencil_of(const struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p)
+{
+    const int columns = b->column_count[g];
+    room->stencil.columns = 0;
+    if (!b->aligned[g] || columns == 0 || b->plastic_stretch || b->changed[g]) return false;
+    for (int k = 0; k < columns; k++)
+        if (!stencil_add(&room->stencil, b, p, b->particle[g * LANES], &room->column[k])) return false;
+    return true;
+}
+
+void row_block_store(struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p)
+{
+    b->stencil[g] = stencil_of(b, room, g, p) ? stencil_find(b->stencils, &room->stencil, room->likely) : NULL;
+    b->implicit[g] = b->stencil[g] != NULL;
+    if (b->implicit[g]) room->likely = b->stencil[g];
+    for (int k = 0; k < b->column_count[g] && !b->implicit[g]; k++) column_write(b, b->column[g] + k, &room->column[k]);
+}
+
+/* Which of eight particles in a row are peridynamic: bit by bit. */
+static uint8_t peridynamic(const struct particles *p, int64_t i)
+{
+    unsigned bits = 0;
+    for (int l = 0; l < LANES; l++) bits |= (unsigned)(p->kind[i + l] == KIND_PD) << l;
+    return (uint8_t)bits;
+}
+
+bool row_block_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
+                   struct lattice_bonds *to)
+{
+    int bonds[LANES] = {0}, columns = 0, longest = 0;
+    if (!lattice_bonds(lattice, p, i, to)) return false;
+    for (int l = 0; l < LANES; l++)
+        if (cracks_near(s, p, i + l)) return false;
+    const uint8_t own = peridynamic(p, i);
+    if (own == UINT8_MAX && to->full) {
+        memset(to->bonds, UINT8_MAX, (size_t)to->n);
+        return columns_by_offset(to->n, to->n);
+    }
+    for (int k = 0; k < to->n; k++) {
+        const unsigned family = (2u << to->to[k]) - (1u << to->from[k]);
+        to->bonds[k] = (uint8_t)(family & (own == UINT8_MAX ? own : own | peridynamic(p, i + to->offset[k])));
+        for (int l = 0; l < LANES; l++) bonds[l] += to->bonds[k] >> l & 1;
+        columns += to->bonds[k] != 0;
+    }
+    for (int l = 0; l < LANES; l++) longest = bonds[l] > longest ? bonds[l] : longest;
+    return columns_by_offset(columns, longest);
+}
+
+int row_block_regular_columns(const struct lattice_bonds *bonds)
+{
+    int columns = 0;
+    for (int k = 0; k < bonds->n; k++) columns += bonds->bonds[k] != 0;
+    return columns;
+}
+
+int row_block_regular_bonds(const struct lattice_bonds *bonds)
+{
+    int sum = 0;
+    for (int k = 0; k < bonds->n; k++) sum += __builtin_popcount(bonds->bonds[k]);
+    return sum;
+}
+
+/* The column of bonds to the particles at one index distance; what bond can break at the least stretch goes to
+ * `trigger`. */
+static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds,
+                        real *trigger)
+{
+    const struct bond_source *s = m->source;
+    column->first = j;
+    lattice_weigh(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
+    for (int l = 0; l < LANES; l++) {
+        column->nbr[l] = j + l;
+        if (!(bonds >> l & 1)) column->inverse_length[l] = column->w[l] = 0;
+        else if (s->limit.materials > 1 || trigger[l] == INFINITY)
+            trigger[l] = real_min(trigger[l], row_trigger(s, m->p, i + l, j + l));
+    }
+}
+
+/* True if all eight particles have bonds to all particles within reach, as peridynamic particles have. */
+static bool whole_families(const struct lattice_bonds *bonds)
+{
+    unsigned without = 0;
+    for (int k = 0; k < bonds->n; k++) without |= bonds->bonds[k] ^ ((2u << bonds->to[k]) - (1u << bonds->from[k]));
+    return without == 0;
+}
+
+/* row_block_fill on a lattice. */
+void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m)
+{
+    const struct lattice_bonds *bonds = &room->regular;
+    const real *volume = m->p->volume0;
+    const int32_t i = b->particle[g * LANES];
+    real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
+    int columns = 0;
+    if (whole_families(bonds) && row_block_follow(b, g, stencil_cache_find_row(bonds, m->source->neighbour_volume, i)))
+        return;
+    for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
+    for (int k = 0; k < bonds->n; k++) {
+        const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
+        for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? volume[j + l] : 0;
+        if (bonds->bonds[k]) fill_column(&room->column[columns++], m, i, j, bonds->bonds[k], trigger);
+    }
+    for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
+    b->aligned[g] = true;
+    row_block_store(b, room, g, m->p);
+}
+
+/* Room for the worst case, of which little is ever touched: none of it is made zero. */
+void row_block_room_make(struct row_block_room *g, int room, const struct lattice *lattice)
+{
+    g->room = room;
+    for (int l = 0; l < LANES; l++) row_room_make(&g->row[l], room);
+    g->offset = BARE("bonds.offset", (int64_t)LANES * room + 1, int32_t);
+    lattice_bonds_make(&g->regular, lattice);
+    stencil_make(&g->stencil, LANES * room + 1);
+    g->column = BARE("bonds.slot_copy", (int64_t)LANES * room + 1, struct column_copy);
+}
+
+void row_block_room_free(struct row_block_room *g)
+{
+    for (int l = 0; l < LANES; l++) row_room_free(&g->row[l]);
+    memory_free(g->offset);
+    lattice_bonds_free(&g->regular);
+    stencil_free(&g->stencil);
+    memory_free(g->column);
+}

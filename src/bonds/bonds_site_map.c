@@ -1,0 +1,270 @@
+/* Rows of bonds of particles that stand on a lattice: a map of its sites tells the neighbours of eight
+ * consecutive particles at once, without a search, and their lengths and weights are worked out side by side. The
+ * same bits as row by row; what is not that regular (an end of a row, a crack nearby, images) is left to the search. */
+#include "bonds_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* No site's distance may be as near to the cutoff [spacings]: particles may be LATTICE_NEAR from their sites,
+ * round-off then decides nothing, and horizons of whole spacings (tolerance 1e-7) still pass. */
+#define BAND (4 * LATTICE_NEAR)
+enum { HALF_MOST = 16 };
+
+/* ---- the map of sites -------------------------------------------------------------------------------------------- */
+
+int64_t lattice_site_of(const struct lattice *l, const struct particles *p, int64_t i)
+{
+    int64_t site = 0;
+    for (int d = 0; d < p->dim; d++) {
+        real k;
+        if (!lattice_site(p->X[d][i], l->low[d], l->spacing, &k)) return -1;
+        site += l->stride[d] * (l->reach + (int64_t)k);
+    }
+    return site;
+}
+
+/* Box of all sites, with a margin that the stencil may look into. */
+static int64_t box_sites(struct lattice *l, const struct particles *p)
+{
+    real site_map = 1;
+    for (int d = 0; d < p->dim; d++) {
+        real high;
+        particles_extent(p, p->n_all, d, &l->low[d], &high);
+        l->stride[d] = (int64_t)site_map;
+        site_map *= nearbyint((high - l->low[d]) / l->spacing) + 1 + 2 * l->reach;
+        if (!(site_map <= 4.0 * (real)p->n_all + 4096)) return 0;
+    }
+    return (int64_t)site_map;
+}
+
+/* Rows of the lattice within the cutoff, ascending. False if round-off would decide membership. */
+static bool site_offsets_make(struct lattice *l, const struct family *f, int dim)
+{
+    const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
+    l->row = NEW("lattice.row", (2 * high + 1) * (2 * wide + 1), struct stencil_row);
+    for (int c = -high; c <= high; c++)
+        for (int b = -wide; b <= wide; b++) {
+            int half = -1;
+            for (int a = 0; a <= l->reach; a++) {
+                const real r = sqrt(square(a) + square(b) + square(c)), limit = f->cutoff / f->spacing;
+                if (fabs(r - limit) <= BAND) return false;
+                if (r < limit) half = a;
+            }
+            if (half < 0) continue;
+            l->row[l->rows++] = (struct stencil_row){b * l->stride[1] + c * l->stride[2], half};
+            l->most += 2 * half + 1;
+        }
+    return true;
+}
+
+/* Particles in the order of their sites, one each. */
+static bool sites_fill(struct lattice *l, const struct particles *p)
+{
+    bool regular = true;
+#pragma omp parallel for schedule(static) reduction(&& : regular)
+    for (int64_t i = 0; i < p->n; i++) {
+        const int64_t site = lattice_site_of(l, p, i);
+        regular = regular && site >= 0 && (i == 0 || lattice_site_of(l, p, i - 1) < site) && p->body[i] == p->body[0];
+        if (site >= 0) l->at[site] = (int32_t)i + 1;
+    }
+    for (int64_t k = p->n; k < p->n_all && regular; k++) {
+        const int64_t site = lattice_site_of(l, p, k);
+        regular = site >= 0 && l->at[site] == 0;
+        if (regular) l->at[site] = (int32_t)k + 1;
+    }
+    return regular;
+}
+
+/* Are the places along an axis, measured in its farthest one's unit of the last place, whole multiples of one step?
+ * Then neighbours are at exactly the same distances everywhere. */
+static bool axis_exact(const struct lattice *l, const struct particles *p, int d)
+{
+    real low, high;
+    particles_extent(p, p->n_all, d, &low, &high);
+    const real power = exp2(ceil(log2(real_max(fabs(low), fabs(high))))), unit = power * 0x1p-53,
+               site_map = nearbyint((high - low) / l->spacing);
+    if (site_map == 0) return low == high;
+    if (real_min(high - low, l->reach * l->spacing) > power) return false;   /* a difference would be rounded */
+    const int64_t from = (int64_t)(low / unit), step = ((int64_t)(high / unit) - from) / (int64_t)site_map;
+    bool exact = true;
+#pragma omp parallel for schedule(static) reduction(&& : exact)
+    for (int64_t i = 0; i < p->n_all; i++) {
+        const real place = p->X[d][i] / unit, k = nearbyint((p->X[d][i] - low) / l->spacing);
+        exact = exact && place == (real)(int64_t)place && (int64_t)place - from == (int64_t)k * step;
+    }
+    return exact;
+}
+
+static bool is_uniform(const struct lattice *l, const struct particles *p)
+{
+    bool same = true;
+#pragma omp parallel for schedule(static) reduction(&& : same)
+    for (int64_t i = 0; i < p->n_all; i++)
+        same = same && p->volume0[i] == p->volume0[0] && p->material[i] == p->material[0] &&
+               (i >= p->n || p->mass[i] == p->mass[0]);
+    for (int d = 0; d < p->dim && same; d++) same = axis_exact(l, p, d);
+    return same;
+}
+
+bool lattice_make(struct lattice *l, const struct bond_source *s, const struct particles *p)
+{
+    const struct family *f = &s->family;
+    *l = (struct lattice){.spacing = f->spacing, .reach = (int)floor(f->cutoff / f->spacing)};
+    if (p->n < LANES || l->reach > HALF_MOST || l->reach < 1 || s->yield.stretch) return false;
+    const int64_t site_map = box_sites(l, p);
+    if (site_map > 0 && site_offsets_make(l, f, p->dim)) {
+        l->at = NEW("lattice.at", site_map, int32_t);
+        if (sites_fill(l, p)) {
+            l->uniform = is_uniform(l, p);
+            return true;
+        }
+    }
+    lattice_free(l);
+    return false;
+}
+
+void lattice_free(struct lattice *l)
+{
+    memory_free(l->at);
+    memory_free(l->row);
+    *l = (struct lattice){0};
+}
+
+struct lattice *lattice_keep(struct lattice *of, const struct bond_source *s, const struct particles *p)
+{
+    struct lattice *l = of ? of : NEW("bonds.sites", 1, struct lattice);
+    if (!of) lattice_make(l, s, p);
+    l->users++;
+    return l;
+}
+
+void lattice_leave(struct lattice *l)
+{
+    if (!l || --l->users > 0) return;
+    lattice_free(l);
+    memory_free(l);
+}
+
+int lattice_family(const struct lattice *l, const struct particles *p, int32_t i, int32_t *found)
+{
+    const int32_t *own = l->at + lattice_site_of(l, p, i);
+    int n = 0;
+    for (int k = 0; k < l->rows; k++)
+        for (int a = -l->row[k].half; a <= l->row[k].half; a++) {
+            const int32_t j = own[l->row[k].site + a] - 1;
+            if (j < 0 || j == i) continue;
+            if (j >= p->n) return -1;
+            found[n++] = j;
+        }
+    return n;
+}
+
+/* ---- eight particles --------------------------------------------------------------------------------------------- */
+
+/* Bonds along one row of the lattice; false if what stands there is not consecutive. */
+static bool row_bonds(const struct lattice *l, const struct particles *p, int64_t site, const struct stencil_row *row,
+                      int64_t i, struct lattice_bonds *to)
+{
+    const int32_t *line = l->at + site + row->site - row->half;
+    int first = 0, last = 2 * row->half + LANES - 1;
+    while (first <= last && line[first] == 0) first++;
+    while (last > first && line[last] == 0) last--;
+    if (first > last) return true;
+    if (line[last] > p->n || line[last] - line[first] != last - first) return false;
+    const int64_t base = line[first] - 1 - first;
+    for (int k = 0; k <= 2 * row->half; k++) {
+        const int from = first - k > 0 ? first - k : 0, to_lane = last - k < LANES - 1 ? last - k : LANES - 1;
+        if (from > to_lane || (row->site == 0 && k == row->half)) continue;
+        if (base + k < 0 || base + k + LANES > p->n_all) return false;
+        to->offset[to->n] = (int32_t)(base + k - i);
+        to->from[to->n] = (uint8_t)from, to->to[to->n++] = (uint8_t)to_lane;
+    }
+    return true;
+}
+
+static bool is_full(const struct lattice_bonds *b)
+{
+    unsigned other = 0;
+    for (int k = 0; k < b->n; k++) other |= b->from[k] | (b->to[k] ^ (LANES - 1u));
+    return other == 0;
+}
+
+bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to)
+{
+    const int64_t site = lattice_site_of(l, p, i);
+    to->n = 0;
+    if (l->at[site + LANES - 1] - l->at[site] != LANES - 1) return false;
+    for (int k = 0; k < l->rows; k++)
+        if (!row_bonds(l, p, site, &l->row[k], i, to)) return false;
+    to->full = is_full(to);
+    if (to->full) return columns_by_offset(to->n, to->n);
+    int bonds[LANES] = {0}, longest = 0;
+    for (int k = 0; k < to->n; k++)
+        for (int lane = 0; lane < LANES; lane++) bonds[lane] += lane >= to->from[k] && lane <= to->to[k];
+    for (int lane = 0; lane < LANES; lane++) longest = bonds[lane] > longest ? bonds[lane] : longest;
+    return columns_by_offset(to->n, longest);
+}
+
+void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l)
+{
+    to->offset = NEW("lattice.offset", l->most, int32_t);
+    to->from = NEW("lattice.from", l->most, uint8_t);
+    to->to = NEW("lattice.to", l->most, uint8_t);
+    to->bonds = NEW("lattice.bonds", l->most, uint8_t);
+    to->stencil_cache = stencil_cache_make(l);
+}
+
+void lattice_bonds_free(struct lattice_bonds *to)
+{
+    memory_free(to->offset);
+    memory_free(to->from);
+    memory_free(to->to);
+    memory_free(to->bonds);
+    stencil_cache_free(to->stencil_cache);
+}
+
+/* 1/r and weight of the bonds from i + lane to j + lane, as row_weigh has them. */
+static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+                                int64_t i, int64_t j, real *inverse, real *w, const int dim)
+{
+    const struct family *f = &s->family;
+    const real *volume = p->volume0, *around = s->neighbour_volume;
+    real xi[DIM_MAX][LANES], r[LANES];
+    int same = 1;
+    for (int l = 0; l < LANES; l++) {
+        w[l] = f->shell_weight[0];
+        for (int d = 0; d < dim; d++) xi[d][l] = p->X[d][j + l] - p->X[d][i + l], same &= xi[d][l] == xi[d][0];
+    }
+    for (int l = 0; l < LANES; l++) {    /* on a lattice of exact places one root will do, and one weight */
+        real r2 = 0;
+        for (int d = 0; d < dim; d++) r2 += square(xi[d][l]);
+        r[l] = same && l > 0 ? r[0] : sqrt(r2);
+        inverse[l] = same && l > 0 ? inverse[0] : 1 / r[l];
+    }
+    for (int l = 0; l < LANES && !family_plain(f); l++) {
+        real one[DIM_MAX];
+        for (int d = 0; d < dim; d++) one[d] = xi[d][l];
+        w[l] = same && l > 0 ? w[0] : family_weight(f, one, r[l]);
+    }
+    for (int l = 0; l < LANES; l++) w[l] *= (volume[i + l] * volume[j + l]) / square(f->cell_volume);
+    if (pairs->materials == 1)
+        for (int l = 0; l < LANES; l++) w[l] *= pairs->ratio[0];
+    else
+        for (int l = 0; l < LANES; l++)
+            w[l] *= pairs->ratio[p->material[i + l] * pairs->materials + p->material[j + l]];
+    if (around)
+        for (int l = 0; l < LANES; l++) w[l] *= 2 * f->full / (around[i + l] + around[j + l]);
+}
+
+void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
+                   int64_t j, real *inverse, real *w)
+{
+    switch (p->dim) {
+    case 1: weigh(s, p, pairs, i, j, inverse, w, 1); break;
+    case 2: weigh(s, p, pairs, i, j, inverse, w, 2); break;
+    default: weigh(s, p, pairs, i, j, inverse, w, 3); break;
+    }
+}

@@ -1,0 +1,85 @@
+/* On a uniform lattice most row blocks of eight have the same surroundings as one shortly before them, and
+ * what has been worked out for that one holds for them to the last bit. */
+#include <string.h>
+
+#include "bonds_parts.h"
+#include "base/memory.h"
+
+enum { REMEMBERED = 32 };                /* kinds of row blocks in some rows of a block: inside, and at its ends */
+
+struct stencil_cache {
+    const struct lattice *lattice;
+    int n, next, last;                   /* remembered; the oldest; the one found last */
+    struct cached { int64_t i; struct lattice_bonds bonds; } cached[REMEMBERED];
+};
+
+struct stencil_cache *stencil_cache_make(const struct lattice *l)
+{
+    struct stencil_cache *t = NEW("bonds.twins", 1, struct stencil_cache);
+    t->lattice = l;
+    return t;
+}
+
+void stencil_cache_free(struct stencil_cache *t)
+{
+    for (int k = 0; t && k < t->n; k++) {
+        memory_free(t->cached[k].bonds.offset);
+        memory_free(t->cached[k].bonds.from);
+        memory_free(t->cached[k].bonds.to);
+    }
+    memory_free(t);
+}
+
+static bool same_sites(const struct lattice_bonds *a, const struct lattice_bonds *b)
+{
+    const size_t n = (size_t)a->n;
+    return a->n == b->n && memcmp(a->offset, b->offset, n * sizeof *a->offset) == 0 &&
+           memcmp(a->from, b->from, n) == 0 && memcmp(a->to, b->to, n) == 0;
+}
+
+/* Are the entries of all neighbours of i .. i + 7 those of the neighbours of j .. j + 7? Index distances come in
+ * runs. */
+static bool same_around(const real *around, const struct lattice_bonds *b, int64_t i, int64_t j)
+{
+    if (memcmp(around + i, around + j, LANES * sizeof *around) != 0) return false;
+    for (int k = 0, run; k < b->n; k += run) {
+        const int64_t offset = b->offset[k];
+        for (run = 1; k + run < b->n && b->offset[k + run] == offset + run;) run++;
+        if (memcmp(around + i + offset, around + j + offset, (size_t)(run + LANES - 1) * sizeof *around) != 0)
+            return false;
+    }
+    return true;
+}
+
+static void remember(struct stencil_cache *t, const struct lattice_bonds *b, int64_t i)
+{
+    struct cached *to = &t->cached[t->next];
+    if (t->n <= t->next) {
+        t->n++;
+        to->bonds.offset = NEW("bonds.twins", t->lattice->most, int32_t);
+        to->bonds.from = NEW("bonds.twins", t->lattice->most, uint8_t);
+        to->bonds.to = NEW("bonds.twins", t->lattice->most, uint8_t);
+    }
+    to->i = i, to->bonds.n = b->n;
+    memcpy(to->bonds.offset, b->offset, (size_t)b->n * sizeof *b->offset);
+    memcpy(to->bonds.from, b->from, (size_t)b->n);
+    memcpy(to->bonds.to, b->to, (size_t)b->n);
+    t->last = t->next;
+    t->next = (t->next + 1) % REMEMBERED;
+}
+
+int64_t stencil_cache_find_row(const struct lattice_bonds *b, const real *around, int64_t i)
+{
+    struct stencil_cache *t = b->stencil_cache;
+    if (!t->lattice->uniform) return -1;
+    for (int k = 0; k < t->n; k++) {
+        const int at = (t->last + k) % t->n;
+        const struct cached *other = &t->cached[at];
+        if (!same_sites(&other->bonds, b)) continue;
+        if (around && !same_around(around, b, i, other->i)) continue;
+        t->last = at;
+        return other->i;
+    }
+    remember(t, b, i);
+    return -1;
+}

@@ -1,0 +1,196 @@
+/* Row blocks that have the same bonds as others read one list of columns, their stencil. */
+#include <string.h>
+
+#include "bonds_parts.h"
+#include "base/memory.h"
+
+enum { PATTERNS_MOST = 2048, HASHES = 4096 };
+
+struct stencils {
+    int n, users;                        /* users: rows and rows made anew from them */
+    struct stencil stencil[PATTERNS_MOST];
+    int32_t first[HASHES];               /* of a hash, + 1; 0: none */
+};
+
+struct stencils *stencils_make(struct stencils *of)
+{
+    struct stencils *p = of ? of : NEW("bonds.patterns", 1, struct stencils);
+    p->users++;
+    return p;
+}
+
+void stencils_free(struct stencils *p)
+{
+    if (!p || --p->users > 0) return;
+    for (int k = 0; k < p->n; k++) memory_free(p->stencil[k].column), memory_free(p->stencil[k].w);
+    memory_free(p);
+}
+
+void stencil_make(struct stencil *p, int columns)
+{
+    *p = (struct stencil){0};
+    p->column = BARE("bonds.pattern_slot", columns, struct stencil_column);
+    p->w = (real (*)[LANES])BARE("bonds.pattern_w", (int64_t)columns * LANES, real);
+}
+
+void stencil_free(struct stencil *p)
+{
+    memory_free(p->column);
+    memory_free(p->w);
+}
+
+/* ---- what a row block would follow ------------------------------------------------------------------------------- */
+
+/* Do all bonds of a column have the same components to the last bit? Then they are stored. */
+static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct stencil_column *to)
+{
+    int one = 0, same = 1;
+    while (!(to->intact & (1 << one))) one++;
+    for (int d = 0; d < p->dim; d++) {
+        const real *X = p->X[d];
+        to->xi[d] = X[j + one] - X[i + one];
+        for (int l = 0; l < LANES; l++) same &= !(to->intact & (1 << l)) | (X[j + l] - X[i + l] == to->xi[d]);
+    }
+    return same;
+}
+
+bool stencil_add(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
+                 const struct column_copy *from)
+{
+    struct stencil_column *column = &to->column[to->columns];
+    const real *inverse = from->inverse_length, *w = from->w;
+    int16_t excess[LANES];
+    int alone = from->first < 0, alike = 1, bonds = 0;
+    *column = (struct stencil_column){.offset = (int32_t)(from->first - i),
+                                      .lattice = (uint8_t)lattice_length(b, inverse, excess)};
+    for (int l = 0; l < LANES; l++) {
+        to->w[to->columns][l] = w[l];
+        alone |= (w[l] == 0) != (inverse[l] == 0);       /* cut or broken */
+        if (w[l] == 0) continue;
+        alone |= bonds > 0 && inverse[l] != column->inverse_length;
+        alike &= bonds == 0 || w[l] == column->w;
+        column->inverse_length = inverse[l], column->w = w[l], column->intact |= (uint8_t)(1 << l), bonds++;
+    }
+    if (alone || bonds == 0 || column->lattice == 0 || !reference_of(p, i, from->first, column)) return false;
+    const struct bond_length *length = &b->lattice[column->lattice];
+    column->length = 1 / column->inverse_length;
+    column->weighted = column->w * length->length, column->squared = column->w * length->square;
+    for (int d = 0; d < p->dim; d++) column->w_xi[d] = column->w * column->xi[d];
+    to->whole = (to->columns == 0 || to->whole) && alike && bonds == LANES;
+    to->unit = to->whole && (to->columns == 0 || to->unit) && column->w == 1;
+    to->columns++;
+    return true;
+}
+
+/* ---- all stencils ------------------------------------------------------------------------------------------------ */
+
+static bool stencils_equal(const struct stencil *a, const struct stencil *b)
+{
+    return a->columns == b->columns && memcmp(a->column, b->column, (size_t)a->columns * sizeof *a->column) == 0 &&
+           memcmp(a->w, b->w, (size_t)a->columns * sizeof *a->w) == 0;
+}
+
+/* The hash of Fowler, Noll and Vo over words, of what distinguishes most stencils: neighbours and weights. */
+static int hash_of(const struct stencil *p)
+{
+    const uint64_t prime = UINT64_C(0x100000001b3);
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (int k = 0; k < p->columns; k++) {
+        const struct stencil_column *column = &p->column[k];
+        uint64_t weight;
+        memcpy(&weight, &column->w, sizeof weight);
+        hash = (hash ^ ((uint64_t)(uint32_t)column->offset << LANES | column->intact)) * prime;
+        hash = (hash ^ weight) * prime;
+    }
+    return (int)((hash ^ hash >> 32) % HASHES);
+}
+
+static const struct stencil *stencil_store(struct stencils *all, const struct stencil *stencil)
+{
+    const int hash = hash_of(stencil);
+    for (int32_t k = all->first[hash] - 1; k >= 0; k = all->stencil[k].next)
+        if (stencils_equal(&all->stencil[k], stencil)) return &all->stencil[k];
+    if (all->n == PATTERNS_MOST) return NULL;
+    struct stencil *stored = &all->stencil[all->n];
+    stencil_make(stored, stencil->columns);
+    memcpy(stored->column, stencil->column, (size_t)stencil->columns * sizeof *stored->column);
+    memcpy(stored->w, stencil->w, (size_t)stencil->columns * sizeof *stored->w);
+    stored->columns = stencil->columns, stored->whole = stencil->whole, stored->unit = stencil->unit;
+    stored->next = all->first[hash] - 1;
+    all->first[hash] = ++all->n;
+    return stored;
+}
+
+const struct stencil *stencil_find(struct stencils *all, const struct stencil *stencil, const struct stencil *likely)
+{
+    const struct stencil *known;
+    if (likely && stencils_equal(likely, stencil)) return likely;
+#pragma omp critical(bonds_stencils)
+    known = stencil_store(all, stencil);
+    return known;
+}
+
+bool row_block_follow(struct bonds *b, int64_t g, int64_t cached)
+{
+    const int64_t from = cached >= 0 ? b->row_of[cached] / LANES : g;
+    if (!b->stencil[from]) return false;
+    b->stencil[g] = b->stencil[from];
+    b->implicit[g] = b->aligned[g] = true;
+    memcpy(b->trigger + g * LANES, b->trigger + from * LANES, LANES * sizeof *b->trigger);
+    memcpy(b->family_volume + g * LANES, b->family_volume + from * LANES, LANES * sizeof *b->family_volume);
+    return true;
+}
+
+/* ---- bond by bond ------------------------------------------------------------------------------------------------ */
+
+void column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k)
+{
+    const int64_t column = b->column[row_block] + k;
+    if (!__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) {
+        to->first = b->first[column];
+        memcpy(to->nbr, b->nbr + column * LANES, sizeof to->nbr);
+        memcpy(to->inverse_length, b->inverse_length + column * LANES, sizeof to->inverse_length);
+        memcpy(to->w, b->w + column * LANES, sizeof to->w);
+        return;
+    }
+    const struct stencil_column *of = &b->stencil[row_block]->column[k];
+    to->first = b->particle[row_block * LANES] + of->offset;
+    memcpy(to->w, b->stencil[row_block]->w[k], sizeof to->w);
+    for (int l = 0; l < LANES; l++)
+        to->nbr[l] = to->first + l, to->inverse_length[l] = to->w[l] == 0 ? 0 : of->inverse_length;
+}
+
+void column_write(const struct bonds *b, int64_t column, const struct column_copy *from)
+{
+    b->first[column] = from->first;
+    memcpy(b->nbr + column * LANES, from->nbr, sizeof from->nbr);
+    memcpy(b->inverse_length + column * LANES, from->inverse_length, sizeof from->inverse_length);
+    memcpy(b->w + column * LANES, from->w, sizeof from->w);
+    bonds_share(b, column);
+}
+
+static void expand(struct bonds *b, int64_t row_block)
+{
+    struct column_copy copy;
+    for (int64_t column = b->column[row_block]; column < b->column[row_block] + b->column_count[row_block]; column++) {
+        column_read(&copy, b, row_block, column - b->column[row_block]);
+        column_write(b, column, &copy);
+    }
+}
+
+void row_block_expand(struct bonds *b, int64_t row_block)
+{
+#pragma omp critical(bonds_unfold)
+    if (b->implicit[row_block]) {
+        expand(b, row_block);
+        __atomic_store_n(&b->implicit[row_block], 0, __ATOMIC_RELEASE);
+    }
+}
+
+void bonds_changed(struct bonds *b, int64_t row, int64_t q)
+{
+    b->stencil[row / LANES] = NULL;
+    b->changed[row / LANES] = 1;
+    bonds_share(b, q / LANES);
+    __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);     /* rows break their bonds side by side */
+}

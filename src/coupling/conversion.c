@@ -1,0 +1,201 @@
+/* Conversion of material points to peridynamic particles (Zeng et al. 2022, eqs. 28, 31, 32). */
+#include "src/bonds/bonds_parts.h"
+#include "coupling/conversion.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* A growing list of particle indices. */
+struct index_list { int32_t *at; int64_t n, room; };
+
+static void list_add(struct index_list *l, int64_t i)
+{
+    if (l->n == l->room) {
+        int64_t room = l->room ? 2 * l->room : 256;
+        l->at = memory_resize("convert.list", l->at, l->room, room, sizeof *l->at);
+        l->room = room;
+    }
+    l->at[l->n++] = (int32_t)i;
+}
+
+/* Particles and images within the cutoff of particle i. */
+static void family_find(struct near *near, const struct bond_source *s, const struct particles *p, int64_t i)
+{
+    near_find(near, s->cells, p, i, s->family.cutoff, false);
+}
+
+/* ---- before the first step --------------------------------------------------------------------------------------- */
+
+static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const struct near *near)
+{
+    for (int k = 0; k < near->n; k++)
+        if (p->body[near->at[k]] == p->body[i] && cracks_part(s->crack, s->cracks, p, i, near->at[k])) return true;
+    return false;
+}
+
+void convert_start(struct particles *p, const struct bond_source *source, const struct region *region)
+{
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) {
+            real X[DIM_MAX];
+            particle_place(p, i, X);
+            if (region && region_contains(region, X, p->dim, ON_SURFACE * source->family.spacing)) p->kind[i] = KIND_PD;
+            if (!cracks_near(source, p, i)) continue;
+            family_find(&near, source, p, i);
+            if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;
+        }
+        memory_free(near.at);
+    }
+    bonds_images_follow(p, source);
+    particles_list(p);
+}
+
+/* ---- one pass ---------------------------------------------------------------------------------------------------- */
+
+static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
+{
+    /* a material point that lost a bond is peridynamic whatever the criteria say: damage lives in bonds only */
+    unsigned wanted = FLAG_CUT | (rule->criteria & CONVERT_ON_STRESS ? FLAG_STRESSED : 0u);
+    return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
+}
+
+/* Eight particles at a time: behind the body lie images, which never have this flag. */
+bool convert_due(const struct particles *p)
+{
+    uint64_t any = 0;
+#pragma omp parallel for simd schedule(static) reduction(| : any)
+    for (int64_t i = 0; i < p->n; i += LANES) any |= eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_CUT | FLAG_STRESSED);
+    return any != 0;
+}
+
+/* Does a bond of particle i, intact or not, end at a material point? */
+static bool conversion_meets_points(const struct bonds *b, const struct particles *p, int64_t i)
+{
+    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
+        if (p->kind[it.bond.nbr] == KIND_MPM) return true;
+    return false;
+}
+
+/* Particles whose bonds to material points grow stiffer as others break (normalisation local): partial stress is to
+ * follow. */
+static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
+                           const struct bonds *b)
+{
+    if (!s->modulus || !s->local) return;
+    for (int64_t first = 0; first < p->n; first += LANES) {
+        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_CUT))) continue;
+        for (int64_t i = first; i < first + LANES && i < p->n; i++)
+            if (p->kind[i] == KIND_PD && p->flag[i] & FLAG_CUT && conversion_meets_points(b, p, i)) list_add(l, i);
+    }
+}
+
+static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)
+{
+    if (p->kind[i] != KIND_MPM) return;
+    p->kind[i] = KIND_PD;
+    if (p->low_since) p->low_since[i] = INFINITY;
+    list_add(changed, i);
+}
+
+/* Converts what triggers, and its block; lists the converted. */
+static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
+                           const struct bond_source *source, struct index_list *changed, real t)
+{
+    struct index_list triggered = {0};
+    struct near near = {0};
+    for (int64_t first = 0; first < p->n; first += LANES) {
+        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_CUT | FLAG_CRACKED | FLAG_STRESSED))) continue;
+        for (int64_t i = first; i < first + LANES && i < p->n; i++) {
+            if (triggers(rule, p, i)) list_add(&triggered, i);
+            p->flag[i] &= (uint8_t)~(FLAG_CUT | FLAG_CRACKED | FLAG_STRESSED);
+        }
+    }
+    for (int64_t k = 0; k < triggered.n; k++) {
+        int64_t i = triggered.at[k];
+        if (isnan(c->first_time)) {
+            c->first_time = t;
+            for (int d = 0; d < p->dim; d++) c->first_place[d] = p->X[d][i];
+        }
+        become_peridynamic(p, changed, i);
+        if (!rule->block) continue;
+        family_find(&near, source, p, i);
+        for (int m = 0; m < near.n; m++) {
+            const int64_t j = image_root(p, source->image, near.at[m]);
+            if (p->body[j] == p->body[i]) become_peridynamic(p, changed, j);
+        }
+    }
+    memory_free(triggered.at);
+    memory_free(near.at);
+}
+
+static void list_once(struct index_list *l, struct particles *p, int64_t i)
+{
+    if (p->flag[i] & FLAG_LISTED) return;
+    p->flag[i] |= FLAG_LISTED;
+    list_add(l, i);
+}
+
+/* Lists all particles within the horizon of those just converted, changed[had] and on, to which bonds are made next.
+ * Each is listed once: threads that share the list write different particles. */
+static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
+                    const struct index_list *changed, int64_t had)
+{
+    struct index_list exposed = {0};
+    struct near near = {0};
+    if (!sync) return;
+    for (int64_t k = had; k < changed->n; k++) {
+        family_find(&near, source, p, changed->at[k]);
+        list_once(&exposed, p, changed->at[k]);
+        for (int m = 0; m < near.n; m++) list_once(&exposed, p, image_root(p, source->image, near.at[m]));
+    }
+    for (int64_t k = 0; k < exposed.n; k++) p->flag[exposed.at[k]] &= (uint8_t)~FLAG_LISTED;
+    if (exposed.n > 0) sync->sync(sync->context, exposed.at, exposed.n);
+    memory_free(near.at);
+    memory_free(exposed.at);
+}
+
+/* Bonds made past their limit break at once. */
+static int64_t conversion_rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
+{
+    bonds_renew(b, p, source);
+    if (bond_break_asks(b, p, &source->limit)) states_precompute(b, p, source);
+    return bond_break_all(b, p, &source->limit);
+}
+
+int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
+                const struct bond_source *source, struct partial_stress *partial,
+                const struct conversion_sync *sync, real t)
+{
+    if (!convert_due(p)) return 0;
+    struct index_list changed = {0}, touched = {0};
+    int64_t had;
+    do {                                 /* a bond that breaks when made takes its other end along, in the same step */
+        had = changed.n;
+        list_stiffened(&touched, source, p, b);
+        convert_marked(c, rule, p, source, &changed, t);
+        sync_near(sync, p, source, &changed, had);
+    } while (changed.n > had && conversion_rebuild(p, b, source) > 0);
+    for (int64_t k = 0; k < changed.n; k++) list_add(&touched, changed.at[k]);
+    if (partial && touched.n > 0) partial_stress_make(partial, p, b, source, touched.at, touched.n);
+    if (changed.n > 0) {
+        c->converted += changed.n;
+        c->events++;
+        if (b->n > c->peak_bonds) c->peak_bonds = b->n;
+        if (p->n_of[KIND_PD] > c->peak) c->peak = p->n_of[KIND_PD];
+    }
+    int64_t converted = changed.n;
+    memory_free(changed.at);
+    memory_free(touched.at);
+    return converted;
+}
+
+status conversion_archive(struct conversion *c, struct archive *a)
+{
+    ARCHIVE_VALUE(a, "conversion", *c);
+    return OK;
+}

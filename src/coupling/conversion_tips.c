@@ -1,0 +1,43 @@
+/* What is peridynamic from the start round the ends of pre-cracks. A crack starts there, and what has
+ * carried the load as bonds from the first step on breaks when full peridynamics does; what converts under load
+ * breaks later at a tip, and sooner at a free surface. */
+#include <string.h>
+
+#include "coupling/conversion.h"
+#include "base/memory.h"
+
+static void region_add(struct region *r, const struct solid *s)
+{
+    r->solid = memory_resize("convert.region", r->solid, r->n, r->n + 1, sizeof *s);
+    r->solid[r->n++] = *s;
+}
+
+/* Is a particle that near? An end outside the body is the mouth of a notch. */
+static bool in_body(const struct particles *p, const struct bond_source *s, const real *X)
+{
+    return cells_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
+}
+
+/* A ball round an end; in space a cylinder round an edge, from one corner to the next. */
+static void conversion_tip_add(struct region *r, const struct particles *p, const struct bond_source *s,
+                               const struct crack *c, int k, real radius)
+{
+    const int next = (k + 1) % c->n;
+    struct solid solid = {.kind = p->dim == 3 ? SOLID_CYLINDER : SOLID_BALL, .radius = radius};
+    real middle[DIM_MAX] = {0};
+    for (int d = 0; d < p->dim; d++) {
+        solid.centre[d] = solid.from[d] = c->corner[k][d];
+        solid.to[d] = c->corner[next][d];
+        middle[d] = p->dim == 3 ? 0.5 * (solid.from[d] + solid.to[d]) : solid.centre[d];
+    }
+    if (in_body(p, s, middle)) region_add(r, &solid);
+}
+
+void convert_region(struct region *to, const struct region *given, const struct particles *p,
+                    const struct bond_source *source, real radius)
+{
+    memset(to, 0, sizeof *to);
+    for (int k = 0; given && k < given->n; k++) region_add(to, &given->solid[k]);
+    for (int c = 0; c < source->cracks && radius > 0; c++)
+        for (int k = 0; k < source->crack[c].n; k++) conversion_tip_add(to, p, source, &source->crack[c], k, radius);
+}

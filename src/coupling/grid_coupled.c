@@ -1,0 +1,83 @@
+/* Which peridynamic particles the grid moves. */
+#include "coupling/grid_coupled.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Index of the grid cell of particle i by its lowest node, -1 outside the box. */
+static int64_t grid_coupled_cell_of(const struct particles *p, const struct grid *g, int64_t i, int64_t *k)
+{
+    int64_t cell = 0;
+    for (int d = 0; d < g->dim; d++) {
+        k[d] = (int64_t)floor((p->x[d][i] - g->anchor[d]) / g->h) - g->first[d];
+        if (k[d] < 0 || k[d] >= g->count[d]) return -1;
+        cell += k[d] * g->stride[d];
+    }
+    return cell;
+}
+
+static void mark_occupied(struct grid_coupled *c, const struct particles *p, const struct grid *g)
+{
+    int64_t k[DIM_MAX];
+    if (c->cells_room < g->n) {
+        c->occupied = memory_resize("carry.occupied", c->occupied, c->cells_room, g->n, sizeof *c->occupied);
+        c->cells_room = g->n;
+    }
+    memset(c->occupied, 0, (size_t)g->n);
+    for (int64_t m = 0; m < p->n_of[KIND_MPM]; m++) {
+        int64_t cell = grid_coupled_cell_of(p, g, p->list[KIND_MPM][m], k);
+        if (cell >= 0) c->occupied[cell] = 1;
+    }
+}
+
+/* Does the cell at k, or one that shares a node with it, hold a material point? */
+static bool grid_coupled_meets_points(const struct grid_coupled *c, const struct grid *g, const int64_t *k)
+{
+    int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, stride[DIM_MAX] = {0};
+    for (int d = 0; d < g->dim; d++) {
+        low[d] = k[d] > 0 ? k[d] - 1 : 0;
+        high[d] = k[d] + 1 < g->count[d] ? k[d] + 1 : g->count[d] - 1;
+        stride[d] = g->stride[d];
+    }
+    for (int64_t a = low[2]; a <= high[2]; a++)
+        for (int64_t b = low[1]; b <= high[1]; b++)
+            for (int64_t m = low[0]; m <= high[0]; m++)
+                if (c->occupied[m * stride[0] + b * stride[1] + a * stride[2]]) return true;
+    return false;
+}
+
+void grid_coupled_none(struct grid_coupled *c, struct particles *p)
+{
+    for (int64_t k = 0; k < c->n; k++) p->flag[c->list[k]] &= (uint8_t)~FLAG_CARRIED;
+    c->n = p->n_grid_coupled = 0;
+}
+
+void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g)
+{
+    const bool unified = coupling_unified(coupling);
+    int64_t k[DIM_MAX] = {0};
+    if (c->room < p->n) {
+        c->list = memory_resize("carry.list", c->list, c->room, p->n, sizeof *c->list);
+        c->room = p->n;
+    }
+    c->n = 0;
+    if (!unified) mark_occupied(c, p, g);
+    for (int64_t m = 0; m < p->n_of[KIND_PD]; m++) {
+        int32_t i = p->list[KIND_PD][m];
+        bool on = unified || (grid_coupled_cell_of(p, g, i, k) >= 0 && grid_coupled_meets_points(c, g, k));
+        p->flag[i] = (uint8_t)(on ? p->flag[i] | FLAG_CARRIED : p->flag[i] & ~FLAG_CARRIED);
+        if (on) c->list[c->n++] = i;
+    }
+    p->n_grid_coupled = c->n;
+    transfer_order_sort(&c->order, p, c->list, c->n, g);
+}
+
+void grid_coupled_free(struct grid_coupled *c)
+{
+    transfer_order_free(&c->order);
+    memory_free(c->list);
+    memory_free(c->occupied);
+    memset(c, 0, sizeof *c);
+}

@@ -1,0 +1,210 @@
+/* The interface zone of the material points and its damping. Few particles; owner computes throughout. */
+#include "coupling/interface_zone.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#define NEIGHBOUR_SPACINGS 1.5           /* nearest along axes and face diagonals */
+
+enum mark { OUTSIDE, BESIDE, POINT }; /* what a particle is: nothing of it, next to it, a point of the interface zone */
+
+/* ---- neighbours -------------------------------------------------------------------------------------------------- */
+
+/* Can a particle be moved by the interface zone? */
+static bool interface_zone_is_free(const struct particles *p, int32_t j)
+{
+    return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
+}
+
+/* Marks free particles of their body within `radius` of those listed, points alone or all, that have no mark.
+ * Threads that find the same write the same. */
+static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
+                      int64_t n, real radius, enum mark as)
+{
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(dynamic, 64)
+        for (int64_t k = 0; k < n; k++) {
+            near_find_any(&near, s->cells, p, list[k], radius, false);
+            for (int q = 0; q < near.n; q++) {
+                const int32_t j = near.at[q];
+                if (!interface_zone_is_free(p, j) || p->body[j] != p->body[list[k]] ||
+                    (as == POINT && p->kind[j] != KIND_MPM))
+                    continue;
+                uint8_t *own = mark + j;
+                if (__atomic_load_n(own, __ATOMIC_RELAXED) == OUTSIDE)
+                    __atomic_store_n(own, (uint8_t)as, __ATOMIC_RELAXED);
+            }
+        }
+        memory_free(near.at);
+    }
+}
+
+/* ---- making ------------------------------------------------------------------------------------------------------ */
+
+/* Those with this mark become members. */
+static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *place, int64_t n, enum mark as)
+{
+    for (int64_t i = 0; i < n; i++)
+        if (mark[i] == as) place[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
+}
+
+/* The points of the interface zone first, then their other neighbours. */
+static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
+                         uint8_t *mark, int32_t *place)
+{
+    const real spacing = s->family.spacing;
+    mark_near(mark, p, s, p->list[KIND_PD], p->n_of[KIND_PD], s->family.cutoff + spacing * (1 + 1e-9), POINT);
+    members_add(r, mark, place, p->n, POINT);
+    r->points = r->n;
+    mark_near(mark, p, s, r->particle, r->points, NEIGHBOUR_SPACINGS * spacing, BESIDE);
+    members_add(r, mark, place, p->n, BESIDE);
+}
+
+/* Neighbours of member k in pairs of which one at least is a point of the interface zone, ascending; `to` NULL: only
+ * how many. */
+static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
+                        const uint8_t *mark, const int32_t *place, int64_t k, struct near *near, int32_t *to)
+{
+    const int32_t i = r->particle[k];
+    int64_t n = 0;
+    near_find(near, s->cells, p, i, NEIGHBOUR_SPACINGS * s->family.spacing, false);
+    for (int q = 0; q < near->n; q++) {
+        const int32_t j = near->at[q];
+        if (j >= p->n || p->body[j] != p->body[i] || mark[j] == OUTSIDE || (mark[i] != POINT && mark[j] != POINT))
+            continue;
+        if (cracks_part(s->crack, s->cracks, p, i, j)) continue;
+        if (to) to[n] = place[j];
+        n++;
+    }
+    return n;
+}
+
+/* Counts the pairs of each member, or writes them; returns the most that one has. */
+static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
+                          const uint8_t *mark, const int32_t *place, bool count)
+{
+    int64_t most = 1;
+#pragma omp parallel reduction(max : most)
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < r->n; k++) {
+            const int64_t n = pairs_of(r, p, s, mark, place, k, &near, count ? NULL : r->neighbour + r->start[k]);
+            if (count) r->start[k + 1] = n;
+            if (n > most) most = n;
+        }
+        memory_free(near.at);
+    }
+    return most;
+}
+
+static void interface_zone_pairs_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
+                                      const uint8_t *mark, const int32_t *place)
+{
+    const int64_t most = pairs_pass(r, p, s, mark, place, true);
+    for (int64_t k = 0; k < r->n; k++) r->start[k + 1] += r->start[k];
+    r->neighbour = NEW("rim.neighbour", r->start[r->n], int32_t);
+    pairs_pass(r, p, s, mark, place, false);
+    r->scale = 4 / ((real)most * (1 + 1.0 / p->dim));    /* the sum of e e of n neighbours has a norm of about n/dim */
+}
+
+void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source)
+{
+    interface_zone_free(r);
+    uint8_t *mark = NEW("rim.mark", p->n, uint8_t);
+    int32_t *place = BARE("rim.place", p->n, int32_t);   /* of marked particles */
+    r->particle = NEW("rim.particle", p->n, int32_t);
+    members_make(r, p, source, mark, place);
+    r->particle = memory_resize("rim.particle", r->particle, p->n, r->n, sizeof *r->particle);
+    r->start = NEW("rim.start", r->n + 1, int64_t);
+    interface_zone_pairs_make(r, p, source, mark, place);
+    r->difference = NEW("rim.difference", r->n * p->dim, real);
+    r->change = NEW("rim.change", r->n * p->dim, real);
+    memory_free(mark);
+    memory_free(place);
+}
+
+void interface_zone_free(struct interface_zone *r)
+{
+    memory_free(r->particle);
+    memory_free(r->start);
+    memory_free(r->neighbour);
+    memory_free(r->difference);
+    memory_free(r->change);
+    memset(r, 0, sizeof *r);
+}
+
+/* ---- a step ------------------------------------------------------------------------------------------------------ */
+
+/* Adds factor ((b - a) . e) e, e along the line between particles i and j. */
+static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor,
+                      real *sum)
+{
+    real y[DIM_MAX], length2 = 0, along = 0;
+    for (int d = 0; d < p->dim; d++) {
+        y[d] = p->x[d][j] - p->x[d][i];
+        length2 += square(y[d]);
+        along += (b[d] - a[d]) * y[d];
+    }
+    for (int d = 0; d < p->dim; d++) sum[d] += factor * along / length2 * y[d];
+}
+
+static void velocity_of(const struct particles *p, int32_t i, real *v)
+{
+    for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
+}
+
+/* m d of a point: how much its velocity differs from its neighbours', along the lines to them. */
+static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
+{
+    const int32_t i = r->particle[k];
+    real own[DIM_MAX], other[DIM_MAX], sum[DIM_MAX] = {0};
+    velocity_of(p, i, own);
+    for (int64_t q = r->start[k]; q < r->start[k + 1]; q++) {
+        const int32_t j = r->particle[r->neighbour[q]];
+        velocity_of(p, j, other);
+        add_along(p, i, j, own, other, r->scale, sum);
+    }
+    for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
+}
+
+/* What a member gives to each neighbour it takes: the pair's terms are each other's negative to the last bit. */
+static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
+{
+    real *sum = r->change + k * p->dim;
+    for (int d = 0; d < p->dim; d++) sum[d] = 0;
+    for (int64_t q = r->start[k]; q < r->start[k + 1]; q++) {
+        const int32_t m = r->neighbour[q];
+        add_along(p, r->particle[k], r->particle[m], r->difference + k * p->dim, r->difference + m * p->dim,
+                  -share * r->scale, sum);
+    }
+}
+
+/* What the changes take from members that go on with the velocities of now. */
+real interface_damp_end(const struct interface_zone *r, const struct particles *p)
+{
+    real lost = 0;                       /* few; the sum must not depend on threads */
+    for (int64_t k = 0; k < r->n; k++)
+        for (int d = 0; d < p->dim; d++) lost -= 0.5 * r->change[k * p->dim + d] * p->v[d][r->particle[k]];
+    return lost;
+}
+
+real interface_damp_begin(struct interface_zone *r, struct particles *p, real share)
+{
+#pragma omp parallel
+    {
+#pragma omp for schedule(static)
+        /* 0 for the members outside the interface zone */
+        for (int64_t k = 0; k < r->points; k++) difference_make(r, p, k);
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, share);
+    }
+    const real lost = interface_damp_end(r, p);
+    for (int64_t k = 0; k < r->n; k++)
+        for (int d = 0; d < p->dim; d++) p->v[d][r->particle[k]] += r->change[k * p->dim + d] / p->mass[r->particle[k]];
+    return lost;
+}

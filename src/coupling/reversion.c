@@ -1,0 +1,312 @@
+/* Peridynamic particles that were never cut become material points again once the wave has passed. Owner
+ * computes throughout; only one in some steps looks. */
+#include "coupling/reversion.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "partial_parts.h"
+#include "kernels/mpm/stress.h"
+
+#define CUT_HORIZONS 2                   /* how far from a cut bond particles stay peridynamic */
+
+/* ---- selection --------------------------------------------------------------------------------------------------- */
+
+/* One thread's search. */
+struct search {
+    const struct particles *p;
+    const struct bond_source *source;
+    struct near near;
+};
+
+/* Particles of the body of particle i within `radius`, it among them, images by what they are images of; into
+ * s->near. */
+static void search_near(struct search *s, int64_t i, real radius)
+{
+    int kept = 0;
+    near_find(&s->near, s->source->cells, s->p, i, radius, true);
+    for (int k = 0; k < s->near.n; k++) {
+        const int64_t j = image_root(s->p, s->source->image, s->near.at[k]);
+        if (s->p->body[j] == s->p->body[i]) s->near.at[kept++] = (int32_t)j;
+    }
+    s->near.n = kept;
+}
+
+/* Is one of those within `radius` marked, itself included? */
+static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
+{
+    if (mark[i]) return true;
+    search_near(s, i, radius);
+    for (int k = 0; k < s->near.n; k++)
+        if (mark[s->near.at[k]]) return true;
+    return false;
+}
+
+/* Low stress. The virial of a family cut short by a surface is low because of that: it counts as that of a full one. */
+static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
+{
+    const struct family *f = &rule->source->family;
+    real stress[SYM_MAX], share = b->family_volume[b->row_of[i]] / f->full;
+    if (rule->source->modulus || !(share < 1)) share = 1;
+    for (int s = 0; s < symmetric_count(p->dim); s++) stress[s] = p->stress[s][i] / share;
+    const real limit = rule->low_stress * rule->elastic[p->material[i]].trigger;
+    return stress_principal(stress, p->dim) < limit;
+}
+
+/* `held`: peridynamic and not quiet for long; `cut`: has lost a bond. Returns how many are peridynamic and not held. */
+static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
+                                uint8_t *held, uint8_t *cut)
+{
+    int64_t rested = 0;
+#pragma omp parallel for schedule(static) reduction(+ : rested)
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        real X[DIM_MAX];
+        particle_place(p, i, X);
+        if (!low_stress(rule, p, b, i)) p->low_since[i] = INFINITY;
+        else if (!(p->low_since[i] < INFINITY)) p->low_since[i] = t;
+        cut[i] = p->damage[i] > 0;
+        held[i] = cut[i] || !(t - p->low_since[i] >= rule->hold_time) ||
+                  (rule->kept && region_contains(rule->kept, X, p->dim, ON_SURFACE * rule->source->family.spacing));
+        rested += !held[i];
+    }
+    return rested;
+}
+
+/* `bound`: peridynamic and to stay so. `near`: may be the middle of a ball of material points that holds one that is
+ * not. */
+static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
+                       const uint8_t *cut, uint8_t *bound, uint8_t *near)
+{
+    const struct family *f = &rule->source->family;
+#pragma omp parallel
+    {
+        struct search s = {.p = p, .source = rule->source};
+#pragma omp for schedule(dynamic, 64)
+        for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+            const int32_t i = p->list[KIND_PD][k];
+            bound[i] = held[i] || meets(&s, i, f->cutoff, held) || meets(&s, i, CUT_HORIZONS * f->horizon, cut);
+        }
+        memory_free(s.near.at);
+    }
+    struct search s = {.p = p, .source = rule->source};
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        if (bound[i]) continue;
+        search_near(&s, i, f->cutoff);
+        for (int q = 0; q < s.near.n; q++) near[s.near.at[q]] = 1;
+    }
+    memory_free(s.near.at);
+}
+
+/* mark[i] = does `i` of those wanted meet (or not meet) the other mark within a horizon? */
+static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
+                         const uint8_t *other, bool meeting, uint8_t *mark)
+{
+#pragma omp parallel
+    {
+        struct search s = {.p = p, .source = rule->source};
+#pragma omp for schedule(dynamic, 64)
+        for (int64_t i = 0; i < p->n; i++)
+            mark[i] = wanted[i] && meets(&s, i, rule->source->family.cutoff, other) == meeting;
+        memory_free(s.near.at);
+    }
+}
+
+int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
+                         int32_t **list)
+{
+    enum { HELD, CUT, BOUND, NEAR, OPEN, FREE, GOES, MARKS };
+    uint8_t *mark[MARKS];
+    int64_t n = 0;
+    for (int k = 0; k < MARKS; k++) mark[k] = NEW("return.mark", p->n, uint8_t);
+    *list = NULL;
+    if (mark_constrained(rule, p, b, t, mark[HELD], mark[CUT]) > 0) {
+        mark_bound(rule, p, mark[HELD], mark[CUT], mark[BOUND], mark[NEAR]);
+        mark_meeting(rule, p, mark[NEAR], mark[BOUND], false, mark[OPEN]);
+        for (int64_t i = 0; i < p->n; i++) mark[FREE][i] = p->kind[i] == KIND_PD && !mark[BOUND][i];
+        mark_meeting(rule, p, mark[FREE], mark[OPEN], true, mark[GOES]);
+        *list = NEW("return.list", p->n_of[KIND_PD], int32_t);
+        for (int64_t i = 0; i < p->n; i++)
+            if (mark[GOES][i]) (*list)[n++] = (int32_t)i;
+    }
+    for (int k = 0; k < MARKS; k++) memory_free(mark[k]);
+    return n;
+}
+
+/* ---- what they know then ----------------------------------------------------------------------------------------- */
+
+static void rows_swap(real *a, real *b, int n)
+{
+    for (int c = 0; c < n; c++) {
+        const real kept = a[c];
+        a[c] = b[c], b[c] = kept;
+    }
+}
+
+/* Solves A x = b for n unknowns and `columns` right sides in place of b (row major, `columns` to a row), by elimination
+ * with pivots. False if A is singular: a family without enough directions. */
+static bool reversion_solve(real *A, real *b, int n, int columns)
+{
+    real largest = 0;
+    for (int k = 0; k < n * n; k++) largest = real_max(largest, fabs(A[k]));
+    for (int k = 0; k < n; k++) {
+        int pivot = k;
+        for (int r = k + 1; r < n; r++)
+            if (fabs(A[r * n + k]) > fabs(A[pivot * n + k])) pivot = r;
+        if (!(fabs(A[pivot * n + k]) > 1e-9 * largest)) return false;
+        rows_swap(A + k * n, A + pivot * n, n);
+        rows_swap(b + k * columns, b + pivot * columns, columns);
+        for (int r = 0; r < n; r++) {
+            const real f = r == k ? 0 : A[r * n + k] / A[k * n + k];
+            for (int c = k; c < n && r != k; c++) A[r * n + c] -= f * A[k * n + c];
+            for (int c = 0; c < columns && r != k; c++) b[r * columns + c] -= f * b[k * columns + c];
+        }
+    }
+    for (int k = 0; k < n; k++)
+        for (int c = 0; c < columns; c++) b[k * columns + c] /= A[k * n + k];
+    return true;
+}
+
+/* Sums over the intact bonds of a row, for F of its family: K = sum w e e, G = sum w e y/r, K F^T = G. */
+static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
+{
+    const int32_t i = b->particle[row];
+    const int dim = p->dim;
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        const struct bond bond = it.bond;
+        real e[DIM_MAX], y[DIM_MAX];
+        if (bond.w == 0) continue;
+        for (int d = 0; d < dim; d++) {
+            e[d] = (p->X[d][bond.nbr] - p->X[d][i]) * bond.inverse_length;
+            y[d] = (p->x[d][bond.nbr] - p->x[d][i]) * bond.inverse_length;
+        }
+        for (int a = 0; a < dim; a++)
+            for (int c = 0; c < dim; c++)
+                K[a * dim + c] += bond.w * e[a] * e[c], G[a * dim + c] += bond.w * e[a] * y[c];
+    }
+}
+
+/* What bonds that cross the cell of a particle carry there, and what that answers to a uniform strain. */
+struct crossing { real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half; };
+
+/* Adds half of a bond (its other end adds the other half), from particle or image j on. */
+static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
+                         const struct reflection *r, int64_t j, const struct bond *bond)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real from[DIM_MAX], end[DIM_MAX], y[DIM_MAX], e[DIM_MAX], length2 = 0;
+    for (int d = 0; d < dim; d++) {
+        from[d] = p->X[d][j], end[d] = r->sign[d] * p->X[d][bond->nbr] + r->offset[d];
+        if (real_max(from[d], end[d]) <= to->X[d] - to->half || real_min(from[d], end[d]) >= to->X[d] + to->half)
+            return;
+    }
+    const real share = 0.5 * segment_share(from, end, to->X, to->half, dim);
+    if (share == 0) return;
+    for (int d = 0; d < dim; d++) {
+        e[d] = (end[d] - from[d]) * bond->inverse_length;
+        y[d] = r->sign[d] * p->x[d][bond->nbr] + r->offset[d] - p->x[d][j];
+        length2 += square(y[d]);
+    }
+    const real stiff = share * b->stiffness * bond->w;
+    const real force = stiff * (sqrt(length2) * bond->inverse_length - 1) / sqrt(length2);
+    for (int s = 0; s < n; s++) {
+        int a, c;
+        symmetric_axes(dim, s, &a, &c);
+        to->stress[s] += force * y[a] * y[c];
+        for (int t = 0; t < n; t++) {
+            int k, l;
+            symmetric_axes(dim, t, &k, &l);
+            to->T[s * n + t] += stiff / bond->inverse_length * e[a] * e[c] * e[k] * e[l] * (t < dim ? 1 : 2);
+        }
+    }
+}
+
+/* sigma = (1/V) sum l F (x) y and T = (1/V) sum k r l e e e e over all bonds that cross the cell of particle i, l
+ * the share of the reference segment inside it (as in partial_stress.c): what flows through it. The virial of its
+ * own family is the same under uniform strain, but smears a wave twice as far. */
+static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
+                        const struct bond_source *source, int64_t i, struct near *near)
+{
+    *to = (struct crossing){.half = half_edge(p, source, i)};
+    particle_place(p, i, to->X);
+    near_find(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim), true);
+    for (int k = 0; k < near->n; k++) {
+        const int64_t j = near->at[k];
+        const struct reflection r = reflection_of(source, p, j);
+        const int64_t row = b->row_of[r.root];
+        if (row < 0 || p->body[j] != p->body[i]) continue;
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+            if (it.bond.w != 0) crossing_add(to, b, p, &r, j, &it.bond);
+    }
+    for (int c = 0; c < SYM_MAX; c++) to->stress[c] /= p->volume0[i];
+    for (int c = 0; c < SYM_MAX * SYM_MAX; c++) to->T[c] /= p->volume0[i];
+}
+
+static real determinant(const real *F, int dim)
+{
+    if (dim == 1) return F[0];
+    if (dim == 2) return F[0] * F[3] - F[1] * F[2];
+    return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
+}
+
+/* The stress of full families under the strain that these bonds show. */
+static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real c11, c12, strain[SYM_MAX], trace = 0;
+    for (int s = 0; s < n; s++) strain[s] = stress[s];
+    if (!reversion_solve(T, strain, n, 1)) return;
+    family_constants(&source->family, &source->material[p->material[i]], &c11, &c12);
+    for (int d = 0; d < dim; d++) trace += strain[d];
+    for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
+}
+
+/* State-based models have no force of a bond alone: the virial of the family serves. */
+static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
+                             const struct bond_source *source, int64_t i, struct near *near)
+{
+    struct crossing c;
+    for (int k = 0; k < symmetric_count(p->dim); k++) stress[k] = p->stress[k][i];
+    if (source->modulus) return;
+    crossing_of(&c, p, b, source, i, near);
+    complete(source, p, i, c.T, c.stress);
+    memcpy(stress, c.stress, sizeof c.stress);
+}
+
+static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
+                              struct near *near)
+{
+    const int dim = p->dim, n = symmetric_count(dim);
+    real K[DIM_MAX * DIM_MAX] = {0}, G[DIM_MAX * DIM_MAX] = {0}, stress[SYM_MAX], J = 1;
+    family_moments(b, p, b->row_of[i], K, G);
+    const bool known = reversion_solve(K, G, dim, dim);
+    if (known) J = determinant(G, dim);
+    reversion_stress(stress, p, b, source, i, near);
+    for (int c = 0; c < n; c++) p->stress[c][i] = stress[c] / J;
+    p->volume[i] = p->volume0[i] * J;
+    for (int c = 0; c < dim * dim && p->gradient[c]; c++) p->gradient[c][i] = 0;
+    for (int d = 0; d < dim && p->stretch[d]; d++) p->stretch[d][i] = known ? G[d * dim + d] : 1;
+}
+
+void reversion_apply(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
+                   struct partial_stress *partial, const int32_t *list, int64_t n)
+{
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(dynamic, 8)
+        for (int64_t k = 0; k < n; k++) point_from_family(p, b, source, list[k], &near);
+        memory_free(near.at);
+    }
+    for (int64_t k = 0; k < n; k++) {
+        p->kind[list[k]] = KIND_MPM;
+        p->low_since[list[k]] = INFINITY;
+        p->reversions[list[k]] += p->reversions[list[k]] < UINT8_MAX;
+    }
+    bonds_renew(b, p, source);
+    if (partial) partial_stress_make(partial, p, b, source, list, n);
+    c->reverted += n;
+    c->reversions++;
+}

@@ -1,0 +1,53 @@
+/* The active set: levels of blocks, the list of active blocks, and what a checkpoint holds of them. */
+#include "data/active_set.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+void active_set_make(struct active_set *r, int64_t blocks)
+{
+    *r = (struct active_set){.blocks = blocks};
+    r->level = NEW("rest.level", blocks, uint8_t);
+    r->moved = NEW("rest.moved", blocks, uint8_t);
+    r->list = NEW("rest.list", blocks, int32_t);
+    memset(r->level, 1, (size_t)blocks);
+    active_set_list(r);
+}
+
+void active_set_free(struct active_set *r)
+{
+    memory_free(r->level);
+    memory_free(r->moved);
+    memory_free(r->list);
+}
+
+void active_set_list(struct active_set *r)
+{
+    r->active = 0;
+    for (int64_t k = 0; k < r->blocks; k++)
+        if (r->level[k] > 0) r->list[r->active++] = (int32_t)k;
+}
+
+static void list_all(struct active_set *r)
+{
+    for (int64_t k = 0; k < r->blocks; k++) r->list[k] = (int32_t)k;
+    r->active = r->blocks;
+}
+
+status active_set_archive(struct active_set *r, const char *name, struct archive *a)
+{
+    char path[48];
+    if (r->blocks == 0) return OK;
+    snprintf(path, sizeof path, "rest/%s_level", name);
+    TRY(a->exchange(a, path, r->level, (size_t)r->blocks * sizeof *r->level));
+    snprintf(path, sizeof path, "rest/%s_settled", name);
+    ARCHIVE_VALUE(a, path, r->is_current);
+    snprintf(path, sizeof path, "rest/%s_empty", name);
+    ARCHIVE_VALUE(a, path, r->empty);
+    if (a->saving) return OK;
+    list_all(r);
+    r->resumed = true;
+    return OK;
+}

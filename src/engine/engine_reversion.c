@@ -1,0 +1,90 @@
+/* Reversion of peridynamic particles to material points: when it is checked, and what follows it. */
+#include <math.h>
+
+#include "engine/engine.h"
+#include "engine_report.h"
+#include "base/memory.h"
+#include "coupling/reversion.h"
+
+/* Steps between checks: a wave crosses one horizon, half of a family, so that no wave passes a family between two
+ * checks. */
+static int64_t period(const struct engine *e)
+{
+    const int64_t steps = (int64_t)floor(e->source.family.horizon / (e->wave_speed * e->dt));
+    return steps > 1 ? steps : 1;
+}
+
+status engine_reversion_check(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    const char *why = NULL;
+    if (!s->conversion.back || s->method != METHOD_ADAPTIVE) return OK;
+    if (!(s->conversion.criteria & CONVERT_ON_STRESS)) why = "criteria with stress, which says what a low one is";
+    if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
+        why = "coupling partial stress or handshake";
+    if (s->growths > 0) why = "no growth, whose bonds fade";
+    if (s->solver != SOLVER_EXPLICIT) why = "solver explicit";
+    for (int m = 0; m < s->materials; m++)
+        if (material_yields(&s->material[m])) why = "materials that do not yield";
+    return why ? status_set(REFUSED, "conversion.return: true goes with %s", why) : OK;
+}
+
+/* Marks material points with bonds, e->bonded [n], for FLIP. */
+static void bonded_make(struct engine *e)
+{
+    const struct bonds *b = &e->bonds;
+    if (b->rows == 0) {                  /* all have reverted: no point is beside bonds */
+        memory_free(e->bonded);
+        e->bonded = NULL;
+        return;
+    }
+    if (e->scene->transfer != TRANSFER_FLIP || e->part.n_free == 0) return;
+    if (!e->bonded) e->bonded = NEW("engine.bonded", e->part.n, uint8_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < e->part.n; i++)
+        e->bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
+}
+
+void engine_interface_make(struct engine *e)
+{
+    bonded_make(e);
+    if (e->coupling == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0)
+        interface_zone_make(&e->zone, &e->part, &e->source);
+}
+
+/* Energy of the body at the current positions [J]. */
+static real energy_now(struct engine *e)
+{
+    if (e->source.modulus) engine_stress(e);
+    return e->kernels.bond_energy(&e->bonds, &e->part) + diagnostics_strain(&e->part, e->scene->material, &e->partial) +
+           mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain) + diagnostics_kinetic(&e->part) +
+           mesh_kinetic(&e->mesh);
+}
+
+/* Reverts the listed particles, [n], and records the change of energy. */
+static void give_back(struct engine *e, const int32_t *list, int64_t n)
+{
+    const real before = energy_now(e);
+    reversion_apply(&e->conversion, &e->part, &e->bonds, &e->source, e->uses_partial ? &e->partial : NULL, list, n);
+    engine_mesh_insert(e, list, n);
+    engine_interface_make(e);
+    e->sort_needed = true;
+    e->conversion.reversion_energy += energy_now(e) - before;
+}
+
+void engine_revert(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    int32_t *list;
+    if (!e->part.low_since || e->step == 0 || e->step % period(e) != 0 || e->part.n_of[KIND_PD] == 0) return;
+    engine_stress(e);
+    const int64_t n = reversion_choose(
+        &(struct reversion_rule){.source = &e->source,
+                                 .elastic = e->elastic,
+                                 .kept = e->start_region.n > 0 ? &e->start_region : NULL,
+                                 .low_stress = s->conversion.low_stress,
+                                 .hold_time = s->conversion.hold_time * e->source.family.horizon / e->wave_speed},
+        &e->part, &e->bonds, e->t, &list);
+    if (n > 0) give_back(e, list, n);
+    memory_free(list);
+}

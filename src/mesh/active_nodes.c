@@ -1,0 +1,115 @@
+/* The active set of the mesh: blocks of eight nodes along x. */
+#include "mesh/active_nodes.h"
+
+#include <string.h>
+
+enum { MOVED = 2 };             /* forces on a node come from the cells around it: at most one block on every side */
+
+/* First node of a block, and one past its last. */
+static int64_t nodes_first(const struct mesh *mesh, int64_t block)
+{
+    return block / mesh->segments * mesh->grid.count[0] + block % mesh->segments * LANES;
+}
+
+static int64_t nodes_end(const struct mesh *mesh, int64_t block)
+{
+    const int64_t end = nodes_first(mesh, block) + LANES, row = (block / mesh->segments + 1) * mesh->grid.count[0];
+    return end < row ? end : row;
+}
+
+static bool nodes_empty(const struct mesh *mesh, int64_t block)
+{
+    for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
+        if (mesh->inverse_mass[I] != 0) return false;
+    return true;
+}
+
+/* Activates a block that moves, and its neighbours that have nodes with mass. */
+static void mesh_wake(struct mesh *mesh, int64_t block)
+{
+    struct active_set *r = &mesh->active;
+    const int dim = mesh->grid.dim;
+    const int64_t far[DIM_MAX] = {1, mesh->segments, dim > 2 ? mesh->segments * mesh->grid.count[1] : 0};
+    if (r->level[block] == MOVED) return;
+    r->level[block] = MOVED;
+    for (int q = 0; q < (dim == 1 ? 3 : dim == 2 ? 9 : 27); q++) {
+        int64_t near = block;
+        for (int d = 0, active = q; d < dim; d++, active /= 3) near += (active % 3 - 1) * far[d];
+        if (near >= 0 && near < r->blocks && r->level[near] == 0 && !nodes_empty(mesh, near)) r->level[near] = 1;
+    }
+}
+
+static bool nodes_moved(const struct mesh *mesh, int64_t block)
+{
+    for (int d = 0; d < mesh->grid.dim; d++)
+        for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
+            if (mesh->displacement[d][I] != 0) return true;
+    return false;
+}
+
+/* Do the nodes of a block have neither displacement nor velocity nor force? */
+static bool nodes_inactive(const struct mesh *mesh, int64_t block)
+{
+    for (int d = 0; d < mesh->grid.dim; d++)
+        for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
+            if (!bits_equal(mesh->grid.velocity[d][I], 0) || mesh->grid.force[d][I] != 0) return false;
+    return !nodes_moved(mesh, block);
+}
+
+/* Does the wall never move? Such a wall moves no node at rest. */
+static bool wall_is_fixed(const struct loads *l, const struct wall *w)
+{
+    const struct boundary *b = l->load[w->load].boundary;
+    return b->kind == BOUNDARY_MIRROR || b->value[w->component] == 0;
+}
+
+void active_nodes_add_exposed(struct mesh *mesh)
+{
+    const int dim = mesh->grid.dim;
+    for (int64_t k = 0; k < mesh->exposed && mesh->active.is_current; k++)
+        for (int c = 0; c < 1 << dim; c++)
+            mesh_wake(mesh, mesh_block(mesh, mesh->exposed_list[k].cell + mesh->corner[c]));
+    active_set_list(&mesh->active);
+}
+
+void active_nodes_all(struct mesh *mesh)
+{
+    mesh->active.is_current = false;
+    memset(mesh->active.level, 1, (size_t)mesh->active.blocks);
+}
+
+/* Finds the levels of all blocks anew. */
+static void mesh_settle(struct mesh *mesh, const struct loads *l)
+{
+    struct active_set *r = &mesh->active;
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < r->blocks; k++) r->moved[k] = !nodes_inactive(mesh, k);
+    memset(r->level, 0, (size_t)r->blocks);
+    r->is_current = true, r->empty = 0;
+    for (int64_t k = 0; k < r->blocks; k++) r->empty += nodes_empty(mesh, k);
+    for (int64_t k = 0; k < r->blocks; k++)
+        if (r->moved[k]) mesh_wake(mesh, k);
+    for (int64_t k = 0; k < mesh->grid.walls; k++)
+        if (!wall_is_fixed(l, &mesh->grid.wall[k])) mesh_wake(mesh, mesh_block(mesh, mesh->grid.wall[k].node));
+    active_nodes_add_exposed(mesh);                         /* makes the list */
+}
+
+void active_nodes_update(struct mesh *mesh, const struct loads *l)
+{
+    struct active_set *r = &mesh->active;
+    if (!r->is_current) {
+        mesh_settle(mesh, l);
+        return;
+    }
+    bool moved = false;
+#pragma omp parallel for schedule(static) reduction(|| : moved)
+    for (int64_t k = 0; k < r->active; k++) {
+        const int32_t block = r->list[k];
+        r->moved[block] = r->level[block] == 1 && nodes_moved(mesh, block);
+        moved = moved || r->moved[block];
+    }
+    for (int64_t k = 0; k < r->active && moved; k++)
+        if (r->moved[r->list[k]]) mesh_wake(mesh, r->list[k]);
+    if (moved || r->resumed) active_set_list(r);
+    r->resumed = false;
+}

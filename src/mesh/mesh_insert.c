@@ -1,0 +1,105 @@
+/* Insertion of particles that become points of the mesh again: mass, momentum and displacement of the nodes around
+ * them. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mesh_parts.h"
+
+/* The nodes around the inserted points, ascending. */
+struct nodes { int64_t n; int32_t *at; };
+
+static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
+                       int64_t n)
+{
+    uint8_t *mark = NEW("adopt.mark", mesh->grid.n, uint8_t);
+    for (int64_t k = 0; k < n; k++)
+        for (int c = 0; c < 1 << p->dim; c++) mark[(mesh_place_of(mesh, p, list[k]) >> p->dim) + mesh->corner[c]] = 1;
+    for (int64_t I = 0; I < mesh->grid.n; I++) t->n += mark[I];
+    t->at = NEW("adopt.node", t->n, int32_t);
+    t->n = 0;
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        if (mark[I]) t->at[t->n++] = (int32_t)I;
+    memory_free(mark);
+}
+
+/* Kinetic energy of the listed nodes [J]. */
+static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
+{
+    real sum = 0;
+    for (int64_t k = 0; k < t->n; k++)
+        for (int d = 0; d < mesh->grid.dim; d++)
+            sum += 0.5 * mesh->grid.mass[t->at[k]] * square(mesh->grid.velocity[d][t->at[k]]);
+    return sum;
+}
+
+/* Puts the n listed points in. The nodes get the sum of their momentum and that of the points (grid.momentum is used
+ * for this alone). */
+static void points_enter(struct mesh *mesh, struct particles *p, const struct nodes *t, const int32_t *list, int64_t n)
+{
+    const int dim = p->dim;
+    for (int64_t k = 0; k < t->n; k++) {
+        const int32_t I = t->at[k];
+        for (int d = 0; d < dim; d++) mesh->grid.momentum[d][I] = mesh->grid.mass[I] * mesh->grid.velocity[d][I];
+    }
+    for (int64_t k = 0; k < n; k++) {
+        const int32_t i = list[k];
+        const int64_t place = mesh_place_of(mesh, p, i);
+        mesh->place[i] = (int32_t)place;
+        mesh->point[place] = i;
+        mesh->points++;
+        p->flag[i] |= FLAG_MESHED;
+        for (int c = 0; c < 1 << dim; c++)
+            for (int d = 0; d < dim; d++)
+                mesh->grid.momentum[d][(place >> dim) + mesh->corner[c]] +=
+                    p->mass[i] * mesh_weight(dim, c, (int)(place & ((1 << dim) - 1))) * p->v[d][i];
+    }
+    for (int64_t k = 0; k < t->n; k++) {
+        const int32_t I = t->at[k];
+        mesh_node_weigh(mesh, p, I);
+        for (int d = 0; d < dim; d++) mesh->grid.velocity[d][I] = mesh->grid.momentum[d][I] * mesh->inverse_mass[I];
+    }
+}
+
+/* Nodes that had no mass, marked in `light`, start from the mean displacement of the inserted points, weighted by
+ * mass. */
+static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p, const uint8_t *light,
+                                    const int32_t *list, int64_t n)
+{
+    const int dim = p->dim;
+    for (int64_t k = 0; k < n; k++) {
+        const int32_t i = list[k];
+        const int64_t cell = mesh->place[i] >> dim;
+        for (int c = 0; c < 1 << dim; c++) {
+            const int64_t I = cell + mesh->corner[c];
+            const real share =
+                p->mass[i] * mesh_weight(dim, c, mesh->place[i] & ((1 << dim) - 1)) * mesh->inverse_mass[I];
+            for (int d = 0; d < dim && light[I]; d++) mesh->displacement[d][I] += share * (p->x[d][i] - p->X[d][i]);
+        }
+    }
+}
+
+real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
+{
+    struct nodes t = {0};
+    real *u[DIM_MAX], energy = 0;
+    nodes_find(&t, mesh, p, list, n);
+    mesh_points_move(mesh, p);               /* displacements are fitted to these points, too */
+    for (int64_t k = 0; k < n; k++)
+        for (int d = 0; d < p->dim; d++) energy += 0.5 * p->mass[list[k]] * square(p->v[d][list[k]]);
+    energy += kinetic_of(mesh, &t);
+    uint8_t *light = NEW("adopt.light", mesh->grid.n, uint8_t);
+    for (int64_t k = 0; k < t.n; k++) light[t.at[k]] = mesh->grid.mass[t.at[k]] == 0;
+    points_enter(mesh, p, &t, list, n);
+    energy -= kinetic_of(mesh, &t);
+    for (int d = 0; d < p->dim; d++) {
+        u[d] = NEW("adopt.u", p->n, real);
+        for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
+    }
+    mesh_insert_nodes_start(mesh, p, light, list, n);
+    mesh_project_near(mesh, p, u, mesh->displacement, t.at, t.n);
+    for (int d = 0; d < p->dim; d++) memory_free(u[d]);
+    memory_free(light);
+    memory_free(t.at);
+    return energy;
+}

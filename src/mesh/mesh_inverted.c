@@ -1,0 +1,52 @@
+/* Search for inverted cells of the mesh: a linear stress law does not prevent a cell from being compressed through zero
+ * volume. */
+#include "mesh/mesh_make.h"
+
+/* Current over reference volume at a place: the determinant of 1 + sum u_c (x) grad N_c [1]. */
+static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
+{
+    const int32_t cell = place >> dim;
+    real F[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int c = 0; c < 1 << dim; c++)
+        for (int b = 0; b < dim; b++) {
+            const real slope = mesh_slope(dim, c, place & ((1 << dim) - 1), b) / mesh->grid.h;
+            for (int a = 0; a < dim; a++) F[a][b] += mesh->displacement[a][cell + mesh->corner[c]] * slope;
+        }
+    return F[0][0] * (F[1][1] * F[2][2] - F[1][2] * F[2][1]) - F[0][1] * (F[1][0] * F[2][2] - F[1][2] * F[2][0]) +
+           F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
+}
+
+/* Necessary condition for an inverted cell, cheap to test. No entry of the displacement gradient exceeds the largest
+ * difference of a component between corners, over h; and a gradient whose row sums are less than 1 inverts no cell. */
+static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int dim)
+{
+    real most = 0;
+    for (int a = 0; a < dim; a++) {
+        const real *u = mesh->displacement[a] + cell;
+        real low = u[0], high = u[0];
+        for (int c = 1; c < 1 << dim; c++)
+            low = real_min(low, u[mesh->corner[c]]), high = real_max(high, u[mesh->corner[c]]);
+        most = real_max(most, high - low);
+    }
+    return !(dim * most < mesh->grid.h);
+}
+
+/* Lowest index of a particle at which the cell is inverted, `first` if there is none below `first`. */
+static int64_t inverted_in(const struct mesh *mesh, int64_t cell, int dim, int64_t first)
+{
+    for (int64_t place = cell << dim; place < (cell + 1) << dim; place++) {
+        const int32_t i = mesh->point[place];
+        if (i >= 0 && i < first && !(volume_ratio(mesh, (int32_t)place, dim) > 0)) first = i;
+    }
+    return first;
+}
+
+int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p)
+{
+    int64_t first = p->n;
+#pragma omp parallel for schedule(static) reduction(min : first)
+    for (int64_t row = 0; row < mesh->rows; row++)
+        for (int64_t cell = mesh->span[2 * row]; cell < mesh->span[2 * row + 1]; cell++)
+            if (mesh->kind[cell] && may_invert(mesh, cell, p->dim)) first = inverted_in(mesh, cell, p->dim, first);
+    return first;
+}

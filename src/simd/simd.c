@@ -1,0 +1,104 @@
+/* The choice among the sets of kernels. */
+#include "simd/simd.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernels/simd/set.h"
+
+#ifdef __x86_64__
+#include <cpuid.h>
+#endif
+
+static bool runs_anywhere(void) { return true; }
+extern const struct kernel_set kernel_set_portable;
+
+#ifdef __x86_64__
+extern const struct kernel_set kernel_set_avx512, kernel_set_avx2;
+
+/* Bits of the third register that the processor answers a question (a leaf of cpuid) with. */
+static inline bool responses(unsigned leaf, unsigned bits)
+{
+    unsigned a, b, c, d;
+    return __get_cpuid(leaf, &a, &b, &c, &d) && (c & bits) == bits;
+}
+
+/* The levels of x86-64 by what they consist of: not every compiler knows them by name, or all of their parts. */
+static inline bool runs_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+           __builtin_cpu_supports("bmi2") && responses(1, bit_F16C | bit_MOVBE) && responses(0x80000001, bit_LZCNT);
+}
+
+static inline bool runs_avx512(void)
+{
+    return runs_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+}
+#endif
+
+/* The Makefile defines KERNELS_... for each set that it builds. */
+const struct simd_set simd_sets[] = {
+#ifdef KERNELS_avx512
+    {"avx512", "AVX-512 (x86-64-v4), 8 doubles a vector", runs_avx512, &kernel_set_avx512},
+#endif
+#ifdef KERNELS_avx2
+    {"avx2", "AVX2 with fused multiply-add (x86-64-v3), 4 doubles a vector", runs_avx2, &kernel_set_avx2},
+#endif
+#ifdef __x86_64__
+    {"portable", "SSE2 (x86-64), 2 doubles a vector", runs_anywhere, &kernel_set_portable},
+#else
+    {"portable", "what the compiler takes this processor for", runs_anywhere, &kernel_set_portable},
+#endif
+};
+const int simd_set_count = COUNT_OF(simd_sets);
+
+/* The kernels in use, under their own names. With simd_in_use the program's one choice that is kept outside of a
+ * run. */
+#define DEFINE(name) __typeof__(&*name) name;
+KERNELS(DEFINE)
+static const struct simd_set *in_use;
+
+void simd_use(const struct simd_set *set)
+{
+    assert(set->runs());
+#define TAKE(name) name = set->kernels->name;
+    KERNELS(TAKE)
+    in_use = set;
+}
+
+const struct simd_set *simd_in_use(void) { return in_use; }
+
+/* "avx2, portable": the sets, or those that run here. */
+static const char *names(bool running, char *text, size_t size)
+{
+    size_t length = 0;
+    text[0] = 0;
+    for (const struct simd_set *s = simd_sets; s < simd_sets + simd_set_count; s++)
+        if (!running || s->runs())
+            length += (size_t)snprintf(text + length, size - length, "%s%s", length > 0 ? ", " : "", s->name);
+    return text;
+}
+
+status simd_start(void)
+{
+    const char *asked = getenv("CLEAVE_SIMD");
+    const struct simd_set *widest = NULL, *wanted = NULL;
+    char text[64];
+    for (const struct simd_set *s = simd_sets + simd_set_count; s-- > simd_sets;) {
+        if (s->runs()) widest = s;
+        if (asked && !strcmp(asked, s->name)) wanted = s;
+    }
+    simd_use(wanted && wanted->runs() ? wanted : widest);
+    if (!asked || in_use == wanted) return OK;
+    if (!wanted)
+        return status_set(REFUSED, "CLEAVE_SIMD=%s: no such set of kernels; there are: %s", asked,
+                          names(false, text, sizeof text));
+    return status_set(REFUSED, "CLEAVE_SIMD=%s: this processor lacks %s; it runs: %s", asked, wanted->meaning,
+                      names(true, text, sizeof text));
+}
+
+/* Kernels are chosen before anything runs; main checks again, and reports a fault. */
+__attribute__((constructor)) static void simd_start_set(void) { (void)simd_start(); }

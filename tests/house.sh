@@ -1,0 +1,90 @@
+#!/bin/sh
+# The rules of the house (src/README.md) that a machine can check: rooms include and call only what lies below them, lines, functions
+# and files keep their limits, names of functions are unique, and comments name files that exist.
+test_name=house
+. tests/support/summary.sh
+
+sources=$(find src include kernels bench tests -name '*.[ch]' | sort)
+program=$(find src include kernels bench -name '*.[ch]' | sort)
+
+# Rooms from the ground up; rooms on one line stand side by side and may use each other in that order.
+rooms="base data bonds kernels simd loads mesh active coupling fracture probes output scene auto engine plot bench app"
+
+# nothing WHAT: the file `found` is empty; else it is the failure.
+found=$work/found
+nothing()
+{
+    if [ -s "$found" ]; then fail "$1: $(wc -l <"$found")
+$(head -n 20 "$found")"; else pass; fi
+}
+
+# ---- rooms -----------------------------------------------------------------------------------------------------------
+
+# Room of a path: the folder below src and include, else the top folder.
+room_of='function room_of(path, part, n) { n = split(path, part, "/"); return part[1] == "src" || part[1] == "include" ? part[2] : part[1] }
+         function floors(list, k, n, name) { n = split(list, name, " "); for (k = 1; k <= n; k++) floor[name[k]] = k }'
+
+# An include of a header in another room, as the path from the top; headers of the own room are named without a path.
+grep -H '^#include "' $program | awk -v rooms="$rooms" "$room_of"'
+    BEGIN { floors(rooms) }
+    { split($0, half, ":#include \""); path = half[2]; sub(/".*/, "", path)
+      if (path !~ /\//) next
+      if (path !~ /^(src|kernels|bench|tests)\//) path = "include/" path
+      from = room_of(half[1]); to = room_of(path)
+      if (!(from in floor) || !(to in floor)) print half[1] ": no such room: " path
+      else if (floor[to] > floor[from]) print half[1] " includes " path }' >"$found"
+nothing "includes that lead up"
+
+# A call of a function in a higher room, by the symbols of the objects.
+build=${BUILD:-build}
+objects=$(find src bench -name '*.c' | sed "s|^|$build/|; s|c$|o|"; find kernels -name '*.c' | sed "s|^|$build/|; s|c$|portable.o|")
+nm -A -P $objects | awk -v rooms="$rooms" -v build="$build/" "$room_of"'
+    BEGIN { floors(rooms) }
+    { file = $1; sub(/:$/, "", file); file = substr(file, length(build) + 1)
+      if ($3 ~ /^[TDBRC]$/) place[$2] = file
+      else if ($3 == "U") used[$2] = used[$2] " " file }
+    END { for (name in used) if (name in place) { n = split(used[name], user, " ")
+              for (k = 1; k <= n; k++) if (floor[room_of(place[name])] > floor[room_of(user[k])])
+                  print user[k] " calls " name " of " place[name] } }' | sort >"$found"
+nothing "calls that lead up"
+
+# ---- size ------------------------------------------------------------------------------------------------------------
+
+width=$(sed -n 's/^ColumnLimit: *//p' .clang-format)
+holds "a width in .clang-format" test "${width:-0}" -ge 80
+awk -v width="$width" 'length($0) > width { print FILENAME ":" FNR ": " length($0) " characters" }' $sources >"$found"
+nothing "lines over $width characters"
+wc -l $sources | awk '$2 != "total" && $1 > 500 { print $2 ": " $1 " lines" }' >"$found"
+nothing "files over 500 lines"
+
+# Functions begin in the first column and end with a brace there.
+awk 'FNR == 1 { start = 0 }
+    /^[a-zA-Z].*\)[^;]*$/ && !/^(typedef|struct|enum|union)[^(]*[{;]/ { candidate = FNR }
+    /^\{/ { start = candidate ? candidate : FNR }
+    /^\}/ { if (start && FNR - start > 60) print FILENAME ":" start ": a function of " FNR - start " lines"; start = 0; candidate = 0 }' $program >"$found"
+nothing "functions over 60 lines"
+
+# ---- names -----------------------------------------------------------------------------------------------------------
+
+# Functions of the program that are defined in more than one file.
+awk 'FNR == 1 { name = "" }
+    /^[a-zA-Z_].*\(/ && !/^(typedef|return|else|if|for|while|switch)/ && !/;[ \t]*(\/\*.*)?$/ && !/^[A-Z_0-9]+\(/ {
+        head = $0; sub(/\(.*/, "", head); n = split(head, word, /[ *]+/); name = word[n]
+        if (n > 1 && (FILENAME !~ /h$/ || $0 ~ /^static/) && name ~ /^[a-z_][a-z0-9_]*$/ && !((name, FILENAME) in seen)) { seen[name, FILENAME] = 1; files[name] = files[name] " " FILENAME; count[name]++ }
+    }
+    END { for (name in count) if (count[name] > 1) print name ":" files[name] }' $(echo "$program" | grep -v '^include/') | sort >"$found"
+nothing "names of functions in several files"
+
+# Files that comments name.
+find . -path ./.git -prune -o -path './build*' -prune -o -type f -print | sed 's/.*\///' | sort -u >"$work/files"
+awk 'function look(text) { while (match(text, /[A-Za-z0-9_]+\.(c|h|sh)([^A-Za-z0-9_]|$)/)) {
+        name = substr(text, RSTART, RLENGTH); sub(/[^A-Za-z0-9_]$/, "", name); print name, FILENAME; text = substr(text, RSTART + RLENGTH) } }
+    { rest = $0
+      while (rest != "") {
+          if (inside) { k = index(rest, "*/"); look(k ? substr(rest, 1, k - 1) : rest); rest = k ? substr(rest, k + 2) : ""; inside = !k; continue }
+          k = index(rest, "/*"); if (!k) break
+          rest = substr(rest, k + 2); inside = 1 } }' $sources | sort -u |
+    while read -r name file; do grep -q -x -F "$name" "$work/files" || echo "$file: $name"; done >"$found"
+nothing "comments that name no file"
+
+finish

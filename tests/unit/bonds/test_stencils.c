@@ -1,0 +1,332 @@
+/* Row blocks that follow a stencil: who does, that what they would store is right, that every kernel makes
+ * the same bits of them as of row blocks that have all of their bonds in memory, and that they are made anew as a
+ * search makes them. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "tests/support/cloud.h"
+#include "kernels/kernels.h"
+
+/* A lattice all of whose places are exact, as fill.c makes them. */
+static void exact_cloud(struct cloud *c, int dim, enum surface_rule surface, const struct state_modulus *modulus)
+{
+    static const enum space space[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+    cloud_make(c,
+               &(struct cloud_plan){.space = space[dim], .count = {32, 14, 11}, .horizon = 3.015, .surface = surface});
+    cloud_exact(c);
+    c->source.modulus = modulus, c->source.rotates = true, c->source.local = true;
+    for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = 0.02;
+    cloud_source(c);
+    c->source.yield.stretch = NULL;
+    bonds_make(&c->bonds, NULL, &c->p, &c->source);
+}
+
+static void shake(struct cloud *c, real most)
+{
+    uint64_t seed = 7;
+    for (int64_t i = 0; i < c->p.n; i++)
+        for (int d = 0; d < c->p.dim; d++)
+            c->p.x[d][i] = c->p.X[d][i] + cloud_between(&seed, -most, most) * CLOUD_SPACING;
+}
+
+static void follow_nothing(struct bonds *b)
+{
+    cloud_unfold(b);
+    for (int64_t g = 0; g < b->row_blocks; g++) b->stencil[g] = NULL;
+}
+
+static int64_t count_folded(const struct bonds *b)
+{
+    int64_t n = 0;
+    for (int64_t g = 0; g < b->row_blocks; g++) n += b->implicit[g];
+    return n;
+}
+
+static real apart(const struct particles *p, int64_t i, int64_t j)
+{
+    real r2 = 0;
+    for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][j] - p->X[d][i]);
+    return sqrt(r2);
+}
+
+/* Eight neighbours in a row may begin before the first particle of all, or end behind the last: such row blocks are
+ * stored. */
+static bool at_an_end(const struct cloud *c, int64_t row_block)
+{
+    return fmin(apart(&c->p, 0, row_block * LANES), apart(&c->p, c->p.n - 1, row_block * LANES + 7)) <
+           c->source.family.cutoff;
+}
+
+/* Lines of 32 particles are four row blocks each, all on the lattice; those in the middle have all of their bonds. */
+static void test_who_follows(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
+            struct cloud c;
+            int64_t whole = 0;
+            exact_cloud(&c, dim, surface, NULL);
+            for (int64_t g = 0; g < c.bonds.row_blocks; g++) {
+                const struct stencil *stencil = c.bonds.stencil[g];
+                assert_true(stencil || at_an_end(&c, g));
+                whole += stencil && stencil->whole;
+            }
+            if (surface == SURFACE_NONE) assert_int_equal(whole, c.bonds.row_blocks / 2);
+            assert_true(whole > 0 && (dim == 1 || count_folded(&c.bonds) > whole));
+            cloud_free(&c);
+        }
+}
+
+/* Every bond that there is, and no other, against all pairs; reading them writes nothing. */
+static void test_what_is_stored(void **state)
+{
+    (void)state;
+    struct cloud c;
+    exact_cloud(&c, 2, SURFACE_NONE, NULL);
+    const struct particles *p = &c.p;
+    const struct bonds *b = &c.bonds;
+    const int64_t implicit = count_folded(b);
+    assert_true(implicit > 0);
+    for (int64_t row = 0; row < b->rows; row++) {
+        struct bond_iterator it = bonds_of_row(b, row);
+        for (int64_t j = 0; j < p->n; j++) {
+            const int32_t i = b->particle[row];
+            const real r = apart(p, i, j);
+            if (j == i || r > c.source.family.cutoff) continue;
+            assert_true(bond_next(&it));
+            assert_int_equal(it.bond.nbr, j);
+            assert_true(fabs(it.bond.inverse_length * r - 1) < 1e-15);
+            assert_true(it.bond.w == 1);
+        }
+        assert_false(bond_next(&it));
+    }
+    assert_int_equal(count_folded(b), implicit);
+    cloud_unfold(&c.bonds);
+    assert_int_equal(count_folded(b), 0);
+    cloud_free(&c);
+}
+
+static void make_again(struct cloud *c)
+{
+    bonds_free(&c->bonds);
+    if (c->neighbour_volume) bonds_neighbour_volume(c->neighbour_volume, &c->p, &c->source);
+    bonds_make(&c->bonds, NULL, &c->p, &c->source);
+}
+
+/* What is taken over from row blocks with the same surroundings is what each row block works out for itself: bonds,
+ * triggers, volumes of neighbours and the critical step. A heavier corner, which has no part in any of them, keeps
+ * row blocks from looking at others. */
+static void test_twins(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
+            struct cloud alike, alone;
+            exact_cloud(&alike, dim, surface, NULL), exact_cloud(&alone, dim, surface, NULL);
+            alone.p.mass[0] *= 2;
+            make_again(&alike), make_again(&alone);
+            const struct bonds *a = &alike.bonds, *b = &alone.bonds;
+            assert_true(bonds_critical_step(&alike.p, &alike.source) == bonds_critical_step(&alone.p, &alone.source));
+            if (surface)
+                assert_memory_equal(alike.neighbour_volume, alone.neighbour_volume, (size_t)alone.p.n * sizeof(real));
+            assert_memory_equal(a->trigger, b->trigger, (size_t)b->rows * sizeof *b->trigger);
+            assert_memory_equal(a->family_volume, b->family_volume, (size_t)b->rows * sizeof *b->family_volume);
+            assert_true(count_folded(a) == count_folded(b) && a->n == b->n && a->columns == b->columns);
+            cloud_unfold(&alike.bonds), cloud_unfold(&alone.bonds);
+            assert_memory_equal(a->nbr, b->nbr, (size_t)(b->columns * LANES) * sizeof *b->nbr);
+            assert_memory_equal(a->inverse_length, b->inverse_length, (size_t)(b->columns * LANES) * sizeof(real));
+            assert_memory_equal(a->w, b->w, (size_t)(b->columns * LANES) * sizeof(real));
+            cloud_free(&alike), cloud_free(&alone);
+        }
+}
+
+/* Everything the kernels make of the places of now, one number after the other. */
+struct made { real *value; int64_t n; };
+
+static void made_add(struct made *m, const real *from, int64_t n)
+{
+    memcpy(m->value + m->n, from, (size_t)n * sizeof *from);
+    m->n += n;
+}
+
+static struct made make_all(struct cloud *c, enum pd_model model)
+{
+    struct kernels k;
+    struct made m = {NEW("test.made", 2 * (DIM_MAX + SYM_MAX) * c->p.n + 4, real), 0};
+    kernels_choose(&k, c->p.dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
+    for (int rotation = 0; rotation < 2; rotation++) {               /* in the first some break */
+        const real broken = (real)k.bond_force(&c->bonds, &c->p, &c->source.limit, NULL);
+        const real energy = k.bond_energy(&c->bonds, &c->p);
+        k.bond_stress(&c->bonds, &c->p);
+        made_add(&m, &broken, 1);
+        made_add(&m, &energy, 1);
+        for (int d = 0; d < c->p.dim; d++) made_add(&m, c->p.f[d], c->p.n);
+        for (int s = 0; s < symmetric_count(c->p.dim); s++) made_add(&m, c->p.stress[s], c->p.n);
+    }
+    return m;
+}
+
+/* Row blocks inside, whose columns need no weights. */
+static int64_t count_units(const struct bonds *b)
+{
+    int64_t units = 0;
+    for (int64_t g = 0; g < b->row_blocks; g++) units += b->stencil[g] && b->stencil[g]->unit;
+    return units;
+}
+
+static void test_same_bits(void **state)
+{
+    (void)state;
+    static const enum pd_model models[] = {PD_BOND, PD_BOND, PD_OSPD, PD_MOSPD};
+    const struct state_modulus modulus[CLOUD_MATERIALS] = {{3e11, 4e11}, {3e11, 4e11}};
+    for (int dim = 2; dim <= DIM_MAX; dim++)
+        for (size_t k = 0; k < COUNT_OF(models); k++) {
+            struct cloud implicit, open;
+            const bool weighed = k == 0, states = models[k] != PD_BOND;
+            exact_cloud(&implicit, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
+            exact_cloud(&open, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
+            follow_nothing(&open.bonds);
+            const real most = dim == 2 ? 0.013 : 0.0104;                   /* some row blocks stay whole */
+            shake(&implicit, most), shake(&open, most);
+            struct made a = make_all(&implicit, models[k]), b = make_all(&open, models[k]);
+            assert_true(a.value[0] > 0);                                   /* some bonds have broken, */
+            assert_true(count_folded(&implicit.bonds) > 0);                /* and not all row blocks have been opened */
+            assert_true(weighed || count_units(&implicit.bonds) > 0);
+            assert_int_equal(a.n, b.n);
+            assert_memory_equal(a.value, b.value, (size_t)a.n * sizeof *a.value);
+            memory_free(a.value), memory_free(b.value);
+            cloud_free(&implicit), cloud_free(&open);
+        }
+}
+
+/* A bond that changes takes its row block out of the stencil, and no other. */
+static void test_who_leaves(void **state)
+{
+    (void)state;
+    struct cloud c;
+    exact_cloud(&c, 2, SURFACE_NONE, NULL);
+    const int64_t implicit = count_folded(&c.bonds), row_block = c.bonds.row_blocks / 2,
+                  q = bond_to_write(&c.bonds, row_block, 3, 4);
+    bond_fade(&c.bonds, &c.p, row_block * LANES + 4, q, 0);
+    for (int64_t g = 0; g < c.bonds.row_blocks; g++)
+        assert_true(c.bonds.stencil[g] ? g != row_block : g == row_block || at_an_end(&c, g));
+    assert_int_equal(count_folded(&c.bonds), implicit - 1);
+    cloud_free(&c);
+}
+
+/* It stays out when rows are made anew around it, with weights that no stencil of new rows has. */
+static void test_who_stays_out(void **state)
+{
+    (void)state;
+    struct cloud c;
+    exact_cloud(&c, 2, SURFACE_NONE, NULL);
+    bonds_free(&c.bonds);
+    const int32_t point = (int32_t)c.p.n / 2 + 3;
+    c.p.kind[point] = KIND_MPM;
+    particles_list(&c.p);
+    bonds_make(&c.bonds, NULL, &c.p, &c.source);
+    const int64_t row = c.bonds.row_of[point] + 1, q = bond_to_write(&c.bonds, row / LANES, 5, (int)(row % LANES));
+    const int32_t j = c.bonds.nbr[q];
+    bond_fade(&c.bonds, &c.p, row, q, 0.5);
+    c.p.kind[point] = KIND_PD;
+    struct bonds old = c.bonds;
+    particles_list(&c.p);
+    bonds_make(&c.bonds, &old, &c.p, &c.source);
+    bonds_free(&old);
+    int found = 0;
+    for (int64_t k = 0; k < c.bonds.column_count[row / LANES]; k++) {
+        const int64_t at = bond_to_write(&c.bonds, row / LANES, k, (int)(row % LANES));
+        if (c.bonds.nbr[at] == j && c.bonds.w[at] == 0.5) found++;
+    }
+    assert_int_equal(found, 1);
+    assert_true(c.bonds.changed[row / LANES]);
+    assert_null(c.bonds.stencil[row / LANES]);
+    cloud_free(&c);
+}
+
+/* The bonds of a row, lane by lane; padding left out. */
+static int row_bonds(const struct bonds *b, int64_t row, struct bond *to)
+{
+    int n = 0;
+    for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, (int)(row % LANES));
+        if (bond.inverse_length != 0) to[n++] = bond;
+    }
+    return n;
+}
+
+static void assert_rows_equal(const struct bonds *a, const struct bonds *b)
+{
+    struct bond one[256], other[256];
+    assert_int_equal(a->rows, b->rows);
+    assert_int_equal(a->n, b->n);
+    for (int64_t row = 0; row < a->rows; row++) {
+        const int n = row_bonds(a, row, one);
+        assert_int_equal(a->particle[row], b->particle[row]);
+        assert_int_equal(n, row_bonds(b, row, other));
+        assert_true(a->trigger[row] == b->trigger[row] && a->family_volume[row] == b->family_volume[row]);
+        for (int k = 0; k < n; k++) {
+            assert_int_equal(one[k].nbr, other[k].nbr);
+            assert_true(one[k].w == other[k].w && one[k].inverse_length == other[k].inverse_length);
+        }
+    }
+}
+
+/* A tube of peridynamic particles that grows among material points. */
+static void convert_tube(struct cloud *c, real radius)
+{
+    const struct particles *p = &c->p;
+    for (int64_t i = 0; i < p->n; i++) {
+        real r2 = 0;
+        for (int d = 0; d < p->dim; d++) r2 += d == 2 ? 0 : square(p->X[d][i] - p->X[d][p->n / 2]);
+        p->kind[i] = r2 < square(radius * CLOUD_SPACING) ? KIND_PD : KIND_MPM;
+    }
+    particles_list(&c->p);
+}
+
+/* Beside material points, too, the map of sites tells the bonds that a search finds: bonds that may yield are
+ * searched. */
+static void test_beside_points(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct cloud c;
+        struct bonds searched;
+        exact_cloud(&c, dim, SURFACE_VOLUME, NULL);
+        bonds_free(&c.bonds);
+        convert_tube(&c, 1.5);
+        bonds_make(&c.bonds, NULL, &c.p, &c.source);
+        for (real radius = 2.2; radius < 5; radius += 0.8) {
+            struct bonds old = c.bonds;
+            convert_tube(&c, radius);
+            bonds_make(&c.bonds, &old, &c.p, &c.source);
+            bonds_free(&old);
+            c.source.yield = (struct bond_yield){c.yield, c.hardening, CLOUD_MATERIALS};
+            bonds_make(&searched, NULL, &c.p, &c.source);
+            c.source.yield.stretch = NULL;
+            assert_rows_equal(&c.bonds, &searched);
+            bonds_free(&searched);
+        }
+        assert_true(dim == 1 || count_folded(&c.bonds) > 0);
+        cloud_free(&c);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_who_follows),
+        cmocka_unit_test(test_what_is_stored),
+        cmocka_unit_test(test_twins),
+        cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_who_leaves),
+        cmocka_unit_test(test_who_stays_out),
+        cmocka_unit_test(test_beside_points),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

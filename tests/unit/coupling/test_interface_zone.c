@@ -1,0 +1,123 @@
+/* The damping of the rim keeps momentum, angular momentum and rigid motion, only takes energy, stops what
+ * alternates from point to point, and leaves long waves alone. */
+#include "coupling/interface_zone.h"
+
+#include "tests/support/cloud.h"
+#include "tests/support/near.h"
+
+static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+
+/* A body whose left half is peridynamic, displaced at random. */
+static void half_make(struct cloud *c, struct interface_zone *r, enum space space, real shake)
+{
+    static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {40, 0, 0}, {20, 14, 0}, {14, 8, 8}};
+    struct cloud_plan plan = {.space = space, .horizon = 3, .shake = shake, .seed = 7};
+    const int dim = space_dim(space);
+    memcpy(plan.count, size[dim], sizeof plan.count);
+    cloud_make(c, &plan);
+    for (int64_t i = 0; i < c->p.n; i++)
+        c->p.kind[i] = c->p.X[0][i] < 0.5 * size[dim][0] * CLOUD_SPACING ? KIND_PD : KIND_MPM;
+    cloud_source(c);
+    interface_zone_make(r, &c->p, &c->source);
+    assert_true(r->points > 0 && r->n > r->points);
+}
+
+static void half_free(struct cloud *c, struct interface_zone *r)
+{
+    interface_zone_free(r);
+    cloud_free(c);
+}
+
+/* Momentum, then x_a p_b - x_b p_a, then twice the kinetic energy; `scale`: sums of the terms' sizes. */
+enum { SUMS = 7 };
+static void sums_of(const struct particles *p, real *sum, real *scale)
+{
+    memset(sum, 0, SUMS * sizeof *sum);
+    memset(scale, 0, SUMS * sizeof *scale);
+    for (int64_t i = 0; i < p->n; i++)
+        for (int a = 0; a < p->dim; a++) {
+            const int b = (a + 1) % p->dim;
+            const real m = p->mass[i], arm = p->x[a][i] * p->v[b][i], other = p->x[b][i] * p->v[a][i];
+            const real term[3] = {m * p->v[a][i], m * (arm - other), m * square(p->v[a][i])};
+            sum[a] += term[0], sum[3 + a] += term[1], sum[6] += term[2];
+            scale[a] += fabs(term[0]), scale[3 + a] += m * (fabs(arm) + fabs(other)), scale[6] += term[2];
+        }
+}
+
+/* Random velocities on a shaken body: what is kept is kept to the round-off of the sums (1e-14 of their terms). */
+static void test_kept(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(spaces); k++) {
+        struct cloud c;
+        struct interface_zone r = {0};
+        real before[SUMS], after[SUMS], scale[SUMS];
+        uint64_t seed = 11;
+        half_make(&c, &r, spaces[k], 0.2);
+        for (int64_t i = 0; i < c.p.n; i++)
+            for (int d = 0; d < c.p.dim; d++) c.p.v[d][i] = cloud_between(&seed, -1, 1);
+        sums_of(&c.p, before, scale);
+        for (int step = 0; step < 20; step++) {
+            real energy[SUMS];
+            sums_of(&c.p, energy, scale);
+            interface_damp_begin(&r, &c.p, 1.0 / 16);
+            sums_of(&c.p, after, scale);
+            assert_true(after[6] < energy[6]);
+        }
+        for (int s = 0; s < 6; s++) assert_near(after[s], before[s], 1e-14 * scale[s]);
+        half_free(&c, &r);
+    }
+}
+
+/* Rigid motion: nothing moves along any line between two particles. */
+static void test_rigid(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(spaces); k++) {
+        struct cloud c;
+        struct interface_zone r = {0};
+        half_make(&c, &r, spaces[k], 0.2);
+        const int dim = c.p.dim;
+        for (int64_t i = 0; i < c.p.n; i++) {
+            const real *x[DIM_MAX] = {c.p.x[0], c.p.x[1], c.p.x[2]};
+            for (int d = 0; d < dim; d++) c.p.v[d][i] = 3 + d;
+            if (dim > 1) c.p.v[0][i] -= 500 * x[1][i], c.p.v[1][i] += 500 * x[0][i];
+            if (dim > 2) c.p.v[1][i] -= 300 * x[2][i], c.p.v[2][i] += 300 * x[1][i];
+        }
+        struct particles was;
+        cloud_copy(&was, &c.p, 0);
+        for (int step = 0; step < 10; step++) interface_damp_begin(&r, &c.p, 1.0 / 16);
+        for (int d = 0; d < dim; d++) assert_true(cloud_difference(c.p.v[d], was.v[d], c.p.n) < 1e-13);
+        particles_free(&was);
+        half_free(&c, &r);
+    }
+}
+
+/* In a bar d_i = v_(i-1) - 2 v_i + v_(i+1). Where all neighbours are of the rim, k = 1/16 stops what alternates in one
+ * step, and sin(q i) loses (2 - 2 cos q)^2/16 of itself. */
+static void test_waves(void **state)
+{
+    (void)state;
+    const real pi = 3.14159265358979323846;
+    const real wave_number[] = {3.14159265358979323846, 1.0, 0.2};
+    for (size_t k = 0; k < COUNT_OF(wave_number); k++) {
+        struct cloud c;
+        struct interface_zone r = {0};
+        half_make(&c, &r, SPACE_LINE, 0);
+        const int32_t middle = 21;      /* points 20 .. 23 are the rim: the inner ones see whole neighbourhoods of it */
+        const real q = wave_number[k], phase = q < pi ? -q * middle + 0.5 * pi : 0.5 * pi - pi * middle;
+        assert_int_equal(r.points, 4);
+        for (int64_t i = 0; i < c.p.n; i++) c.p.v[0][i] = sin(q * (real)i + phase);
+        interface_damp_begin(&r, &c.p, 1.0 / 16);
+        assert_near(c.p.v[0][middle], 1 - square(2 - 2 * cos(q)) / 16, 1e-12);
+        assert_exact(c.p.v[0][30], sin(q * 30 + phase));
+        half_free(&c, &r);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kept), cmocka_unit_test(test_rigid),
+                                       cmocka_unit_test(test_waves)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,217 @@
+/* Runs out of hand are told apart: a time step too long, loads that no body bears, and what gains energy at
+ * any step. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "../bench/common/bench.h"
+#include "tests/support/near.h"
+#include "base/rise.h"
+
+/* ---- how long a rise took ---------------------------------------------------------------------------------------- */
+
+/* Exponential growth, tenfold in so many steps, noted every `stride` of them up to 20000. */
+static struct rise rising(real tenfold, int64_t stride)
+{
+    struct rise r = {0};
+    for (int64_t step = 0; step < 20000; step += stride) rise_note(&r, step, pow(10, (real)(step - 20000) / tenfold));
+    return r;
+}
+
+static void pace_of_exponentials(void **state)
+{
+    (void)state;
+    static const struct { real tenfold; int64_t stride; enum rise_pace target_speed;
+    } at[] = {
+        {5, 64, RISE_FAST},     {60, 64, RISE_FAST},   {95, 64, RISE_FAST},
+        {95, 700, RISE_FAST},   {150, 64, RISE_SLOW},  {1000, 64, RISE_SLOW},
+        {1000, 700, RISE_SLOW}, {4000, 64, RISE_SLOW}, {1000, 1, RISE_SLOW},
+    };
+    for (size_t k = 0; k < COUNT_OF(at); k++) {
+        const struct rise r = rising(at[k].tenfold, at[k].stride);
+        real steps;
+        assert_int_equal(rise_pace(&r, 20000, 1, &steps), at[k].target_speed);
+        /* values 16 steps apart, 64 of them: just so */
+        if (at[k].stride == 1) assert_true(steps > 990 && steps < 1010);
+        else assert_near(steps, at[k].tenfold, 1e-6 * at[k].tenfold);                    /* between values: round-off */
+    }
+    const struct rise endless = rising(1e5, 64);             /* more than 64 x 64 steps ago */
+    real steps;
+    assert_int_equal(rise_pace(&endless, 20000, 1, &steps), RISE_SLOW);
+    assert_true(isinf(steps));
+}
+
+static void pace_of_few_values(void **state)
+{
+    (void)state;
+    real steps;
+    struct rise r = {0};
+    assert_int_equal(rise_pace(&r, 10, 1, &steps), RISE_UNSURE);
+    rise_note(&r, 0, 0);
+    assert_int_equal(rise_pace(&r, 10, 1, &steps), RISE_FAST);           /* out of nothing */
+    assert_int_equal(rise_pace(&r, 20000, 1, &steps), RISE_UNSURE);      /* some time in 20000 steps */
+    rise_note(&r, 640, -1e-3);
+    assert_int_equal(rise_pace(&r, 1280, 1, &steps), RISE_FAST);
+    rise_note(&r, 650, 0.5);                             /* too close to the last: left out */
+    assert_int_equal(r.n, 2);
+    rise_note(&r, 1280, 1e-3);                           /* a background, or slow growth: one cannot tell */
+    assert_int_equal(rise_pace(&r, 1920, 1, &steps), RISE_UNSURE);
+    rise_note(&r, 1920, 0.06);
+    assert_int_equal(rise_pace(&r, 2560, 1, &steps), RISE_SLOW);
+}
+
+/* Squares of the velocity of x'' = -4 x + damping x' under leap-frog steps dt, whose limit is 1, from 1e-8 to 1. */
+static enum rise_pace pace_of_oscillator(real dt, real damping)
+{
+    struct rise r = {0};
+    real x = 1e-4, v = 0, steps, most = 0;
+    rise_note(&r, 0, 0);
+    for (int64_t step = 1; step < 1000000; step++) {
+        v += dt * (damping * v - 4 * x);
+        x += dt * v;
+        most = real_max(most, square(v));
+        if (square(v) > 1) return rise_pace(&r, step, square(v), &steps);
+        if (step % RISE_STRIDE == 0) rise_note(&r, step, most), most = 0;
+    }
+    fail_msg("dt = %g does not grow", dt);
+    return RISE_UNSURE;
+}
+
+/* A step beyond the limit by 2e-5 of it is seen as one, and what gains 1e-3 of its amplitude a step within the limit
+ * is not. */
+static void steps_beyond_the_limit_are_fast(void **state)
+{
+    (void)state;
+    const real beyond[] = {1 + 2e-5, 1.001, 1.02, 1.2, 2};
+    for (size_t k = 0; k < COUNT_OF(beyond); k++) assert_int_equal(pace_of_oscillator(beyond[k], 0), RISE_FAST);
+    const real within[] = {0.1, 0.5, 0.8};
+    for (size_t k = 0; k < COUNT_OF(within); k++)
+        assert_int_equal(pace_of_oscillator(within[k], 2e-3 / within[k]), RISE_SLOW);
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
+
+static const char plate[] =
+    "space: plane stress\nthickness: 1 mm\nduration: 1 ms\nmethod: adaptive\nmpm: {frame: current}\n"
+    "material: {young: 200 GPa, poisson: 1/3, density: 7850}\n"
+    "body: {box: {from: [0, 0], to: [20 mm, 20 mm]}}\nparticles: {spacing: 1 mm}\n"
+    "pd: {region: {box: {from: [5 mm, 5 mm], to: [15 mm, 15 mm]}}}\noutput: {frames: 0, samples: 100}\n";
+
+/* The cure for a value that has grown tenfold in so many steps until step 20000, where nothing loads the plate. */
+static void cure_of(const char *key, const char *value, real tenfold, char *remedy)
+{
+    struct engine e;
+    struct scene s;
+    struct bench_overrides o = {0};
+    if (key) bench_override(&o, key, "%s", value);
+    assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_ready(&o), o.n));
+    const struct rise r = rising(tenfold, 200);
+    e.step = 20000, e.t = 20000 * e.dt;
+    e.part.v[0][0] = 1;                                  /* which no load has paid for */
+    engine_remedy(&e, &r, 1, remedy, ENGINE_REMEDY);
+    bench_engine_free(&e, &s);
+}
+
+static void slow_growth_is_no_matter_of_the_step(void **state)
+{
+    (void)state;
+    char remedy[ENGINE_REMEDY];
+    cure_of(NULL, NULL, 1000, remedy);
+    assert_null(strstr(remedy, "choose a smaller"));
+    assert_non_null(strstr(remedy, "it took 1000 steps to grow tenfold"));
+    assert_non_null(strstr(
+        remedy, "gains energy: try method: pd, mpm.frame: reference or mpm.transfer: apic, and report the scene"));
+    cure_of("model", "mospd", 1000, remedy);
+    assert_non_null(strstr(remedy, "model: bond"));
+    cure_of("coupling", "pgg", 1000, remedy);
+    assert_non_null(strstr(remedy, "coupling: partial stress"));
+    cure_of("mpm.frame", "reference", 1000, remedy);
+    assert_non_null(strstr(remedy, "try method: pd or mpm.frame: current, and"));
+    cure_of("boundary", "[{mirror: {axis: x, at: 0, tangential: held}}]", 1000, remedy);
+    assert_non_null(strstr(remedy, "`fixed` in place of a mirror that holds"));
+    cure_of(NULL, NULL, 20, remedy);
+    assert_true(strncmp(remedy, "choose a smaller time.safety (now dt = ", 39) == 0);
+    assert_null(strstr(remedy, "gains energy"));
+    cure_of("time.step", "1 us", 1000, remedy);            /* above the critical one: 0.4 us */
+    assert_true(strncmp(remedy, "choose a smaller time.step (now dt = ", 37) == 0);
+}
+
+/* ---- runs -------------------------------------------------------------------------------------------------------- */
+
+/* Runs the plate with overrides up to NULL, which must be stopped; the message. */
+static const char *stopped(const char *const *method, const char *const *set)
+{
+    struct engine e;
+    struct scene s;
+    struct bench_overrides o = {0};
+    for (; *method; method += 2) bench_override(&o, method[0], "%s", method[1]);
+    for (; *set; set += 2) bench_override(&o, set[0], "%s", set[1]);
+    assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_ready(&o), o.n));
+    assert_int_equal(engine_run(&e), FAILED);
+    assert_non_null(strstr(status_message(), "unstable at step "));
+    bench_engine_free(&e, &s);
+    return status_message();
+}
+
+static const char *const methods[][5] = {
+    {"method", "pd"}, {"method", "pd", "model", "mospd"}, {"method", "mpm"}, {"method", "adaptive"},
+    {"method", "mpm", "mpm.frame", "reference"}, {"method", "adaptive", "mpm.frame", "reference"}};
+
+static void check_said(const char *const *set, const char *said, const char *not)
+{
+    for (size_t k = 0; k < COUNT_OF(methods); k++) {
+        const char *message = stopped(methods[k], set);
+        if (!strstr(message, said) || strstr(message, not)) fail_msg("method %zu: %s", k, message);
+    }
+}
+
+static void loads_beyond_reason_are_named(void **state)
+{
+    (void)state;
+    check_said((const char *[]){"boundary",
+                                "[{name: pull, traction: [0, 1e30], face: y+}, {traction: [0, 1], face: y-}]", NULL},
+               "boundary pull, a traction of 1e+30 Pa, gives its particles ", "choose a smaller");
+    check_said((const char *[]){"boundary",
+                                "[{traction: [0, 1], face: y-}, {body_force: [1e16, 0], time: {ramp: {until: 1 us}}}]",
+                                NULL},
+               "boundary boundary1, a body force of 1e+16 N/m^3, gives its particles ", "choose a smaller");
+    check_said((const char *[]){"boundary",
+                                "[{name: hit, velocity: [1e5, free], region: {box: {from: [0, 0], to: [1 mm, 1]}}}]",
+                                NULL},
+               "boundary hit, a velocity of 1e+05 m/s, drives its particles 1e+05 m/s", "choose a smaller");
+    check_said(
+        (const char *[]){"initial", "[{velocity: [1e5, 0], region: {box: {from: [0, 0], to: [9 mm, 1]}}}]", NULL},
+        "the scene starts with 1e+05 m/s", "choose a smaller");
+}
+
+/* Loads that a body bears are not to blame for a step that is too long. */
+static void steps_too_long_are_named(void **state)
+{
+    (void)state;
+    check_said((const char *[]){"time.safety", "1.2", "boundary", "[{traction: [0, 100 MPa], face: y+}]", "initial",
+                                "[{velocity_gradient: [10, 3, 0, -7]}]", NULL},
+               "; choose a smaller time.safety (now dt = ", "no time step");
+}
+
+/* A body that shakes itself to dust, sampled at its end only: it was called done. */
+static void the_last_sample_is_looked_at(void **state)
+{
+    (void)state;
+    const char *message =
+        stopped(methods[2], (const char *[]){"time.safety", "1.2", "output.samples", "1", "duration", "85 us",
+                                             "initial", "[{velocity_gradient: [10, 3, 0, -7]}]", NULL});
+    if (!strstr(message, "of its energy from nowhere; choose a smaller time.safety")) fail_msg("%s", message);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pace_of_exponentials), cmocka_unit_test(pace_of_few_values),
+        cmocka_unit_test(steps_beyond_the_limit_are_fast), cmocka_unit_test(slow_growth_is_no_matter_of_the_step),
+        cmocka_unit_test(loads_beyond_reason_are_named), cmocka_unit_test(steps_too_long_are_named),
+        cmocka_unit_test(the_last_sample_is_looked_at)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,255 @@
+/* Tests of the energy balance of energy and momentum, the first break, and the alarm. */
+#include "tests/support/bodies.h"
+#include "kernels/kernels.h"
+#include "probes/diagnostics.h"
+
+/* v = (2, -1) + a shear that adds nothing to the momentum. */
+static void ledger_of_a_known_field(void **state)
+{
+    (void)state;
+    struct body b;
+    struct diagnostics w;
+    body_make(&b, 2, (const int[]){40, 40});            /* more than one block of the sums */
+    real kinetic = 0, moving = 0;
+    for (int64_t i = 0; i < b.p.n; i++) {
+        b.p.mass[i] = 3;
+        b.p.v[0][i] = 2 + 0.1 * (b.p.X[1][i] - 20);
+        b.p.v[1][i] = -1;
+        kinetic += 1.5 * (square(b.p.v[0][i]) + 1);
+        moving += 3 * hypot(b.p.v[0][i], 1);
+    }
+    diagnostics_make(&w);
+    assert_near(diagnostics_kinetic(&b.p), kinetic, kinetic * ROUND_OFF);
+    real none[DIM_MAX] = {0};
+    diagnostics_momentum(&w, &b.p, NULL, none);
+    diagnostics_balance(&w, 0, &(struct energy){kinetic, 0, 0, 0, 0}, 0);
+    assert_near(w.now.momentum[0], 1600 * 3 * 2, 1e-9);
+    assert_near(w.now.momentum[1], -1600 * 3, 1e-9);
+    assert_near(w.now.balance_error, 0, 0);
+    assert_near(w.now.momentum_error, 0, 0);
+
+    /* a kick and the work of a spring, both booked by the loads */
+    for (int64_t i = 0; i < b.p.n; i++) b.p.v[1][i] = 1;
+    real impulse[DIM_MAX] = {0, 1600 * 3 * 2, 0};
+    diagnostics_momentum(&w, &b.p, NULL, impulse);
+    diagnostics_balance(&w, 1, &(struct energy){kinetic, 2, 3, 0, 0}, 5);
+    assert_true(w.now.momentum_error < 1e-13);
+    assert_true(fabs(w.now.balance_error) < ROUND_OFF);
+
+    /* momentum from nowhere shows, and stays on record; so does energy from nowhere */
+    impulse[1] -= 0.01 * moving;
+    diagnostics_momentum(&w, &b.p, NULL, impulse);
+    diagnostics_balance(&w, 2,
+                        &(struct energy){kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.01 * kinetic}, 0);
+    assert_near(w.now.momentum_error, 0.01, 1e-12);
+    assert_near(w.now.balance_error, 0.1 / 1.1, 1e-12);
+    impulse[1] += 0.01 * moving;
+    diagnostics_momentum(&w, &b.p, NULL, impulse);
+    diagnostics_balance(&w, 3, &(struct energy){kinetic, 0, 0, 0, 0}, 0.2 * kinetic);
+    assert_near(w.now.momentum_error, 0.01, 1e-12);
+    assert_near(w.now.balance_error, -0.2 / 1.1, 1e-12);
+    assert_near(w.now.time, 3, 0);
+    body_free(&b);
+}
+
+/* An archive of at most 4 KiB in memory, read in the order in which it was written. */
+struct tape { unsigned char byte[4096]; size_t used; };
+
+static status tape_exchange(struct archive *a, const char *name, void *data, size_t size)
+{
+    (void)name;
+    struct tape *t = a->file;
+    assert_true(t->used + size <= sizeof t->byte);
+    if (a->saving) memcpy(t->byte + t->used, data, size);
+    else memcpy(data, t->byte + t->used, size);
+    t->used += size;
+    return OK;
+}
+
+/* A body that was fast once and is slow now, and then loses momentum: its error is relative to the fast time, before a
+ * restart and after it. */
+static void ledger_survives_a_restart(void **state)
+{
+    (void)state;
+    struct body b;
+    struct diagnostics w, restored;
+    struct tape tape = {.used = 0};
+    struct archive out = {.saving = true, .exchange = tape_exchange, .file = &tape}, in = out;
+    const real none[DIM_MAX] = {0};
+    body_make(&b, 1, (const int[]){2});
+    diagnostics_make(&w);
+    diagnostics_make(&restored);
+    for (int i = 0; i < 2; i++) b.p.mass[i] = 1, b.p.v[0][i] = i == 0 ? 10 : -10;
+    diagnostics_momentum(&w, &b.p, NULL, none);
+    diagnostics_balance(&w, 0, &(struct energy){100, 0, 0, 0, 0}, 0);
+    for (int i = 0; i < 2; i++) b.p.v[0][i] *= 0.1;
+    diagnostics_momentum(&w, &b.p, NULL, none);
+    diagnostics_balance(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
+    assert_int_equal(diagnostics_archive(&w, &out), OK);
+    in.saving = false, tape.used = 0;
+    assert_int_equal(diagnostics_archive(&restored, &in), OK);
+    b.p.v[0][0] += 2;
+    for (int k = 0; k < 2; k++) {
+        struct diagnostics *either = k == 0 ? &w : &restored;
+        diagnostics_momentum(either, &b.p, NULL, none);
+        diagnostics_balance(either, 2, &(struct energy){1, 49, 0, 0, 0}, 0);
+        assert_near(either->now.momentum_error, 2.0 / 20, 1e-15);
+        assert_near(either->now.balance_error, -0.5, 1e-15);
+    }
+    body_free(&b);
+}
+
+/* Energy of strain e: 1/2 e : C e V, with shear counted twice; half of it where half the stress is left to bonds. */
+static void strain_energy_of_material_points(void **state)
+{
+    (void)state;
+    static const enum space space[DIM_MAX + 1] = {0, SPACE_LINE, SPACE_PLANE_STRAIN, SPACE_SOLID};
+    const real strain[SYM_MAX] = {1e-3, -5e-4, 2e-4, 7e-4, -3e-4, 4e-4};
+    for (int dim = 1; dim <= 3; dim++) {
+        struct body b;
+        struct material m = steel(space[dim]);
+        int n = symmetric_count(dim);
+        real C[SYM_MAX * SYM_MAX], stress[SYM_MAX] = {0}, density = 0, half[SYM_MAX * SYM_MAX] = {0};
+        material_stiffness(&m, dim, C);
+        for (int i = 0; i < n; i++) {
+            for (int j = 0; j < n; j++) stress[i] += C[i * n + j] * strain[j];
+            density += 0.5 * stress[i] * strain[i] * (i < dim ? 1 : 2);
+            half[i * n + i] = 0.5;
+        }
+        body_make(&b, dim, (const int[]){10, 4, 3});
+        for (int64_t k = 0; k < b.p.n; k++) {
+            b.p.volume[k] = 2;
+            for (int i = 0; i < n; i++) b.p.stress[i][k] = stress[i];
+        }
+        real whole = 2 * (real)b.p.n * density;
+        assert_near(diagnostics_strain(&b.p, &m, NULL), whole, 1e-12 * whole);
+        int32_t *index = NEW("test.index", b.p.n, int32_t);
+        for (int64_t k = 0; k < b.p.n; k++) index[k] = k < 5 ? 0 : -1;
+        struct partial_stress partial = {.index = index, .matrix = half, .entries = 1};
+        real expected = whole * (1 - 2.5 / (real)b.p.n);
+        assert_near(diagnostics_strain(&b.p, &m, &partial), expected, 1e-12 * whole);
+        b.p.kind[0] = KIND_PD;                           /* its energy is in bonds */
+        particles_list(&b.p);
+        assert_near(diagnostics_strain(&b.p, &m, NULL), whole * (1 - 1 / (real)b.p.n), 1e-12 * whole);
+        memory_free(index);
+        body_free(&b);
+    }
+}
+
+static void first_break_is_booked_once(void **state)
+{
+    (void)state;
+    struct body b;
+    struct diagnostics w;
+    body_make(&b, 2, (const int[]){10, 10});
+    diagnostics_make(&w);
+    diagnostics_breaks(&w, &b.p, 0, 1);
+    assert_true(isnan(w.break_time));
+    b.p.flag[0] = FLAG_CUT;                              /* of a bond with a driven particle */
+    diagnostics_breaks(&w, &b.p, 2, 2);
+    assert_true(isnan(w.break_time));
+    b.p.flag[particle_at(&b, 2.5, 3.5, 0)] |= FLAG_CRACKED;
+    b.p.flag[particle_at(&b, 4.5, 4.5, 0)] |= FLAG_CRACKED;
+    diagnostics_breaks(&w, &b.p, 4, 3);
+    assert_near(w.break_time, 3, 0);
+    assert_near(w.break_place[0], 3.5, ROUND_OFF);
+    assert_near(w.break_place[1], 4, ROUND_OFF);
+    b.p.flag[particle_at(&b, 8.5, 8.5, 0)] |= FLAG_CRACKED;
+    diagnostics_breaks(&w, &b.p, 2, 4);
+    assert_near(w.break_time, 3, 0);
+    assert_near(w.break_place[0], 3.5, ROUND_OFF);
+    assert_int_equal(w.bonds_broken, 8);
+
+    struct diagnostics again;
+    struct store s = {0};
+    struct archive a = {true, store_exchange, NULL, &s};
+    diagnostics_make(&again);
+    assert_ok(diagnostics_archive(&w, &a));
+    a.saving = false;
+    assert_ok(diagnostics_archive(&again, &a));
+    assert_near(again.break_time, 3, 0);
+    assert_int_equal(again.bonds_broken, 8);
+    store_free(&s);
+    body_free(&b);
+}
+
+static void alarm_names_the_first_runaway(void **state)
+{
+    (void)state;
+    struct body b;
+    body_make(&b, 2, (const int[]){60, 50});
+    b.p.v[0][17] = 5000, b.p.v[1][17] = 1500;           /* |v| = 5220.2 */
+    assert_ok(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6));
+    b.p.v[0][17] = 6.1e5, b.p.v[1][17] = 0;
+    b.p.v[0][2500] = NAN;
+    assert_int_equal(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6), FAILED);
+    assert_string_equal(status_message(),
+                        "unstable at step 123, t = 4.1e-06 s: particle 17 at (17.5, 0.5) m moves at 6.1e+05 m/s, "
+                        "faster than the wave speed 5232 m/s");
+    b.p.v[0][17] = 0;
+    assert_failed(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6),
+                  "particle 2500 at (40.5, 41.5) m has a position or velocity that is no finite number");
+    b.p.v[0][2500] = 0;
+    b.p.x[1][2999] = INFINITY;
+    assert_failed(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6), "particle 2999");
+    body_free(&b);
+}
+
+/* Whoever of a list it is, and nobody beside it: lists in one piece, with gaps and with ends of every length. */
+static void alarm_sees_everybody_listed(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct body b;
+        body_make(&b, dim, (const int[]){dim == 1 ? 64 : 16, 4, 1});
+        const real limit = 5000, diverged[3] = {1.0000001 * limit, -INFINITY, NAN};
+        for (int64_t n = 0; n <= 40; n++)
+            for (int64_t k = 0; k < 64; k++) {
+                const bool gaps = n % 2;                /* every other particle up to the 16th is left out */
+                bool listed = false;
+                b.p.n_of[KIND_PD] = 0;
+                for (int64_t i = 0; b.p.n_of[KIND_PD] < n; i++) {
+                    if (gaps && i < 16 && i % 2) continue;
+                    b.p.list[KIND_PD][b.p.n_of[KIND_PD]++] = (int32_t)i;
+                    listed = listed || i == k;
+                }
+                real *of = k % 3 == 1 ? &b.p.x[dim - 1][k] : &b.p.v[dim - 1][k], low_stress = *of;
+                assert_false(particles_diverged(&b.p, b.p.list[KIND_PD], n, limit));
+                *of = diverged[k % 3];
+                assert_int_equal(particles_diverged(&b.p, b.p.list[KIND_PD], n, limit), listed);
+                *of = k % 3 == 1 ? 1e300 : 0.9999999 * limit;
+                assert_false(particles_diverged(&b.p, b.p.list[KIND_PD], n, limit));
+                *of = low_stress;
+            }
+        body_free(&b);
+    }
+}
+
+/* The ends of a short list may lie as far apart as those of eight in a row: who stands between them is not listed. */
+static void alarm_passes_gaps_at_the_end(void **state)
+{
+    (void)state;
+    struct body b;
+    body_make(&b, 2, (const int[]){16, 4, 1});
+    b.p.v[0][3] = NAN;
+    for (int n = 2; n <= 7; n++) {
+        for (int k = 0; k < n - 1; k++) b.p.list[KIND_PD][k] = k < 3 ? k : k + 1;
+        b.p.list[KIND_PD][n - 1] = 7;
+        assert_false(particles_diverged(&b.p, b.p.list[KIND_PD], n, 5000));
+    }
+    body_free(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ledger_of_a_known_field),
+        cmocka_unit_test(ledger_survives_a_restart),
+        cmocka_unit_test(strain_energy_of_material_points),
+        cmocka_unit_test(first_break_is_booked_once),
+        cmocka_unit_test(alarm_names_the_first_runaway),
+        cmocka_unit_test(alarm_sees_everybody_listed),
+        cmocka_unit_test(alarm_passes_gaps_at_the_end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
