@@ -19,7 +19,7 @@ CFLAGS   += -std=c11 $(OPTIMISE) -g -ffp-contract=fast -fno-math-errno -fno-trap
 LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
 LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
 
-# Kernels are compiled once for each set of vector instructions; the program takes one at start (src/engine/simd.c). The rest is
+# Kernels are compiled once for each set of vector instructions; the program takes one at start (src/simd/simd.c). The rest is
 # for any machine of its kind, or for ARCH (native, ...).
 rest     := $(ARCH:%=-march=%)
 X86      := $(findstring x86_64,$(shell $(CC) -dumpmachine))

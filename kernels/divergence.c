@@ -4,7 +4,7 @@
 #include "kernels.h"
 #include "kernels/simd/variants.h"
 
-static ALWAYS_INLINE lanes_mask eight_out_of_hand(const struct particles *p, const int32_t *list, real limit2,
+static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const int32_t *list, real limit2,
                                                   const int dim)
 {
     const int32_t first = list_together(list) ? list[0] : -1;
@@ -14,24 +14,24 @@ static ALWAYS_INLINE lanes_mask eight_out_of_hand(const struct particles *p, con
         speed2 += v * v;
         place += lanes_size(lanes_at(p->x[d], first, list));
     }
-    return out_of_hand(speed2, place, limit2);
+    return has_diverged(speed2, place, limit2);
 }
 
-static ALWAYS_INLINE bool any_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit2,
+static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit2,
                                           const int dim)
 {
     int64_t found = 0;
 #pragma omp parallel for schedule(static) reduction(+ : found)
     for (int64_t k = 0; k < n; k += LANES) {
         _Alignas(sizeof(lanes)) int32_t room[LANES];
-        found += lanes_any(eight_out_of_hand(p, list_eight(list, k, n, room), limit2, dim));
+        found += lanes_any(eight_diverged(p, list_eight(list, k, n, room), limit2, dim));
     }
     return found > 0;
 }
 
 bool particles_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit)
 {
-#define CASE(D) case D: return any_out_of_hand(p, list, n, limit * limit, D);
+#define CASE(D) case D: return any_diverged(p, list, n, limit * limit, D);
     switch (p->dim) { DIM_VARIANTS(CASE) }
     return false;
 }

@@ -209,11 +209,12 @@ KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const st
  * Returns the largest component of a velocity, infinite where one is not finite [m/s]. */
 KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work));
 
-/* Position and velocity of all its points; of those that mesh->see names; of those among the n listed particles. */
+/* Position and velocity of all its points; of those that mesh->exposed_list names; of those among the n listed
+ * particles. */
 KERNEL(void, mesh_points_move, (const struct mesh *mesh, struct particles *p));
 KERNEL(void, mesh_exposed_move, (const struct mesh *mesh, struct particles *p));
 KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n));
-/* Adds the forces f of the points that mesh->see names to the nodes; serial. */
+/* Adds the forces f of the points that mesh->exposed_list names to the nodes; serial. */
 KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p));
 /* Cauchy stress and volume of all points of the mesh. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));

@@ -23,7 +23,7 @@ static bool accuracy_chart_same_line(const struct accuracy_point *a, const struc
     return a->problem == b->problem && a->method == b->method && a->horizon == b->horizon && a->step == b->step;
 }
 
-#define WORST 0.2                        /* nobody asks for more: fronts of a line that is worse do not count */
+#define WORST 0.2 /* no front is needed beyond this: those of a line that is worse do not count */
 
 /* Marks what is on the front of one family in one case. */
 static void mark_front(const struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int family,

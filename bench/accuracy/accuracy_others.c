@@ -1,5 +1,5 @@
-/* Problems with known solutions that are not in the chart: other sizes, materials, angles, times and
- * dimensions than its own. `method: auto` has to reach on them what it is asked for. */
+/* Problems with known solutions that are not in the cost-accuracy table: other sizes, materials, angles, times and
+ * dimensions. `method: auto` has to reach the accuracy that is required there, too. */
 #include <math.h>
 #include <stdio.h>
 

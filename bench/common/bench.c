@@ -1,4 +1,4 @@
-/* `cleave bench`: which benches there are and which were asked for. */
+/* `cleave bench`: the table of benches, and the choice among them. */
 #include <stdio.h>
 #include <string.h>
 
@@ -28,7 +28,7 @@ static status bench_mark(const char *word, bool *asked)
 {
     for (size_t k = 0; k < COUNT_OF(renamed); k++)
         if (!strcmp(word, renamed[k].old)) {
-            fprintf(stderr, "cleave bench %s is now cleave bench %s\n", word, renamed[k].name);
+            printf("cleave bench %s is now cleave bench %s\n", word, renamed[k].name);
             word = renamed[k].name;
         }
     for (int k = 0; k < BENCHES; k++)

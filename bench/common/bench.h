@@ -67,8 +67,8 @@ const struct scene_override *bench_overrides_ready(struct bench_overrides *o);
 struct bench_figure { const char *probe, *quantity; double value; };
 /* Those that probes of a run have; the others keep their value. */
 void bench_figures_take(const struct engine *e, struct bench_figure *figure, int n);
-/* Runs a scene to its end, and its twin on material points if a pulse probe wants one, and reads figures of its probes:
- * NAN where it has none. */
+/* Runs a scene to its end, and its twin on material points if a pulse probe compares with it, and reads figures of
+ * its probes: NAN where it has none. */
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
 /* Says in one line that there is no such scene here, if so. */
 bool bench_scene_exists(const char *path);
@@ -111,7 +111,7 @@ status bench_block_make(struct engine *e, struct scene *s, const struct bench_bl
 /* Every kernel instance beside the machine's limits, and the speed floor; few repetitions with `quick`. */
 status bench_kernels(bool quick);
 
-/* bench_targets.c: what is asked of inputs/kalthoff_winkler.yaml at a spacing of 0.5 mm, beside the probes. */
+/* bench_targets.c: targets for inputs/kalthoff_winkler.yaml at a spacing of 0.5 mm, beside the probes. */
 enum { FLOOR_THREADS = 2 };
 struct floor_figure {
     const char *name, *unit;
@@ -122,7 +122,7 @@ enum { FLOOR_FIGURES_MAX = 8 };
 struct floor {
     int figures;
     struct floor_figure
-        figure[FLOOR_FIGURES_MAX]; /* ratio = measured / limit <= asked, or >= asked; SI x factor: as printed */
+        figure[FLOOR_FIGURES_MAX]; /* ratio = measured / limit <= target, or >= target; SI x factor: as printed */
     struct bench_table laps;
 };
 /* Peak memory: before anything large is allocated, since a child process inherits its parent's high-water mark. */

@@ -5,7 +5,7 @@
 
 #include "coupling.h"
 
-/* Every node and every peridynamic particle far from the edges is looked at. Strain: bonds stretch by finite
+/* Every node and every peridynamic particle far from the edges is measured. Strain: bonds stretch by finite
  * geometry, so nothing below 1e-6 is told from zero. */
 static const char line_text[] = "space: line\n"
                                 "duration: 1 us\n"

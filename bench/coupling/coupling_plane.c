@@ -59,7 +59,7 @@ struct plain {
     real *v[2], energy_change;
 };
 
-/* Particles are made and sorted before anyone is peridynamic, so all runs number them alike. */
+/* Particles are made and sorted before any is peridynamic, so all runs number them alike. */
 static status plain_make(struct plain *b, const struct strip *s, struct plane_row row)
 {
     struct engine e;

@@ -15,7 +15,7 @@
 
 enum { SIZES = 4, DIMS = 2, STEPS_WARM = 2, PIECES = 4, FRAME_EVERY = 100, FRAMES = 6 };
 static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
-/* What is asked: spread over the sizes, set-up [full steps], output [1]. */
+/* Targets: spread over the sizes, set-up [full steps], output [1]. */
 #define SPREAD_ASKED 1.15
 #define SETUP_ASKED 50.0
 #define OUTPUT_ASKED 0.03

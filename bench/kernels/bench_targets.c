@@ -11,8 +11,8 @@
 /* A run: some steps to warm up, then pieces on one thread and on two in turn; it ends before the crack starts. */
 enum { STEPS_WARM = 4, STEPS_TIMED = 40, ROUNDS = 3 };
 
-/* A way to run the scene at 0.5 mm, with all of its particles in every step: what rests is not left out, or the
- * limits of the machine would say nothing. `sampled`: as often as the scene asks, else one sample in STEPS_TIMED. */
+/* A way to run the scene at 0.5 mm, with all of its particles in every step: with an active set the limits of the
+ * machine would not apply. `sampled`: with the samples of the scene, else one sample in STEPS_TIMED. */
 struct way {
     const char *name;
     bool sampled;

@@ -119,7 +119,7 @@ static void kernels_draw_set_panel(FILE *to, double left, double right, double b
             left, right, below, above);
 }
 
-/* Asked figures as shares of what is asked. */
+/* Measured figures as shares of their targets. */
 static void draw_floor(FILE *to, const struct floor *f)
 {
     if (!f->figures) return;

@@ -45,7 +45,7 @@ double factors_figure(const char *folder, const char *key)
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* ---- what is asked ----------------------------------------------------------------------------------------------- */
+/* ---- targets ----------------------------------------------------------------------------------------------------- */
 
 void factors_ask(struct factors_targets *t, double measured, double asked, const char *name, ...)
 {
@@ -82,7 +82,7 @@ static status write_targets(const struct factors_targets *t)
     return s;
 }
 
-/* Bars of measured over asked. */
+/* Bars of measured over target. */
 static void draw_targets(FILE *to, const void *context)
 {
     const struct factors_targets *t = context;

@@ -5,7 +5,7 @@
 #include "bench/common/bench.h"
 #include "output/history.h"
 
-/* ---- bench_sif.c: runs, and figures beside what is asked of them ------------------------------------------------- */
+/* ---- bench_sif.c: runs, and figures beside their targets --------------------------------------------------------- */
 
 /* A run of a scene as a process of its own. */
 struct factors_job {
@@ -22,7 +22,7 @@ status factors_run(struct factors_job *job, int n, int at_once);
 /* A number of the summary, NAN where it has none. */
 double factors_figure(const char *folder, const char *key);
 
-/* What is asked. */
+/* A target. */
 struct factors_target {
     char name[96];
     double measured, asked; /* [1]: at most */

@@ -318,7 +318,7 @@ static status draw_groups(const struct moving_table *t)
     return OK;
 }
 
-/* ---- what is asked ----------------------------------------------------------------------------------------------- */
+/* ---- targets ----------------------------------------------------------------------------------------------------- */
 
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 

@@ -34,7 +34,7 @@ struct lasting {
     double end, largest, least;          /* energy - energy at the start [1]                                        */
     double loudest;                      /* largest energy with velocities after the step [1]                       */
     double rate;                         /* growth of energy per step, fitted to its logarithm over the second half */
-    double turn;            /* largest change of angular momentum over sum m |x| |v| of the start [1]; NAN: not asked */
+    double turn; /* largest change of angular momentum over sum m |x| |v| of the start [1]; NAN: not measured */
     double converted;                    /* share that became peridynamic                                           */
     bool inverted;                       /* it had a negative energy: of points turned inside out                   */
     char why[NAME_MAX_LENGTH];           /* of a stop or a refusal                                                  */

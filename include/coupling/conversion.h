@@ -52,7 +52,7 @@ struct conversion_sync {
 /* Converts every material point flagged FLAG_STRESSED or FLAG_CUT (as the criteria say), both ends of a bond that
  * broke, and with `block` their neighbours within the horizon; clears the flags of the step. Rows of bonds and
  * partial stresses (`partial` NULL: hand-shake without them) are rebuilt only if something converted. Bonds that are
- * past their limit when made are cut at once and their energy is booked as fracture. `look` may be NULL. Returns the
+ * past their limit when made are cut at once and their energy is booked as fracture. `sync` may be NULL. Returns the
  * number of particles converted. */
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
                 const struct bond_source *source, struct partial_stress *partial,

@@ -20,7 +20,7 @@ struct grid_coupled {
 static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
 static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
 
-/* Before the forces of a step: lists and flags (FLAG_CARRIED) the peridynamic particles that the grid moves, and
+/* Before the forces of a step: lists and flags (FLAG_GRID_COUPLED) the peridynamic particles that the grid moves, and
  * sorts them. At the interface these are the particles in cells that share a node with a cell that holds a material
  * point; so the choice does not depend on the shape functions. The grid must cover all material points, in a unified
  * grid all. */

@@ -92,7 +92,7 @@ static inline const uint8_t *mesh_levels(const struct mesh *mesh, int64_t row)
 {
     return mesh->active.level + row * mesh->segments;
 }
-static inline bool mesh_asleep(const uint8_t *levels, int64_t k)
+static inline bool mesh_inactive(const uint8_t *levels, int64_t k)
 {
     return (levels[k / LANES] | levels[(k + LANES - 1) / LANES]) == 0;
 }

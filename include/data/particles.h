@@ -22,7 +22,7 @@ enum particle_flag {
     FLAG_STRESSED = 2,                   /* largest principal stress passed the trigger          */
     FLAG_DRIVEN = 4,                     /* a velocity or fixed condition holds a component      */
     FLAG_CRACKED = 8,                    /* lost a bond to a particle, neither of them driven    */
-    FLAG_CARRIED = 16,                   /* peridynamic, but moved by the grid (grid_coupled.h)         */
+    FLAG_GRID_COUPLED = 16,                   /* peridynamic, but moved by the grid (grid_coupled.h)         */
     FLAG_MESHED = 32,                    /* material point of the mesh (mesh.h)                  */
     FLAG_LISTED = 64                     /* stands on the list that conversion.c is making          */
 };
@@ -125,7 +125,7 @@ static inline void particle_place(const struct particles *p, int64_t i, real *X)
 /* Is particle i moved by the grid? */
 static inline bool particle_on_grid(const struct particles *p, int64_t i)
 {
-    return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_CARRIED);
+    return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_GRID_COUPLED);
 }
 
 /* Stress across the plane, sigma_zz = nu (sigma_xx + sigma_yy) and what flow adds; 0 unless in plane strain [Pa].

@@ -178,8 +178,8 @@ void engine_say(struct engine *e, const char *text);
 enum { ENGINE_REMEDY = 640 };
 void engine_stability_check_make(struct engine *e);
 status engine_stability_check(struct engine *e);
-/* After a sample: FAILED where the balance of energies says what places do not. At the end: a warning of what is no
- * alarm, but more than results should be trusted with. */
+/* After a sample: FAILED where the balance of energies says what places do not. At the end: a warning of
+ * what stops no run, but is more than results should be trusted with. */
 status engine_energy_check(struct engine *e);
 void engine_say_balance(struct engine *e);
 status engine_divergence_check(const struct engine *e, bool peridynamic, bool meshed);

@@ -72,7 +72,7 @@ struct growth {
     real heading[2];                     /* unit vector: where it goes; `along` is the mean of where it came from */
     real grown;                          /* length so far                                           [m]     */
     real start_time;                     /* of the first growth; NAN before                         [s]     */
-    real intensity;                      /* K_eq of the ruling factors; NAN: none known      [Pa m^(1/2)]    */
+    real intensity;                      /* K_eq of the factors       ; NAN: none known      [Pa m^(1/2)]    */
     real target_speed, filtered_speed;                     /* of a crack that follows: its speed; v_filtered [m/s] */
     real asked;                          /* time of the factors that ruled last                     [s]     */
     int64_t n, room;
@@ -85,7 +85,7 @@ bool growth_follows(const struct growth_rule *rule);
 void growth_make(struct growth *g, const struct growth_rule *rule);
 void growth_free(struct growth *g);
 
-/* One step: the tip advances, what it crosses begins to fade, what fades goes on. `ruling` NULL: no factors known;
+/* One step: the tip advances, what it crosses begins to fade, what fades goes on. `control` NULL: no factors known;
  * they turn the crack to the direction of the largest hoop stress once it grows. Returns directed bonds that were
  * released. */
 int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,

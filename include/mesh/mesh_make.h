@@ -1,4 +1,4 @@
-/* Makes the mesh of the reference frame (include/mesh/mesh.h) and follows conversion. */
+/* Makes the mesh of the reference frame (include/data/mesh.h) and follows conversion. */
 #ifndef CLEAVE_MESH_MAKE
 #define CLEAVE_MESH_MAKE
 
@@ -43,7 +43,7 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
 real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
 
 /* Points that something outside the mesh pulls at or looks at in every step: beside bonds, loaded, or with an image. */
-void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);
+void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);
 
 /* Largest stable step by the cells alone: 2/omega of the stiffest single cell, for each set of points it may be left
  * with (`any`) or only for the cells there are [s]. */

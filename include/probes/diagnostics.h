@@ -1,4 +1,4 @@
-/* The energy balance of energy and momentum, the first break, and the alarm for unstable runs. */
+/* The balance of energy and momentum, the first break, and the check for diverged particles. */
 #ifndef CLEAVE_DIAGNOSTICS
 #define CLEAVE_DIAGNOSTICS
 
@@ -13,7 +13,7 @@ struct energy {
     real kinetic;                        /* 1/2 m v_before . v_after of the velocity update      [J]  */
     real strain, plastic;                /* of bonds and material points                         [J]  */
     real fracture;                       /* of bonds broken                                      [J]  */
-    real damped;                         /* taken by the damping of the rim (interface_zone.h)              [J]  */
+    real damped;                         /* taken by the interface damping (interface_zone.h)               [J]  */
 };
 
 struct energy_balance {

@@ -104,7 +104,7 @@ struct scene {
     bool has_grid_origin; real grid_origin[DIM_MAX];   /* a node of the grid [m]                      */
 
     enum coupling coupling;
-    real interface_damping;                    /* of the rim of the material points (interface_zone.h), in c/h */
+    real interface_damping;                    /* of the interface zone (interface_zone.h), in c/h */
     bool has_interface_damping;                /* as has_shape                                              */
     const char *frame_wish;        /* what the scene says that has a meaning in the current frame only; NULL: nothing */
     struct conversion_rule conversion;

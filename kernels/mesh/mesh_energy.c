@@ -3,6 +3,7 @@
 #include "mesh_run.h"
 #include "base/team.h"
 
+/* Adds 1/2 m v^2 of nodes first .. end - 1 [J]. */
 static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid *g = context;
@@ -22,6 +23,7 @@ real mesh_kinetic(const struct mesh *mesh)
     return sum;
 }
 
+/* Adds 1/4 f^2/m of nodes first .. end - 1, the kick energy over dt^2 [J/s^2]. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;

@@ -26,26 +26,26 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
     const bool balanced = mesh_balanced(m, dim);
     const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
     const uint8_t *levels = mesh_levels(mesh, row);
-    lanes grid_coupled_select[CORNERS_MAX][3], tension = lanes_of(-INFINITY);
+    lanes carried[CORNERS_MAX][3], tension = lanes_of(-INFINITY);
     for (int c = 0; c < 1 << dim; c++)
-        for (int i = 0; i < dim; i++) grid_coupled_select[c][i] = lanes_of(0);
+        for (int i = 0; i < dim; i++) carried[c][i] = lanes_of(0);
     for (int64_t k = 0; k < run->cells; k += LANES) {
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
-        if (mesh_asleep(levels, start + k)) continue;      /* forces carried from the cells before are 0 */
+        if (mesh_inactive(levels, start + k)) continue;      /* forces carried from the cells before are 0 */
         mesh_run_load(mesh, run, k, u, dim);
         mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];
-                lanes_store(to, lanes_load(to) + (f[c][i] + shifted(grid_coupled_select[c][i], f[c + 1][i])));
-                grid_coupled_select[c][i] = f[c + 1][i];
+                lanes_store(to, lanes_load(to) + (f[c][i] + shifted(carried[c][i], f[c + 1][i])));
+                carried[c][i] = f[c + 1][i];
             }
     }
     if (run->cells % LANES == 0)                 /* else the upper corners of the last cell are in the last vector */
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++)
-                g->force[i][run->cell + run->cells + mesh->corner[c]] += grid_coupled_select[c][i][LANES - 1];
+                g->force[i][run->cell + run->cells + mesh->corner[c]] += carried[c][i][LANES - 1];
     run->stressed = false;
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
@@ -75,7 +75,7 @@ static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, cons
 /* ---- partial cells ----------------------------------------------------------------------------------------------- */
 
 /* Are all cells of a group of partial cells inactive? */
-static ALWAYS_INLINE bool cuts_asleep(const struct mesh *mesh, int64_t group)
+static ALWAYS_INLINE bool cuts_inactive(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
     for (int l = 0; l < LANES; l++) level |= mesh->active.level[mesh_block(mesh, mesh->cut[group * LANES + l])];
@@ -125,7 +125,7 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
         const int32_t *cell = mesh->cut + group * LANES;
         const int64_t left = mesh->cuts - group * LANES;
         const lanes *f = (const lanes *)mesh->cut_force + group * (1 << dim) * dim;
-        if (cuts_asleep(mesh, group)) continue;
+        if (cuts_inactive(mesh, group)) continue;
         const bool in_line = list_together(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
@@ -143,7 +143,7 @@ enum { FEW = 16 };                       /* groups that one thread computes in l
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
         TEAM_LOOP(mesh_groups(mesh) > FEW, for (int64_t k = 0; k < mesh_groups(mesh); k++)                             \
-            if (!cuts_asleep(mesh, k)) cut_force(mesh, p, m, k, D, FINITE););                                          \
+            if (!cuts_inactive(mesh, k)) cut_force(mesh, p, m, k, D, FINITE););                                        \
         cuts_add(mesh, D);                                                                                             \
     }
 

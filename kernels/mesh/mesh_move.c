@@ -47,7 +47,7 @@ void mesh_clear(struct mesh *mesh)
 #pragma omp parallel for schedule(static)
     for (int64_t r = 0; r < mesh->rows; r++)
         for (int64_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I += LANES)
-            for (int d = 0; d < dim && !mesh_asleep(mesh_levels(mesh, r), I - r * mesh->grid.count[0]); d++)
+            for (int d = 0; d < dim && !mesh_inactive(mesh_levels(mesh, r), I - r * mesh->grid.count[0]); d++)
                 lanes_store(mesh->grid.force[d] + I, lanes_of(0));
 }
 
@@ -63,7 +63,7 @@ static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
         real *velocity = mesh->grid.velocity[d], *displacement = mesh->displacement[d];
         const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
         for (int64_t I = first; I < end; I += LANES) {
-            if (mesh_asleep(levels, I - start)) continue;
+            if (mesh_inactive(levels, I - start)) continue;
             const lanes v = lanes_load(velocity + I) + dt_velocity * lanes_load(inverse + I) * lanes_load(force + I);
             lanes_store(velocity + I, v);
             lanes_store(displacement + I, ((lanes_load(displacement + I) + dt * v) + mesh->rounding) - mesh->rounding);

@@ -52,7 +52,7 @@ enum { FEW = 128 };                      /* cells whose points one thread moves 
         _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                        \
             if (mesh->kind[I]) cell_move(mesh, p, I, ~0u, D);                                                          \
     }                                                                                                                  \
-    static void seen_move_##D(const struct mesh *mesh, struct particles *p)                                            \
+    static void exposed_move_##D(const struct mesh *mesh, struct particles *p)                                         \
     {                                                                                                                  \
         TEAM_LOOP(mesh->exposed > FEW, for (int64_t k = 0; k < mesh->exposed; k++)                                     \
             cell_move(mesh, p, mesh->exposed_list[k].cell, mesh->exposed_list[k].places, D););                         \
@@ -73,9 +73,9 @@ void mesh_points_move(const struct mesh *mesh, struct particles *p)
 
 void mesh_exposed_move(const struct mesh *mesh, struct particles *p)
 {
-    if (p->dim == 1) seen_move_1(mesh, p);
-    else if (p->dim == 2) seen_move_2(mesh, p);
-    else seen_move_3(mesh, p);
+    if (p->dim == 1) exposed_move_1(mesh, p);
+    else if (p->dim == 2) exposed_move_2(mesh, p);
+    else exposed_move_3(mesh, p);
 }
 
 void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
@@ -113,7 +113,7 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
 }
 
 /* Sets end_strain and end_rotation of the points at the ends of bonds in a group of partial cells. */
-static ALWAYS_INLINE void row_block_ends_update(const struct mesh *mesh, struct particles *p, int64_t group,
+static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group,
                                                 const int dim, const bool finite)
 {
     struct mesh_cell s;
@@ -136,10 +136,10 @@ static ALWAYS_INLINE void row_block_ends_update(const struct mesh *mesh, struct 
 }
 
 #define ENDS(D, FINITE)                                                                                                \
-    static void ends_know_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                                 \
+    static void ends_update_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
     {                                                                                                                  \
         TEAM_LOOP(mesh_groups(mesh) > FEW / LANES, for (int64_t k = 0; k < mesh_groups(mesh); k++)                     \
-            row_block_ends_update(mesh, p, k, D, FINITE););                                                            \
+            group_ends_update(mesh, p, k, D, FINITE););                                                                \
     }
 ENDS(2, false)
 ENDS(2, true)
@@ -149,8 +149,8 @@ ENDS(3, true)
 void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 {
     if (!mesh->ends) return;
-    if (p->dim == 2) (finite ? ends_know_2_true : ends_know_2_false)(mesh, p);
-    if (p->dim == 3) (finite ? ends_know_3_true : ends_know_3_false)(mesh, p);
+    if (p->dim == 2) (finite ? ends_update_2_true : ends_update_2_false)(mesh, p);
+    if (p->dim == 3) (finite ? ends_update_3_true : ends_update_3_false)(mesh, p);
 }
 
 /* ---- forces of points -------------------------------------------------------------------------------------------- */

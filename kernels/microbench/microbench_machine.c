@@ -65,6 +65,7 @@ DIM_VARIANTS(SWEEP)
 #define SWEEP_ENTRY(D) [D] = stencil_sweep_##D##d,
 static void (*const stencil_sweep[DIM_MAX + 1])(struct stencil_probe *) = {DIM_VARIANTS(SWEEP_ENTRY)};
 
+/* Index distances and inverse lengths of all neighbours within 3.015 spacings. */
 static void find_neighbours(struct stencil_probe *s)
 {
     const int reach[DIM_MAX] = {MARGIN, s->dim > 1 ? MARGIN : 0, s->dim > 2 ? MARGIN : 0};

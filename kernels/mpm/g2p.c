@@ -119,7 +119,7 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_signs((row_of_points)~inside);
 }
 
-/* -1 for points at which bonds end and, with momentum_only, for all points; 1 for the others. */
+/* -1 for points at which bonds end and, with momentum_only, for all points; 1 for all other points. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     row_of_points bonded = points_of(t->momentum_only ? -1 : 1);

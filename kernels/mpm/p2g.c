@@ -80,13 +80,13 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
         const int k = PATCH(dim, shape);
         sum[0][k] += mass * weight;
         for (int d = 0; d < dim; d++) {
-            row_of_nodes grid_coupled = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
+            row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
             for (int e = along; e < dim; e++) {
                 if (transfer == TRANSFER_APIC)
-                    grid_coupled += sheared[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
+                    carried += sheared[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
                 pushed -= pull[symmetric_place(d, e, dim)] * stencil_slope(s, at, k1, k2, e, dim, shape);
             }
-            sum[1 + d][k] += grid_coupled * weight;
+            sum[1 + d][k] += carried * weight;
             sum[1 + dim + d][k] = pushed;
         }
     }
@@ -118,7 +118,7 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
         struct cell_stencil s;
         const int points = at_once(n - k, dim);
         cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
-        stencil_rotation(&s, dim, shape);
+        stencil_transpose(&s, dim, shape);
         for (int at = 0; at < points; at++) {
             p2g_fetch(p, list, k + at, dim, transfer);
             p2g_particle(sum, g, p, t, &s, at, dim, shape, transfer);
@@ -149,13 +149,14 @@ p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIE
 
 /* ---- single field of a few points -------------------------------------------------------------------------------- */
 
+/* Adds `value` of point i to `field` with the weights of the first map. */
 static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct particles *p, real half_width, int32_t i,
                                           real value, real *field, const int dim, const enum shape shape)
 {
     const struct cell c = cell_make(g, p, i, dim, shape);
     struct cell_stencil s;
     cell_stencil_make(&s, g, &c, p, &i, 1, half_width, dim, shape);
-    stencil_rotation(&s, dim, shape);
+    stencil_transpose(&s, dim, shape);
     const row_of_nodes spread = value * stencil_touch(&s, 0, g->h, dim, shape).N;
     FOR_TOUCHED(&s, 0, dim, shape)
         nodes_add(g, field + cell_row(&c, g, k1, k2, dim), spread * stencil_row(&s, 0, k1, k2, dim, shape), dim, shape);

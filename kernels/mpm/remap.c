@@ -49,7 +49,7 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
     row_of_points momentum[DIM_MAX];
     cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
     remap_gather(momentum, &s, g, c, p, dim, shape);
-    stencil_rotation(&s, dim, shape);
+    stencil_transpose(&s, dim, shape);
     for (int at = 0; at < n; at++) {
         const row_of_nodes N = stencil_touch(&s, at, g->h, dim, shape).N;
         row_of_nodes given[DIM_MAX];

@@ -100,7 +100,7 @@ static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_po
 }
 
 /* Transposes ROW vectors with one lane per point to POINTS vectors with one lane per node. */
-static ALWAYS_INLINE void rows_rotate(const row_of_points from[ROW], row_of_nodes to[POINTS])
+static ALWAYS_INLINE void rows_transpose(const row_of_points from[ROW], row_of_nodes to[POINTS])
 {
 #ifdef __AVX__
 #define EVEN(u, v) VECTOR_PICK(points_mask, u, v, 0, 4, 2, 6)

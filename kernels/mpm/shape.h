@@ -156,7 +156,7 @@ static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes
     }
 }
 
-/* ---- weights of a few points of a cell -------------------------------------------------------------------------- */
+/* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
 
 struct cell_stencil {
     int32_t point[POINTS];               /* padded with the last point                                    */
@@ -236,11 +236,11 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
 }
 
 /* Transposes the weights and slopes of a row to one vector per point, for maps that add to nodes. */
-static ALWAYS_INLINE void stencil_rotation(struct cell_stencil *s, const int dim, const enum shape shape)
+static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int dim, const enum shape shape)
 {
     if (IS_FACE(dim, shape)) return;
-    rows_rotate(s->N, s->from_N);
-    rows_rotate(s->D[0], s->from_D);
+    rows_transpose(s->N, s->from_N);
+    rows_transpose(s->D[0], s->from_D);
 }
 
 /* Weights and slopes of a row at point `at`. For the corners of a face a new computation is cheaper than

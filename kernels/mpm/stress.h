@@ -172,12 +172,12 @@ static ALWAYS_INLINE void stress_given(const struct particles *p, const struct p
     for (int s = 0; s < n; s++) stress[s] = p->stress[s][i];
     if (!partial || !partial->index || partial->index[i] < 0) return;
     const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
-    real grid_coupled[SYM_MAX];
+    real borne[SYM_MAX];
     for (int a = 0; a < n; a++) {
-        grid_coupled[a] = 0;
-        for (int b = 0; b < n; b++) grid_coupled[a] += M[a * n + b] * stress[b];
+        borne[a] = 0;
+        for (int b = 0; b < n; b++) borne[a] += M[a * n + b] * stress[b];
     }
-    for (int a = 0; a < n; a++) stress[a] -= grid_coupled[a];
+    for (int a = 0; a < n; a++) stress[a] -= borne[a];
     if (!partial->local) return;
     const real *local = partial->local + (int64_t)partial->index[i] * n, pull = p->end_pull[i] / p->volume[i];
     for (int a = 0; a < n; a++) stress[a] += pull * local[a];

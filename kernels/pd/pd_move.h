@@ -11,7 +11,7 @@ static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t
     const int32_t first = list[0];
     unsigned bits = 0;
     if (n == LANES && list_together(list) && eight_bytes(p->kind + first) == EIGHT_TIMES(KIND_PD) &&
-        !(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_CARRIED)) && !(loaded && eight_bytes(loaded + first)))
+        !(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_GRID_COUPLED)) && !(loaded && eight_bytes(loaded + first)))
         return UINT8_MAX;
     for (int l = 0; l < n; l++) bits |= (unsigned)(!particle_on_grid(p, list[l]) && !(loaded && loaded[list[l]])) << l;
     return bits;
@@ -42,7 +42,7 @@ static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsi
         pd_store(p->v[d], list, together, movers, v[d]);
         pd_store(p->x[d], list, together, movers, x[d]);
     }
-    const lanes_mask diverged = out_of_hand(speed2, place, square(m->fastest));
+    const lanes_mask diverged = has_diverged(speed2, place, square(m->fastest));
     bool any = together && lanes_any(diverged);
     for (int l = 0; l < LANES && !together; l++) any |= (movers >> l & 1) && diverged[l];
     return any;

@@ -1,5 +1,5 @@
 /* How a kernel is declared. The files of kernels/ are compiled once for each set of vector instructions
- * (Makefile), all into one program; src/engine/simd.c takes a set at start.
+ * (Makefile), all into one program; src/simd/simd.c takes a set at start.
  *
  * Inside a set (SIMD_SET is its name) this declares a function whose symbol ends in that name, so that no set calls
  * another's and the linker refuses one that was forgotten. Everywhere else the same line declares a pointer to what

@@ -28,6 +28,7 @@ static void family_find(struct near *near, const struct bond_source *s, const st
 
 /* ---- before the first step --------------------------------------------------------------------------------------- */
 
+/* Does a pre-crack cut a bond of particle i? */
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const struct near *near)
 {
     for (int k = 0; k < near->n; k++)
@@ -59,12 +60,12 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
 
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
-    /* a material point that lost a bond is peridynamic whatever the criteria say: damage lives in bonds only */
+    /* a material point that lost a bond converts whatever the criteria are: damage is stored in bonds only */
     unsigned wanted = FLAG_CUT | (rule->criteria & CONVERT_ON_STRESS ? FLAG_STRESSED : 0u);
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
-/* Eight particles at a time: behind the body lie images, which never have this flag. */
+/* Eight particles at a time; entries beyond the body are images, which never have these flags. */
 bool convert_due(const struct particles *p)
 {
     uint64_t any = 0;
@@ -81,8 +82,8 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
     return false;
 }
 
-/* Particles whose bonds to material points grow stiffer as others break (normalisation local): partial stress is to
- * follow. */
+/* Lists peridynamic particles whose bonds to material points become stiffer as other bonds break (normalisation local):
+ * the partial stress there changes. */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {
@@ -102,7 +103,8 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
     list_add(changed, i);
 }
 
-/* Converts what triggers, and its block; lists the converted. */
+/* Converts the particles that trigger and, with rule->block, their neighbours within the cutoff; adds them to `changed`
+ * and clears the flags of the step. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, struct index_list *changed, real t)
 {
@@ -140,8 +142,9 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
     list_add(l, i);
 }
 
-/* Lists all particles within the horizon of those just converted, changed[had] and on, to which bonds are made next.
- * Each is listed once: threads that share the list write different particles. */
+/* Updates position and velocity of all particles within the cutoff of those just converted, changed[had] and on, since
+ * bonds to them are made next. Each particle is listed once: threads that share the list then write different
+ * particles. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                     const struct index_list *changed, int64_t had)
 {
@@ -159,7 +162,8 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
     memory_free(exposed.at);
 }
 
-/* Bonds made past their limit break at once. */
+/* Makes the rows of bonds anew; bonds that are past their limit when made break at once. Returns directed bonds
+ * broken. */
 static int64_t conversion_rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
 {
     bonds_renew(b, p, source);
@@ -174,7 +178,7 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
     if (!convert_due(p)) return 0;
     struct index_list changed = {0}, touched = {0};
     int64_t had;
-    do {                                 /* a bond that breaks when made takes its other end along, in the same step */
+    do {                                 /* a bond that breaks when made converts its other end in the same step */
         had = changed.n;
         list_stiffened(&touched, source, p, b);
         convert_marked(c, rule, p, source, &changed, t);

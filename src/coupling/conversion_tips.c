@@ -1,6 +1,6 @@
-/* What is peridynamic from the start round the ends of pre-cracks. A crack starts there, and what has
- * carried the load as bonds from the first step on breaks when full peridynamics does; what converts under load
- * breaks later at a tip, and sooner at a free surface. */
+/* Particles around the ends of pre-cracks that are peridynamic from the start. A crack starts there, and where bonds
+ * carry the load from the first step on they break when those of full peridynamics do; bonds of particles that convert
+ * under load break later at a tip, and sooner at a free surface. */
 #include <string.h>
 
 #include "coupling/conversion.h"
@@ -12,13 +12,14 @@ static void region_add(struct region *r, const struct solid *s)
     r->solid[r->n++] = *s;
 }
 
-/* Is a particle that near? An end outside the body is the mouth of a notch. */
+/* Is a particle within one spacing of X? An end outside the body is the mouth of a notch. */
 static bool in_body(const struct particles *p, const struct bond_source *s, const real *X)
 {
     return cells_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
-/* A ball round an end; in space a cylinder round an edge, from one corner to the next. */
+/* Adds a ball of `radius` [m] around end k of a pre-crack to the region; in space a cylinder around the edge from
+ * corner k to the next. */
 static void conversion_tip_add(struct region *r, const struct particles *p, const struct bond_source *s,
                                const struct crack *c, int k, real radius)
 {

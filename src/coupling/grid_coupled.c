@@ -1,4 +1,4 @@
-/* Which peridynamic particles the grid moves. */
+/* Selection of the peridynamic particles that the grid moves (grid-coupled particles). */
 #include "coupling/grid_coupled.h"
 
 #include <math.h>
@@ -18,6 +18,7 @@ static int64_t grid_coupled_cell_of(const struct particles *p, const struct grid
     return cell;
 }
 
+/* Marks the cells of the grid that hold material points. */
 static void mark_occupied(struct grid_coupled *c, const struct particles *p, const struct grid *g)
 {
     int64_t k[DIM_MAX];
@@ -50,7 +51,7 @@ static bool grid_coupled_meets_points(const struct grid_coupled *c, const struct
 
 void grid_coupled_none(struct grid_coupled *c, struct particles *p)
 {
-    for (int64_t k = 0; k < c->n; k++) p->flag[c->list[k]] &= (uint8_t)~FLAG_CARRIED;
+    for (int64_t k = 0; k < c->n; k++) p->flag[c->list[k]] &= (uint8_t)~FLAG_GRID_COUPLED;
     c->n = p->n_grid_coupled = 0;
 }
 
@@ -67,7 +68,7 @@ void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct 
     for (int64_t m = 0; m < p->n_of[KIND_PD]; m++) {
         int32_t i = p->list[KIND_PD][m];
         bool on = unified || (grid_coupled_cell_of(p, g, i, k) >= 0 && grid_coupled_meets_points(c, g, k));
-        p->flag[i] = (uint8_t)(on ? p->flag[i] | FLAG_CARRIED : p->flag[i] & ~FLAG_CARRIED);
+        p->flag[i] = (uint8_t)(on ? p->flag[i] | FLAG_GRID_COUPLED : p->flag[i] & ~FLAG_GRID_COUPLED);
         if (on) c->list[c->n++] = i;
     }
     p->n_grid_coupled = c->n;

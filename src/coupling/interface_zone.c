@@ -1,4 +1,4 @@
-/* The interface zone of the material points and its damping. Few particles; owner computes throughout. */
+/* The interface zone of the material points and its damping. It has few particles; each is written by one thread. */
 #include "coupling/interface_zone.h"
 
 #include <math.h>
@@ -8,18 +8,18 @@
 
 #define NEIGHBOUR_SPACINGS 1.5           /* nearest along axes and face diagonals */
 
-enum mark { OUTSIDE, BESIDE, POINT }; /* what a particle is: nothing of it, next to it, a point of the interface zone */
+enum mark { OUTSIDE, BESIDE, POINT }; /* outside the interface zone; neighbour of one of its points; point of it */
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Can a particle be moved by the interface zone? */
+/* Can the damping of the interface zone move particle j? */
 static bool interface_zone_is_free(const struct particles *p, int32_t j)
 {
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Marks free particles of their body within `radius` of those listed, points alone or all, that have no mark.
- * Threads that find the same write the same. */
+/* Marks the free particles within `radius` [m] of the n listed ones and of their body that have no mark: material
+ * points alone (`as` POINT) or all. Threads that find one particle write one value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -45,14 +45,14 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Those with this mark become members. */
+/* Appends the particles with mark `as` to the members; place[i] is their index. */
 static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *place, int64_t n, enum mark as)
 {
     for (int64_t i = 0; i < n; i++)
         if (mark[i] == as) place[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
 }
 
-/* The points of the interface zone first, then their other neighbours. */
+/* Finds the members: the points of the interface zone, then the neighbours of these points outside it. */
 static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                          uint8_t *mark, int32_t *place)
 {
@@ -64,8 +64,8 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, place, p->n, BESIDE);
 }
 
-/* Neighbours of member k in pairs of which one at least is a point of the interface zone, ascending; `to` NULL: only
- * how many. */
+/* Neighbours of member k, in pairs of which at least one is a point of the interface zone, as members, ascending into
+ * `to` (NULL: only counted). Returns their number. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *place, int64_t k, struct near *near, int32_t *to)
 {
@@ -83,7 +83,7 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
     return n;
 }
 
-/* Counts the pairs of each member, or writes them; returns the most that one has. */
+/* Counts the pairs of each member, or writes them; returns the largest number that a member has. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *place, bool count)
 {
@@ -116,7 +116,7 @@ void interface_zone_make(struct interface_zone *r, const struct particles *p, co
 {
     interface_zone_free(r);
     uint8_t *mark = NEW("rim.mark", p->n, uint8_t);
-    int32_t *place = BARE("rim.place", p->n, int32_t);   /* of marked particles */
+    int32_t *place = BARE("rim.place", p->n, int32_t);   /* [n] index of members */
     r->particle = NEW("rim.particle", p->n, int32_t);
     members_make(r, p, source, mark, place);
     r->particle = memory_resize("rim.particle", r->particle, p->n, r->n, sizeof *r->particle);
@@ -158,7 +158,7 @@ static void velocity_of(const struct particles *p, int32_t i, real *v)
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* m d of a point: how much its velocity differs from its neighbours', along the lines to them. */
+/* m d of member k: difference of its velocity from those of its neighbours, along the lines to them [kg m/s]. */
 static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
 {
     const int32_t i = r->particle[k];
@@ -172,7 +172,8 @@ static void difference_make(struct interface_zone *r, const struct particles *p,
     for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
 }
 
-/* What a member gives to each neighbour it takes: the pair's terms are each other's negative to the last bit. */
+/* Change of momentum of member k [kg m/s]. The two members of a pair get terms that are each other's negative to the
+ * last bit. */
 static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
 {
     real *sum = r->change + k * p->dim;
@@ -184,7 +185,7 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
     }
 }
 
-/* What the changes take from members that go on with the velocities of now. */
+/* -1/2 of the changes times the present velocities of the members [J]. */
 real interface_damp_end(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0;                       /* few; the sum must not depend on threads */
@@ -198,7 +199,7 @@ real interface_damp_begin(struct interface_zone *r, struct particles *p, real sh
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
-        /* 0 for the members outside the interface zone */
+        /* stays 0 for members outside the interface zone */
         for (int64_t k = 0; k < r->points; k++) difference_make(r, p, k);
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, share);

@@ -1,11 +1,11 @@
-/* What the cell of a point at the end of state-based bonds keeps of its stiffness (partial_stress.c):
- * symmetric, and as near to the patch test as a positive energy of the point allows.
+/* Stiffness that the cell of a point at the end of state-based bonds keeps (partial_stress.c): symmetric, and as near
+ * to passing the patch test as a positive energy of the point allows.
  *
- * With X = (1/Q) sum w r e of the point's own bonds, these hold at least 1/2 V kappa X^2, kappa = B/tr zeta, by
+ * With X = (1/Q) sum w r e of the point's own bonds, these bonds store at least 1/2 V kappa X^2, kappa = B/tr zeta, by
  * Cauchy & Schwarz, and
  *     1/2 V [A (L : eps + X)^2 + kappa X^2 + eps : K eps] >= 1/2 V eps : (K + q L L) eps,   q = A kappa/(A + kappa).
- * Negative eigenvalues of K + q L L are set to 0: at a Poisson's ratio of 0.45 and more in plane strain and in space
- * some are. */
+ * Negative eigenvalues of K + q L L are set to 0: they occur at a Poisson's ratio of 0.45 and more in plane strain and
+ * in space. */
 #include <math.h>
 #include <string.h>
 
@@ -32,7 +32,7 @@ static bool own_bonds(real *zeta, const struct particles *p, const struct bonds 
 
 /* ---- eigenvalues ------------------------------------------------------------------------------------------------- */
 
-/* One rotation of Jacobi: entry pq of the symmetric M becomes 0; columns of Z follow. */
+/* One rotation of Jacobi: entry pq of the symmetric M becomes 0; the columns of Z are rotated with it. */
 static void rotate(real *M, real *Z, int n, int p, int q)
 {
     const real off = M[p * n + q];
@@ -50,7 +50,7 @@ static void rotate(real *M, real *Z, int n, int p, int q)
     }
 }
 
-/* M without the part of its negative eigenvalues. */
+/* Sets the negative eigenvalues of the symmetric M to 0. */
 static void make_positive(real *M, int n)
 {
     enum { SWEEPS = 12 };                /* six unknowns: quadratic convergence ends far earlier */
@@ -67,11 +67,11 @@ static void make_positive(real *M, int n)
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Symmetric components count twice off the diagonal: a matrix over them has the eigenvalues of its tensor with a
- * root of that. */
+/* Off-diagonal symmetric components count twice: scaled by a root of 2 each, a matrix over symmetric components has the
+ * eigenvalues of its tensor. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
-/* Takes from T what makes an eigenvalue of V C + q L L - T negative. */
+/* Subtracts from T the part that makes eigenvalues of V C + q L L - T negative. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
 {
     const int n = symmetric_count(dim);

@@ -1,19 +1,20 @@
-/* Partial stress: the share of its stress that a material point leaves to the bonds that cross its cell.
- * The bonds between a peridynamic particle and a material point already carry, in uniform strain,
+/* Partial stress: the share of its stress that a material point leaves to the bonds that cross its cell. The bonds
+ * between a peridynamic particle and a material point already carry, in uniform strain,
  *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
  * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives
- * the grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. Geometric, exact in one dimension, and the
- * Hessian of an energy: C - T_q is the stiffness of the bonds that cells stand for.
+ * the grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. T_q is geometric, exact in one dimension, and
+ * the Hessian of an energy: C - T_q is the stiffness of the bonds that the cells replace.
  *
- * State-based bonds answer to the strain's trace and in other directions, too (struct response): their T_q is not
- * symmetric, and taken as it is it flutters at every time step. So a point j at the end of such bonds has the energy
+ * State-based bonds also respond to the trace of the strain and in other directions (struct response): their T_q is not
+ * symmetric, and used as it is causes flutter at every time step. So a point j at the end of such bonds has the energy
  * of one family,
  *     E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q) sum w xi (x) xi
- * of whose mean strain S its own bonds know a part and its cell the rest; R is the cell's rotation
- * (kernels/mesh/mesh_law.h), for ordinary models the second term is that of the bonds' stretch. What S and R owe to
- * the cell acts back on it (particles.end_pull, end_moment). Its cell keeps K = C - T', T' = sym T + A sym (L (x)
- * 1/D), which leaves of the patch test the part of T that no energy has: 1 to 4 % of S h at flat interfaces. T' is
- * taken as far as the energy of the point stays positive (partial_positive.c). */
+ * where the bonds of the point determine one part of the mean strain S and its cell the rest; R is the rotation of the
+ * cell (kernels/mesh/mesh_law.h), and for ordinary models the second term is that of the bonds' stretch. The
+ * derivatives of E_j by the cell's parts of S and R act back on the cell (particles.end_pull, end_moment). The cell
+ * keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which fails the patch test only by the part of T that no energy
+ * has: 1 to 4 % of S h at flat interfaces. T' is limited so that the energy of the point stays positive
+ * (partial_positive.c). */
 #include <math.h>
 #include <string.h>
 
@@ -80,7 +81,7 @@ void tensor_add(real *T, const real *xp, const real *xm, const real *X, real hal
         }
 }
 
-/* V/Q of a particle of a row: of a full family where it has no row of its own [m]. */
+/* V/Q of particle i, with Q of a full family where it has no row of its own [m]. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     int32_t row = i < p->n ? b->row_of[i] : -1;
@@ -100,7 +101,7 @@ struct response response_of(const struct particles *p, const struct bonds *b, co
                              .central = s->rotates ? 0 : spring, .vector = s->rotates ? spring : 0};
 }
 
-/* What all bonds of a row lie in; rows are far longer than the few cells that one of them crosses. */
+/* Box around all bonds of a row; most rows lie too far from a cell for any of their bonds to cross it. */
 struct box { real low[DIM_MAX], high[DIM_MAX]; };
 
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
@@ -126,7 +127,7 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
     return false;
 }
 
-/* All crossing bonds that end at material point (or image) j. */
+/* Adds all bonds of material point (or image) j that cross the cell around X. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -139,7 +140,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
         if (bond.w == 0) continue;
-        bool apart = false;                      /* most bonds of a row pass by: seen without a division */
+        bool apart = false;                      /* most bonds miss the cell: found without a division */
         for (int d = 0; d < p->dim; d++) {
             xm[d] = r.sign[d] * p->X[d][bond.nbr] + r.offset[d];
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
@@ -154,7 +155,7 @@ real half_edge(const struct particles *p, const struct bond_source *s, int64_t i
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* T V of point i from each bond around; any cloud of particles. */
+/* T V of point i, bond by bond, for any arrangement of particles [J]. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct near *near)
 {
@@ -184,15 +185,15 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
     return largest > 0;
 }
 
-/* Numbers of an entry: M, and L of state-based models. */
+/* Number of values in an entry: M, and L of state-based models. */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
     const int n = symmetric_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
-/* An entry of state-based models from T V. Hand-shake leaves nothing, but an entry tells that a point is an end of
- * bonds. */
+/* Entry of point i for state-based models from T V [J]; false: it needs none. In hand-shake coupling a point leaves no
+ * stress to bonds, but an entry of zeros marks it as an end of bonds. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -203,6 +204,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
+/* Entry of point i for bond-based models from T V [J]; false: it needs none. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     partial_positive_bonds(T, p, s, i);
@@ -211,19 +213,20 @@ static bool bond_entry(real *entry, real *T, const struct particles *p, const st
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* What is made anew: points around what has changed; and the rows whose bonds may cross their cells. */
+/* Entries to be made anew: those of points around the particles that have changed, and the rows whose bonds may cross
+ * the cells of these points. */
 struct renewal {
-    int32_t *list;                       /* points and others there, ascending                              */
+    int32_t *list;                       /* particles there, material points or not, ascending              */
     int64_t n;
-    int32_t *row;                      /* rows of material points, where there are cells that the table does not know */
+    int32_t *row;                      /* rows of material points; none if the table serves all cells */
     int64_t rows;
-    bool *own;                           /* [n] has changed itself                                          */
+    bool *own;                           /* [n] this particle is one of the changed                         */
 };
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
-/* Marks particles within the radius of what has changed, and those within `reach` of them; NULL: all peridynamic
- * particles. */
+/* Marks particles within `radius` of the changed ones (DIRTY), and particles up to `reach` farther away (OTHERS_ROW)
+ * [m]; `changed` NULL: around all peridynamic particles. */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
                        const int32_t *changed, int64_t n)
 {
@@ -255,15 +258,16 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
+/* Finds the points and rows of a renewal: around the n changed particles, NULL: around all peridynamic particles. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)
 {
-    /* a bond that changed ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice,
-     * within its own length: the middle of the cell lies in the box that it spans */
+    /* a changed bond ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice, within its
+     * own length: the middle of the cell lies in the box that it spans */
     const bool strange = !partial_table_serves_all(table);
     const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
-    uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t); /* particles behind the body are not marked */
+    uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t); /* entries beyond the body stay 0 */
     mark_dirty(mark, p, s, radius, strange ? radius : 0, changed, n);
     const int64_t most = marked(mark, p->n, NULL);
     int32_t *list = NEW("partial.marked", most, int32_t);
@@ -292,6 +296,7 @@ static void renewal_free(struct renewal *r)
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
+/* Stores M and L (`local` values) as the entry of point i, a new one if it has none. */
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
@@ -309,7 +314,7 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     if (local) memcpy(partial->local + (int64_t)partial->index[i] * local, M + size, (size_t)local * sizeof *M);
 }
 
-/* Unused entries are squeezed out once they are the majority: points that revert come and go. */
+/* Removes unused entries once they are the majority: conversion and reversion make and abandon entries. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
@@ -331,7 +336,7 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
     memory_free(old.local);
 }
 
-/* Is the entry of point i this matrix already, bit by bit? */
+/* Does the entry of point i hold M and L already, bit by bit? */
 static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     const int64_t at = partial->index[i];
@@ -339,6 +344,7 @@ static bool entry_is(const struct partial_stress *partial, int64_t i, const real
            (local == 0 || memcmp(partial->local + at * local, M + size, (size_t)local * sizeof *M) == 0);
 }
 
+/* Adds particle i to partial->touched. */
 static void touch(struct partial_stress *partial, int64_t i)
 {
     if (partial->touches == partial->touched_room) {
@@ -350,7 +356,7 @@ static void touch(struct partial_stress *partial, int64_t i)
     partial->touched[partial->touches++] = (int32_t)i;
 }
 
-/* Entries of all points of the renewal. */
+/* Makes the entries of all material points of the renewal; `crossed` [r->n]: whether they need one. */
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
@@ -390,7 +396,8 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         partial->table = partial_table_make(p, source, size);
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
-    if (partial_table_serves(partial->table)) partial_table_ask(partial->table, p, b, source, all ? NULL : r.list, r.n);
+    if (partial_table_serves(partial->table))
+        partial_table_update(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = NEW("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
     entries_make(M, crossed, partial, &r, p, b, source);

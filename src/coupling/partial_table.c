@@ -1,6 +1,6 @@
-/* Partial stress on a lattice. Which share of a bond lies in the cell of a point depends only on where the
- * bond starts from the point and on the bond's vector: found once for all, and so is the tensor of every direction.
- * What remains to be done for a point is a sum of responses by direction, and one of a few dozen tensors. */
+/* Partial stress on a lattice. The share of a bond inside the cell of a point depends only on the bond's start relative
+ * to the point and on the bond's vector: shares are found once for all, and so is the tensor of every direction. For
+ * each point there remain a sum of bond responses by direction, and a sum of a few dozen tensors. */
 #include <math.h>
 #include <string.h>
 
@@ -8,19 +8,19 @@
 #include "base/memory.h"
 #include "partial_parts.h"
 
-#define WHOLE 1e-12                      /* of a cell: a particle's volume is one but for round-off */
+#define WHOLE 1e-12                      /* of a cell: deviation of a particle's volume by round-off */
 enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
-enum { ROWS_AHEAD = 6 };                 /* answers lie in farther caches */
+enum { ROWS_AHEAD = 6 };                 /* distance of prefetching: bond responses lie in farther caches */
 
-/* A bond of this vector, from the place in question, crosses the cell of the point by this share of its length. */
+/* A bond of this vector that starts at a given place has this share of its length inside the cell of the point. */
 struct crossing { int16_t vector, direction; real share; };
 
-/* A place within a bond's length, the middle included. */
+/* A place within the length of a bond from the point, or the point itself: offsets in spacings. */
 struct near_place { int16_t place, at[DIM_MAX]; };
 
-/* What rows of material points answer, which lasts until something changes within their reach. */
+/* Bond responses of the rows of material points; they stay valid until a bond of the row changes. */
 struct responses {
-    int32_t *of;                         /* [n] of a particle, -1: none of its bonds counts                    */
+    int32_t *of;                         /* [n] entry of a particle, -1: it has no row with an intact bond     */
     real *response;                        /* [room][vectors][parts]                                             */
     int64_t n, room, frees;
     int32_t *free;                       /* [room] unused entries, `frees` of them                             */
@@ -37,7 +37,7 @@ struct partial_table {
     int32_t *start;                      /* [places + 1] crossings of bonds from a place: start .. next start  */
     struct crossing *crossing;
     real *tensor;                        /* [directions][parts][size]                                          */
-    bool uniform;                        /* knows all cells                                                    */
+    bool uniform;                        /* all particles have the volume of a lattice cell                    */
     struct responses responses;
 };
 
@@ -50,6 +50,7 @@ static int64_t partial_table_places_of(const struct partial_table *t)
     return n;
 }
 
+/* Offsets [spacings] of a place by its number, and below the number of a place by its offsets, -1: out of reach. */
 static void place_to(const struct partial_table *t, int64_t place, int *at)
 {
     for (int d = 0; d < t->dim; d++, place /= 2 * t->reach + 1) at[d] = (int)(place % (2 * t->reach + 1)) - t->reach;
@@ -65,12 +66,12 @@ static int64_t place_from(const struct partial_table *t, const int *at)
     return place;
 }
 
-/* Place of `to` seen from `from`, both of the lattice; -1: too far. */
+/* Number of the place of site `to` relative to site `from`; -1: out of reach. */
 static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
 {
     int64_t place = 0;
     for (int d = t->dim - 1; d >= 0; d--) {
-        /* rounded, and counted from the reach on */
+        /* rounded to whole spacings, 0 at -reach */
         const int k = (int)((to[d] - from[d]) * t->per_spacing + (t->reach + 1.5)) - 1;
         if (k < 0 || k > 2 * t->reach) return -1;
         place = place * (2 * t->reach + 1) + k;
@@ -78,8 +79,9 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
     return place;
 }
 
-/* ---- making it --------------------------------------------------------------------------------------------------- */
+/* ---- construction ------------------------------------------------------------------------------------------------ */
 
+/* Numbers the vectors of all bonds that fit into the cutoff, and lists the near places. */
 static void vectors_make(struct partial_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
@@ -90,7 +92,8 @@ static void vectors_make(struct partial_table *t, real cutoff)
         place_to(t, k, at);
         for (int d = 0; d < t->dim; d++) length2 += square(at[d] * t->spacing);
         const bool bond = k != middle && sqrt(length2) <= cutoff * (1 + LATTICE_NEAR);
-        t->vector[k] = bond && t->vectors <= VECTORS_MOST ? (int16_t)t->vectors++ : -1;      /* one too many tells */
+        /* numbering stops one beyond VECTORS_MOST, which marks an overflow */
+        t->vector[k] = bond && t->vectors <= VECTORS_MOST ? (int16_t)t->vectors++ : -1;
     }
     t->directions = t->vectors / 2;      /* places k and places - 1 - k are opposite */
     t->near = NEW("partial.near", t->vectors + 1, struct near_place);
@@ -107,6 +110,7 @@ static int direction_of(const struct partial_table *t, int vector)
     return vector < t->directions ? vector : t->vectors - 1 - vector;
 }
 
+/* Finds the number of each vector after reflection of any set of axes. */
 static void mirrors_make(struct partial_table *t)
 {
     t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
@@ -119,7 +123,8 @@ static void mirrors_make(struct partial_table *t)
         }
 }
 
-/* Cells that a bond from the middle to a place crosses: calls for each of those in its box, in lattice units. */
+/* For the bond from the middle to place k, in lattice units: counts (`count`) or stores a crossing for each cell that
+ * it crosses, listed by the place of its start relative to that cell. */
 static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
@@ -142,6 +147,7 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             }
 }
 
+/* Makes the list of crossings, by the place where the bond starts. */
 static void crossings_make(struct partial_table *t)
 {
     const int64_t places = partial_table_places_of(t);
@@ -157,7 +163,7 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Tensors of bonds whose whole length counts, for each part of a response alone. */
+/* Tensors of whole bonds by direction, for a unit value of each part of a response. */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
@@ -239,7 +245,7 @@ void partial_table_free(struct partial_table *t)
     memory_free(t);
 }
 
-/* ---- what the bonds of rows answer ------------------------------------------------------------------------------- */
+/* ---- bond responses ---------------------------------------------------------------------------------------------- */
 
 bool partial_table_serves(const struct partial_table *t) { return t->vectors > 0; }
 bool partial_table_serves_all(const struct partial_table *t) { return t->uniform; }
@@ -249,7 +255,7 @@ static real *response_at(const struct partial_table *t, int64_t k)
     return t->responses.response + k * t->vectors * t->parts;
 }
 
-/* Room for so many that are open at once. */
+/* Makes room for `open` entries in use at once. */
 static void responses_room(struct partial_table *t, int64_t open)
 {
     struct responses *a = &t->responses;
@@ -264,6 +270,7 @@ static void responses_room(struct partial_table *t, int64_t open)
     a->room = room;
 }
 
+/* Gives particle i an entry, or below takes it away. */
 static void response_open(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
@@ -278,7 +285,7 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* By vector. */
+/* Bond responses of a row, [vectors][parts]. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -311,7 +318,7 @@ static bool partial_table_has_bonds(struct row_block_intact *last, const struct 
     return last->rows >> row % LANES & 1;
 }
 
-void partial_table_ask(struct partial_table *t, const struct particles *p, const struct bonds *b,
+void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
                        const struct bond_source *s, const int32_t *list, int64_t n)
 {
     struct responses *a = &t->responses;
@@ -339,11 +346,12 @@ void partial_table_ask(struct partial_table *t, const struct particles *p, const
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* A row that may cross the cell of a point: of a particle or an image, its place, and what it answers. A bond starts
- * within its length of any cell that it crosses. */
+/* A row whose bonds may cross the cell of a point: particle or image j of the row, its place relative to the point, and
+ * the entry of its bond responses. A bond starts within its length of any cell that it crosses. */
 struct crossing_row { int32_t j, place, response; };
 
-/* Adds what the row of a point or image at a place leaves in the cell, by direction. */
+/* Adds the bond responses of a row at `place`, times the shares of the bonds inside the cell, to the sums by direction;
+ * `signs`: axes that the reflections of an image reverse, one bit each. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
@@ -363,6 +371,7 @@ static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct 
         __builtin_prefetch(response + t->crossing[c].vector * t->parts);
 }
 
+/* Adds the tensors of all directions and parts, times their sums, to T. */
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
 {
     for (int k = 0; k < t->directions * t->parts; k++) {
@@ -377,7 +386,8 @@ bool partial_table_has(const struct particles *p, const struct bond_source *s, i
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* Puts j among n others, ascending, if it is a material point's and answers; returns how many there are. */
+/* Inserts j into an ascending list of n rows if it is a material point, or the image of one, with bond responses;
+ * returns the new length. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -389,7 +399,8 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* By the map of sites: particles stand in their order, images, which come last of all, anywhere. */
+/* Lists the rows near point i by the map of sites. Particles come in their order; images, whose indices are the
+ * highest, in any order. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct lattice *l, const struct particles *p,
                             const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -403,7 +414,7 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct lat
     return n;
 }
 
-/* The same in the same order. */
+/* Lists the rows near point i by a search, in the order of crossing_rows_by_site. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct near *near, struct crossing_row *to)
 {

@@ -1,5 +1,5 @@
-/* Peridynamic particles that were never cut become material points again once the wave has passed. Owner
- * computes throughout; only one in some steps looks. */
+/* Reversion: peridynamic particles without broken bonds become material points again once the wave has passed. Each
+ * particle is written by one thread. */
 #include "coupling/reversion.h"
 
 #include <math.h>
@@ -9,19 +9,19 @@
 #include "partial_parts.h"
 #include "kernels/mpm/stress.h"
 
-#define CUT_HORIZONS 2                   /* how far from a cut bond particles stay peridynamic */
+#define CUT_HORIZONS 2                   /* distance from broken bonds within which particles stay peridynamic */
 
 /* ---- selection --------------------------------------------------------------------------------------------------- */
 
-/* One thread's search. */
+/* Search for near particles, one per thread. */
 struct search {
     const struct particles *p;
     const struct bond_source *source;
     struct near near;
 };
 
-/* Particles of the body of particle i within `radius`, it among them, images by what they are images of; into
- * s->near. */
+/* Finds particle i and the particles of its body within `radius` [m], into s->near; images are replaced by their
+ * sources. */
 static void search_near(struct search *s, int64_t i, real radius)
 {
     int kept = 0;
@@ -33,7 +33,7 @@ static void search_near(struct search *s, int64_t i, real radius)
     s->near.n = kept;
 }
 
-/* Is one of those within `radius` marked, itself included? */
+/* Is particle i, or a particle of its body within `radius` [m], marked? */
 static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 {
     if (mark[i]) return true;
@@ -43,7 +43,8 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
     return false;
 }
 
-/* Low stress. The virial of a family cut short by a surface is low because of that: it counts as that of a full one. */
+/* Is the largest principal stress of particle i low? The virial of a family cut short by a surface is low for that
+ * reason: it is scaled to that of a full family. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -54,7 +55,9 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_principal(stress, p->dim) < limit;
 }
 
-/* `held`: peridynamic and not quiet for long; `cut`: has lost a bond. Returns how many are peridynamic and not held. */
+/* Updates low_since of the peridynamic particles. `held`: those that lost a bond, lie in rule->kept, or whose stress
+ * has not been low for the hold time; `cut`: those that lost a bond. Returns the number of peridynamic particles that
+ * are not in `held`. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -74,8 +77,9 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
     return rested;
 }
 
-/* `bound`: peridynamic and to stay so. `near`: may be the middle of a ball of material points that holds one that is
- * not. */
+/* `bound`: peridynamic particles that have one of `held` within the cutoff or one of `cut` within CUT_HORIZONS; they
+ * stay peridynamic. `near`: particles that have an unbound peridynamic particle within the cutoff, and may be the
+ * centre of a ball without bound particles. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -100,7 +104,7 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
     memory_free(s.near.at);
 }
 
-/* mark[i] = does `i` of those wanted meet (or not meet) the other mark within a horizon? */
+/* Marks the particles in `wanted` that have (`meeting`) or do not have a particle in `other` within the cutoff. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -135,7 +139,7 @@ int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p,
     return n;
 }
 
-/* ---- what they know then ----------------------------------------------------------------------------------------- */
+/* ---- state of reverted particles --------------------------------------------------------------------------------- */
 
 static void rows_swap(real *a, real *b, int n)
 {
@@ -188,10 +192,11 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
     }
 }
 
-/* What bonds that cross the cell of a particle carry there, and what that answers to a uniform strain. */
+/* Stress that the bonds crossing the cell of a particle carry there, and its derivative T by a uniform strain, both
+ * [Pa] times the volume while they are summed; centre [m] and half the edge [m] of the cell. */
 struct crossing { real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half; };
 
-/* Adds half of a bond (its other end adds the other half), from particle or image j on. */
+/* Adds half of the bond that starts at particle or image j; the entry at its other end adds the other half. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
@@ -223,9 +228,9 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     }
 }
 
-/* sigma = (1/V) sum l F (x) y and T = (1/V) sum k r l e e e e over all bonds that cross the cell of particle i, l
- * the share of the reference segment inside it (as in partial_stress.c): what flows through it. The virial of its
- * own family is the same under uniform strain, but smears a wave twice as far. */
+/* sigma = (1/V) sum l F (x) y and T = (1/V) sum k r l e e e e over all bonds that cross the cell of particle i, l the
+ * share of the reference segment inside it (as in partial_stress.c): the flux of momentum through the cell. The virial
+ * of the particle's own family is equal under uniform strain, but smears a wave twice as far. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct near *near)
 {
@@ -251,7 +256,8 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* The stress of full families under the strain that these bonds show. */
+/* Replaces the stress of the crossing bonds by that of full families under the strain T^-1 stress of these bonds; no
+ * change where T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_count(dim);
@@ -263,7 +269,8 @@ static void complete(const struct bond_source *source, const struct particles *p
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
 
-/* State-based models have no force of a bond alone: the virial of the family serves. */
+/* Stress of particle i as a material point [Pa]. State-based models have no force of a single bond: the virial of the
+ * family is used. */
 static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
                              const struct bond_source *source, int64_t i, struct near *near)
 {
@@ -275,6 +282,7 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
     memcpy(stress, c.stress, sizeof c.stress);
 }
 
+/* Sets stress, volume, velocity gradient and stretch that particle i has as a material point. */
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
                               struct near *near)
 {

@@ -92,7 +92,7 @@ static void make_constants(struct engine *e)
 /* Updates exposed points and loads after the points of the mesh have changed. */
 static void engine_mesh_follow_points(struct engine *e)
 {
-    mesh_see(&e->mesh, &e->part, &e->bonds, &e->loads);
+    mesh_find_exposed(&e->mesh, &e->part, &e->bonds, &e->loads);
     loads_mesh_find(&e->loads, &e->mesh, &e->part);
     e->partial.touches = 0;
 }

@@ -1,4 +1,4 @@
-/* Prescribed and ruled growth of cracks, and the bonds that fade behind their tips. */
+/* Growth of cracks at a prescribed speed or under SIF control, and the bonds that fade behind their tips. */
 #include "fracture/growth.h"
 
 #include <math.h>
@@ -8,8 +8,8 @@
 #include "kernels/kernels.h"
 #include "base/memory.h"
 
-#define FASTEST 0.9                      /* of the Rayleigh speed, where the scene gives no bound             */
-#define SLOWEST 0.01                     /* of it: factors at rest and at this speed are the same to 1e-4     */
+#define FASTEST 0.9                      /* of the Rayleigh speed: bound of the tip speed                     */
+#define SLOWEST 0.01                    /* of the Rayleigh speed: factors at rest and at this speed are equal to 1e-4 */
 #define SMOOTHING 0.3                    /* of the settling time                                              */
 
 void growth_make(struct growth *g, const struct growth_rule *rule)
@@ -26,7 +26,7 @@ void growth_free(struct growth *g)
 
 bool growth_follows(const struct growth_rule *rule) { return isnan(rule->speed); }
 
-/* ---- how fast a crack is that follows its toughness -------------------------------------------------------------- */
+/* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
 /* One step of the law in the header: the speed that the last factors require, once for each set of factors. */
 static void target_speed_find(struct growth *g, const struct control *control, real settling)
@@ -43,7 +43,7 @@ static void target_speed_find(struct growth *g, const struct control *control, r
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Before g->speed, the speed of the last step, is forgotten. */
+/* Updates the filtered and the target speed; called before g->speed, the speed of the last step, is overwritten. */
 static void target_speed_update(struct growth *g, const struct control *control, real horizon, real t, real dt)
 {
     if (!growth_follows(g->rule)) return;
@@ -57,7 +57,7 @@ static void target_speed_update(struct growth *g, const struct control *control,
     g->asked = control->time;
 }
 
-/* ---- does it grow, and where to ---------------------------------------------------------------------------------- */
+/* ---- growth and direction ---------------------------------------------------------------------------------------- */
 
 static bool grows(const struct growth *g, real t)
 {
@@ -68,7 +68,7 @@ static bool grows(const struct growth *g, real t)
     return g->intensity >= r->toughness;
 }
 
-/* To the direction of the largest hoop stress. */
+/* Turns the heading to the direction of the largest hoop stress. */
 static void growth_turn(struct growth *g, const struct control *control)
 {
     const real angle = crack_direction(control->factors.K), c = cos(angle), s = sin(angle);
@@ -76,7 +76,7 @@ static void growth_turn(struct growth *g, const struct control *control)
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
 
-/* `along` follows the heading over the smoothing length. */
+/* Moves the tip by `way` [m] along the heading; `along` follows the heading over the smoothing length. */
 static void growth_advance(struct growth *g, real way, real horizon)
 {
     const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
@@ -93,6 +93,7 @@ static void growth_advance(struct growth *g, real way, real horizon)
 
 /* ---- bonds that the tip crosses ---------------------------------------------------------------------------------- */
 
+/* Is the entry i-j of a row fading already? */
 static bool fades(const struct growth *g, int32_t i, int32_t j)
 {
     for (int64_t k = g->n - 1; k >= 0; k--)
@@ -110,7 +111,7 @@ static void fading_add(struct growth *g, int32_t i, int32_t j, real w, real leng
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Entries of the row of particle i that the way of the tip crosses. */
+/* Adds the entries of the row of particle i that the path of the tip crosses to the fading ones. */
 static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way,
                       int32_t i)
 {
@@ -124,7 +125,8 @@ static void cross_row(struct growth *g, const struct bonds *b, const struct part
     }
 }
 
-/* Particles within a family of the way of the tip [found, to be freed]. */
+/* Particles within the cutoff of the path of the tip from `from` to its place, into *found, which the caller frees.
+ * Returns their number. */
 static int near_way(const struct growth *g, struct particles *p, const struct bond_source *s, const real from[2],
                     int32_t **found)
 {
@@ -135,7 +137,7 @@ static int near_way(const struct growth *g, struct particles *p, const struct bo
     return cells_near(s->cells, p, X, radius, -1, *found, room);
 }
 
-/* Cracks are peridynamic: material points that the tip comes near convert. Returns their number. */
+/* Marks material points near the tip for conversion, since cracks need bonds. Returns their number. */
 static int claim(const struct growth *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
@@ -150,6 +152,7 @@ static int claim(const struct growth *g, struct particles *p, const struct bond_
     return claimed;
 }
 
+/* Adds all entries that the path of the tip from `from` to its place crosses to the fading ones. */
 static void cross(struct growth *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
@@ -164,7 +167,7 @@ static void cross(struct growth *g, const struct bonds *b, struct particles *p, 
 
 /* ---- fading ------------------------------------------------------------------------------------------------------ */
 
-/* Entry of bond i-j; -1: its row does not hold it any more. */
+/* Entry of bond i-j, and its row; -1: the row does not hold the bond any more. */
 static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
@@ -173,7 +176,7 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Everything as it was one step ago; what has been broken meanwhile leaves the list. */
+/* Restores the weights of one step ago; bonds that load has broken since leave the list. */
 static void step_back(struct growth *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -188,9 +191,9 @@ static void step_back(struct growth *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Weights lost in the last step and in this one, half of both at the places of now (bond_fade). Rows change one
- * after the other from what they were to what they will be, so their losses add up to the whole. Returns bonds
- * released. */
+/* Reduces the weights of the fading entries. Half the energy of the weights lost in the last step and half of that lost
+ * in this step are booked at the present positions (bond_fade). Rows change one after the other from the weights of one
+ * step ago to those of the next step, so that their losses add up to the whole. Returns directed bonds released. */
 static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
@@ -221,7 +224,7 @@ int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, cons
     g->intensity = control ? crack_equivalent(control->factors.K) : NAN;
     target_speed_update(g, control, source->family.horizon, t, dt);
     g->speed = 0;
-    /* where the crack begins among material points, it waits a step for the bonds that it is to cross */
+    /* a crack that starts among material points waits one step for the bonds that it is to cross */
     if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
         if (g->rule->probe[0]) growth_turn(g, control);
         g->speed = growth_follows(g->rule) ? g->target_speed : g->rule->speed;

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define AT_THE_TIP 1e-9                  /* of the contour: particles nearer to the tip or to the crack are on it */
+#define AT_THE_TIP 1e-9                  /* of the contour: particles nearer to the tip or the crack count as on it */
 
 void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope)
 {
@@ -23,7 +23,7 @@ void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, 
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* sum_j q_j [sigma_ij w_i,1 + ...]: what crosses the ring, without q_,j's length; n is its direction. */
+/* First sum of sif.h per area, for a unit slope of q in the direction n: flux through the ring [Pa]. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
 {
     real flux = 0, energy = 0;
@@ -37,6 +37,7 @@ static real ring_density(const struct crack_state *a, const struct crack_state *
     return flux - n[0] * energy;
 }
 
+/* Second sum of sif.h per area and unit weight q [Pa/m]. */
 static real disc_density(const struct crack_state *a, const struct crack_state *b, real density)
 {
     real sum = 0;
@@ -78,7 +79,7 @@ static void local_vector(const struct sif_tip *tip, const real v[2], real local[
     local[1] = v[1] * tip->along[0] - v[0] * tip->along[1];
 }
 
-/* R T R^T. */
+/* Tensor t in the local frame, R t R^T. */
 static void local_tensor(const struct sif_tip *tip, real t[2][2], real local[2][2])
 {
     real half[2][2];
@@ -95,8 +96,8 @@ static void local_place(const struct sif_tip *tip, const struct particles *p, in
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Particles of the body within the largest contour; in equilibrium those within the smallest inner circle add
- * nothing. */
+/* Finds the particles of the body within the largest contour; in equilibrium those within the smallest inner circle add
+ * nothing and are left out. */
 static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
 {
     real least = INFINITY, most = 0, x[2];
@@ -122,8 +123,10 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
     local_tensor(tip, global, state->stress);
 }
 
+/* State of particle k of the list in the local frame: gradients, stress and, with inertia, velocity and
+ * acceleration. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
-                       const struct gradient_stencil *cell_stencil, const struct particles *p)
+                       const struct gradient_stencil *stencil, const struct particles *p)
 {
     const int32_t i = s->particle[k];
     const struct sif_tip *tip = s->tip;
@@ -132,11 +135,11 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     point->area = p->volume0[i] / tip->thickness;
     local_place(tip, p, i, point->x);
     if (fabs(point->x[1]) <= AT_THE_TIP * fabs(point->x[0])) point->x[1] = copysign(0, tip->face);
-    gradient_of(cell_stencil, i, m->displacement, global);
+    gradient_of(stencil, i, m->displacement, global);
     local_tensor(tip, global, point->state.gradient);
     sif_point_stress(tip, m, i, &point->state);
     if (!s->inertia) return;
-    gradient_of(cell_stencil, i, m->velocity, global);
+    gradient_of(stencil, i, m->velocity, global);
     local_tensor(tip, global, local);
     for (int d = 0; d < 2; d++) point->state.velocity_along[d] = local[d][0];
     local_vector(tip, (real[2]){m->velocity[0][i], m->velocity[1][i]}, point->state.velocity);
@@ -148,18 +151,18 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
 {
 #pragma omp parallel
     {
-        struct gradient_stencil cell_stencil = {0};
+        struct gradient_stencil stencil = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < s->n; k++) {
-            gradient_stencil_at(&cell_stencil, rule, p, c, s->particle[k]);
-            point_make(s, k, m, &cell_stencil, p);
+            gradient_stencil_at(&stencil, rule, p, c, s->particle[k]);
+            point_make(s, k, m, &stencil, p);
         }
-        gradient_stencil_free(&cell_stencil);
+        gradient_stencil_free(&stencil);
     }
 }
 
-/* How much of the second sum counts at distance r of the tip. It fades over particles: those that a sharp edge let
- * in and out as the tip passes them would ring with it, once a spacing. */
+/* Share of the second sum that counts at distance r from the tip [1]. It rises gradually: with a sharp edge particles
+ * would enter and leave the sum as the tip passes them, and the factors would oscillate once a spacing. */
 static real core_share(const struct sif_tip *tip, real r)
 {
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};

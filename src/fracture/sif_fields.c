@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#define HALVINGS 45                      /* of a speed: to round-off of k */
-#define REST 0.01                        /* of c_s: slower cracks have the field of one at rest */
+#define HALVINGS 45                      /* bisections of a speed interval, to round-off of k */
+#define REST 0.01                        /* of c_s: below this speed the field is that of a crack at rest */
 
 static const real pi = 3.14159265358979323846;
 
@@ -61,7 +61,7 @@ void crack_field_at_rest(const struct crack_medium *m, enum crack_mode mode, con
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
 
-/* a_d and a_s. */
+/* a_d = sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 - v^2/c_s^2) [1]. */
 static void slownesses(const struct crack_medium *m, real v, real a[2])
 {
     a[0] = sqrt(1 - square(v / m->longitudinal));
@@ -135,8 +135,8 @@ static real factor_angle(const struct crack_medium *m, real z)
     return atan(4 * z * z * sqrt(real_max(0, (z * z - a * a) * (b * b - z * z))) / square(b * b - 2 * z * z));
 }
 
-/* The integrand has roots at both ends: z = middle - half cos(phi) makes it smooth and periodic in phi, where the
- * rule of midpoints converges faster than any power. */
+/* Exact k(v). The integrand has roots at both ends: z = middle - half cos(phi) makes it smooth and periodic in phi,
+ * where the midpoint rule converges faster than any power. */
 static real factor_exact(const struct crack_medium *m, real v)
 {
     enum { POINTS = 256 };
@@ -176,7 +176,7 @@ real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age)
     return age > 0 ? 2 * stress * sqrt(m->longitudinal * age * (1 - 2 * nu) / pi) / (1 - nu) : 0;
 }
 
-/* ---- where it goes ----------------------------------------------------------------------------------------------- */
+/* ---- direction of growth ----------------------------------------------------------------------------------------- */
 
 real crack_direction(const real K[MODES])
 {

@@ -19,6 +19,7 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
     return false;
 }
 
+/* Does a crack or a broken bond lie between particles i and j? */
 static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
 {
     return cracks_part(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
@@ -26,7 +27,8 @@ static bool hidden(const struct sight *s, const struct particles *p, int64_t i, 
 
 static real sif_gradient_between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
-/* Distance by which a neighbour counts, from i: round the tip where a crack hides it; INFINITY: not at all. */
+/* Distance from particle i at which neighbour j counts [m]: around the tip where a crack lies between them; INFINITY: j
+ * does not count. */
 static real distance_round_cracks(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
 {
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
@@ -56,6 +58,7 @@ static bool factor(real A[QUADRATIC][QUADRATIC], int n)
     return true;
 }
 
+/* Solves L D L^T x = y in place of y. */
 static void sif_gradient_solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADRATIC])
 {
     for (int k = 0; k < n; k++)
@@ -102,6 +105,7 @@ static bool least_squares(struct gradient_stencil *s, const struct particles *p,
     return true;
 }
 
+/* Weights by moving least squares: quadratic where possible, else linear, else none. */
 static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                         int64_t i)
 {
@@ -147,7 +151,7 @@ static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule 
     }
 }
 
-/* ---- what others call -------------------------------------------------------------------------------------------- */
+/* ---- public functions -------------------------------------------------------------------------------------------- */
 
 static void stencil_room(struct gradient_stencil *s, int room)
 {

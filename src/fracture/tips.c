@@ -9,7 +9,7 @@
 
 #define TOUCH 1.5                        /* particles of one crack touch within this      [spacings]  */
 #define START_REACH 2.5                  /* first damaged particles from the crack's end  [spacings]  */
-#define JOIN_JUMP 3.0                    /* growth at once that is no motion of the tip   [spacings]  */
+#define JOIN_JUMP 3.0                    /* growth at once by reaching another crack          [spacings] */
 #define EQUAL 1e-6                       /* lengths that differ by less are equal         [spacings]  */
 
 void tips_free(struct tips *t)
@@ -22,14 +22,14 @@ void tips_free(struct tips *t)
 
 /* ---- particles of each crack ------------------------------------------------------------------------------------- */
 
-/* The work of one sample. */
+/* Assignment of newly damaged particles to cracks in one sample. */
 struct flood {
     struct tips *t;
     struct tip_search search;
-    int32_t *fresh, *queue;              /* newly damaged particles, ascending; labelled, neighbours still to see */
+    int32_t *fresh, *queue;              /* newly damaged, ascending; labelled, neighbours not yet visited */
     int64_t n_fresh, queued;
-    int into[TIPS_MAX];                  /* crack of which this one is a part, itself if none         */
-    bool grown_by[TIPS_MAX];             /* has taken in another crack in this sample                 */
+    int into[TIPS_MAX];                  /* crack that each crack has become a part of, itself if none */
+    bool grown_by[TIPS_MAX];             /* another crack has become a part of it in this sample      */
 };
 
 static bool can_belong(const struct tips *t, const struct particles *p, int64_t i)
@@ -37,8 +37,8 @@ static bool can_belong(const struct tips *t, const struct particles *p, int64_t 
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
 }
 
-/* Most particles are neither damaged nor of a crack, and are passed by a block at a time: the next block from
- * `first` on that has one, n if none has. */
+/* Most particles are neither damaged nor part of a crack, and are skipped a block at a time: next_damaged and
+ * next_of_crack return the start of the next block from `first` on that has such a particle, n if there is none. */
 enum { BLOCK = 64 };
 
 static int64_t block_end(const struct particles *p, int64_t first)
@@ -46,7 +46,7 @@ static int64_t block_end(const struct particles *p, int64_t first)
     return first + BLOCK < p->n ? first + BLOCK : p->n;
 }
 
-/* True if a particle has lost a bond. Bits are compared, not numbers. */
+/* True if one of particles first .. end - 1 has lost a bond. The test is on bits, not on numbers. */
 static bool any_damage(const struct particles *p, int64_t first, int64_t end)
 {
     uint64_t any = 0;
@@ -96,7 +96,8 @@ static int tips_root_of(const struct flood *f, int tip)
     return tip;
 }
 
-/* Two cracks touch. Those from ends of pre-cracks stay apart; others become part of what they touch. */
+/* Joins two cracks that touch. Cracks from ends of pre-cracks stay apart; any other crack becomes part of the one it
+ * touches. */
 static void flood_join(struct flood *f, int a, int b)
 {
     a = tips_root_of(f, a), b = tips_root_of(f, b);
@@ -107,7 +108,7 @@ static void flood_join(struct flood *f, int a, int b)
     f->grown_by[keep] = true;
 }
 
-/* Labels all that is connected with the particles in the queue, in the order in which they came. */
+/* Labels all damaged particles connected with those in the queue, in the order of the queue. */
 static void flood_run(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -126,7 +127,7 @@ static void flood_run(struct flood *f)
     f->queued = 0;
 }
 
-/* The crack whose start is nearest to particle i and in reach; -1: none. */
+/* The crack whose start is nearest to particle i, within START_REACH; -1: none. */
 static int start_near(const struct tips *t, const struct particles *p, int64_t i)
 {
     int nearest = -1;
@@ -158,7 +159,7 @@ static int crack_touched(struct flood *f, int64_t i)
     return lowest;
 }
 
-/* Where no more tips fit: the nearest one. */
+/* The crack whose tip is nearest to particle i, for when no more tips fit. */
 static int tip_nearest(const struct tips *t, const struct particles *p, int64_t i)
 {
     int nearest = 0;
@@ -171,7 +172,7 @@ static int tip_nearest(const struct tips *t, const struct particles *p, int64_t 
     return nearest;
 }
 
-/* The most damaged particle that belongs nowhere yet starts a crack of its own. */
+/* Starts a crack at the most damaged new particle that is part of none; false: there is no such particle. */
 static bool flood_nucleate(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -196,7 +197,7 @@ static bool flood_nucleate(struct flood *f)
     return true;
 }
 
-/* Takes the cracks that became part of others out of the list and out of the record. */
+/* Removes the cracks that became part of others from the list and from the record. */
 static void flood_close_ranks(struct flood *f)
 {
     struct tips *t = f->t;
@@ -218,6 +219,7 @@ static void flood_close_ranks(struct flood *f)
     t->n = kept;
 }
 
+/* Lists the newly damaged particles. */
 static void flood_make(struct flood *f, struct tips *t, const struct particles *p, const struct cells *c)
 {
     *f = (struct flood){.t = t, .search = {.p = p, .c = c}};
@@ -239,6 +241,8 @@ static void flood_free(struct flood *f)
     memory_free(f->search.found);
 }
 
+/* Assigns all newly damaged particles: to a start or a crack nearby, to cracks connected with them, or to new
+ * cracks. */
 static void flood_all(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -254,9 +258,9 @@ static void flood_all(struct flood *f)
     flood_close_ranks(f);
 }
 
-/* ---- how far and how fast ---------------------------------------------------------------------------------------- */
+/* ---- length and speed -------------------------------------------------------------------------------------------- */
 
-/* Distance of particle i from the start of its crack; -1 beside the pre-crack's own end. */
+/* Distance of particle i from the start of its crack [m]; -1 beside the end of the pre-crack itself. */
 static real tips_reach_of(const struct tips *t, const struct particles *p, int64_t i)
 {
     const struct tip *tip = &t->tip[t->label[i] - 1];
@@ -269,6 +273,8 @@ static real tips_reach_of(const struct tips *t, const struct particles *p, int64
 
 struct reach { real farthest, place[DIM_MAX]; int64_t equals, particles; };
 
+/* Finds for every crack the largest distance from its start, and sums the positions of the particles at that
+ * distance. */
 static void reach_measure(const struct tips *t, const struct particles *p, struct reach *reach)
 {
     for (int64_t b = next_of_crack(t, p, 0); b < p->n; b = next_of_crack(t, p, b + BLOCK))
@@ -288,6 +294,7 @@ static void reach_measure(const struct tips *t, const struct particles *p, struc
         }
 }
 
+/* Updates place, growth and times of a tip; `took_in`: another crack has become part of its crack. */
 static void tip_move(struct tip *tip, const struct reach *r, const struct tips *t, real time, bool took_in)
 {
     real gain = r->farthest - tip->growth;
@@ -317,7 +324,7 @@ static real regression(const struct tips *t, int k, int64_t first, int64_t last)
     return spread > 0 ? both / spread : NAN;
 }
 
-/* First sample that is not earlier than `time`, by round-off at most. */
+/* First sample at or after `time`, the last one if there is none. */
 static int64_t sample_at(const struct tips *t, real time)
 {
     int64_t s = 0;
@@ -333,7 +340,7 @@ real tips_speed(const struct tips *t, int k)
     return regression(t, k, first < last ? first : last - 1, last);
 }
 
-/* The newest window is the only one that the earlier samples have not seen. */
+/* Updates the largest and mean speed of tip k. Earlier samples have covered all windows but the newest. */
 static void tip_speeds(struct tips *t, int k)
 {
     struct tip *tip = &t->tip[k];
@@ -383,14 +390,14 @@ real tip_angle(const struct tip *tip, int dim)
     if (!(tip->growth > 0)) return NAN;
     real chord[DIM_MAX], edge2 = dot(tip->edge, tip->edge, dim), share = 0;
     for (int d = 0; d < dim; d++) chord[d] = tip->place[d] - tip->origin[d];
-    if (edge2 > 0) share = dot(chord, tip->edge, dim) / edge2;   /* a front's chord lies across it */
+    if (edge2 > 0) share = dot(chord, tip->edge, dim) / edge2;   /* chord of a front: its part across the front */
     for (int d = 0; d < dim; d++) chord[d] -= share * tip->edge[d];
     real length = sqrt(dot(chord, chord, dim));
     if (!(length > 0)) return NAN;
     return acos(real_max(-1, real_min(1, dot(chord, tip->along, dim) / length))) * (180 / M_PI);
 }
 
-/* The first of equals, so that round-off does not choose between the halves of a symmetric crack. */
+/* The first of equally long tips, so that round-off does not choose between the halves of a symmetric crack. */
 const struct tip *tips_longest(const struct tips *t)
 {
     const struct tip *longest = NULL;

@@ -1,4 +1,4 @@
-/* What the files of the crack tips share. */
+/* Declarations shared by the files of the crack tips. */
 #ifndef CLEAVE_TIPS_PARTS
 #define CLEAVE_TIPS_PARTS
 
@@ -13,7 +13,8 @@ struct tip_search {
     int room;
 };
 
-/* Particles within `radius` of X into s->found, whose room follows; free s->found at the end. */
+/* Finds the particles and images within `radius` of X [m], into s->found, which grows as needed; the caller frees
+ * s->found at the end. Returns their number. */
 int tip_search_near(struct tip_search *s, const real *X, real radius);
 
 /* Vector from the nearest point of the segment centre -+ half to X, and its length. */

@@ -6,7 +6,7 @@
 #include "fracture/tips.h"
 #include "tips_parts.h"
 
-#define AHEAD_REACH 1.2                  /* the body goes on: particles round the place   [spacings]  */
+#define AHEAD_REACH 1.2                  /* radius of the search for particles ahead of an end [spacings] */
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
@@ -76,7 +76,7 @@ struct tip *tip_add(struct tips *t, int body, const real *origin, const real *al
     return tip;
 }
 
-/* The end `to` of a segment that comes from `from`. */
+/* Adds a tip at the end `to` of a segment that comes from `from`, if the body goes on there. */
 static void start_at_end(struct tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                          const real *from, const real *to)
 {

@@ -13,12 +13,15 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-#define GAP 1.75         /* a particle farther in front is beyond a hole: on a lattice at 1, across one at 2 [widths] */
+/* A particle farther in front lies beyond a hole: lattice neighbours are at 1, particles across a missing site at 2
+ * [widths]. */
+#define GAP 1.75
 #define BENEATH 0.25                     /* least distance from the first to the next particle [widths] */
 #define EVEN 1e-4                        /* relative difference of equal volumes: lattices may be written in decimals */
 #define TO_ONE_SIDE 1e-6           /* shift of cubes that end at column middles: each counts at one end only [widths] */
-#define ORDER_LEAST 0.05        /* share of particles that agree on where sites are: 0 without order, 1 on a lattice, */
-#define ORDER_CHANCE 3.0       /* ... and over sqrt(n): order that n disordered particles may reach by chance */
+/* least order of sites: 0 without order, 1 on a lattice, sin(2 pi s)/(2 pi s) on one shaken by s spacings */
+#define ORDER_LEAST 0.05
+#define ORDER_CHANCE 3.0       /* times sqrt(n): sum that n disordered particles may reach by chance */
 enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
 
 struct columns {
@@ -107,6 +110,7 @@ static int64_t table_place(const struct columns *c, int64_t key)
     return place;
 }
 
+/* Doubles the room of the hash table of columns. */
 static void table_grow(struct columns *c)
 {
     const struct columns old = *c;

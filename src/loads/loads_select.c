@@ -62,6 +62,7 @@ static void take_particles(struct load *l, const uint8_t *taken, struct particle
     if (bears_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
+/* Lists the particles of the exposed face of a traction; their shares are areas. */
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct face face;

@@ -25,7 +25,7 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 }
 
 /* Activates a block that moves, and its neighbours that have nodes with mass. */
-static void mesh_wake(struct mesh *mesh, int64_t block)
+static void mesh_activate(struct mesh *mesh, int64_t block)
 {
     struct active_set *r = &mesh->active;
     const int dim = mesh->grid.dim;
@@ -68,7 +68,7 @@ void active_nodes_add_exposed(struct mesh *mesh)
     const int dim = mesh->grid.dim;
     for (int64_t k = 0; k < mesh->exposed && mesh->active.is_current; k++)
         for (int c = 0; c < 1 << dim; c++)
-            mesh_wake(mesh, mesh_block(mesh, mesh->exposed_list[k].cell + mesh->corner[c]));
+            mesh_activate(mesh, mesh_block(mesh, mesh->exposed_list[k].cell + mesh->corner[c]));
     active_set_list(&mesh->active);
 }
 
@@ -88,9 +88,9 @@ static void mesh_settle(struct mesh *mesh, const struct loads *l)
     r->is_current = true, r->empty = 0;
     for (int64_t k = 0; k < r->blocks; k++) r->empty += nodes_empty(mesh, k);
     for (int64_t k = 0; k < r->blocks; k++)
-        if (r->moved[k]) mesh_wake(mesh, k);
+        if (r->moved[k]) mesh_activate(mesh, k);
     for (int64_t k = 0; k < mesh->grid.walls; k++)
-        if (!wall_is_fixed(l, &mesh->grid.wall[k])) mesh_wake(mesh, mesh_block(mesh, mesh->grid.wall[k].node));
+        if (!wall_is_fixed(l, &mesh->grid.wall[k])) mesh_activate(mesh, mesh_block(mesh, mesh->grid.wall[k].node));
     active_nodes_add_exposed(mesh);                         /* makes the list */
 }
 
@@ -109,7 +109,7 @@ void active_nodes_update(struct mesh *mesh, const struct loads *l)
         moved = moved || r->moved[block];
     }
     for (int64_t k = 0; k < r->active && moved; k++)
-        if (r->moved[r->list[k]]) mesh_wake(mesh, r->list[k]);
+        if (r->moved[r->list[k]]) mesh_activate(mesh, r->list[k]);
     if (moved || r->resumed) active_set_list(r);
     r->resumed = false;
 }

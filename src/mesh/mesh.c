@@ -341,7 +341,7 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
 
 /* Marks the particles whose images are among the neighbours nbr [LANES] of a column of bonds: images move as their
  * sources. Most columns lead to no image. */
-static void images_see(uint8_t *exposed, const struct particles *p, const struct image *image, const int32_t *nbr)
+static void images_expose(uint8_t *exposed, const struct particles *p, const struct image *image, const int32_t *nbr)
 {
     int32_t most = nbr[0];
     for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
@@ -358,7 +358,7 @@ static bool meets_images(const struct bonds *b, const struct particles *p, int64
 }
 
 /* Adds cell I to the exposed cells if one of its points is marked in `exposed`. */
-static void cell_see(struct mesh *mesh, const uint8_t *exposed, int64_t I)
+static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
     unsigned places = 0;
@@ -376,7 +376,7 @@ static void cell_see(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
-void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
+void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
 {
     if (!mesh->place) return;
     uint8_t *exposed = NEW("mesh.seen", p->n, uint8_t);
@@ -387,7 +387,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
         for (int64_t k = 0; k < b->column_count[g] && p->n_all > p->n; k++) {
             if (!meets_images(b, p, g, k)) continue;
             column_read(&column, b, g, k);
-            images_see(exposed, p, l->image, column.nbr);
+            images_expose(exposed, p, l->image, column.nbr);
         }
     }
     for (int k = 0; k < l->n; k++)               /* driven points move with their nodes */
@@ -395,7 +395,7 @@ void mesh_see(struct mesh *mesh, const struct particles *p, const struct bonds *
             exposed[l->load[k].particle[q]] = 1;
     mesh->exposed = 0;
     for (int64_t I = 0; I < mesh->grid.n; I++)
-        if (mesh->kind[I] != CELL_EMPTY) cell_see(mesh, exposed, I);
+        if (mesh->kind[I] != CELL_EMPTY) cell_expose(mesh, exposed, I);
     memory_free(exposed);
     active_nodes_add_exposed(mesh);
 }

@@ -146,7 +146,7 @@ static void ends_free(struct mesh *mesh)
 }
 
 /* What each mode adds to the mean strain of the family of a point at `place`, share [modes] [1]: by the part of the
- * strain that the bonds of the point do not measure (`local`, of partial_stress.c's entry). */
+ * strain that the bonds of the point do not measure (`local`, of struct partial_stress). */
 static void end_share(const struct cell_maker *c, const real *local, int place, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
@@ -178,6 +178,7 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
+/* Lists the ends of state-based bonds in all partial cells, group by group. */
 static void mesh_cut_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;

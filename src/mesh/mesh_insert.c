@@ -9,6 +9,7 @@
 /* The nodes around the inserted points, ascending. */
 struct nodes { int64_t n; int32_t *at; };
 
+/* Finds the nodes around the n listed points. */
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
                        int64_t n)
 {

@@ -1,4 +1,4 @@
-/* The energy balance of energy and momentum, the first break, and the alarm for unstable runs. */
+/* Balance of energy and momentum, the first break, and the stability check. */
 #include "probes/diagnostics.h"
 
 #include <math.h>
@@ -16,7 +16,8 @@ void diagnostics_make(struct diagnostics *w)
 
 /* ---- sums over particles ----------------------------------------------------------------------------------------- */
 
-/* Particles and nodes alike: masses [kg] and velocities [m/s]; `flag` NULL: all of them move by themselves. */
+/* Particles or nodes: masses [kg] and velocities [m/s]; entries with FLAG_MESHED do not count, `flag` NULL: all
+ * count. */
 struct movers { int dim; const real *mass; real *const *v; const uint8_t *flag; };
 
 /* Are particles first .. end - 1 all moved by the nodes of a mesh? */
@@ -27,9 +28,10 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
     return all != 0;
 }
 
-/* Kinetic energy, momentum by component, and the sum of |m v|: sums of a piece are one set of registers each. */
+/* Kinetic energy [J], momentum by component and the sum of |m v| [kg m/s]; the sums of a piece stay in registers. */
 struct motion { real kinetic, momentum[DIM_MAX], size; };
 
+/* Adds the motion of entries first .. end - 1; `meshed`: flags are tested, `all`: momentum and |m v|, too. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                      const int dim, const bool meshed, const bool all)
 {
@@ -63,8 +65,8 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     }
 }
 
-/* Kinetic energy alone, which takes no roots, or all. Pieces are short, so that few particles that are not selected
- * are visited. */
+/* Motion of entries first .. end - 1: all sums, or the kinetic energy alone, which needs no roots. Pieces are short, so
+ * that few entries that do not count are visited. */
 static ALWAYS_INLINE struct motion diagnostics_motion_of(const struct movers *m, int64_t first, int64_t end,
                                                          const bool all)
 {
@@ -94,8 +96,8 @@ real diagnostics_kinetic(const struct particles *p)
 
 struct kick { const struct particles *p; real *const *before; real dt; };
 
-/* Of a block: a quarter of m (change of velocity)^2; driven particles move as prescribed, and their work is booked
- * as they move. */
+/* Adds a quarter of m (change of velocity)^2 over a block [J]. Driven particles are left out: they move as prescribed,
+ * and their work is booked as they move. */
 static void diagnostics_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct kick *k = context;
@@ -135,8 +137,8 @@ struct strain_sum {
     real (*compliance)[SYM_MAX * SYM_MAX];   /* by material */
 };
 
-/* Share of a point's energies that is its own where it leaves part of its stress to bonds, 1 - tr M/n: exact where that
- * part is the same for all stresses, as in one dimension. */
+/* Share of its energies that point i keeps where it leaves part of its stress to bonds, 1 - tr M/n [1]: exact where
+ * that part is equal for all stresses, as in one dimension. */
 static real own_share(const struct strain_sum *s, int64_t i)
 {
     const struct partial_stress *partial = s->partial;
@@ -148,13 +150,15 @@ static real own_share(const struct strain_sum *s, int64_t i)
     return 1 - trace / n;
 }
 
-/* Of plane strain after flow: with sigma_zz = nu (sigma_xx + sigma_yy) + delta the energy has delta^2/(2E) more. */
+/* Additional strain energy in plane strain after plastic flow [J]: with sigma_zz = nu (sigma_xx + sigma_yy) + delta the
+ * energy per volume has the additional term delta^2/(2E). */
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
     return own_share(s, i) * square(s->p->out_of_plane[i]) / (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
+/* Strain energy of the k-th listed particle on the grid [J]; 0 of peridynamic particles. */
 static real strain_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
@@ -192,7 +196,7 @@ real diagnostics_strain(const struct particles *p, const struct material *m, con
     return diagnostics_strain_of(p, m, partial, p->list_free, p->n_free);
 }
 
-/* Integral of (sigma_y + H a) da. */
+/* Plastic work of a point, V times the integral of (sigma_y + H a) da [J]. */
 static real diagnostics_plastic_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
@@ -213,7 +217,7 @@ real diagnostics_plastic(const struct particles *p, const struct material *m, co
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Momentum that neither was there at the start nor was given since, over all that moves. */
+/* The error is the momentum, of particles and nodes, that was neither present at the start nor supplied since. */
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *mesh,
                           const real *impulse)
 {
@@ -247,6 +251,7 @@ real diagnostics_energy_change(const struct diagnostics *w)
     return (balance_energy(&w->now) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
 }
 
+/* Error of the energy balance, relative to the largest energy or work so far. */
 static void balance_of(struct diagnostics *w)
 {
     struct energy_balance *l = &w->now;
@@ -285,14 +290,16 @@ void diagnostics_breaks(struct diagnostics *w, const struct particles *p, int64_
     for (int d = 0; d < p->dim; d++) w->break_place[d] = place[d] / (real)cut;
 }
 
-/* ---- the alarm --------------------------------------------------------------------------------------------------- */
+/* ---- stability check --------------------------------------------------------------------------------------------- */
 
-static bool diagnostics_out_of_hand(const struct particles *p, int64_t i, real limit)
+/* Has particle i diverged? */
+static bool diagnostics_particle_diverged(const struct particles *p, int64_t i, real limit)
 {
     const int32_t alone[1] = {(int32_t)i};
     return particles_diverged(p, alone, 1, limit);
 }
 
+/* FAILED, with the place of particle i, the step and the cause. */
 static status divergence_report(const struct particles *p, int64_t i, real limit, int64_t step, real t)
 {
     char place[128];
@@ -322,12 +329,12 @@ real diagnostics_fastest(const struct particles *p, const int32_t *list, int64_t
     return sqrt(most);
 }
 
-/* First of the listed particles that is diverged, n_all if none is. */
-static int64_t first_out_of_hand(const struct particles *p, const int32_t *list, int64_t n, real limit)
+/* First of the listed particles that has diverged, n_all if none has. */
+static int64_t first_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit)
 {
     if (!particles_diverged(p, list, n, limit)) return p->n_all;
     int64_t k = 0;
-    while (!diagnostics_out_of_hand(p, list[k], limit)) k++;
+    while (!diagnostics_particle_diverged(p, list[k], limit)) k++;
     return list[k];
 }
 
@@ -335,9 +342,9 @@ status diagnostics_divergence(const struct particles *p, bool peridynamic, bool 
                               real t)
 {
     assert(limit > 0);
-    int64_t first = peridynamic ? first_out_of_hand(p, p->list[KIND_PD], p->n_of[KIND_PD], limit) : p->n_all;
-    const int64_t free = meshed ? first_out_of_hand(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
-                                    : first_out_of_hand(p, p->list_free, p->n_free, limit);
+    int64_t first = peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], limit) : p->n_all;
+    const int64_t free = meshed ? first_diverged(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
+                                    : first_diverged(p, p->list_free, p->n_free, limit);
     if (free < first) first = free;
     return first < p->n ? divergence_report(p, first, limit, step, t) : OK;
 }

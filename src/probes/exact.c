@@ -1,4 +1,4 @@
-/* Waves in a uniform bar, written down. */
+/* Closed forms of waves in a uniform bar. */
 #include "probes/exact.h"
 
 #include <math.h>
@@ -10,13 +10,13 @@ static real wave_speed(const struct exact *e) { return sqrt(e->young / e->densit
 static real plastic_speed(const struct exact *e) { return sqrt(e->tangent / e->density); }
 static real length(const struct exact *e) { return e->right - e->left; }
 
-/* Distance from the loaded end, and back. */
+/* Distance of X from the loaded end, and the position at distance s from it [m]. */
 static real depth(const struct exact *e, real X) { return e->loaded > 0 ? e->right - X : X - e->left; }
 static real exact_place(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
 static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
 
-/* Adds a stress jump that travels in direction `way` of x with `speed` and has passed `age` ago: momentum through it,
- * rho speed v = -way sigma. */
+/* Adds a stress jump [Pa] that travels in direction `way` of x with `speed` [m/s] and passed the position `age` ago
+ * [s]. Balance of momentum across it: rho speed v = -way sigma. */
 static void add_front(struct exact_values *v, const struct exact *e, real jump, real modulus, real speed, int way,
                       real age)
 {
@@ -30,6 +30,7 @@ static void add_front(struct exact_values *v, const struct exact *e, real jump, 
 
 /* ---- loaded bars ------------------------------------------------------------------------------------------------- */
 
+/* Step bar at distance s from the loaded end, by all fronts that have passed (exact.h). */
 static struct exact_values step_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -43,6 +44,7 @@ static struct exact_values step_bar(const struct exact *e, real s, real t)
 
 static real precursor(const struct exact *e) { return copysign(real_min(fabs(e->load), e->yield), e->load); }
 
+/* Plastic bar at distance s from the loaded end: precursor and plastic front (exact.h). */
 static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -56,8 +58,8 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 
 /* ---- pulses ------------------------------------------------------------------------------------------------------ */
 
-/* A pulse on its way in an endless bar, `eta` ahead of its centre; `factor` is the direction of its displacement and
- * the sign that it has got from the ends. */
+/* Adds a pulse in an infinite bar, `eta` [m] ahead of its centre; `factor` is the direction of its displacement times
+ * the signs of its reflections at the ends. */
 static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int way,
                       real factor)
 {
@@ -69,8 +71,8 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
     v->strain += factor * way * wave.strain;
 }
 
-/* The pulse and its images in the ends, one behind the other along the way it would go: between two images lies the
- * bar's length folded once more, and the displacement turns its sign at a fixed end. */
+/* Adds a pulse and its images in the ends of the bar. On the unfolded path of the pulse, images follow one another at
+ * the length of the bar; the displacement changes sign at a fixed end. */
 static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;

@@ -67,14 +67,14 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
     case PROBE_RIGID:
         for (int k = 0; k < RIGID_FIGURES; k++) column_add(s, q, rigid_figure[k].name, rigid_figure[k].unit);
         break;
-    default: break;                      /* the others have figures only */
+    default: break;                      /* all other kinds have figures only */
     }
 }
 
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
-/* A place in the body is nowhere farther than this from a particle: half the diagonal of a lattice cell, and half as
- * much again for irregular ones. */
+/* Largest distance of a position in the body from the nearest particle [m]: half the diagonal of a lattice cell, and
+ * half as much again for irregular particles. */
 static real nearest_reach(const struct observed *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 
 int32_t particle_nearest(const struct observed *o, const real *X)
@@ -135,7 +135,7 @@ static status bind_line(struct probe *q, const struct observed *o)
     return status_set(REFUSED, "probe \"%s\": the whole line lies outside the bodies", q->request.name);
 }
 
-/* Particles on the region's boundary belong to it, by round-off at most. */
+/* Lists the particles of the region; those on its boundary belong to it, within round-off. */
 static status bind_region(struct probe *q, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -149,6 +149,7 @@ static status bind_region(struct probe *q, const struct observed *o)
     return status_set(REFUSED, "probe \"%s\": its region holds no particle", q->request.name);
 }
 
+/* REFUSED unless the named boundary is one that prescribes a velocity; the refusal lists those that do. */
 static status bind_support(const struct probe *q, const struct observed *o)
 {
     char known[512] = "";
@@ -171,7 +172,7 @@ static status bind_growth(struct probe *q, const struct observed *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
         if (!q->request.of[0] || strcmp(o->growth[k].rule->name, q->request.of) == 0) q->growth = k;
-    return OK;                           /* the reader knows that it is there */
+    return OK;                           /* the scene reader has checked that it exists */
 }
 
 static status probe_bind(struct probe *q, const struct observed *o)
@@ -274,7 +275,7 @@ void probes_step(struct probes *s, const struct observed *o)
         struct probe *q = &s->probe[k];
         if (!isnan(q->memory.first_time)) continue;
         if (q->request.kind == PROBE_BREAK) step_break(q, o);
-        if (q->request.kind == PROBE_SPALL) spall_look(q, o);
+        if (q->request.kind == PROBE_SPALL) spall_sample(q, o);
     }
 }
 

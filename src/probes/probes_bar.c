@@ -1,8 +1,8 @@
-/* A computed bar set against a closed form (exact.h).
+/* A computed bar compared with a closed form (exact.h).
  *
- * Two stresses are in use, and differ where a peridynamic bar is not calibrated: the bond flux, which balances
- * momentum, and E x strain. Figures without a suffix are by flux; those with `_strain` compare E x strain with E x
- * the exact strain. */
+ * There are two stresses, which differ where a peridynamic bar is not calibrated: the bond flux, which balances
+ * momentum, and E x strain. Figures without a suffix use the flux; those with `_strain` compare E x strain with E x the
+ * exact strain. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,15 +14,16 @@
 
 /* ---- stress and strain ------------------------------------------------------------------------------------------- */
 
-/* Places along the bar: images lie beyond its ends. */
+/* Rank of particle i along the bar; an image lies beyond an end, at rank -1 or n. */
 static int64_t probes_bar_place_of(const struct bar *b, const struct particles *p, int32_t i)
 {
     if (i < p->n) return b->rank[i];
     return p->X[0][i] < b->exact.left ? -1 : b->n;
 }
 
-/* Prefix sums of what begins and ends between particles: one pass over the bonds, each of them once, from the end with
- * the smaller index; images have no rows and the greatest indices. */
+/* Adds the force of each bond where it begins and ends, for prefix sums over `between`; `end` holds half the force of
+ * the bonds that end at a particle. One pass over the bonds, each of them once, from the end with the smaller index;
+ * images have no rows and the greatest indices. */
 static void add_bonds(const struct bar *b, const struct observed *o, real *between, real *end)
 {
     const struct bonds *bonds = o->bonds;
@@ -143,6 +144,7 @@ struct column bar_figure(enum exact_form form, int k)
     return c;
 }
 
+/* L1 and L2 errors of stress, E x strain and velocity, and the L2 error of displacement. */
 static void errors(const struct bar *b, const struct observed *o, real *value)
 {
     real sum[7] = {0};
@@ -163,9 +165,10 @@ static void errors(const struct bar *b, const struct observed *o, real *value)
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Where a field passes the middle of a front's jump, in the sense of the jump, linear between particles. Ringing and
- * the soft skins of loaded ends may pass it elsewhere: the passage nearest to the exact front counts. The outermost
- * particles are left out: the load acts on them, and their own bonds carry half of it. */
+/* Position at which a field times `factor` passes the middle of a front's jump, in the sense of the jump, linear
+ * between particles [m]; NAN: nowhere. Ringing and the soft ends of loaded bars may cause other passages: the one
+ * nearest to the exact front counts. The outermost particles are left out: the load acts on them, and their own bonds
+ * carry half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
 {
@@ -179,7 +182,7 @@ static real front_of(const struct bar *b, const struct particles *p, const struc
     return found;
 }
 
-/* Mean over the particles between two places; NAN without. */
+/* Mean of a field over the particles between two positions; NAN if there are none. */
 static real mean_between(const struct bar *b, const struct particles *p, const real *field, real from, real to)
 {
     real sum = 0, tolerance = 1e-9 * (b->exact.right - b->exact.left);
@@ -191,6 +194,7 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
     return n > 0 ? sum / (real)n : NAN;
 }
 
+/* Figures at fronts and plateaus; those that the closed form does not have at this time stay NAN. */
 static void fronts(const struct bar *b, const struct observed *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];

@@ -1,4 +1,4 @@
-/* The bar of an EXACT probe: its particles in their order, its ends, and what the scene does to it. */
+/* The bar of an EXACT probe: its particles in order, its ends, and its loads. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static void find_order(struct bar *b, const struct particles *p)
     memory_free(place);
 }
 
-/* One material, one row of particles without a gap. */
+/* Finds the bar: REFUSED unless it has one material and is one row of particles without a gap. */
 static status find_bar(struct probe *q, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -73,7 +73,7 @@ static bool acts_on(const struct load *l, int32_t particle)
     return false;
 }
 
-/* Fixed where a mirror stands or the outermost particle is held; free else. */
+/* Finds the kind of the ends: fixed where a mirror stands or the outermost particle is constrained, else free. */
 static status find_ends(struct probe *q, const struct observed *o)
 {
     struct bar *b = q->bar;
@@ -101,7 +101,8 @@ static bool probes_bar_make_at_rest(const struct particles *p)
     return true;
 }
 
-/* Velocities to a millionth: what a pulse cut by its region, by an end, or laid over other motion has not. */
+/* Are the initial velocities those of the pulses, to a millionth? They are not where a pulse is cut by its region or by
+ * an end, or is added to other motion. */
 static bool starts_with_pulses(const struct exact *e, const struct particles *p)
 {
     real scale = 0;
@@ -119,7 +120,7 @@ static int probes_bar_make_count_of(const struct observed *o, enum boundary_kind
     return n;
 }
 
-/* The one traction, which is a stress at an end: its value along x times the side of the face's normal. */
+/* Finds the one traction, which is a stress at an end: its value along x times the side of the face's normal. */
 static status find_traction(struct probe *q, const struct observed *o)
 {
     struct bar *b = q->bar;
@@ -138,6 +139,7 @@ static status find_traction(struct probe *q, const struct observed *o)
     return OK;
 }
 
+/* Checks and stores what loads the bar; REFUSED where the closed form does not describe it. */
 static status find_load(struct probe *q, const struct observed *o)
 {
     const struct load *other = NULL;

@@ -1,4 +1,4 @@
-/* What probes measure, and the figures of summary.json that follow from it. */
+/* Quantities that probes measure, and the figures of summary.json that follow from them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [3] = {"xx", "yy", "zz", "xy", "yz", "zx"},
 };
 
-/* In plane strain zz follows the others. */
+/* Number of stress readings; in plane strain zz comes last. */
 static int stresses_count(const struct particles *p) { return symmetric_count(p->dim) + (p->plane_strain != NULL); }
 
 int readings_count(const struct particles *p) { return 2 * p->dim + stresses_count(p) + 1; }
@@ -111,7 +111,7 @@ static real kinetic_term(const void *context, int64_t k)
     return 0.5 * p->mass[i] * speed2;
 }
 
-/* Row of the k-th particle of the region, -1 without. */
+/* Row of bonds of the k-th particle of the region, -1: it has none. */
 static int64_t row_at(const struct region_sum *s, int64_t k)
 {
     const struct bonds *b = s->o->bonds;
@@ -218,13 +218,13 @@ static void figures_reaction(const struct emitter *e)
     probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }
 
-/* Nodal force over what the stress carries through the face of one grid cell. */
+/* Residual nodal force over the force of the stress on the face of one grid cell. */
 static void figures_patch(const struct emitter *e)
 {
     const struct observed *o = e->o;
     real h = o->grid && o->grid->h > 0 ? o->grid->h : o->spacing;
-    real grid_coupled = o->strain_stress * pow(h, o->part->dim - 1) * o->thickness;
-    probes_figures_put(e, "residual_max", grid_coupled > 0 ? o->residual_step0 / grid_coupled : NAN);
+    real reference = o->strain_stress * pow(h, o->part->dim - 1) * o->thickness;
+    probes_figures_put(e, "residual_max", reference > 0 ? o->residual_step0 / reference : NAN);
 }
 
 static void figures_spall(const struct emitter *e)
@@ -246,6 +246,7 @@ static void figures_point(const struct emitter *e)
     for (int k = 0; k < readings_count(p); k++) probes_figures_put(e, reading_column(p, k).name, value[k]);
 }
 
+/* Least and largest value of each reading over the stations inside the bodies. */
 static void figures_line(const struct emitter *e)
 {
     const struct particles *p = e->o->part;

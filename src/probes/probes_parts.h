@@ -1,18 +1,19 @@
-/* What the files of the probes share: a probe bound to its particles, and what it remembers. */
+/* Declarations shared by the files of the probes: a probe bound to its particles, and its state. */
 #ifndef CLEAVE_PROBES_PARTS
 #define CLEAVE_PROBES_PARTS
 
 #include "probes/probes.h"
 
 enum { RIGID_FIGURES = 5 };
-/* RIGID: what was there at the start, and the figures: the angle followed so far, the largest |.| of the others. */
+/* RIGID: values at the start, and the figures: the angle accumulated so far, the largest |.| of all other figures. */
 struct rigid_memory {
     real spin, spin_scale, kinetic;      /* angular momentum, sum of |m r x v| [kg m^2/s]; [J]        */
     real angle;                          /* [rad]                                                     */
     real most[RIGID_FIGURES];
 };
 
-/* All that a probe cannot find again in the state of the run. No padding: it goes to checkpoints as it is. */
+/* State of a probe that does not follow from the state of the run. It has no padding: it goes to checkpoints byte by
+ * byte. */
 struct probe_memory {
     real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before  [s]      */
     real place[DIM_MAX];                 /* BREAK: mean place of the cut; SPALL: [0] the plane [m]    */
@@ -20,7 +21,7 @@ struct probe_memory {
     real force_max, force_square;        /* REACTION: largest |F|; sum of F^2                [N], [N^2] */
     int64_t steps;                       /* REACTION: in that sum                                     */
     int64_t body;                        /* SPALL: the bar that broke                                 */
-    real trail[2][2];                    /* SIF: where the tip came along, for its direction     [m]  */
+    real trail[2][2];                    /* SIF: earlier places of the tip, for its direction    [m]  */
     real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample      */
     real along[2];                       /* SIF: direction of the tip at the last sample              */
     real time;                           /* SIF: of the factors                                [s]    */
@@ -29,7 +30,7 @@ struct probe_memory {
 
 struct probe {
     struct probe_request request;        /* its region is borrowed from the scene                     */
-    int first, columns;                  /* its columns in the history                                */
+    int first, columns;                  /* index of its first column in the history; their number    */
     int64_t n;
     int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
     struct probe_memory memory;
@@ -38,7 +39,7 @@ struct probe {
     int growth;                          /* GROWTH: which of the run                                  */
 };
 
-/* ---- what a single particle tells: POINT and LINE ---------------------------------------------------------------- */
+/* ---- readings of a single particle: POINT and LINE --------------------------------------------------------------- */
 
 /* displacement, velocity, stress (in plane strain also zz), damage */
 enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 1 };
@@ -46,7 +47,7 @@ int readings_count(const struct particles *p);
 struct column reading_column(const struct particles *p, int k);
 void readings_of(const struct particles *p, int64_t i, real *value);
 
-/* ---- the rest by kind -------------------------------------------------------------------------------------------- */
+/* ---- other kinds ------------------------------------------------------------------------------------------------- */
 
 extern const char *const axis_name[DIM_MAX];
 
@@ -54,7 +55,7 @@ extern const char *const axis_name[DIM_MAX];
 int32_t particle_nearest(const struct observed *o, const real *X);
 void station_position(const struct probe *q, int dim, int k, real *X);
 
-/* The tip that a TIP probe follows now; NULL if there is none. */
+/* The tip that a TIP probe follows at present; NULL if there is none. */
 const struct tip *probe_tip(const struct probe *q, const struct tips *t);
 
 /* Sum of the reactions of all supports of the probe's boundary, and mean displacement of their particles. */
@@ -69,12 +70,12 @@ struct pulse_shares { real reflected, transmitted, energy_change; };
 status pulse_bind(struct probe *q, const struct observed *o);
 struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o);
 
-/* Looks whether a bar has come apart; remembers where and when. Where it has: mean velocity along x of the lighter
- * part and of the rest [m/s]. */
-void spall_look(struct probe *q, const struct observed *o);
+/* Tests whether a bar has separated; stores where and when. After that: mean velocity along x of the lighter part and
+ * of the rest [m/s]. */
+void spall_sample(struct probe *q, const struct observed *o);
 void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
 
-/* GROWTH: place and length of the tip, its speed, K_eq of the factors that rule it. */
+/* GROWTH: place and length of the tip, its speed, and K_eq of the factors that control it. */
 enum { GROWTH_FIGURES = 5 };
 extern const struct column growth_figure[GROWTH_FIGURES];
 void growth_readings(const struct growth *g, real *value);
@@ -86,11 +87,12 @@ extern const struct column sif_figure[SIF_FIGURES];
 /* Finds the tip; refuses bodies without one, and contours that leave the body or reach another tip or material. */
 status sif_bind(struct probe *q, const struct observed *o);
 void sif_free(struct sif_tracked *w);
+/* Stores the motion at o->t and o->t_velocity, before the step (probes_keep). */
 void sif_keep(struct probe *q, const struct observed *o);
 /* Fills q->memory.factors. */
 void sif_sample(struct probe *q, const struct observed *o, real t_velocity);
 
-/* ---- a body that turns: RIGID ------------------------------------------------------------------------------------ */
+/* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
 
 extern const struct column rigid_figure[RIGID_FIGURES];
 status rigid_bind(struct probe *q, const struct observed *o);
@@ -103,7 +105,7 @@ struct bar {
     struct exact exact;
     int64_t n;
     int32_t *order, *rank;               /* particles from left to right; place of a particle among them */
-    real *displacement, *velocity;       /* [n] by rank, as bar_measure found them         [m], [m/s] */
+    real *displacement, *velocity;       /* [n] by rank, from bar_measure                          [m], [m/s] */
     real *flux, *strain;                 /* [n] the stress by bond flux [Pa]; du/dx [1]               */
 };
 
@@ -112,9 +114,9 @@ status bar_make(struct probe *q, const struct observed *o);
 void bar_free(struct bar *b);
 void bar_measure(struct bar *b, const struct observed *o);
 
-/* The force of all bonds that cross a particle's centre over the section, for peridynamic particles: a bond gives
- * its force to all particles strictly between its ends and half of it to the ends, bonds to mirror images included.
- * Material points have their Cauchy stress [Pa]. */
+/* Stress `flux` [n] by rank [Pa]: for peridynamic particles the force of all bonds that cross the centre of a particle,
+ * over the section. A bond counts in full for particles strictly between its ends and by half for its ends; bonds to
+ * mirror images are included. Material points have their Cauchy stress. */
 void bar_flux(const struct bar *b, const struct observed *o, real *flux);
 
 /* The figures of a bar's form, in a fixed order; they are columns of the history, too. */

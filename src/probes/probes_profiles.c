@@ -17,7 +17,7 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Stations outside the bodies are left out: there is nothing to read. */
+/* Writes the readings of all stations; stations outside the bodies have none and are left out. */
 static void profile_rows(FILE *file, const struct probe *q, const struct particles *p)
 {
     real X[DIM_MAX], start[DIM_MAX], value[READINGS_MAX];
@@ -59,7 +59,7 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
     profile_rows(file, q, o->part);
 }
 
-/* `<probe>_NNNNNN.csv`; a name may hold a place in a list, as of a growth. */
+/* File name `<probe>_NNNNNN.csv`; the slash in the name of a list entry, such as a growth, becomes an underscore. */
 static void profile_name(char *name, const struct probe *q, int frame)
 {
     snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);

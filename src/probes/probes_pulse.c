@@ -1,9 +1,10 @@
-/* A wave packet that has met an interface: what came back, what went on. */
+/* PULSE probe: the reflected and the transmitted part of a wave packet at an interface. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "probes_parts.h"
 
+/* Distance of particle i beyond the interface, along the direction of the packet [m]. */
 static real ahead(const struct probe *q, const struct particles *p, int64_t i)
 {
     real distance = 0;

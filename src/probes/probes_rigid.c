@@ -1,4 +1,4 @@
-/* A body that turns as a whole: how far it has, and what should have stayed 0. */
+/* RIGID probe: the angle of a body that rotates as a whole, and quantities that should stay 0. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -12,7 +12,7 @@ const struct column rigid_figure[RIGID_FIGURES] = {{"angle", "rad"}, {"stress_ma
 
 struct rigid_sum { const struct probe *q; const struct particles *p; real centre[2], centre_reference[2]; };
 
-/* Mass; mass times place, now and in the reference. */
+/* Sums of mass, and of mass times current and reference position. */
 static void centre_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -24,7 +24,8 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-/* About the centre: m X . x and m X x x (of best fit), angular momentum, sum |m r x v|, kinetic energy. */
+/* Sums about the centre: m X . x and m X x x (for the rotation of best fit), angular momentum, |m r x v|, kinetic
+ * energy. */
 static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -42,7 +43,8 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-/* Rotation of best fit: it makes sum m |x - R X|^2 least (Kabsch 1976, in the plane) [rad]. */
+/* Angle of best fit: its rotation makes sum m |x - R X|^2 least (Kabsch 1976, in the plane) [rad]. Also the angular
+ * momentum, its scale sum |m r x v| [kg m^2/s] and the kinetic energy [J]. */
 static real probes_rigid_turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale,
                               real *kinetic)
 {

@@ -1,4 +1,4 @@
-/* The probe of stress-intensity factors: a tip, fixed or followed, and the contours round it. */
+/* SIF probe: a crack tip, fixed or followed, and the contours around it. */
 #include <math.h>
 #include <string.h>
 
@@ -8,10 +8,10 @@
 #define OUTER 20.0                       /* default radius                                         [spacings] */
 #define CORE 1.5                         /* default, left out of the inertial sum (sif.h)         [horizons] */
 #define NARROWEST 3.0                    /* ring                                                   [spacings] */
-#define STEP_BACK 8.0                    /* the direction of a moving tip is that of its last 8 to 16 [spacings] */
-#define SAME_PLACE 1.0                   /* a tip this near is the one that is meant               [spacings] */
+#define STEP_BACK 8.0                    /* a moving tip has the direction of its last 8 to 16 [spacings] */
+#define SAME_PLACE 1.0                   /* distance within which two tips are one             [spacings] */
 #define FASTEST 0.95                     /* of the Rayleigh speed                                             */
-#define OPEN_ANGLE (170.0 / 180)         /* of the ring is looked at: the faces of a crack may have come apart */
+#define OPEN_ANGLE (170.0 / 180)         /* share of the ring that is tested: the faces of a crack may be open */
 
 static const real pi = 3.14159265358979323846;
 
@@ -25,8 +25,8 @@ struct sif_tracked {
     int growth;                          /* crack with prescribed or SIF-controlled growth, -1: none  */
     real reach;                          /* of the largest contour                              [m]   */
     int contours;
-    struct contour contour[SIF_CONTOURS_MAX + 1];    /* [0]: that of the figures                      */
-    struct crack *crack;                 /* those of the scene, and one behind a tip without crack    */
+    struct contour contour[SIF_CONTOURS_MAX + 1];    /* [0]: the contour of the figures               */
+    struct crack *crack;                 /* pre-cracks of the scene, and one behind a tip without crack */
     real behind[2][DIM_MAX];
     bool kept;                           /* displacement and velocity are those of t and t_velocity   */
     real t, t_velocity;                  /* [s]                                                       */
@@ -38,6 +38,7 @@ static bool given(real value) { return value > 0; }      /* neither NAN nor 0 */
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
+/* The contour of the figures, then those to compare: the requested ones, or 0.6, 0.8 and 1 times `outer`. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, real spacing)
 {
     const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
@@ -50,7 +51,7 @@ static void make_contours(struct sif_tracked *w, const struct probe_request *r, 
     for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
 }
 
-/* The tip of the run that is meant; -1: none. */
+/* Index of the tip of the run that a request refers to; -1: none. */
 static int tip_meant(const struct probe_request *r, const struct observed *o)
 {
     int nearest = -1;
@@ -64,7 +65,7 @@ static int tip_meant(const struct probe_request *r, const struct observed *o)
     return nearest;
 }
 
-/* The crack that this probe controls, and its start; -1: none. */
+/* Index of the growth that starts at the tip; -1: none. */
 static int growth_meant(const struct sif_tracked *w, const struct observed *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -74,7 +75,7 @@ static int growth_meant(const struct sif_tracked *w, const struct observed *o)
     return -1;
 }
 
-/* A crack is led by the factors of its own tip: without `at` every probe watches the first. */
+/* REFUSED where the probe controls a crack other than that of its tip: without `at` every probe takes the first tip. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -88,6 +89,7 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
+/* Finds place and direction of the tip, and the growth that starts there. */
 static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     w->follows = tip_meant(r, o);
@@ -107,8 +109,8 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
     return own_growth(w, r, o);
 }
 
-/* Pre-cracks hide particles; behind a tip that is the end of none lies a straight crack. Particles on a crack are on
- * the side of its normal (crack_cuts). */
+/* Makes the list of cracks that hide particles from each other: the pre-cracks, and a straight crack behind a tip that
+ * is not the end of one. Particles on a crack are on the side of its normal (crack_cuts). */
 static void make_cracks(struct sif_tracked *w, const struct observed *o)
 {
     const struct sif_tip *t = &w->tip;
@@ -133,7 +135,7 @@ static void make_cracks(struct sif_tracked *w, const struct observed *o)
     w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 
-/* A place on the ring without a particle; false: none. */
+/* Does a ring leave the body? Then `place` is a position on it without a particle. */
 static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed *o, real place[2])
 {
     const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
@@ -146,6 +148,7 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
+/* REFUSED for contours that are too narrow, leave the body, or reach another tip. */
 static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     real place[2];
@@ -171,7 +174,7 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* The material round the tip, and no other. */
+/* Finds the material around the tip; REFUSED where another material or body lies within the contours. */
 static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -226,16 +229,16 @@ void sif_free(struct sif_tracked *w)
     memory_free(w);
 }
 
-/* ---- where the tip is now ---------------------------------------------------------------------------------------- */
+/* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* A tip that has grown: its place, its speed, and the direction in which it came. */
+/* Updates place, speed and direction of the tip, if it has grown. */
 static void probes_sif_follow(struct probe *q, const struct observed *o)
 {
     struct sif_tracked *w = q->sif;
     const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
     real (*trail)[2] = q->memory.trail;
     w->tip.speed = 0;
-    if (w->growth >= 0) {                /* its tip is known exactly */
+    if (w->growth >= 0) {                /* the tip is known exactly */
         const struct growth *g = &o->growth[w->growth];
         for (int d = 0; d < 2; d++) w->tip.place[d] = g->place[d], w->tip.along[d] = g->along[d];
         w->tip.speed = real_min(g->speed, FASTEST * w->tip.medium.rayleigh);
@@ -283,9 +286,10 @@ void sif_keep(struct probe *q, const struct observed *o)
     }
 }
 
-/* Acceleration by the velocities before and after, of peridynamic particles and material points alike: in the leap-frog
- * scheme it is the force of the sample's time over the mass. Velocity along that line, at the sample's time. No step
- * follows the last sample: it tells of one step earlier, as forces of its own are not made. */
+/* Acceleration from the velocities before and after the sample, of peridynamic particles and material points alike: in
+ * the leap-frog scheme it is the force at the time of the sample over the mass. The velocity is interpolated linearly
+ * to that time. No step follows the last sample: its inertia is that of one step earlier, as forces of its own are not
+ * computed. */
 static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)

@@ -1,4 +1,4 @@
-/* Where a bar comes apart: the first plane across it that nothing holds together any more. */
+/* SPALL probe: the first plane across a bar that neither bonds nor material points connect any more. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -11,7 +11,7 @@ struct columns {
     real low, spacing;                   /* centre of column 0 [m]; [m]                               */
     int32_t *intact, *cut;               /* [n] bonds across plane k                                  */
     real *last, *next;                   /* [n] farthest x of material points left, nearest right of plane k [m] */
-    real longest;                        /* bond seen [m]                                             */
+    real longest;                        /* longest bond [m]                                          */
 };
 
 static int64_t probes_spall_column_of(const struct columns *c, real X)
@@ -47,13 +47,14 @@ static void probes_spall_columns_free(struct columns *c)
     memory_free(c->next);
 }
 
-/* Counts the bond's ends; the sums over columns make them bonds across planes. */
+/* Counts the ends of a bond; sums over the columns turn these counts into bonds across planes. */
 static void count_across(int32_t *count, int64_t a, int64_t b)
 {
     count[a < b ? a : b]++;
     count[a < b ? b : a]--;
 }
 
+/* Counts the intact and the broken bonds of a body across each plane. */
 static void columns_bonds(struct columns *c, const struct observed *o, int body)
 {
     const struct bonds *b = o->bonds;
@@ -72,7 +73,8 @@ static void columns_bonds(struct columns *c, const struct observed *o, int body)
     for (int64_t k = 1; k < c->n; k++) c->intact[k] += c->intact[k - 1], c->cut[k] += c->cut[k - 1];
 }
 
-/* Material points hold together through the grid; those that have just lost a bond are about to be converted. */
+/* Finds the material points nearest to each plane: the grid connects them. Points that have just lost a bond are left
+ * out, since they convert next. */
 static void columns_points(struct columns *c, const struct particles *p, int body)
 {
     for (int64_t k = 0; k < c->n; k++) c->last[k] = -INFINITY, c->next[k] = INFINITY;
@@ -86,12 +88,14 @@ static void columns_points(struct columns *c, const struct particles *p, int bod
     for (int64_t k = c->n - 2; k >= 0; k--) c->next[k] = real_min(c->next[k], c->next[k + 1]);
 }
 
+/* No bond across the plane is intact, at least one is broken, and material points on its sides are not within a bond
+ * length. */
 static bool probes_spall_is_apart(const struct columns *c, int64_t plane)
 {
     return c->intact[plane] == 0 && c->cut[plane] > 0 && !(c->next[plane] - c->last[plane] <= c->longest);
 }
 
-/* Planes that come apart together are one fracture, at their middle. */
+/* Finds the first fracture: neighbouring planes that separate together are one fracture, at their middle. */
 static bool columns_apart(const struct columns *c, real *position)
 {
     for (int64_t k = 0; k < c->n - 1; k++) {
@@ -104,7 +108,7 @@ static bool columns_apart(const struct columns *c, real *position)
     return false;
 }
 
-void spall_look(struct probe *q, const struct observed *o)
+void spall_sample(struct probe *q, const struct observed *o)
 {
     int bodies = 0;
     if (!o->bonds || o->bonds->rows == 0) return;

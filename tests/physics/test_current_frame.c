@@ -19,7 +19,7 @@
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Free blocks with nodes at odd places: particles on the kinks of a shape feel |u|. */
+/* Free blocks with nodes at odd places: for particles on the kinks of a shape forces depend on |u|. */
 struct block { const char *space, *edge, *origin, *region; };
 static const struct block line = {"line", "24 mm", "0.13 mm", "{box: {from: 7 mm, to: 16 mm}}"},
                           half = {"plane stress", "9 mm, 7 mm", "0.13 mm, 0.37 mm",

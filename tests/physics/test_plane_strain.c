@@ -25,7 +25,7 @@ enum { ROW_KEYS = 6 };
     "probes: [{point: {name: gauge, at: [50.5 mm, 0.5 mm]}}, "                                                         \
     "{line: {name: across, from: [-50 mm, 0.5 mm], to: [-49 mm, 0.5 mm], points: 2}}]\n"
 #define TRACE 3e-5                       /* eps_xx + eps_yy of it */
-/* so far from its centre a block has heard of nothing: 12 mm less two horizons, which corrected surfaces reach, or
+/* half width of the undisturbed middle of a block: 12 mm less two horizons, which corrected surfaces reach, or
  * less the wave [m] */
 #define INSIDE 3.6e-3
 

@@ -193,7 +193,7 @@ void *mmap(void *at, size_t length, int protection, int flags, int fd, off_t off
     return fd < 0 && hit(ALL_MMAP) ? MAP_FAILED : next(at, length, protection, flags, fd, offset);
 }
 
-/* dlsym itself allocates: the C library's own names are asked for. */
+/* dlsym itself allocates: the C library's own names are called. */
 #ifdef __GLIBC__
 void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t),
     *__libc_memalign(size_t, size_t);

@@ -1,5 +1,5 @@
 /* Nothing is lost: every call of ours fails once, runs are stopped and killed in the midst of what they do,
- * checkpoints are damaged; --resume always gets to the bits of a run that nobody disturbed. `test_faults whole` does
+ * checkpoints are damaged; --resume always gets to the bits of an undisturbed run. `test_faults whole` does
  * the same with the calls of the whole process, libraries included (tests/robustness/long_faults.sh). */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -170,8 +170,8 @@ static int in_two(void (*share)(int worker))
 /* ---- every call fails once --------------------------------------------------------------------------------------- */
 
 /* Every `step`-th call of a run fails. A run that fails here is resumed for each `look`-th of these, and a resumed
- * one, stopped at sample 2 before, meets them only then, too. `lossy`: libraries do not survive it; only that
- * nothing is lost is asked for. */
+ * one, stopped at sample 2 before, meets them only then, too. `lossy`: libraries do not survive it; the test is only
+ * that nothing is lost. */
 struct sweep { enum fault_call call; int cause, step, look; bool lossy; };
 
 static const struct sweep own_sweeps[] = {

@@ -11,7 +11,7 @@ cd "$work"
 fail() { echo "test_bench: $1" >&2; exit 1; }
 
 # Refused in one line, exit status 2, nothing written.
-for words in nonsense accuracy=nonsense stability=nonsense "--slow" "kernels nonsense" coupling factors efficiency scatter; do
+for words in nonsense accuracy=nonsense stability=nonsense "--slow" "kernels nonsense" coupling factors sif efficiency scatter sensitivity; do
     set +e
     "$cleave" bench $words >out 2>err
     ended=$?

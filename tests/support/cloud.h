@@ -112,7 +112,7 @@ static inline void cloud_unfold(struct bonds *b)
         if (b->implicit[g]) row_block_expand(b, g);
 }
 
-/* What bonds are made from, once kinds, bodies and materials are as the test wants them. */
+/* What bonds are made from, once kinds, bodies and materials are set. */
 static inline void cloud_source(struct cloud *c)
 {
     struct bond_source *s = &c->source;

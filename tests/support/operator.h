@@ -28,7 +28,7 @@ struct spectrum {
     real lowest, highest;                /* [1/s^2] */
     int64_t zeros;                       /* eigenvalues below OPERATOR_ZERO of the highest */
     real energy;                   /* |energy that the energy balance has/(1/2 u K u) - 1| of a body shaken at random */
-    real imaginary;                   /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not asked for */
+    real imaginary;                   /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not computed  */
 };
 #define OPERATOR_ZERO 1e-9
 #define OPERATOR_SHAKE 1e-6              /* displacement [spacings]: terms of third order are as much of the energy */

@@ -1,4 +1,4 @@
-/* A uniformly strained patch of particles of one or both kinds on a grid, and what its nodes feel. */
+/* A uniformly strained patch of particles of one or both kinds on a grid, and the forces on its nodes. */
 #ifndef CLEAVE_TESTS_PATCH
 #define CLEAVE_TESTS_PATCH
 

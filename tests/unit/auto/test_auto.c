@@ -71,8 +71,8 @@ static struct auto_found picked(const struct chart *c, const struct auto_kind *k
     return f;
 }
 
-/* The lines are powers, so the resolution between two runs is that of the closed form, for nine tenths of what is
- * asked. */
+/* The lines are powers, so the resolution between two runs is that of the closed form, for nine tenths of the
+ * required accuracy. */
 static void cheapest_of_two_powers(void **state)
 {
     (void)state;

@@ -69,7 +69,7 @@ static void memory_resize_keeps_what_fits(void **state)
     memory_free(array);
 }
 
-/* Exit status of a child that asks for this much; its line goes to `line`. */
+/* Exit status of a child that allocates this much; its line goes to `line`. */
 static int exit_of(int64_t count, size_t size, char line[256])
 {
     int channel[2], result;

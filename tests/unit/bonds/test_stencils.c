@@ -1,4 +1,4 @@
-/* Row blocks that follow a stencil: who does, that what they would store is right, that every kernel makes
+/* Row blocks that follow a stencil: which do, that what they would store is right, that every kernel makes
  * the same bits of them as of row blocks that have all of their bonds in memory, and that they are made anew as a
  * search makes them. */
 #include <stdarg.h>

@@ -37,7 +37,7 @@ static void set_stress(struct cloud *c, const real strain[DIM_MAX][DIM_MAX], rea
 }
 
 /* Largest nodal force, free edges left out, per area of a cell's face [Pa]; also the stress of the points. Peridynamic
- * particles, whose families are full, must feel nothing in either coupling. */
+ * particles, whose families are full, must have no force in either coupling. */
 static real interface_residual(const struct interface *k, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     struct patch s = {0};
@@ -160,8 +160,8 @@ static void shares_make(struct cloud *c, struct partial_stress *partial, real ho
     partial_stress_make(partial, &c->p, &c->bonds, &c->source, NULL, 0);
 }
 
-/* What tables answer is what is found bond by bond; where there are too many bonds for tables (8: 2108 in a family),
- * nobody looks them up. */
+/* Tables agree with sums bond by bond; where there are too many bonds for tables (8: 2108 in a family), none are
+ * used. */
 static void test_wide_families(void **state)
 {
     (void)state;

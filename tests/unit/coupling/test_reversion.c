@@ -1,5 +1,5 @@
-/* Back to material points: energy and momentum of a block that returns under uniform strain, stress of
- * families that surfaces cut short, who may return and who must not, and what a mesh takes in. */
+/* Reversion to material points: energy and momentum of a block that reverts under uniform strain, stress of families
+ * that surfaces cut short, which particles may revert and which may not, and their insertion into a mesh. */
 #include "coupling/reversion.h"
 
 #include "tests/support/cloud.h"
@@ -66,8 +66,8 @@ static real energy_of(const struct setting *s, const struct partial_stress *part
     return sum;
 }
 
-/* A block in the middle of a uniformly strained bar: nothing changes but who carries the stress, and momentum not at
- * all. Published: 0. Finite strain and round-off, of 60 particle energies, as in test_coupling.c. */
+/* A block in the middle of a uniformly strained bar: only the method that carries the stress changes, and momentum
+ * not at all. Published: 0. Finite strain and round-off, of 60 particle energies, as in test_coupling.c. */
 static void test_bar(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* State-based bonds as partners of material points: what uniform strain across a flat interface leaves, the
- * moment that a point is told, and that converting a block costs nothing. */
+/* State-based bonds as partners of material points: the residual of uniform strain across a flat interface, the
+ * moment on a point, and that converting a block costs nothing. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -121,7 +121,7 @@ static void test_flat_solid(void **state)
 /* ---- torque ------------------------------------------------------------------------------------------------------ */
 
 /* A point at the end of bonds, which see a part of its family, is turned by them: the torque of its own force states
- * is what its cell is told, to round-off over the strain. */
+ * is the moment on its cell, to round-off over the strain. */
 static void test_torque(void **state)
 {
     (void)state;

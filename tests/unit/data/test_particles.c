@@ -93,7 +93,7 @@ static void images_are_added_behind(void **state)
     particles_free(&p);
 }
 
-/* The box round some particles, in which images do not count unless asked for; who stands on a lattice. */
+/* The box round some particles, in which images count only on request; particles on a lattice. */
 static void extent_and_sites(void **state)
 {
     (void)state;

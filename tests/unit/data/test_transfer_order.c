@@ -129,7 +129,7 @@ static void test_transfer_order_growth(void **state)
     }
 }
 
-/* Each thread sorts a part of the list: nobody sees how many there are. */
+/* Each thread sorts a part of the list: the result does not depend on their number. */
 static void test_transfer_order_threads(void **state)
 {
     (void)state;

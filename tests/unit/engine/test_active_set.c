@@ -1,5 +1,5 @@
-/* Rest where nothing happens: exact nothing at rest, the same bits with and without, that blocks do sleep,
- * and what wakes them. */
+/* The active set: exact zeros at rest, the same bits with and without it, that blocks become inactive, and what
+ * activates them. */
 #include <math.h>
 #include <omp.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 
 /* ---- nothing at rest is 0 ---------------------------------------------------------------------------------------- */
 
-/* Forces of all models on bodies that nobody has touched, regular and shaken, in all places: none. Places far from
+/* Forces of all models on undeformed bodies, regular and shaken, in all places: none. Places far from
  * the origin have round-off in every bond's components. */
 static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
 {
@@ -126,9 +126,9 @@ static real sleeping(const struct engine *e)
     return real_max(engine_inactive_share(e), points);
 }
 
-/* Runs it with and without; they agree after every tenth step. At least `early` of the body sleeps after a tenth of the
- * steps, of points on the grid after the first look, since round-off goes some cells a step there; nothing at the end.
- * Returns how many have become peridynamic. */
+/* Runs it with and without; they agree after every tenth step. At least `early` of the body is inactive after a
+ * tenth of the steps, of points on the grid after the first look, since round-off goes some cells a step there;
+ * nothing at the end. Returns how many have become peridynamic. */
 static int64_t check_same(const char *body, const char *boundary, const char *more, const char *keys, real early)
 {
     struct scene s[2];
@@ -200,7 +200,7 @@ static void test_adaptive(void **state)
                "method: adaptive\nmodel: ospd\nconversion: {tips: 1, alpha: 0.2}\nmpm: {frame: reference}", 0.05);
 }
 
-/* ---- what wakes -------------------------------------------------------------------------------------------------- */
+/* ---- activation -------------------------------------------------------------------------------------------------- */
 
 /* A force that comes late, far from the wave: it moves what it acts upon, as without rest. */
 static void test_late(void **state)

@@ -1,5 +1,5 @@
-/* Runs out of hand are told apart: a time step too long, loads that no body bears, and what gains energy at
- * any step. */
+/* Causes of instability are told apart: a time step too long, loads that no body bears, and what gains energy at any
+ * step. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Cracks that grow as they are told: what the tip crosses against a plain loop, the law of fading, its
+/* Cracks with prescribed or SIF-controlled growth: what the tip crosses against a plain loop, the law of fading, its
  * energy and momentum, when it grows and where to, and restarts. */
 #include "fracture/growth.h"
 #include "kernels/kernels.h"

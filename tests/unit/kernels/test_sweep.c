@@ -1,5 +1,5 @@
-/* Motion in the sweep of forces against all forces first: the same bits for every law, any number of
- * threads, whoever waits for loads, sleeps, or is moved by the grid. */
+/* Motion in the sweep of forces against all forces first: the same bits for every law, any number of threads, with
+ * particles that wait for loads, are inactive, or are moved by the grid. */
 #include <stdlib.h>
 
 #include "tests/support/cloud.h"
@@ -18,8 +18,8 @@ static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 
 
 struct body { struct cloud c; struct state_modulus modulus[CLOUD_MATERIALS]; uint8_t *loaded; };
 
-/* Every third row block, but for the first: its particles neither feel nor move, and know of their families what
- * they did. */
+/* Every third row block, but for the first, is inactive: its particles have no new forces, do not move, and keep the
+ * states of their families. */
 static void put_to_sleep(struct bonds *b, struct particles *p, enum pd_model model)
 {
     if (model >= PD_OSPD) state_precompute_table[p->dim][model](b, p);
@@ -39,7 +39,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
     b->loaded = NEW("test.loaded", p->n + LANES, uint8_t);
     for (int64_t i = 0; i < p->n; i++) {
         p->kind[i] = way & MIXED && cloud_random(&seed) < 0.4 ? KIND_MPM : KIND_PD;
-        if (way & MIXED && p->kind[i] == KIND_PD && cloud_random(&seed) < 0.2) p->flag[i] = FLAG_CARRIED;
+        if (way & MIXED && p->kind[i] == KIND_PD && cloud_random(&seed) < 0.2) p->flag[i] = FLAG_GRID_COUPLED;
         b->loaded[i] = cloud_random(&seed) < 0.1;
         for (int d = 0; d < dim; d++) {
             p->x[d][i] = p->X[d][i] * (1.01 + 0.005 * d) + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
@@ -67,7 +67,7 @@ static struct pd_motion motion_of(const struct body *b, int way, real fastest)
     return (struct pd_motion){2e-6, 1e-6, fastest, way & LOADED ? b->loaded : NULL, false};
 }
 
-/* All forces, then the motion of whoever would move in the sweep. */
+/* All forces, then the motion of all particles that would move in the sweep. */
 static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way, struct pd_motion *motion)
 {
     struct particles *p = &b->c.p;
@@ -118,7 +118,7 @@ static void test_sweep(void **state)
             }
 }
 
-/* Neither less than the farthest row that somebody reads, nor the whole body. */
+/* Neither less than the farthest row that a row reads, nor the whole body. */
 static void test_reach(void **state)
 {
     (void)state;

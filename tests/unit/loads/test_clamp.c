@@ -64,7 +64,7 @@ static void body_free(struct body *a)
     scene_free(&a->s);
 }
 
-/* What the engine asks for in a step, nothing breaking. */
+/* The calls of the engine in a step, nothing breaking. */
 static void forces(struct engine *e)
 {
     loads_mirror(&e->loads, &e->part);

@@ -167,7 +167,7 @@ static void test_mirror(void **state)
 
 enum { LOOKS_MOST = 4096 };             /* more than a quarter has particles */
 
-/* How often each particle was listed for a look, and that nobody is twice on one list. */
+/* How often each particle was listed, and that no list holds a particle twice. */
 static void count_looks(void *context, const int32_t *list, int64_t n)
 {
     int *looks = context, before[LOOKS_MOST];

@@ -166,7 +166,7 @@ static void test_patch(void **state)
             int inside = 0;
             for (int64_t I = 0; I < b.mesh.grid.n; I++) full = real_max(full, b.mesh.grid.mass[I]);
             const real scale = b.elastic[0].c11 * 0.01 * b.mesh.volume / CLOUD_SPACING;
-            assert_true(largest_force(&b) > 0.1 * scale);    /* its edges do feel it */
+            assert_true(largest_force(&b) > 0.1 * scale);    /* its edges do have forces */
             for (int64_t I = 0; I < b.mesh.grid.n; I++) {
                 if (b.mesh.grid.mass[I] < full * (1 - 1e-12)) continue;
                 inside++;

@@ -195,7 +195,7 @@ static void alarm_names_the_first_runaway(void **state)
     body_free(&b);
 }
 
-/* Whoever of a list it is, and nobody beside it: lists in one piece, with gaps and with ends of every length. */
+/* For each particle of a list, and none beside it: lists in one piece, with gaps and with ends of every length. */
 static void alarm_sees_everybody_listed(void **state)
 {
     (void)state;
@@ -225,7 +225,7 @@ static void alarm_sees_everybody_listed(void **state)
     }
 }
 
-/* The ends of a short list may lie as far apart as those of eight in a row: who stands between them is not listed. */
+/* The ends of a short list may lie as far apart as those of eight in a row: particles between them are not listed. */
 static void alarm_passes_gaps_at_the_end(void **state)
 {
     (void)state;

@@ -164,7 +164,7 @@ static void pulses_obey_the_wave_equation(void **state)
             assert_near(v.strain, (-2 * first + second) / 100, 1e-11);           /* f' = -v/c */
             for (real t = 1e-3; t < 0.05; t += 1.713e-3) check_smooth(&e, X, t, 0.03, 4e-8, true);
         }
-        for (real t = 0; t < 0.05; t += 1e-3)                                    /* what the ends ask for */
+        for (real t = 0; t < 0.05; t += 1e-3)                                    /* what the ends require */
             for (int end = 0; end < 2; end++) {
                 struct exact_values v = exact_at(&e, end, t);
                 assert_near(e.reflection[end] > 0 ? v.velocity : 100 * v.strain, 0, 1e-9);

@@ -83,7 +83,7 @@ static void figure_keep(void *context, const char *probe, const char *quantity, 
         if (strcmp(quantity, names[k]) == 0) f->value[k] = value, f->n++;
 }
 
-/* A field at rest, told by probes that find the tip, are told where it is, and know no crack. */
+/* A field at rest, measured by probes that find the tip, that have its place, and that have no crack. */
 static void tip_at_rest(void **state)
 {
     (void)state;

@@ -214,7 +214,7 @@ static void later_initial_entries_overwrite(void **state)
     s.initial[1].velocity[1] = 2;
     memcpy(s.initial[1].velocity_gradient, (real[]){0.5, -3, 3, 0}, 4 * sizeof(real));
     s.initial[1].centre[0] = 1;
-    s.initial[2].body = 1;                       /* nobody */
+    s.initial[2].body = 1;                       /* none   */
     s.initial[2].velocity[0] = 99;
     s.body[0].velocity[1] = 5;
     assert_ok(fill_particles(&p, &s.scene, WITH_GRADIENT));
