@@ -54,11 +54,11 @@ $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(rest) $(LIBFLAGS) -MMD -MP -c -o $@ $<
 
-# The chart that `method: auto` chooses from, as strings of C.
-$(BUILD)/chart_text.h: src/auto/cost_accuracy.csv Makefile
+# The cost-accuracy table that `method: auto` chooses from, as strings of C.
+$(BUILD)/cost_accuracy_text.h: src/auto/cost_accuracy.csv Makefile
 	@mkdir -p $(@D)
 	@awk '{gsub(/"/, "\\\""); printf "\"%s\\n\"\n", $$0}' $< > $@
-$(BUILD)/src/auto/chart.o: $(BUILD)/chart_text.h
+$(BUILD)/src/auto/cost_accuracy.o: $(BUILD)/cost_accuracy_text.h
 
 # One rule a set: build/kernels/bond_force.avx2.o from kernels/pd/bond_force.c.
 define SET
@@ -83,7 +83,7 @@ FUZZED   := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fsanitiz
 $(BUILD)/fuzz/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(FUZZED) $(LIBFLAGS) -MMD -MP -c -o $@ $<
-$(BUILD)/fuzz/src/auto/chart.o: $(BUILD)/chart_text.h
+$(BUILD)/fuzz/src/auto/cost_accuracy.o: $(BUILD)/cost_accuracy_text.h
 $(BUILD)/fuzz/fuzz: $(BUILD)/tests/robustness/fuzz.o $(patsubst %.c,$(BUILD)/fuzz/%.o,$(wildcard tests/robustness/fuzz_*.c) \
                     $(filter-out src/app/main.c,$(wildcard src/*.c))) $(filter $(BUILD)/kernels/% $(BUILD)/bench/%,$(OBJECTS))
 	$(Q)$(CC) $(CFLAGS) $(FUZZED) -o $@ $^ $(LIBS)
