@@ -11,7 +11,7 @@
 #include "output/output_files.h"
 
 static const char built_in[] =
-#include "cost_accuracy_text.h"                  /* made from src/auto/cost_accuracy.csv by the Makefile: one string per line */
+#include "cost_accuracy_text.h" /* made from src/auto/cost_accuracy.csv by the Makefile: one string per line */
     ;
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
