@@ -81,7 +81,7 @@ static double time_of(const struct tips *t, double length)
  * [rad]. */
 static double angle_at(const struct engine *e, double radius, double width)
 {
-    const struct tips *t = &e->tips;
+    const struct tips *t = &e->fracture.tips;
     double along = 0, across = 0;
     for (int64_t i = 0; i < e->part.n; i++) {
         const int k = t->label[i] - 1;
@@ -97,7 +97,7 @@ static double angle_at(const struct engine *e, double radius, double width)
 
 struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struct engine *e)
 {
-    const struct tips *t = &e->tips;
+    const struct tips *t = &e->fracture.tips;
     struct fracture f = {.start = time_of(t, watched[p->at].start), .speed = NAN};
     int n = 0;
     for (int k = 0; k < t->n; k++)

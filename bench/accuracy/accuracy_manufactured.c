@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "accuracy.h"
-#include "src/engine/engine_report.h"
+#include "engine/engine.h"
 #include "bench/common/manufactured.h"
 
 /* P waves run at 100 m/s; both parts of the motion, with and without rotation, are there. */

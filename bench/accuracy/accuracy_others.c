@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "accuracy.h"
-#include "src/engine/engine_report.h"
+#include "engine/engine.h"
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 

@@ -50,11 +50,11 @@ static status accuracy_sudden_run(const struct accuracy_point *p, struct engine 
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
     const double slower = p->at == MOVING ? crack_speed_factor(&m, SPEED_EXACT, speed) : 1;
     for (int k = 0; k < INSTANTS; k++) {
-        const int64_t until = k < INSTANTS - 1 ? llround(instant[k] / e->dt) : e->steps;
+        const int64_t until = k < INSTANTS - 1 ? llround(instant[k] / e->clock.dt) : e->clock.steps;
         TRY(bench_engine_run(e, until, NULL));
         /* forces are those of the step before the last */
         factor[k] = accuracy_figure(e, "sif", "K_I") / slower /
-                    crack_suddenly_loaded(&m, stress, e->t - e->dt - way / m.longitudinal);
+                    crack_suddenly_loaded(&m, stress, e->clock.t - e->clock.dt - way / m.longitudinal);
     }
     return OK;
 }

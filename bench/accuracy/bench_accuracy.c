@@ -48,8 +48,8 @@ status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene 
     const double before = processor_seconds();
     status ran = p->problem->run ? p->problem->run(&at, &e) : engine_run(&e);
     const double busy = team == 0 ? processor_seconds() - before : INFINITY;
-    r->seconds[team] = fmin(r->seconds[team], fmin(e.loop_seconds, busy));
-    r->particles = (double)e.part.n, r->steps = (double)e.step, r->stable = ran == OK;
+    r->seconds[team] = fmin(r->seconds[team], fmin(e.report.loop_seconds, busy));
+    r->particles = (double)e.part.n, r->steps = (double)e.clock.step, r->stable = ran == OK;
     if (ran == OK && !r->known) ran = p->problem->measure(&at, &e, &r->error, r->part);
     bench_engine_free(&e, &s);
     r->known = true;

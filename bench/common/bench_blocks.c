@@ -73,7 +73,7 @@ status bench_block_make(struct engine *e, struct scene *s, const struct bench_bl
     *s = (struct scene){0};
     TRY(scene_read_text(s, text, strlen(text), "block", NULL, 0));
     status made = engine_make(e, s, out);
-    e->quiet = true;
+    e->report.quiet = true;
     if (made != OK) bench_engine_free(e, s);
     return made;
 }

@@ -37,7 +37,7 @@ status bench_engine_make(struct engine *e, struct scene *s, const char *path, co
     else
         TRY(scene_read(s, path, override, overrides));
     status made = engine_make(e, s, NULL);
-    e->quiet = true;
+    e->report.quiet = true;
     if (made != OK) bench_engine_free(e, s);
     return made;
 }
@@ -50,13 +50,13 @@ void bench_engine_free(struct engine *e, struct scene *s)
 
 status bench_engine_run(struct engine *e, int64_t until, struct laps *spent)
 {
-    const int64_t steps = e->steps;
-    memory_free(e->record); /* each call of engine_run makes its own */
-    e->record = NULL;
-    e->steps = until < steps ? until : steps;
+    const int64_t steps = e->clock.steps;
+    memory_free(e->report.record); /* each call of engine_run makes its own */
+    e->report.record = NULL;
+    e->clock.steps = until < steps ? until : steps;
     status ran = engine_run(e);
-    e->steps = steps;
-    for (int k = 0; spent && k < LAPS; k++) spent->spent[k] += e->laps.spent[k];
+    e->clock.steps = steps;
+    for (int k = 0; spent && k < LAPS; k++) spent->spent[k] += e->report.laps.spent[k];
     return ran;
 }
 
@@ -90,7 +90,7 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
 void bench_figures_take(const struct engine *e, struct bench_figure *figure, int n)
 {
     const struct observed seen = engine_observed(e);
-    probes_figures(&e->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
+    probes_figures(&e->probing.probes, &seen, take_figure, &(struct wanted_figures){figure, n});
 }
 
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n)

@@ -58,7 +58,7 @@ static status column_run(struct pulse_picture *picture, int column)
     }
     picture->n = e[0].part.n;
     for (int k = 0; k < TIMES && ran == OK; k++) {
-        const int64_t until = llround(1e-3 * time_ms[k] / e[0].dt);
+        const int64_t until = llround(1e-3 * time_ms[k] / e[0].clock.dt);
         for (int b = 0; b < 2 && ran == OK; b++) ran = bench_engine_run(&e[b], until, NULL);
         if (ran == OK) coupling_pulse_take(&picture->shot[column][k], &e[0].part, &e[1].part);
     }

@@ -60,8 +60,8 @@ static status run_pieces(struct run *r, struct engine *e)
 {
     r->share[0] = pd_share(e);
     for (int k = 1; k <= SAMPLES; k++) {
-        TRY(bench_engine_run(e, e->steps * k / SAMPLES, NULL));
-        r->time[k] = e->t, r->share[k] = pd_share(e);
+        TRY(bench_engine_run(e, e->clock.steps * k / SAMPLES, NULL));
+        r->time[k] = e->clock.t, r->share[k] = pd_share(e);
     }
     return OK;
 }
@@ -72,11 +72,11 @@ static status efficiency_run_once(struct result *x, int way, int repetition)
     struct engine e;
     TRY(make(&e, &s, x, way));
     struct run *r = &x->run[way];
-    status ran = bench_engine_run(&e, e.steps, NULL);
-    r->seconds[repetition] = e.loop_seconds;
-    r->stepping[repetition] = e.loop_seconds - e.laps.spent[LAP_WATCH];
-    r->steady[repetition] = e.loop_seconds - e.laps.spent[LAP_CONVERT];
-    x->particles = e.part.n, x->steps = e.steps;
+    status ran = bench_engine_run(&e, e.clock.steps, NULL);
+    r->seconds[repetition] = e.report.loop_seconds;
+    r->stepping[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_WATCH];
+    r->steady[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_CONVERT];
+    x->particles = e.part.n, x->steps = e.clock.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);
     bench_engine_free(&e, &s);
     return ran;

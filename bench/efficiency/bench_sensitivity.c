@@ -43,7 +43,7 @@ static status sensitivity_run_once(struct scatter *x, int method, double dt, str
     struct engine e;
     TRY(efficiency_make(&e, &s, x->scene, way_of[method], dt));
     x->spacing = s.spacing;
-    status ran = bench_engine_run(&e, e.steps, NULL);
+    status ran = bench_engine_run(&e, e.clock.steps, NULL);
     if (ran == OK) crack_ends_keep(ends, &e);
     bench_engine_free(&e, &s);
     return ran;

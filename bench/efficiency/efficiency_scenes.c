@@ -72,7 +72,7 @@ status efficiency_step(const struct scene_case *c, double *dt)
         struct engine e;
         if (!efficiency_is_run(c, way)) continue;
         TRY(efficiency_make(&e, &s, c, way, 0));
-        *dt = fmin(*dt, e.dt);
+        *dt = fmin(*dt, e.clock.dt);
         bench_engine_free(&e, &s);
     }
     return OK;
@@ -95,10 +95,10 @@ void efficiency_tic(FILE *to, const struct scene_case *scene)
 
 void crack_ends_keep(struct crack_ends *c, const struct engine *e)
 {
-    const struct tip *longest = tips_longest(&e->tips);
-    memcpy(c->tip, e->tips.tip, sizeof c->tip);
-    c->tips = e->tips.n;
-    c->longest = longest ? (int)(longest - e->tips.tip) : -1;
+    const struct tip *longest = tips_longest(&e->fracture.tips);
+    memcpy(c->tip, e->fracture.tips.tip, sizeof c->tip);
+    c->tips = e->fracture.tips.n;
+    c->longest = longest ? (int)(longest - e->fracture.tips.tip) : -1;
     c->start = e->diagnostics.break_time;
 }
 

@@ -66,7 +66,7 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     status ran = output_open(&out, folder.folder, s.text, OUTPUT_OVERWRITE, false);
     if (ran == OK) {
         ran = engine_run(&e);
-        r->frame = e.laps.spent[LAP_OUTPUT] / FRAMES;
+        r->frame = e.report.laps.spent[LAP_OUTPUT] / FRAMES;
         FILE *f = fopen(path_join(folder.folder, "frames/000001.hdf").text, "r");
         if (f && fseek(f, 0, SEEK_END) == 0) r->frame_bytes = (double)ftell(f) / (double)e.part.n;
         if (f) fclose(f);
@@ -92,9 +92,9 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
     r->particles = (double)e.part.n, r->bonds = (double)e.bonds.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
-        const double spent = e.loop_seconds;
+        const double spent = e.report.loop_seconds;
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
-        r->step = fmin(r->step, (e.loop_seconds - spent) / (double)steps);
+        r->step = fmin(r->step, (e.report.loop_seconds - spent) / (double)steps);
     }
     r->bytes = ((double)memory_peak() - before) / r->particles;
     r->frame = NAN;

@@ -71,7 +71,7 @@ static status targets_time_way(struct floor_bench *b, int which)
     struct engine e;
     team_make(1);
     TRY(bench_engine_make(&e, &s, SCENE, NULL, w->override, w->overrides));
-    const real rate = w->sampled ? (real)s.samples / (real)e.steps : 0; /* samples a step */
+    const real rate = w->sampled ? (real)s.samples / (real)e.clock.steps : 0; /* samples a step */
     s.samples = 0;
     t->particles = (double)e.part.n, t->bonds = (double)e.bonds.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
@@ -79,8 +79,8 @@ static status targets_time_way(struct floor_bench *b, int which)
         const int threads = 1 + k % b->threads;
         struct laps spent = {0};
         team_make(threads);
-        s.samples = (int)(rate * (real)(e.step + STEPS_TIMED)); /* of the piece, as the engine counts them */
-        ran = bench_engine_run(&e, e.step + STEPS_TIMED, &spent);
+        s.samples = (int)(rate * (real)(e.clock.step + STEPS_TIMED)); /* of the piece, as the engine counts them */
+        ran = bench_engine_run(&e, e.clock.step + STEPS_TIMED, &spent);
         if (ran == OK) keep_fastest(t, threads, &spent);
     }
     bench_engine_free(&e, &s);

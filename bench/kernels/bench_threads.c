@@ -49,9 +49,9 @@ static status time_block(struct threads_bench *b, int way, int scaling, int t, d
     b->particles[way][scaling][t] = (double)e.part.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
-        const double before = e.loop_seconds;
+        const double before = e.report.loop_seconds;
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
-        *best = fmin(*best, (e.loop_seconds - before) / (double)steps);
+        *best = fmin(*best, (e.report.loop_seconds - before) / (double)steps);
     }
     bench_engine_free(&e, &s);
     return ran;

@@ -180,7 +180,7 @@ static void write_script(FILE *to, const struct engine *e, const struct peer_cas
             c->dim == 2 ? 'f' : 's', 0.3 * SPACING);
     fprintf(to, "lattice sc %.17g\nread_data " FOLDER "/particles.data\n", SPACING);
     write_law(to, e, c);
-    fprintf(to, "%stimestep %.17g\nrun 0 post no\nrun 0 post no\n", exclude, e->dt);
+    fprintf(to, "%stimestep %.17g\nrun 0 post no\nrun 0 post no\n", exclude, e->clock.dt);
     if (exclude[0]) fputs("neigh_modify exclude none\n", to);
     fprintf(to, "fix 1 all nve\ncompute d all damage/atom\nthermo 1000000\nrun %d\n"
             "dump 1 all custom 1 " FOLDER "/particles.dump id x y z c_d\n"
@@ -311,7 +311,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     if (ran == OK) ran = peer_seconds(&spent);
     if (ran == OK) ran = peer_solution(peer, e.part.n);
     if (ran == OK) {
-        r->own = fmin(r->own, e.loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
+        r->own = fmin(r->own, e.report.loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
         /* there the last places have broken bonds already */
         e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit, NULL);
         peers_compare(r, &e, peer, damage);

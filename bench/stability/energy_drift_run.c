@@ -17,20 +17,21 @@ struct mover { real m, x[DIM_MAX], *v[DIM_MAX]; };
 
 static int64_t energy_drift_run_movers_of(const struct engine *e)
 {
-    return e->part.n + (e->mesh.points > 0 ? e->mesh.grid.n : 0);
+    return e->part.n + (e->reference.mesh.points > 0 ? e->reference.mesh.grid.n : 0);
 }
 
 static struct mover mover_at(const struct engine *e, int64_t k)
 {
     const struct particles *p = &e->part;
-    const struct grid *g = &e->mesh.grid;
+    const struct grid *g = &e->reference.mesh.grid;
     struct mover a = {0};
     const int64_t I = k - p->n;
     if (I < 0) a.m = p->flag[k] & FLAG_MESHED ? 0 : p->mass[k];
     else a.m = g->mass[I];
     for (int d = 0; d < p->dim; d++) {
         a.v[d] = I < 0 ? &p->v[d][k] : &g->velocity[d][I];
-        a.x[d] = I < 0 ? p->x[d][k] : grid_position(g, d, I / g->stride[d] % g->count[d]) + e->mesh.displacement[d][I];
+        a.x[d] = I < 0 ? p->x[d][k]
+                       : grid_position(g, d, I / g->stride[d] % g->count[d]) + e->reference.mesh.displacement[d][I];
     }
     return a;
 }
@@ -99,7 +100,7 @@ static void energy_drift_run_shake(struct engine *e, const real *centre)
         for (int64_t k = 0; k < energy_drift_run_movers_of(e); k++) {
             struct mover m = mover_at(e, k);
             if (m.m == 0) continue;
-            *m.v[d] = LOUD * e->wave_speed * bench_random(&seed);
+            *m.v[d] = LOUD * e->tables.wave_speed * bench_random(&seed);
             momentum += m.m * *m.v[d], mass += m.m;
         }
         for (int64_t k = 0; k < energy_drift_run_movers_of(e); k++) {
@@ -117,7 +118,7 @@ static void earlier_make(struct earlier *b, const struct engine *e)
 {
     for (int d = 0; d < e->part.dim; d++) {
         b->v[0][d] = NEW("lasting.before", e->part.n, real);
-        b->v[1][d] = NEW("lasting.before", e->mesh.grid.n + 1, real);
+        b->v[1][d] = NEW("lasting.before", e->reference.mesh.grid.n + 1, real);
     }
 }
 
@@ -131,7 +132,8 @@ static void earlier_take(struct earlier *b, const struct engine *e)
 {
     for (int d = 0; d < e->part.dim; d++) {
         memcpy(b->v[0][d], e->part.v[d], (size_t)e->part.n * sizeof(real));
-        if (e->mesh.points > 0) memcpy(b->v[1][d], e->mesh.grid.velocity[d], (size_t)e->mesh.grid.n * sizeof(real));
+        if (e->reference.mesh.points > 0)
+            memcpy(b->v[1][d], e->reference.mesh.grid.velocity[d], (size_t)e->reference.mesh.grid.n * sizeof(real));
     }
 }
 
@@ -162,7 +164,7 @@ static status energy_drift_body_make(struct engine *e, struct scene *s, const st
     char text[4096];
     stability_text(&l->c, text, sizeof text);
     TRY(bench_engine_make(e, s, "body", text, NULL, 0));
-    const real dt = s->safety * e->dt_critical;
+    const real dt = s->safety * e->clock.dt_critical;
     bench_engine_free(e, s);
     bench_override(&o, "time.step", "%.17g", dt);
     bench_override(&o, "duration", "%.17g", dt * (real)steps);
@@ -179,7 +181,7 @@ static void course_add(struct course *c, const struct engine *e, const struct ea
     const struct energy_balance *now = &e->diagnostics.now;
     const struct energy *u = &now->energy;
     if (c->n >= (int)COUNT_OF(c->step)) return;
-    c->step[c->n] = (double)e->step;
+    c->step[c->n] = (double)e->clock.step;
     real after;
     const real between = kinetic_between(before, e, &after), stored = u->strain + u->plastic + u->fracture;
     c->energy[c->n] = between + stored, c->plain[c->n] = after + stored;
@@ -218,7 +220,7 @@ static void judge(const struct course *c, struct lasting *to)
 /* A held body's angular momentum goes into its support, and small strain knows no rotations. */
 static bool energy_drift_run_is_free(const struct engine *e)
 {
-    return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->mesh.points > 0 && e->scene->small_strain);
+    return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->reference.mesh.points > 0 && e->scene->small_strain);
 }
 
 static double turned(const struct engine *e, const real *centre, const real *L, real size)
@@ -241,17 +243,17 @@ static status energy_drift_run_body(struct engine *e, const struct lasting_case 
     c->energy[c->n] = c->plain[c->n] = e->diagnostics.energy_start, c->n++;
     angular_momentum(e, centre, L, &size);
     to->free = energy_drift_run_is_free(e), to->turn = to->free ? 0 : NAN;
-    while (s == OK && e->step < e->steps) {
+    while (s == OK && e->clock.step < e->clock.steps) {
         earlier_take(&before, e);
         s = engine_step(e);
         if (s == OK) s = engine_stability_check(e);
-        if (s != OK || !e->sampling.due) continue;
+        if (s != OK || !e->report.sampling.due) continue;
         course_add(c, e, &before);
         if (to->free) to->turn = fmax(to->turn, turned(e, centre, L, size));
     }
     judge(c, to);
-    to->stopped = s == OK ? 0 : e->step > 0 ? e->step : 1;
-    to->converted = (double)(e->part.n_of[KIND_PD] - e->conversion.start) / (double)e->part.n;
+    to->stopped = s == OK ? 0 : e->clock.step > 0 ? e->clock.step : 1;
+    to->converted = (double)(e->part.n_of[KIND_PD] - e->coupling.conversion.start) / (double)e->part.n;
     if (s != OK) snprintf(to->why, sizeof to->why, "%s", status_message());
     memory_free(c);
     earlier_free(&before);

@@ -63,7 +63,7 @@ static status inversion(const struct failing_row *r, double *to)
         "output: {frames: 0, samples: 10}\n",
         100 * r->given, -100 * r->given));
     const status ran = engine_run(&e);
-    if (e.mesh.points > 0) engine_mesh_sync(&e);
+    if (e.reference.mesh.points > 0) engine_mesh_sync(&e);
     to[0] = inverted(&e.part);
     to[1] = fabs(e.diagnostics.now.balance_error);
     bench_engine_free(&e, &s);
@@ -125,7 +125,7 @@ static status closing(const struct failing_row *r, double *to)
                      "particles: {spacing: 1}\noutput: {frames: 0, samples: 1}\n"));
     status ran = bench_engine_run(&e, 1, NULL);
     to[0] = 0, to[1] = 0;
-    while (ran == OK && e.step < e.steps - 1) {
+    while (ran == OK && e.clock.step < e.clock.steps - 1) {
         ran = engine_step(&e);
         to[0] = fmax(to[0], overlap(&e));
     }

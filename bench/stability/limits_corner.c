@@ -28,8 +28,8 @@ static status corner(const struct failing_row *r, double *to)
                      35e-3 / c, r->given, peak, START, WIDTH, -SPEED));
     const status ran = engine_run(&e);
     const struct particles *p = &e.part;
-    const bool converts = e.conversion.converted > 0 || e.scene->method != METHOD_ADAPTIVE;
-    if (e.mesh.points > 0) engine_mesh_sync(&e);
+    const bool converts = e.coupling.conversion.converted > 0 || e.scene->method != METHOD_ADAPTIVE;
+    if (e.reference.mesh.points > 0) engine_mesh_sync(&e);
     to[0] = converts ? 0 : INFINITY;
     for (int64_t i = 0; i < p->n; i++) to[0] = fmax(to[0], fabs(p->v[1][i]) / SPEED);
     to[1] = fabs(e.diagnostics.now.balance_error);

@@ -1,7 +1,7 @@
 /* Bodies that turn, shear at constant volume and vibrate for long: what should not happen to them. */
 #include <math.h>
 
-#include "src/engine/engine_report.h"
+#include "engine/engine.h"
 #include "limits_scenes.h"
 
 /* ---- rigid rotation ---------------------------------------------------------------------------------------------- */
@@ -23,7 +23,7 @@ static struct turning turning_of(const struct particles *p)
 static status limits_motion_turn(struct engine *e, double *to)
 {
     const struct particles *p = &e->part;
-    if (e->mesh.points > 0) engine_mesh_sync(e);
+    if (e->reference.mesh.points > 0) engine_mesh_sync(e);
     const struct turning start = turning_of(p);
     TRY(engine_run(e));
     const struct turning end = turning_of(p);
@@ -125,7 +125,7 @@ static void lame(const void *context, const real *X, real *v)
 static double projection(struct engine *e)
 {
     double sum = 0;
-    if (e->mesh.points > 0) engine_mesh_sync(e);
+    if (e->reference.mesh.points > 0) engine_mesh_sync(e);
     for (int64_t i = 0; i < e->part.n; i++) {
         const real X[2] = {e->part.X[0][i], e->part.X[1][i]};
         real v[2];
@@ -145,12 +145,12 @@ static status periods(struct engine *e, double *steps)
     int times = 0;
     *steps = NAN;
     TRY(bench_engine_run(e, 1, NULL));           /* makes the record of the first sample */
-    for (double now; times < STANDS && e->step < e->steps - 1; before = now) {
+    for (double now; times < STANDS && e->clock.step < e->clock.steps - 1; before = now) {
         TRY(engine_step(e));
         now = projection(e);
         if ((now > 0) == (before > 0)) continue;
         times++;
-        *steps = (double)e->step - 1.5 + before / (before - now);
+        *steps = (double)e->clock.step - 1.5 + before / (before - now);
     }
     return OK;
 }
@@ -169,7 +169,7 @@ static status shear(const struct failing_row *r, double *to)
     failing_start(&e, lame, NULL);
     const status ran = periods(&e, &steps);
     const double omega = M_PI / EDGE * sqrt(72e9 / (1 + r->given) / 2440);
-    *to = fabs((STANDS - 0.5) * M_PI / (steps * e.dt) / omega - 1);
+    *to = fabs((STANDS - 0.5) * M_PI / (steps * e.clock.dt) / omega - 1);
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -219,9 +219,10 @@ const struct failing_scene failing_shear = {"shear at constant volume", "nu %.4g
 
 static double energy_of(struct engine *e)
 {
-    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->mesh) + e->kernels.bond_energy(&e->bonds, &e->part) +
-           mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain) +
-           diagnostics_strain(&e->part, e->scene->material, &e->partial);
+    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh) +
+           e->kernels.bond_energy(&e->bonds, &e->part) +
+           mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain) +
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial);
 }
 
 /* A million steps of a free vibrating plate: what its energy changes by, mean of the last fiftieth over that of the
@@ -281,12 +282,12 @@ static status vibration(const struct failing_row *r, double *to)
                      "body: {box: {from: [0], to: [0.64]}}\noutput: {frames: 0, samples: 1}\n"));
     failing_start(&e, first_mode, NULL);
     status ran = bench_engine_run(&e, 1, NULL);
-    const int64_t period = e.steps / 10;
-    while (ran == OK && e.step < e.steps - 1) {
+    const int64_t period = e.clock.steps / 10;
+    while (ran == OK && e.clock.step < e.clock.steps - 1) {
         ran = engine_step(&e);
-        const double kinetic = diagnostics_kinetic(&e.part) + mesh_kinetic(&e.mesh);
-        if (e.step < period) first = fmax(first, kinetic);
-        if (e.step >= e.steps - period) last = fmax(last, kinetic);
+        const double kinetic = diagnostics_kinetic(&e.part) + mesh_kinetic(&e.reference.mesh);
+        if (e.clock.step < period) first = fmax(first, kinetic);
+        if (e.clock.step >= e.clock.steps - period) last = fmax(last, kinetic);
     }
     *to = fabs(1 - last / first);
     bench_engine_free(&e, &s);

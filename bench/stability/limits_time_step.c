@@ -30,7 +30,7 @@ status stability_caught(const struct stability_case *c, double times, double *st
     bench_override(&o, "initial", "[{pulse: {at: %s, width: 5e-3, velocity: 1}}]", at[c->dim]);
     bench_override(&o, "output.samples", "100");
     TRY(bench_engine_make(&e, &s, "block", text, bench_overrides_ready(&o), o.n));
-    *step = engine_run(&e) == FAILED && says_all(status_message()) ? (double)e.step : INFINITY;
+    *step = engine_run(&e) == FAILED && says_all(status_message()) ? (double)e.clock.step : INFINITY;
     bench_engine_free(&e, &s);
     return OK;
 }

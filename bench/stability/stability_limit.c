@@ -22,22 +22,23 @@
 static void stability_limit_shake(struct engine *e, double speed, double drift)
 {
     struct particles *p = &e->part;
-    struct grid *g = &e->mesh.grid;
+    struct grid *g = &e->reference.mesh.grid;
     uint64_t seed = 1;
     for (int d = 0; d < p->dim; d++) {
         double mean = 0;
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] = speed * bench_random(&seed);
-        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / e->mass;
+        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / e->stability.mass;
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] += drift - mean;
-        for (int64_t I = 0; e->mesh.points > 0 && I < g->n; I++)
-            if (e->mesh.inverse_mass[I] > 0) g->velocity[d][I] = speed * bench_random(&seed);
+        for (int64_t I = 0; e->reference.mesh.points > 0 && I < g->n; I++)
+            if (e->reference.mesh.inverse_mass[I] > 0) g->velocity[d][I] = speed * bench_random(&seed);
     }
 }
 
 /* Kinetic energy in motion against the drift. */
 static double motion(const struct engine *e, double drift)
 {
-    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->mesh) - 0.5 * e->mass * e->part.dim * drift * drift;
+    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh) -
+           0.5 * e->stability.mass * e->part.dim * drift * drift;
 }
 
 /* Long enough that its only sample is the first step. */
@@ -58,13 +59,13 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
     struct engine e;
     struct scene s;
     TRY(limit_block_make(&e, &s, c, dt));
-    const double drift = how.drift * e.wave_speed;
-    stability_limit_shake(&e, how.speed * e.wave_speed, drift);
+    const double drift = how.drift * e.tables.wave_speed;
+    stability_limit_shake(&e, how.speed * e.tables.wave_speed, drift);
     const double first = motion(&e, drift);
     *stays = bench_engine_run(&e, 1, NULL) == OK;    /* makes the record of the first sample */
-    while (*stays && e.step < how.steps) {
+    while (*stays && e.clock.step < how.steps) {
         if (engine_step(&e) != OK) *stays = false;
-        else if (e.step % 8 == 0 && !(motion(&e, drift) < GROWN * GROWN * first)) *stays = false;
+        else if (e.clock.step % 8 == 0 && !(motion(&e, drift) < GROWN * GROWN * first)) *stays = false;
     }
     bench_engine_free(&e, &s);
     return OK;
@@ -111,8 +112,8 @@ static status predict(const struct stability_case *c, struct stability_limits *t
     struct engine e;
     struct scene s;
     TRY(limit_block_make(&e, &s, c, 0));
-    to->critical = e.dt_critical, to->automatic = s.safety * e.dt_critical;
-    to->unit = (c->group == GROUP_POINTS ? e.grid.h : s.spacing) / e.wave_speed;
+    to->critical = e.clock.dt_critical, to->automatic = s.safety * e.clock.dt_critical;
+    to->unit = (c->group == GROUP_POINTS ? e.mpm.grid.h : s.spacing) / e.tables.wave_speed;
     to->gershgorin = to->silling = NAN;
     if (s.method == METHOD_PD && s.model == MODEL_BOND)
         to->gershgorin = bonds_critical_step_made(&e.bonds, &e.part), to->silling = silling_step(&e);

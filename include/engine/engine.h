@@ -21,93 +21,141 @@
 #include "coupling/interface_zone.h"
 #include "base/rise.h"
 #include "scene/scene.h"
-#include "solver.h"
+#include "solver/solver.h"
 #include "base/team.h"
 #include "fracture/tips.h"
 #include "base/warnings.h"
 #include "probes/diagnostics.h"
 
+/* Where a run is in time. */
+struct run_clock {
+    real t, dt, dt_critical;             /* [s]                                                       */
+    int64_t step, steps;                 /* done; of the whole run                                    */
+};
+
+/* Constants by material, and the arrays that `source` of the bonds points to. */
+struct material_tables {
+    struct elastic *elastic;             /* [materials]                                               */
+    struct state_modulus *modulus;       /* [materials] of state-based models, else NULL              */
+    real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
+    real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
+    int *mirror_axis;                    /* [boundaries] -1: clamped                                  */
+    real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */
+    real wave_speed;                     /* fastest of the materials [m/s]                            */
+};
+
+/* Material points on the grid of the current frame. */
+struct grid_method {
+    struct grid grid;
+    struct transfer_order order;         /* of the material points                                    */
+    struct active_points active;         /* which of them the transfers leave out                     */
+    struct transfer_data transfer;
+    bool sort_needed;                    /* points moved to other cells or converted                  */
+    real smallest_mass;                  /* of a node that moves [kg]                                 */
+};
+
 /* Frame of a body, and why where the scene does not say current. */
 struct frame_choice { bool reference; const char *reason; };
 
-struct engine {
-    const struct scene *scene;           /* borrowed                                                  */
-    struct kernels kernels;
-    struct particles part;
-    struct cells cells;                  /* search over reference positions                           */
-    struct bond_source source;
-    struct bonds bonds;
-    struct state_modulus *modulus;       /* [materials] of state-based models, else NULL              */
-    int *mirror_axis;                    /* [boundaries] -1: clamped                                  */
-    real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
-    real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
-    real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */
-    struct elastic *elastic;             /* [materials]                                               */
-    struct grid grid;
-    struct transfer_order order;         /* of the material points                                    */
-    struct active_points active_points;      /* which of them the maps leave out                         */
-    struct grid_coupled grid_coupled;              /* peridynamic particles that the grid moves (coupling pm .. pgg) */
+/* Bodies in the reference frame: a mesh of cells fixed to the material. */
+struct reference_frame {
+    struct frame_choice *choice;         /* [bodies]                                                  */
+    struct mesh mesh;
+    struct mesh_source source;
+    struct elastic *elastic;             /* [materials] constants of its cells                        */
+    real speed;                          /* largest component of a nodal velocity [m/s]               */
+};
+
+/* Where peridynamic particles and material points meet, and how one becomes the other. */
+struct coupling_state {
+    enum coupling kind;                  /* of the scene; hand-shake where nothing meets              */
+    struct grid_coupled grid_coupled;    /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct partial_stress partial;
-    struct transfer_data transfer;
-    struct frame_choice *frame;          /* [bodies]                                                  */
-    struct mesh mesh;                    /* of the bodies in the reference frame                      */
-    struct mesh_source mesh_source;
-    struct elastic *cell_elastic;        /* [materials] constants of its cells                        */
-    real mesh_speed;                     /* largest component of a nodal velocity              [m/s]  */
-    bool diverged;                           /* a peridynamic particle is diverged                     */
-    struct loads loads;
-    struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
-    struct solver solver;
+    bool uses_partial;                   /* points know what bonds carry: partial stress, ends of state-based bonds */
+    uint8_t *bonded;                     /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
+    struct interface_zone zone;          /* damped beside peridynamic particles (FLIP, partial stress) */
+    real damping_share;                  /* of the zone in a step; 0: not at all                      */
+    real damped;                         /* energy that this damping, and conversion of moving cells, took [J] */
     struct conversion conversion;
     struct region start_region;          /* peridynamic from the start; no solid: none                */
-    struct diagnostics diagnostics;
+};
+
+/* Cracks: where their tips are, and those whose growth is prescribed or SIF-controlled. */
+struct fracture_state {
     struct tips tips;
-    struct growth *growth;               /* [scene->growths] cracks with prescribed or SIF-controlled growth */
+    struct growth *growth;               /* [scene->growths]                                          */
+};
+
+/* What stability checks compare (engine_stability.c). */
+struct stability {
+    struct rise speed, excess;           /* of the largest speed^2 [m^2/s^2]; of energy from nowhere [J] */
+    real start_speed;                    /* largest at t = 0                                 [m/s]    */
+    real mass;                           /* of the body [kg]                                          */
+    bool diverged;                       /* a peridynamic particle moves faster than waves            */
+    bool lost;                           /* an energy of the last sample is no finite number          */
+};
+
+/* Probes and what they compare with. */
+struct probing {
     struct probes probes;
     struct wave_pulse *pulse;            /* [pulses] of the initial states                            */
     int pulses;
     struct baseline baseline;            /* for pulse probes, made at the end                         */
     bool has_baseline;
-    struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
-    struct laps laps;
-    real t, dt, dt_critical;             /* [s]                                                       */
-    struct rise speed_rise, excess_rise; /* of the largest speed^2 [m^2/s^2]; of energy from nowhere [J] */
-    bool lost;                           /* an energy of the last sample is no finite number         */
-    real start_speed;                    /* largest at t = 0                                 [m/s]    */
-    int64_t step, steps;
-    real wave_speed;                     /* fastest of the materials [m/s]                            */
     real residual_step0;                 /* largest nodal force of the first step, for patch probes [N] */
     real strain_stress;                  /* largest component of the initial stress [Pa]              */
-    real smallest_mass;                  /* of a node that moves [kg]                                 */
-    real mass;                           /* of the body [kg]                                          */
-    bool sort_needed;                    /* material points moved to other cells or converted         */
-    enum coupling coupling;              /* of the scene; hand-shake where nothing meets              */
-    uint8_t *bonded;                     /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
-    struct interface_zone zone;                      /* damped beside peridynamic particles (FLIP, partial stress) */
-    real damped;                /* energy that the interface zone's damping, and conversion of moving cells, took [J] */
-    real interface_damping_share;                      /* of a step; 0: not at all                                  */
-    bool uses_partial;                   /* points know what bonds carry: partial stress, ends of state-based bonds */
+};
+
+/* A sample in the making: it describes t_n, and its parts are taken between the phases of the step from t_n
+ * (engine_report.h). */
+struct sampling {
+    bool due;
+    real kinetic, work, constraint_work; /* [J] before the step                                       */
+    real *before[DIM_MAX];               /* velocities at its begin, where something is on the grid [m/s] */
+    struct energy energy;                /* of the positions of t_n; kinetic comes last               */
+};
+
+/* What a run leaves and says, and when. */
+struct run_report {
+    struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
+    struct sampling sampling;
     real *record;                        /* one line of history.csv                                   */
-    int optional;                        /* WITH_* arrays of the particles                            */
+    status history_status;               /* of the last line written                                  */
+    struct laps laps;
     int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
     int64_t bond_visits;
-    real inactive;                         /* share of the body at rest, summed over the steps ...      */
-    /* ... and over those before the last sample, which was at this one */
-    struct { real inactive; int64_t step; } sampled;
+    real inactive;                       /* inactive share of the body, summed over the steps ...     */
+    struct { real inactive; int64_t step; } sampled;     /* ... and over those before the last sample */
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
-    struct {                             /* a sample in the making (engine_report.h)                  */
-        bool due;
-        real kinetic, work, constraint_work;
-        real *before[DIM_MAX];           /* velocities at its begin, where something is on the grid [m/s] */
-        struct energy energy;            /* of the positions of t_n; kinetic comes last               */
-    } sampling;
-    status history_status;               /* of the last line written                                  */
     double began, started, last_progress, last_checkpoint;   /* wall clock: made, first step of this process, ... [s] */
     double checkpoint_seconds;           /* of the longest checkpoint so far                          */
     int64_t step_started;                /* first step of this process                                */
     struct warnings warnings;            /* what engine_warn and the run found                        */
     bool quiet;
     const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never        */
+};
+
+struct engine {
+    const struct scene *scene;           /* borrowed                                                  */
+    struct kernels kernels;
+    struct run_clock clock;
+    struct particles part;
+    int optional;                        /* WITH_* arrays of the particles                            */
+    struct cells cells;                  /* search over reference positions                           */
+    struct material_tables tables;
+    struct bond_source source;
+    struct bonds bonds;
+    struct grid_method mpm;
+    struct reference_frame reference;
+    struct coupling_state coupling;
+    struct loads loads;
+    struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
+    struct solver solver;
+    struct fracture_state fracture;
+    struct diagnostics diagnostics;
+    struct probing probing;
+    struct stability stability;
+    struct run_report report;
 };
 
 /* Everything up to step 0: particles, cells, loads, bonds, grid, time step. `out` may be NULL. */
@@ -117,11 +165,21 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out);
 real engine_memory(const struct engine *e);
 /* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal came. */
 status engine_run(struct engine *e);
-/* What it does with a solver that is not explicit (solver.c), and what that needs. */
+/* The same with a solver that is not explicit (engine_solve.c), and what that needs. */
 status engine_solve(struct engine *e);
-status solver_make(struct engine *e);
+status engine_solver_make(struct engine *e);
 /* One step in time. */
 status engine_step(struct engine *e);
+/* Before the first step of this process: history file, frame 0, first checkpoint; a restart has the last two
+ * already. After every step: frame, checkpoint and progress line if due; INTERRUPTED after a checkpoint if a signal
+ * came. After the last step. */
+status engine_report_start(struct engine *e);
+status engine_report(struct engine *e);
+status engine_report_end(struct engine *e);
+/* Stress of peridynamic particles, which steps do not compute: for samples, frames and reversion. */
+void engine_stress(struct engine *e);
+/* Positions, velocities and stresses of all particles, up to date for a frame. */
+void engine_sync(struct engine *e);
 void engine_free(struct engine *e);
 /* What material points leave to the bonds of now, and the interface zone beside them. */
 void engine_partial_make(struct engine *e);
@@ -156,7 +214,7 @@ void engine_mesh_follow(struct engine *e, int64_t converted);
 void engine_mesh_insert(struct engine *e, const int32_t *list, int64_t n);
 /* Return to material points (engine_reversion.c): whether the scene allows it; before a step, what is due; anew the
  * interface zone of the material points, and which of them have bonds. */
-status engine_reversion_check(const struct engine *e);
+status engine_reversion_check(const struct scene *s);
 void engine_revert(struct engine *e);
 void engine_interface_make(struct engine *e);
 /* After the run: the same scene on material points alone, if a pulse probe compares with it. */

@@ -21,18 +21,19 @@ static void say_particles(const struct engine *e)
 static void say_frames(const struct engine *e)
 {
     for (int b = 0; b < e->scene->bodies; b++)
-        if (e->frame[b].reason)
+        if (e->reference.choice[b].reason)
             printf("frame          body %s: %s, as %s\n", e->scene->body[b].name,
-                   e->frame[b].reference ? "reference" : "current", e->frame[b].reason);
-    if (e->mesh.points > 0)
+                   e->reference.choice[b].reference ? "reference" : "current", e->reference.choice[b].reason);
+    if (e->reference.mesh.points > 0)
         printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n",
-               (long long)e->mesh.points);
+               (long long)e->reference.mesh.points);
 }
 
 static void say_contact(const struct engine *e)
 {
     int on_grid = 0;
-    for (int b = 0; b < e->scene->bodies; b++) on_grid += e->scene->method != METHOD_PD && !e->frame[b].reference;
+    for (int b = 0; b < e->scene->bodies; b++)
+        on_grid += e->scene->method != METHOD_PD && !e->reference.choice[b].reference;
     if (on_grid > 1)
         printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
                "cells opens\n");
@@ -42,10 +43,10 @@ static void say_time_step(const struct engine *e)
 {
     if (e->scene->solver != SOLVER_EXPLICIT)
         printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n",
-               e->scene->solver_tolerance, (long long)e->steps);
+               e->scene->solver_tolerance, (long long)e->clock.steps);
     else
-        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->dt,
-               e->dt / e->dt_critical, e->dt_critical, (long long)e->steps, e->scene->duration);
+        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->clock.dt,
+               e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
 /* Basis of the estimated run time. */
@@ -82,7 +83,7 @@ static void say_materials(const struct engine *e)
         if (a->rayleigh_speed > 0) printf(", Rayleigh %.4g m/s", a->rayleigh_speed);
         if (isfinite(a->critical_stretch)) printf(", bonds break at a stretch of %.4g", a->critical_stretch);
         else printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
-        if (isfinite(e->elastic[m].trigger)) printf(", conversion above %.4g Pa", e->elastic[m].trigger);
+        if (isfinite(e->tables.elastic[m].trigger)) printf(", conversion above %.4g Pa", e->tables.elastic[m].trigger);
         printf("\n");
     }
 }
@@ -109,7 +110,7 @@ status command_check(int argc, char **argv)
         say_time_step(&e);
         say_contact(&e);
         engine_warn(&e);
-        warnings_print(&e.warnings, 0, stdout);
+        warnings_print(&e.report.warnings, 0, stdout);
         advise(&e, stdout);
         result = cost_measure(&cost, &e, &a);
         if (result == OK) say_cost(&e, &cost, threads);

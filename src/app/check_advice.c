@@ -69,7 +69,7 @@ static void advise_waves(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->boundaries && s->solver == SOLVER_EXPLICIT; b++) {
-        const real length = e->wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
+        const real length = e->tables.wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
         if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
             fprintf(
                 out,
@@ -171,7 +171,7 @@ static real stress_reached(const struct engine *e)
 {
     const struct scene *s = e->scene;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, speed2 = 0, density = 0, traction = 0;
-    if (e->wave_speed * s->duration > PASSAGES * particles_longest(&e->part)) return INFINITY;
+    if (e->tables.wave_speed * s->duration > PASSAGES * particles_longest(&e->part)) return INFINITY;
     for (int64_t i = 0; i < e->part.n; i++)
         for (int d = 0; d < s->dim; d++)
             low[d] = real_min(low[d], e->part.v[d][i]), high[d] = real_max(high[d], e->part.v[d][i]);
@@ -185,7 +185,7 @@ static real stress_reached(const struct engine *e)
     }
     for (int d = 0; d < s->dim; d++) speed2 += square(high[d] - low[d]);
     for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
-    return REACHED * (density * e->wave_speed * sqrt(speed2) + traction) + e->strain_stress;
+    return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing.strain_stress;
 }
 
 /* Bodies in the current frame that the reference frame could hold. */
@@ -194,7 +194,7 @@ static void advise_frame(const struct engine *e, FILE *out)
     const real reached = stress_reached(e);
     for (int b = 0; b < e->scene->bodies; b++) {
         const real strain = reached / e->scene->material[e->scene->body[b].material].young;
-        if (e->frame[b].reference || !engine_frame_allowed(e, b)) continue;
+        if (e->reference.choice[b].reference || !engine_frame_allowed(e, b)) continue;
         fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
         if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);
         fprintf(out, "; its material points cost a tenth to a thirtieth in frame %s\n",

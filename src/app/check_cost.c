@@ -7,9 +7,8 @@
 
 #include "auto/scene_read.h"
 #include "check_parts.h"
-#include "src/engine/engine_report.h"
+#include "engine/engine.h"
 #include "base/memory.h"
-#include "src/engine/solver_parts.h"
 
 enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15
@@ -28,10 +27,10 @@ enum { PERIODS_MOST = 200 };
 static status time_steps(struct engine *e, double *step)
 {
     const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
-    const int64_t period = e->steps / samples > 0 ? e->steps / samples : 1;
+    const int64_t period = e->clock.steps / samples > 0 ? e->clock.steps / samples : 1;
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
-    e->quiet = true;
+    e->report.quiet = true;
     TRY(engine_report_start(e));
     const double begun = team_clock();
     TRY(engine_step(e));
@@ -39,7 +38,7 @@ static status time_steps(struct engine *e, double *step)
     while (n < PERIODS_MOST && all < SECONDS_MOST && (n < 3 || all < SECONDS_ENOUGH)) {
         const double start = team_clock();
         int64_t taken = 0;
-        for (; taken < period && e->step < e->steps - 1 && team_clock() - start < SECONDS_MOST; taken++)
+        for (; taken < period && e->clock.step < e->clock.steps - 1 && team_clock() - start < SECONDS_MOST; taken++)
             TRY(engine_step(e));
         if (taken == 0) break;
         all += team_clock() - start;
@@ -56,7 +55,7 @@ static double time_force(struct engine *e)
     int n = 0;
     while (n < PERIODS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
         const double start = team_clock();
-        solver_bond_force(e);
+        engine_forces(e);
         all += spent[n++] = team_clock() - start;
     }
     return median_of(spent, n);
@@ -83,11 +82,11 @@ static status make_other(struct scene *s, struct engine *e, const struct run_arg
 static double all_steps(struct engine *e)
 {
     const double start = team_clock();
-    e->quiet = true;
+    e->report.quiet = true;
     memory_reuse(true);
     if (engine_report_start(e) != OK) return NAN;
-    laps_start(&e->laps);
-    while (e->step < e->steps) {
+    laps_start(&e->report.laps);
+    while (e->clock.step < e->clock.steps) {
         if (engine_step(e) != OK || engine_stability_check(e) != OK || engine_report(e) != OK) return NAN;
         if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;
     }
@@ -103,7 +102,7 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     double seconds = NAN;
     if (make_other(&s, &e, a, key, value, whole) == OK) {
         if (whole) seconds = all_steps(&e);
-        else if (time_steps(&e, &seconds) == OK) seconds *= (double)e.steps;
+        else if (time_steps(&e, &seconds) == OK) seconds *= (double)e.clock.steps;
         else seconds = NAN;
     }
     engine_free(&e);
@@ -134,15 +133,15 @@ static double family_size(const struct family *f) { return f->full / f->cell_vol
 /* Time of output [s]: frames, the initial one and two checkpoints included. */
 static double output_seconds(const struct engine *e)
 {
-    const double files = (double)(e->scene->frames < e->steps ? e->scene->frames : e->steps) + 3;
+    const double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
     return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
-                    FILE_SECONDS * (double)probes_profiled(&e->probes));
+                    FILE_SECONDS * (double)probes_profiled(&e->probing.probes));
 }
 
 /* Time and basis of the whole run. */
 static void cost_run(struct cost *c, const struct engine *e, const struct run_arguments *a)
 {
-    const double first = c->step * (double)e->steps;
+    const double first = c->step * (double)e->clock.steps;
     double loop = NAN;
     if (first < PATIENCE * SECONDS_WHOLE) loop = try_other(a, NULL, NULL, true);
     c->basis = COST_TRIED;

@@ -46,9 +46,9 @@ static void listen_to_signals(void)
 static void print_summary(const struct engine *e, const char *folder, double wall)
 {
     const struct shown_name shown = shown_name(folder);
-    const struct tip *tip = tips_longest(&e->tips);
+    const struct tip *tip = tips_longest(&e->fracture.tips);
     printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n,
-           (long long)e->step, e->dt, wall);
+           (long long)e->clock.step, e->clock.dt, wall);
     bool broke = !isnan(e->diagnostics.break_time);
     if (broke) printf("  first bond cut at %.4g s", e->diagnostics.break_time);
     if (tip)
@@ -56,7 +56,7 @@ static void print_summary(const struct engine *e, const char *folder, double wal
                tip_angle(tip, e->part.dim));
     if (broke || tip) printf("\n");
     printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n",
-           100.0 * (double)e->conversion.start / (double)e->part.n,
+           100.0 * (double)e->coupling.conversion.start / (double)e->part.n,
            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n);
     printf("  energy balance %.2g, momentum %.2g\n", e->diagnostics.now.balance_error,
            e->diagnostics.now.momentum_error);
@@ -79,14 +79,14 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     double start = team_clock();
     TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
     TRY(open_folder(out, s, a));
-    e->quiet = a->quiet;
+    e->report.quiet = a->quiet;
     if (!a->quiet) scene_choice_print(s, stderr);
     engine_warn(e);
-    warnings_print(&e->warnings, 0, stderr);
+    warnings_print(&e->report.warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
                 omp_get_num_procs());
-    e->stop = &stop_asked;
+    e->report.stop = &stop_asked;
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     status ran = engine_run(e);
     if (ran == OK) ran = engine_baseline(e);

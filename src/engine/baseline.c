@@ -6,10 +6,10 @@
 #include "base/memory.h"
 
 /* True if the scene has a pulse probe and is not itself on material points alone. */
-static bool wanted(const struct engine *e)
+static bool wanted(const struct scene *s)
 {
-    for (int k = 0; k < e->scene->probes; k++)
-        if (e->scene->probe[k].kind == PROBE_PULSE) return e->scene->method != METHOD_MPM;
+    for (int k = 0; k < s->probes; k++)
+        if (s->probe[k].kind == PROBE_PULSE) return s->method != METHOD_MPM;
     return false;
 }
 
@@ -19,23 +19,23 @@ static void baseline_keep(struct engine *e, const struct engine *twin)
 {
     const struct particles *p = &twin->part;
     for (int d = 0; d < p->dim; d++) {
-        e->baseline.v[d] = NEW("baseline.v", p->n, real);
-        memcpy(e->baseline.v[d], p->v[d], (size_t)p->n * sizeof *p->v[d]);
+        e->probing.baseline.v[d] = NEW("baseline.v", p->n, real);
+        memcpy(e->probing.baseline.v[d], p->v[d], (size_t)p->n * sizeof *p->v[d]);
     }
-    e->baseline.energy_change = engine_observed(twin).energy_change;
-    e->has_baseline = true;
+    e->probing.baseline.energy_change = engine_observed(twin).energy_change;
+    e->probing.has_baseline = true;
 }
 
 status engine_baseline(struct engine *e)
 {
-    if (!wanted(e)) return OK;
+    if (!wanted(e->scene)) return OK;
     struct scene scene = *e->scene;
     struct engine twin = {0};
     scene.method = METHOD_MPM;
     scene.probes = 0;
-    scene.time_step = e->dt;
+    scene.time_step = e->clock.dt;
     status s = engine_make(&twin, &scene, NULL);
-    twin.quiet = true;
+    twin.report.quiet = true;
     if (s == OK) s = engine_run(&twin);
     if (s == OK) baseline_keep(e, &twin);
     engine_free(&twin);

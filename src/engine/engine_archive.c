@@ -25,10 +25,8 @@ static status particles_archive(struct particles *p, struct archive *a, int opti
 
 /* FAILED for a state that no run can have: a checkpoint with intact bytes may still hold one. Indices into arrays and
  * positions are checked before use. */
-static status particles_check(const struct engine *e)
+static status particles_check(const struct scene *s, const struct particles *p)
 {
-    const struct particles *p = &e->part;
-    const struct scene *s = e->scene;
     for (int64_t i = 0; i < p->n_all; i++) {
         real sum = 0;
         bool good = p->kind[i] < KINDS && p->material[i] < s->materials && p->body[i] < s->bodies && p->mass[i] > 0 &&
@@ -52,8 +50,8 @@ static void engine_archive_rebuild(struct engine *e)
     particles_list(&e->part);
     bonds_free(&e->bonds);
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    partial_stress_free(&e->partial);
-    e->sort_needed = true;
+    partial_stress_free(&e->coupling.partial);
+    e->mpm.sort_needed = true;
 }
 
 /* Warns if a checkpoint was written with another set of kernels: sets agree to round-off only. */
@@ -80,42 +78,42 @@ status engine_archive(void *engine, struct archive *a)
     struct engine *e = engine;
     TRY(kernels_archive(e, a));
     TRY(particles_archive(&e->part, a, e->optional));
-    if (!a->saving) TRY(particles_check(e));
+    if (!a->saving) TRY(particles_check(e->scene, &e->part));
     if (!a->saving) engine_archive_rebuild(e);
     TRY(bonds_archive(&e->bonds, &e->part, a));
     if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
     if (!a->saving) {
         engine_partial_make(e);
-        mesh_free(&e->mesh);
-        memory_free(e->cell_elastic);
+        mesh_free(&e->reference.mesh);
+        memory_free(e->reference.elastic);
         TRY(engine_mesh_make(e));
     }
-    TRY(mesh_archive(&e->mesh, a));
+    TRY(mesh_archive(&e->reference.mesh, a));
     if (!a->saving) engine_ends_update(e);
-    ARCHIVE_VALUE(a, "engine/t", e->t);
-    ARCHIVE_VALUE(a, "engine/step", e->step);
-    ARCHIVE_VALUE(a, "engine/steps", e->steps);
-    ARCHIVE_VALUE(a, "engine/dt", e->dt);
-    ARCHIVE_VALUE(a, "engine/damped", e->damped);
-    ARCHIVE_VALUE(a, "engine/residual_step0", e->residual_step0);
-    ARCHIVE_VALUE(a, "engine/particle_steps", e->particle_steps);
-    ARCHIVE_VALUE(a, "engine/bond_visits", e->bond_visits);
-    ARCHIVE_VALUE(a, "engine/rested", e->inactive);
-    ARCHIVE_VALUE(a, "engine/sampled", e->sampled);
+    ARCHIVE_VALUE(a, "engine/t", e->clock.t);
+    ARCHIVE_VALUE(a, "engine/step", e->clock.step);
+    ARCHIVE_VALUE(a, "engine/steps", e->clock.steps);
+    ARCHIVE_VALUE(a, "engine/dt", e->clock.dt);
+    ARCHIVE_VALUE(a, "engine/damped", e->coupling.damped);
+    ARCHIVE_VALUE(a, "engine/residual_step0", e->probing.residual_step0);
+    ARCHIVE_VALUE(a, "engine/particle_steps", e->report.particle_steps);
+    ARCHIVE_VALUE(a, "engine/bond_visits", e->report.bond_visits);
+    ARCHIVE_VALUE(a, "engine/rested", e->report.inactive);
+    ARCHIVE_VALUE(a, "engine/sampled", e->report.sampled);
     TRY(active_set_archive(&e->bonds.active, "bonds", a));
-    TRY(active_set_archive(&e->mesh.active, "mesh", a));
-    ARCHIVE_VALUE(a, "engine/loop_seconds", e->loop_seconds);
+    TRY(active_set_archive(&e->reference.mesh.active, "mesh", a));
+    ARCHIVE_VALUE(a, "engine/loop_seconds", e->report.loop_seconds);
     TRY(loads_archive(&e->loads, a));
     TRY(solver_archive(&e->solver, a));
-    TRY(conversion_archive(&e->conversion, a));
+    TRY(conversion_archive(&e->coupling.conversion, a));
     TRY(diagnostics_archive(&e->diagnostics, a));
-    ARCHIVE_VALUE(a, "engine/speed_rise", e->speed_rise);
-    ARCHIVE_VALUE(a, "engine/excess_rise", e->excess_rise);
-    TRY(tips_archive(&e->tips, a));
-    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->growth[k], k, a));
-    TRY(probes_archive(&e->probes, a));
-    const int known = e->warnings.n;
-    TRY(warnings_archive(&e->warnings, a));
-    warnings_print(&e->warnings, known, stderr);
-    return output_archive(e->out, a);
+    ARCHIVE_VALUE(a, "engine/speed_rise", e->stability.speed);
+    ARCHIVE_VALUE(a, "engine/excess_rise", e->stability.excess);
+    TRY(tips_archive(&e->fracture.tips, a));
+    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->fracture.growth[k], k, a));
+    TRY(probes_archive(&e->probing.probes, a));
+    const int known = e->report.warnings.n;
+    TRY(warnings_archive(&e->report.warnings, a));
+    warnings_print(&e->report.warnings, known, stderr);
+    return output_archive(e->report.out, a);
 }

@@ -9,50 +9,48 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-static void make_limits(struct engine *e)
+static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
-    const struct scene *s = e->scene;
-    e->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
+    tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
     for (int a = 0; a < s->materials; a++)       /* a bond between two materials has the strength of the weaker one */
         for (int b = 0; b < s->materials; b++)
-            e->pair_stretch[a * s->materials + b] =
+            tables->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
-    e->source.limit = (struct bond_limit){e->pair_stretch, s->materials, s->whole_force};
-    if (s->solver != SOLVER_EXPLICIT) e->source.limit = bond_limit_never;    /* no bond breaks in a static solution */
+    source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->whole_force};
+    if (s->solver != SOLVER_EXPLICIT) source->limit = bond_limit_never;    /* no bond breaks in a static solution */
 }
 
 /* Yield of bonds by the material that yields at the smaller strain: s_y = sigma_y/E and H_b/k_e = H/E, which is the
  * material's own curve in a bar. */
-static void make_yields(struct engine *e)
+static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
-    const struct scene *s = e->scene;
     bool any = false;
     for (int m = 0; m < s->materials; m++) any = any || material_yields(&s->material[m]);
     if (!any) return;
-    e->pair_yield = NEW("engine.pair_yield", s->materials * s->materials, real);
-    e->pair_hardening = NEW("engine.pair_hardening", s->materials * s->materials, real);
+    tables->pair_yield = NEW("engine.pair_yield", s->materials * s->materials, real);
+    tables->pair_hardening = NEW("engine.pair_hardening", s->materials * s->materials, real);
     for (int a = 0; a < s->materials; a++)
         for (int b = 0; b < s->materials; b++) {
             const struct material *m = &s->material[a], *n = &s->material[b];
             const real first = material_yields(m) ? m->yield_stress / m->young : INFINITY;
             const real second = material_yields(n) ? n->yield_stress / n->young : INFINITY;
             const struct material *soft = second < first ? n : m;
-            e->pair_yield[a * s->materials + b] = real_min(first, second);
-            e->pair_hardening[a * s->materials + b] = material_yields(soft) ? soft->yield_hardening / soft->young : 0;
+            tables->pair_yield[a * s->materials + b] = real_min(first, second);
+            tables->pair_hardening[a * s->materials + b] =
+                material_yields(soft) ? soft->yield_hardening / soft->young : 0;
         }
-    e->source.yield = (struct bond_yield){e->pair_yield, e->pair_hardening, s->materials};
+    source->yield = (struct bond_yield){tables->pair_yield, tables->pair_hardening, s->materials};
 }
 
 /* Moduli of state-based models: A and B of kernels/pd/state_laws.h. */
-static void make_states(struct engine *e)
+static void make_states(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
-    const struct scene *s = e->scene;
     if (s->model == MODEL_BOND) return;
-    e->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
+    tables->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
     for (int k = 0; k < s->materials; k++)
-        e->modulus[k] = state_modulus_of(&s->material[k], s->space, s->model == MODEL_MOSPD);
-    e->source.modulus = e->modulus;
-    e->source.local = !s->bulk, e->source.rotates = s->model == MODEL_MOSPD;
+        tables->modulus[k] = state_modulus_of(&s->material[k], s->space, s->model == MODEL_MOSPD);
+    source->modulus = tables->modulus;
+    source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
 }
 
 /* Principal stress at which material points convert [Pa]: alpha times conversion.stress, by default the stress at s_c
@@ -66,76 +64,77 @@ static real conversion_trigger(const struct scene *s, const struct material *m)
 }
 
 /* Constants of the materials for the kernels, and limits of their bonds. */
-static void make_materials(struct engine *e)
+static void make_materials(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
-    const struct scene *s = e->scene;
-    e->elastic = NEW("engine.elastic", s->materials, struct elastic);
+    tables->elastic = NEW("engine.elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
         const struct material *given = &s->material[m];
-        e->wave_speed = real_max(e->wave_speed, given->wave_speed);
-        e->elastic[m] = (struct elastic){.c11 = given->c11, .c12 = given->c12, .shear = given->shear, .space = s->space,
-                                         .poisson = given->poisson, .trigger = conversion_trigger(s, given)};
+        tables->wave_speed = real_max(tables->wave_speed, given->wave_speed);
+        tables->elastic[m] = (struct elastic){.c11 = given->c11,
+                                                .c12 = given->c12,
+                                                .shear = given->shear,
+                                                .space = s->space,
+                                                .poisson = given->poisson,
+                                                .trigger = conversion_trigger(s, given)};
         if (!material_yields(given)) continue;
-        e->elastic[m].yield = given->yield_stress;
-        e->elastic[m].hardening = given->yield_hardening;
+        tables->elastic[m].yield = given->yield_stress;
+        tables->elastic[m].hardening = given->yield_hardening;
     }
-    make_limits(e);
-    make_yields(e);
-    make_states(e);
+    make_limits(s, tables, source);
+    make_yields(s, tables, source);
+    make_states(s, tables, source);
 }
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-static void make_family(struct engine *e)
+static void make_family(const struct scene *s, struct bond_source *source)
 {
-    const struct scene *s = e->scene;
-    struct family *f = &e->source.family;
+    struct family *f = &source->family;
     f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
     f->influence = s->influence;
     family_make(f, s->space, s->spacing, s->horizon, scene_section(s));
-    e->source.material = s->material, e->source.materials = s->materials;
-    e->source.crack = has_peridynamics(s) ? s->crack : NULL;
-    e->source.cracks = has_peridynamics(s) ? s->cracks : 0;
+    source->material = s->material, source->materials = s->materials;
+    source->crack = has_peridynamics(s) ? s->crack : NULL;
+    source->cracks = has_peridynamics(s) ? s->cracks : 0;
 }
 
-static void make_mirrors(struct engine *e)
+static void make_mirrors(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
-    const struct scene *s = e->scene;
-    e->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
+    tables->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
     for (int b = 0; b < s->boundaries; b++)
-        e->mirror_axis[b] = is_clamp(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
-    e->source.mirror_axis = e->mirror_axis;
+        tables->mirror_axis[b] = is_clamp(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
+    source->mirror_axis = tables->mirror_axis;
 }
 
 /* Converts the initial peridynamic particles and makes the bonds. */
 static void make_bonds(struct engine *e)
 {
     const struct scene *s = e->scene;
-    make_mirrors(e);
+    make_mirrors(e->scene, &e->tables, &e->source);
     e->source.image = e->loads.image;
     e->source.room = bonds_room(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
-        e->neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
-        bonds_neighbour_volume(e->neighbour_volume, &e->part, &e->source);
-        e->source.neighbour_volume = e->neighbour_volume;
+        e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
+        bonds_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
+        e->source.neighbour_volume = e->tables.neighbour_volume;
     }
     if (s->method == METHOD_ADAPTIVE) {
-        convert_region(&e->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
+        convert_region(&e->coupling.start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
                        s->conversion.tips * e->source.family.horizon);
-        convert_start(&e->part, &e->source, e->start_region.n > 0 ? &e->start_region : NULL);
+        convert_start(&e->part, &e->source, e->coupling.start_region.n > 0 ? &e->coupling.start_region : NULL);
     }
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    e->conversion.first_time = NAN;
-    e->conversion.start = e->conversion.peak = e->part.n_of[KIND_PD];
-    e->conversion.peak_bonds = e->bonds.n;
+    e->coupling.conversion.first_time = NAN;
+    e->coupling.conversion.start = e->coupling.conversion.peak = e->part.n_of[KIND_PD];
+    e->coupling.conversion.peak_bonds = e->bonds.n;
 }
 
 void engine_partial_make(struct engine *e)
 {
-    e->coupling = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
-    e->partial.gives_all = e->coupling != COUPLING_PARTIAL_STRESS;
-    e->uses_partial = !e->partial.gives_all || e->part.end_strain;
-    if (e->uses_partial) partial_stress_make(&e->partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    e->coupling.kind = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
+    e->coupling.partial.gives_all = e->coupling.kind != COUPLING_PARTIAL_STRESS;
+    e->coupling.uses_partial = !e->coupling.partial.gives_all || e->part.end_strain;
+    if (e->coupling.uses_partial) partial_stress_make(&e->coupling.partial, &e->part, &e->bonds, &e->source, NULL, 0);
     engine_interface_make(e);
 }
 
@@ -143,8 +142,8 @@ void engine_partial_make(struct engine *e)
 
 static void make_interface_damping_share(struct engine *e)
 {
-    e->interface_damping_share =
-        real_min(e->scene->interface_damping * e->wave_speed * e->dt / e->grid.h, DAMPING_SHARE_MOST);
+    e->coupling.damping_share =
+        real_min(e->scene->interface_damping * e->tables.wave_speed * e->clock.dt / e->mpm.grid.h, DAMPING_SHARE_MOST);
 }
 
 /* ---- grid -------------------------------------------------------------------------------------------------------- */
@@ -160,10 +159,10 @@ static real node_place(const struct scene *s, int axis, real corner)
 }
 
 /* The anchor, moved by at most half a spacing to lie midway between particles of a lattice [m]. */
-static real between_particles(const struct engine *e, int axis)
+static real between_particles(const struct scene *s, const struct particles *p, const struct grid_method *mpm, int axis)
 {
-    const real steps = (e->part.X[axis][0] - e->grid.anchor[axis]) / e->scene->spacing - 0.5;
-    return e->grid.anchor[axis] + (steps - nearbyint(steps)) * e->scene->spacing;
+    const real steps = (p->X[axis][0] - mpm->grid.anchor[axis]) / s->spacing - 0.5;
+    return mpm->grid.anchor[axis] + (steps - nearbyint(steps)) * s->spacing;
 }
 
 /* The lower corner of the body is that of the first shape, or of the particles of a list. */
@@ -171,24 +170,25 @@ void engine_grid_make(struct engine *e)
 {
     const struct scene *s = e->scene;
     real from[DIM_MAX], to[DIM_MAX];
-    e->grid.dim = s->dim;
-    e->grid.h = s->cell * s->spacing;
+    e->mpm.grid.dim = s->dim;
+    e->mpm.grid.h = s->cell * s->spacing;
     bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
     for (int d = 0; d < s->dim; d++) {
         if (!bounded) {
             particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
             from[d] -= 0.5 * s->spacing;
         }
-        e->grid.anchor[d] = node_place(s, d, from[d]);
-        if (engine_has_mesh(e) && e->grid.anchor[d] == from[d]) e->grid.anchor[d] = between_particles(e, d);
+        e->mpm.grid.anchor[d] = node_place(s, d, from[d]);
+        if (engine_has_mesh(e) && e->mpm.grid.anchor[d] == from[d])
+            e->mpm.grid.anchor[d] = between_particles(e->scene, &e->part, &e->mpm, d);
     }
     real section = scene_section(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real smallest = s->solver == SOLVER_EXPLICIT ? GRID_MASS_SMALLEST : GRID_MASS_STATIC;
-    const real full = lightest * pow(e->grid.h, s->dim) * section;
-    e->smallest_mass = smallest * full;
-    e->grid.light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
-    e->sort_needed = true;
+    const real full = lightest * pow(e->mpm.grid.h, s->dim) * section;
+    e->mpm.smallest_mass = smallest * full;
+    e->mpm.grid.light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
+    e->mpm.sort_needed = true;
 }
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
@@ -231,17 +231,17 @@ static real particles_expected(const struct scene *s, real *longest)
     return n;
 }
 
-static real particles_now(const struct engine *e, real *longest)
+static real particles_now(const struct scene *s, const struct particles *p, real *longest)
 {
-    const real expected = particles_expected(e->scene, longest);
-    return e->part.n > 0 ? (real)e->part.n : expected;
+    const real expected = particles_expected(s, longest);
+    return p->n > 0 ? (real)p->n : expected;
 }
 
 real engine_memory(const struct engine *e)
 {
     const struct scene *s = e->scene;
     real longest;
-    const real n = particles_now(e, &longest);
+    const real n = particles_now(e->scene, &e->part, &longest);
     const real bonds = s->method == METHOD_PD ? e->source.family.full / e->source.family.cell_volume : 1;
     bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
     for (int b = 0; b < s->bodies; b++) follow = follow && !s->body[b].file;
@@ -258,7 +258,7 @@ static status make_affordable(const struct engine *e)
         REFUSED,
         "about %.2g particles would need some %.2g GB, and %.2g can be had (memory of the machine, or a limit set by "
         "ulimit or a control group); choose a larger particles.spacing",
-        particles_now(e, &longest), bytes * 1e-9, memory * 1e-9);
+        particles_now(e->scene, &e->part, &longest), bytes * 1e-9, memory * 1e-9);
 }
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
@@ -274,38 +274,38 @@ static real largest_stress(const struct particles *p)
 struct observed engine_observed(const struct engine *e)
 {
     const struct scene *s = e->scene;
-    return (struct observed){.part = &e->part,
-                             .cells = &e->cells,
-                             .bonds = &e->bonds,
-                             .loads = &e->loads,
-                             .grid = &e->grid,
-                             .tips = &e->tips,
-                             .material = s->material,
-                             .partial = &e->partial,
-                             .spacing = s->spacing,
-                             .thickness = e->source.family.section,
-                             .strain_stress = e->strain_stress,
-                             .residual_step0 = e->residual_step0,
-                             .t = e->t,
-                             .t_velocity = e->step > 0 && s->solver == SOLVER_EXPLICIT ? e->t - 0.5 * e->dt : e->t,
-                             .pulse = e->pulse,
-                             .pulses = e->pulses,
-                             .space = s->space,
-                             .horizon = e->source.family.horizon,
-                             .crack = s->crack,
-                             .cracks = s->cracks,
-                             .energy_change = diagnostics_energy_change(&e->diagnostics),
-                             .growth = e->growth,
-                             .growths = s->growths,
-                             .baseline = e->has_baseline ? &e->baseline : NULL};
+    return (struct observed){
+        .part = &e->part,
+        .cells = &e->cells,
+        .bonds = &e->bonds,
+        .loads = &e->loads,
+        .grid = &e->mpm.grid,
+        .tips = &e->fracture.tips,
+        .material = s->material,
+        .partial = &e->coupling.partial,
+        .spacing = s->spacing,
+        .thickness = e->source.family.section,
+        .strain_stress = e->probing.strain_stress,
+        .residual_step0 = e->probing.residual_step0,
+        .t = e->clock.t,
+        .t_velocity = e->clock.step > 0 && s->solver == SOLVER_EXPLICIT ? e->clock.t - 0.5 * e->clock.dt : e->clock.t,
+        .pulse = e->probing.pulse,
+        .pulses = e->probing.pulses,
+        .space = s->space,
+        .horizon = e->source.family.horizon,
+        .crack = s->crack,
+        .cracks = s->cracks,
+        .energy_change = diagnostics_energy_change(&e->diagnostics),
+        .growth = e->fracture.growth,
+        .growths = s->growths,
+        .baseline = e->probing.has_baseline ? &e->probing.baseline : NULL};
 }
 
-static void make_pulses(struct engine *e)
+static void make_pulses(const struct scene *s, struct probing *probing)
 {
-    const struct scene *s = e->scene;
-    e->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
+    probing->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
     for (int k = 0; k < s->initials; k++)
-        if (s->initial[k].sets_pulse) e->pulse[e->pulses++] = s->initial[k].pulse;
+        if (s->initial[k].sets_pulse) probing->pulse[probing->pulses++] = s->initial[k].pulse;
 }
 
 /* Puts the scene file in front of a refusal that has no line, since it was found after the reading; fill_particles
@@ -331,27 +331,27 @@ static int optional_arrays(const struct scene *s)
     return optional;
 }
 
-static enum pd_model law_of(const struct engine *e)
+static enum pd_model law_of(const struct scene *s, const struct bond_source *source)
 {
-    if (e->scene->model == MODEL_OSPD) return PD_OSPD;
-    if (e->scene->model == MODEL_MOSPD) return PD_MOSPD;
-    return e->source.yield.stretch ? PD_BOND_PLASTIC : PD_BOND;
+    if (s->model == MODEL_OSPD) return PD_OSPD;
+    if (s->model == MODEL_MOSPD) return PD_MOSPD;
+    return source->yield.stretch ? PD_BOND_PLASTIC : PD_BOND;
 }
 
 status engine_make(struct engine *e, const struct scene *s, struct output *out)
 {
     memset(e, 0, sizeof *e);
     e->scene = s;
-    e->out = out;
-    e->began = team_clock();
+    e->report.out = out;
+    e->report.began = team_clock();
     e->optional = optional_arrays(s);
-    make_materials(e);
-    make_family(e);
-    kernels_choose(&e->kernels, s->dim, law_of(e), s->shape, s->transfer);
+    make_materials(e->scene, &e->tables, &e->source);
+    make_family(e->scene, &e->source);
+    kernels_choose(&e->kernels, s->dim, law_of(e->scene, &e->source), s->shape, s->transfer);
     TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, e->optional));
     TRY(named(s, make_affordable(e)));       /* with the actual number of particles */
-    TRY(named(s, engine_reversion_check(e)));
+    TRY(named(s, engine_reversion_check(e->scene)));
     TRY(named(s, engine_frames(e)));
     if (s->solver != SOLVER_EXPLICIT) {
         e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
@@ -368,55 +368,56 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     engine_stability_check_make(e);
     TRY(named(s, engine_time_make(e)));
     make_interface_damping_share(e);
-    e->transfer =
-        (struct transfer_data){&e->order, &e->partial, e->elastic, 0.5 * s->spacing, e->dt, e->dt, false, NULL};
-    e->strain_stress = largest_stress(&e->part);
-    for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
-    tips_make(&e->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
-    e->growth = NEW("engine.growth", s->growths, struct growth);
-    for (int k = 0; k < s->growths; k++) growth_make(&e->growth[k], &s->growth[k]);
-    if (s->solver != SOLVER_EXPLICIT) TRY(named(s, solver_make(e)));
+    e->mpm.transfer = (struct transfer_data){
+        &e->mpm.order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt, false,
+        NULL};
+    e->probing.strain_stress = largest_stress(&e->part);
+    for (int64_t i = 0; i < e->part.n; i++) e->stability.mass += e->part.mass[i];
+    tips_make(&e->fracture.tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
+    e->fracture.growth = NEW("engine.growth", s->growths, struct growth);
+    for (int k = 0; k < s->growths; k++) growth_make(&e->fracture.growth[k], &s->growth[k]);
+    if (s->solver != SOLVER_EXPLICIT) TRY(named(s, engine_solver_make(e)));
     diagnostics_make(&e->diagnostics);
-    make_pulses(e);
+    make_pulses(e->scene, &e->probing);
     struct observed o = engine_observed(e);
-    return named(s, probes_make(&e->probes, s->probe, s->probes, &o));
+    return named(s, probes_make(&e->probing.probes, s->probe, s->probes, &o));
 }
 
 void engine_free(struct engine *e)
 {
     memory_reuse(false);
-    if (e->out) (void)output_wait(e->out);   /* a frame being written still reads the particles */
-    probes_free(&e->probes);
-    for (int d = 0; d < DIM_MAX; d++) memory_free(e->baseline.v[d]), memory_free(e->sampling.before[d]);
-    tips_free(&e->tips);
-    for (int k = 0; e->growth && k < e->scene->growths; k++) growth_free(&e->growth[k]);
-    memory_free(e->growth);
-    partial_stress_free(&e->partial);
-    interface_zone_free(&e->zone);
-    memory_free(e->bonded);
-    transfer_order_free(&e->order);
-    active_points_free(&e->active_points);
-    grid_coupled_free(&e->grid_coupled);
-    grid_free(&e->grid);
+    if (e->report.out) (void)output_wait(e->report.out);   /* a frame being written still reads the particles */
+    probes_free(&e->probing.probes);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(e->probing.baseline.v[d]), memory_free(e->report.sampling.before[d]);
+    tips_free(&e->fracture.tips);
+    for (int k = 0; e->fracture.growth && k < e->scene->growths; k++) growth_free(&e->fracture.growth[k]);
+    memory_free(e->fracture.growth);
+    partial_stress_free(&e->coupling.partial);
+    interface_zone_free(&e->coupling.zone);
+    memory_free(e->coupling.bonded);
+    transfer_order_free(&e->mpm.order);
+    active_points_free(&e->mpm.active);
+    grid_coupled_free(&e->coupling.grid_coupled);
+    grid_free(&e->mpm.grid);
     bonds_free(&e->bonds);
     cells_free(&e->cells);
     loads_free(&e->loads);
     particles_free(&e->part);
-    memory_free(e->start_region.solid);
+    memory_free(e->coupling.start_region.solid);
     solver_free(&e->solver);
     memory_free(e->boundary);
-    memory_free(e->pair_stretch);
-    memory_free(e->modulus);
-    memory_free(e->mirror_axis);
-    memory_free(e->pair_yield);
-    memory_free(e->pair_hardening);
-    memory_free(e->neighbour_volume);
-    memory_free(e->elastic);
-    memory_free(e->cell_elastic);
-    memory_free(e->frame);
-    mesh_free(&e->mesh);
-    memory_free(e->record);
-    memory_free(e->pulse);
-    warnings_free(&e->warnings);
+    memory_free(e->tables.pair_stretch);
+    memory_free(e->tables.modulus);
+    memory_free(e->tables.mirror_axis);
+    memory_free(e->tables.pair_yield);
+    memory_free(e->tables.pair_hardening);
+    memory_free(e->tables.neighbour_volume);
+    memory_free(e->tables.elastic);
+    memory_free(e->reference.elastic);
+    memory_free(e->reference.choice);
+    mesh_free(&e->reference.mesh);
+    memory_free(e->report.record);
+    memory_free(e->probing.pulse);
+    warnings_free(&e->report.warnings);
     memset(e, 0, sizeof *e);
 }

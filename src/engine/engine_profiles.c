@@ -13,18 +13,18 @@ static status engine_profiles_put(void *folder, const char *name, const char *te
 status engine_profiles_write(struct engine *e)
 {
     const struct observed o = engine_observed(e);
-    if (probes_profiled(&e->probes) == 0) return OK;
-    TRY(probes_profiles(&e->probes, &o, engine_profiles_put, e->out->folder, e->out->frames - 1));
-    return file_settle(path_join(e->out->folder, "history.csv").text);
+    if (probes_profiled(&e->probing.probes) == 0) return OK;
+    TRY(probes_profiles(&e->probing.probes, &o, engine_profiles_put, e->report.out->folder, e->report.out->frames - 1));
+    return file_settle(path_join(e->report.out->folder, "history.csv").text);
 }
 
 void engine_profiles_check(struct engine *e)
 {
     char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
     int64_t lost = 0;
-    for (int frame = 0; frame < e->out->frames; frame++)
-        for (int k = 0; probes_profile_name(&e->probes, k, frame, name); k++) {
-            if (path_is_file(path_join(e->out->folder, name).text)) continue;
+    for (int frame = 0; frame < e->report.out->frames; frame++)
+        for (int k = 0; probes_profile_name(&e->probing.probes, k, frame, name); k++) {
+            if (path_is_file(path_join(e->report.out->folder, name).text)) continue;
             if (lost++ == 0) snprintf(first, sizeof first, "%s", name);
         }
     if (lost == 0) return;
@@ -38,7 +38,7 @@ void engine_profiles_check(struct engine *e)
 void engine_profiles_remove(struct engine *e)
 {
     char name[PROFILE_NAME];
-    for (int k = 0; probes_profile_name(&e->probes, k, 0, name); k++)
-        for (int frame = 0; probes_profile_name(&e->probes, k, frame, name); frame++)
-            if (unlink(path_join(e->out->folder, name).text) != 0) break;
+    for (int k = 0; probes_profile_name(&e->probing.probes, k, 0, name); k++)
+        for (int frame = 0; probes_profile_name(&e->probing.probes, k, frame, name); frame++)
+            if (unlink(path_join(e->report.out->folder, name).text) != 0) break;
 }

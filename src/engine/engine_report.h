@@ -1,12 +1,14 @@
-/* Output of the step loop: samples, frames, checkpoints, progress. */
+/* Output of the step loop: samples (engine_sample.c), frames, checkpoints, progress (engine_report.c). */
 #ifndef CLEAVE_ENGINE_REPORT
 #define CLEAVE_ENGINE_REPORT
 
 #include "engine/engine.h"
 
-/* Before the first step of this process: history file, frame 0, first checkpoint; a restart has the last two
- * already. */
-status engine_report_start(struct engine *e);
+/* Opens history.csv: the columns of every run, then those of the probes. */
+status engine_history_start(struct probing *probing, struct run_report *report, bool resume);
+
+/* True if the step to come is one of those that samples are spread over. */
+bool engine_sample_due(const struct scene *s, const struct run_clock *clock);
 
 /* A sample describes t_n. `begin`, before the step: positions, damage, and velocities half a step behind (of t = 0 in
  * the first). `energy`, between forces and motion: energies at the positions of t_n. `end`: the kinetic energy between
@@ -15,13 +17,10 @@ void engine_sample_begin(struct engine *e);
 void engine_sample_energy(struct engine *e);
 void engine_sample_end(struct engine *e);
 
-/* Stress of peridynamic particles, which steps do not compute: for samples, frames and reversion. */
-void engine_stress(struct engine *e);
-/* Positions, velocities and stresses of all particles, up to date for a frame. */
-void engine_sync(struct engine *e);
-
 /* A sample of a body at rest on which nothing has done work. */
 void engine_sample_rest(struct engine *e);
+/* The last sample, after the last step; all particles are brought up to date for callers that read them. */
+void engine_sample_last(struct engine *e);
 
 /* Records broken bonds (`broken`: their number in this step) and calls the probes of breaks. */
 void engine_breaks(struct engine *e, int64_t broken);
@@ -37,9 +36,5 @@ void engine_residual_of(struct engine *e, const struct grid *g);
 status engine_profiles_write(struct engine *e);
 void engine_profiles_check(struct engine *e);
 void engine_profiles_remove(struct engine *e);
-
-/* After every step: frame, checkpoint and progress line if due; INTERRUPTED after a checkpoint if a signal came. */
-status engine_report(struct engine *e);
-status engine_report_end(struct engine *e);
 
 #endif

@@ -8,15 +8,15 @@
 
 /* Steps between checks: a wave crosses one horizon, half of a family, so that no wave passes a family between two
  * checks. */
-static int64_t period(const struct engine *e)
+static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
+                      const struct bond_source *source)
 {
-    const int64_t steps = (int64_t)floor(e->source.family.horizon / (e->wave_speed * e->dt));
+    const int64_t steps = (int64_t)floor(source->family.horizon / (tables->wave_speed * clock->dt));
     return steps > 1 ? steps : 1;
 }
 
-status engine_reversion_check(const struct engine *e)
+status engine_reversion_check(const struct scene *s)
 {
-    const struct scene *s = e->scene;
     const char *why = NULL;
     if (!s->conversion.back || s->method != METHOD_ADAPTIVE) return OK;
     if (!(s->conversion.criteria & CONVERT_ON_STRESS)) why = "criteria with stress, which says what a low one is";
@@ -34,57 +34,62 @@ static void bonded_make(struct engine *e)
 {
     const struct bonds *b = &e->bonds;
     if (b->rows == 0) {                  /* all have reverted: no point is beside bonds */
-        memory_free(e->bonded);
-        e->bonded = NULL;
+        memory_free(e->coupling.bonded);
+        e->coupling.bonded = NULL;
         return;
     }
     if (e->scene->transfer != TRANSFER_FLIP || e->part.n_free == 0) return;
-    if (!e->bonded) e->bonded = NEW("engine.bonded", e->part.n, uint8_t);
+    if (!e->coupling.bonded) e->coupling.bonded = NEW("engine.bonded", e->part.n, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < e->part.n; i++)
-        e->bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
+        e->coupling.bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
 }
 
 void engine_interface_make(struct engine *e)
 {
     bonded_make(e);
-    if (e->coupling == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0)
-        interface_zone_make(&e->zone, &e->part, &e->source);
+    if (e->coupling.kind == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0)
+        interface_zone_make(&e->coupling.zone, &e->part, &e->source);
 }
 
 /* Energy of the body at the current positions [J]. */
 static real energy_now(struct engine *e)
 {
     if (e->source.modulus) engine_stress(e);
-    return e->kernels.bond_energy(&e->bonds, &e->part) + diagnostics_strain(&e->part, e->scene->material, &e->partial) +
-           mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain) + diagnostics_kinetic(&e->part) +
-           mesh_kinetic(&e->mesh);
+    return e->kernels.bond_energy(&e->bonds, &e->part) +
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial) +
+           mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain) +
+           diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh);
 }
 
 /* Reverts the listed particles, [n], and records the change of energy. */
 static void give_back(struct engine *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);
-    reversion_apply(&e->conversion, &e->part, &e->bonds, &e->source, e->uses_partial ? &e->partial : NULL, list, n);
+    reversion_apply(&e->coupling.conversion, &e->part, &e->bonds, &e->source,
+                    e->coupling.uses_partial ? &e->coupling.partial : NULL, list, n);
     engine_mesh_insert(e, list, n);
     engine_interface_make(e);
-    e->sort_needed = true;
-    e->conversion.reversion_energy += energy_now(e) - before;
+    e->mpm.sort_needed = true;
+    e->coupling.conversion.reversion_energy += energy_now(e) - before;
 }
 
 void engine_revert(struct engine *e)
 {
     const struct scene *s = e->scene;
     int32_t *list;
-    if (!e->part.low_since || e->step == 0 || e->step % period(e) != 0 || e->part.n_of[KIND_PD] == 0) return;
+    if (!e->part.low_since || e->clock.step == 0 || e->clock.step % period(&e->clock, &e->tables, &e->source) != 0 ||
+        e->part.n_of[KIND_PD] == 0)
+        return;
     engine_stress(e);
     const int64_t n = reversion_choose(
         &(struct reversion_rule){.source = &e->source,
-                                 .elastic = e->elastic,
-                                 .kept = e->start_region.n > 0 ? &e->start_region : NULL,
+                                 .elastic = e->tables.elastic,
+                                 .kept = e->coupling.start_region.n > 0 ? &e->coupling.start_region : NULL,
                                  .low_stress = s->conversion.low_stress,
-                                 .hold_time = s->conversion.hold_time * e->source.family.horizon / e->wave_speed},
-        &e->part, &e->bonds, e->t, &list);
+                                 .hold_time =
+                                     s->conversion.hold_time * e->source.family.horizon / e->tables.wave_speed},
+        &e->part, &e->bonds, e->clock.t, &list);
     if (n > 0) give_back(e, list, n);
     memory_free(list);
 }

@@ -19,19 +19,18 @@ enum { MOMENTS = 256 };                  /* samples of a function of time */
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
 /* Largest speed, or component of the velocity of a mesh's node [m/s]. */
-static real engine_stability_fastest(const struct engine *e)
+static real engine_stability_fastest(const struct particles *p, const struct reference_frame *reference)
 {
-    const struct particles *p = &e->part;
     const real moving = real_max(diagnostics_fastest(p, p->list[KIND_PD], p->n_of[KIND_PD]),
                                  diagnostics_fastest(p, p->list_free, p->n_free));
-    return e->mesh.points > 0 ? real_max(moving, e->mesh_speed) : moving;
+    return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
 }
 
 void engine_stability_check_make(struct engine *e)
 {
-    e->start_speed = real_max(diagnostics_fastest(&e->part, e->part.list[KIND_PD], e->part.n_of[KIND_PD]),
+    e->stability.start_speed = real_max(diagnostics_fastest(&e->part, e->part.list[KIND_PD], e->part.n_of[KIND_PD]),
                               diagnostics_fastest(&e->part, e->part.list[KIND_MPM], e->part.n_of[KIND_MPM]));
-    rise_note(&e->speed_rise, 0, square(e->start_speed));
+    rise_note(&e->stability.speed, 0, square(e->stability.start_speed));
 }
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
@@ -49,28 +48,28 @@ static void factors(const struct time_function *f, real from, real to, real *mos
 
 /* Speed that a load alone gives the fastest of its particles in the last `steps` [m/s]; for a driving boundary the
  * largest speed that it has prescribed. */
-static real load_speed(const struct engine *e, const struct load *load, real steps)
+static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
 {
     const struct boundary *b = load->boundary;
     const bool drives = b->kind == BOUNDARY_VELOCITY;
-    const real from = drives ? 0 : real_max(0, e->t - steps * e->dt);
+    const real from = drives ? 0 : real_max(0, clock->t - steps * clock->dt);
     real most, mean, fast2 = 0;
     if (b->kind == BOUNDARY_MIRROR) return 0;
-    factors(&b->time, from, e->t, &most, &mean);
-    if (drives) return most * sqrt(dot(b->value, b->value, e->part.dim));
+    factors(&b->time, from, clock->t, &most, &mean);
+    if (drives) return most * sqrt(dot(b->value, b->value, p->dim));
     for (int64_t k = 0; k < load->n; k++) {
         real a2 = 0;
-        for (int d = 0; d < e->part.dim; d++)
-            a2 += square(load->share[d][k] * b->value[d] / e->part.mass[load->particle[k]]);
+        for (int d = 0; d < p->dim; d++)
+            a2 += square(load->share[d][k] * b->value[d] / p->mass[load->particle[k]]);
         fast2 = real_max(fast2, a2);
     }
-    return mean * (e->t - from) * sqrt(fast2);
+    return mean * (clock->t - from) * sqrt(fast2);
 }
 
 /* True if initial energy and work of loads are at least OWING times the kinetic energy. */
 static bool motion_is_paid(const struct engine *e)
 {
-    const real kinetic = diagnostics_kinetic(&e->part) + mesh_kinetic(&e->mesh);
+    const real kinetic = diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh);
     const real given = e->diagnostics.energy_start + e->loads.work + e->loads.constraint_work;
     return !isfinite(kinetic) || given >= OWING * kinetic;
 }
@@ -90,16 +89,17 @@ static real engine_stability_start_strain(const struct scene *s)
 static bool blame_loads(const struct engine *e, real steps, char *text, size_t room)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3"}, *const word[] = {"velocity", "traction", "body force"};
-    const real window = real_min((real)e->step, isfinite(steps) ? real_max(ceil(steps), RISE_STRIDE) : (real)e->step);
+    const real window =
+        real_min((real)e->clock.step, isfinite(steps) ? real_max(ceil(steps), RISE_STRIDE) : (real)e->clock.step);
     const struct load *worst = NULL;
-    real speed = OWING * e->wave_speed;
+    real speed = OWING * e->tables.wave_speed;
     if (!motion_is_paid(e)) return false;
-    if (e->start_speed >= speed) {
+    if (e->stability.start_speed >= speed) {
         snprintf(text, room,
                  "no time step cures that: the scene starts with %.3g m/s, %.3g times the wave speed; see whether the "
                  "velocities of "
                  "its bodies and of `initial` are meant, and in which unit",
-                 e->start_speed, e->start_speed / e->wave_speed);
+                 e->stability.start_speed, e->stability.start_speed / e->tables.wave_speed);
         return true;
     }
     if (engine_stability_start_strain(e->scene) >= LARGE_STRAIN) {
@@ -111,7 +111,7 @@ static bool blame_loads(const struct engine *e, real steps, char *text, size_t r
         return true;
     }
     for (int b = 0; b < e->loads.n; b++) {
-        const real one = load_speed(e, &e->loads.load[b], window);
+        const real one = load_speed(&e->clock, &e->part, &e->loads.load[b], window);
         if (one >= speed) speed = one, worst = &e->loads.load[b];
     }
     if (!worst) return false;
@@ -124,17 +124,18 @@ static bool blame_loads(const struct engine *e, real steps, char *text, size_t r
              "speed, and loads "
              "have done %.3g J of work; see whether its value is meant, and in which unit",
              b->name, word[b->kind], value, unit[b->kind], b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed,
-             within, speed / e->wave_speed, e->loads.work + e->loads.constraint_work);
+             within, speed / e->tables.wave_speed, e->loads.work + e->loads.constraint_work);
     return true;
 }
 
 /* ---- remedy ------------------------------------------------------------------------------------------------------ */
 
 /* Advises a smaller step; returns the length of the text. */
-static int say_step(const struct engine *e, char *text, size_t room)
+static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t room)
 {
     return snprintf(text, room, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
-                    e->scene->time_step > 0 ? "step" : "safety", e->dt, e->dt / e->dt_critical, e->dt_critical);
+                    s->time_step > 0 ? "step" : "safety", clock->dt, clock->dt / clock->dt_critical,
+                    clock->dt_critical);
 }
 
 static bool holds_images(const struct scene *s)
@@ -146,15 +147,17 @@ static bool holds_images(const struct scene *s)
 
 /* Lists the alternatives of a scene where something gains energy: another choice for each of its parts that may be left
  * out. */
-static void say_others(const struct engine *e, char *text, size_t room)
+static void say_others(const struct scene *s, const struct reference_frame *reference,
+                       const struct coupling_state *coupling, char *text, size_t room)
 {
-    const struct scene *s = e->scene;
     const char *other[8];
     int n = 0;
     if (s->method == METHOD_ADAPTIVE) other[n++] = "method: pd";
-    if (s->method != METHOD_PD) other[n++] = e->mesh.points > 0 ? "mpm.frame: current" : "mpm.frame: reference";
-    if (e->coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE) other[n++] = "coupling: partial stress";
-    if (s->method != METHOD_PD && e->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
+    if (s->method != METHOD_PD)
+        other[n++] = reference->mesh.points > 0 ? "mpm.frame: current" : "mpm.frame: reference";
+    if (coupling->kind != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE)
+        other[n++] = "coupling: partial stress";
+    if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
         other[n++] = "mpm.transfer: apic";
     if (s->model != MODEL_BOND && s->method != METHOD_MPM) other[n++] = "model: bond";
     if (holds_images(s)) other[n++] = "`fixed` in place of a mirror that holds";
@@ -167,15 +170,15 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
 {
     real steps;
     char others[256];
-    const enum rise_pace target_speed = rise_pace(rise, e->step, value, &steps);
+    const enum rise_pace target_speed = rise_pace(rise, e->clock.step, value, &steps);
     if (blame_loads(e, steps, text, room)) return;
-    if (target_speed == RISE_FAST || e->dt > e->dt_critical || e->scene->solver != SOLVER_EXPLICIT) {
-        say_step(e, text, room);
+    if (target_speed == RISE_FAST || e->clock.dt > e->clock.dt_critical || e->scene->solver != SOLVER_EXPLICIT) {
+        say_step(e->scene, &e->clock, text, room);
         return;
     }
-    say_others(e, others, sizeof others);
+    say_others(e->scene, &e->reference, &e->coupling, others, sizeof others);
     if (target_speed == RISE_UNSURE) {
-        const int used = say_step(e, text, room);
+        const int used = say_step(e->scene, &e->clock, text, room);
         snprintf(text + used, room - (size_t)used, "; if it is no better then, something gains energy: try %s", others);
         return;
     }
@@ -184,7 +187,7 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
              "smaller one (now "
              "%.2f of the critical %.3g s) need not cure it; something here gains energy: try %s, and report the scene",
              isfinite(steps) ? "" : "more than ", isfinite(steps) ? steps : (real)RISE_STEPS, RISE_STEPS,
-             e->dt / e->dt_critical, e->dt_critical, others);
+             e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
 }
 
 /* ---- divergence and inversion ------------------------------------------------------------------------------------ */
@@ -192,19 +195,22 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
 status engine_divergence_check(const struct engine *e, bool peridynamic, bool meshed)
 {
     char remedy[ENGINE_REMEDY];
-    const status s = diagnostics_divergence(&e->part, peridynamic, meshed, e->wave_speed, e->step, e->t);
+    const status s =
+        diagnostics_divergence(&e->part, peridynamic, meshed, e->tables.wave_speed, e->clock.step, e->clock.t);
     if (s == OK) return OK;
-    const real speed = engine_stability_fastest(e), limit = e->wave_speed;
-    engine_remedy(e, &e->speed_rise, square(isfinite(speed) && speed > limit ? speed : limit), remedy, sizeof remedy);
+    const real speed = engine_stability_fastest(&e->part, &e->reference), limit = e->tables.wave_speed;
+    engine_remedy(e, &e->stability.speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
+                  sizeof remedy);
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
 /* FAILED for an inverted cell of the mesh, which resists like an intact one: neither energy nor speed shows it. */
-static status inversion_check(const struct engine *e)
+static status inversion_check(const struct run_clock *clock, const struct particles *p,
+                              const struct reference_frame *reference)
 {
-    const struct particles *p = &e->part;
-    if (e->mesh.points == 0 || (e->step % INVERSION_STEPS != 0 && e->step < e->steps)) return OK;
-    const int64_t i = mesh_inverted(&e->mesh, p);
+    if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps))
+        return OK;
+    const int64_t i = mesh_inverted(&reference->mesh, p);
     if (i == p->n) return OK;
     return status_set(FAILED,
                       "folded at step %lld, t = %.3g s: at particle %d, from (%.6g, %.6g, %.6g) m, the mesh of the "
@@ -212,17 +218,19 @@ static status inversion_check(const struct engine *e)
                       "through itself; choose mpm.frame: current, whose points keep their order on the grid, or see "
                       "whether loads and "
                       "supports are meant",
-                      (long long)e->step, e->t, (int)p->id[i], p->X[0][i], p->dim > 1 ? p->X[1][i] : 0,
+                      (long long)clock->step, clock->t, (int)p->id[i], p->X[0][i], p->dim > 1 ? p->X[1][i] : 0,
                       p->dim > 2 ? p->X[2][i] : 0);
 }
 
 status engine_stability_check(struct engine *e)
 {
-    const bool diverged = e->mesh.points > 0 && !(e->mesh_speed <= e->wave_speed / sqrt(e->part.dim));
-    if (diverged) mesh_points_move(&e->mesh, &e->part);
-    TRY(engine_divergence_check(e, e->diverged || e->part.n_grid_coupled > 0, diverged));
-    TRY(inversion_check(e));
-    if (e->step % RISE_STRIDE == 0) rise_note(&e->speed_rise, e->step, square(engine_stability_fastest(e)));
+    const bool diverged =
+        e->reference.mesh.points > 0 && !(e->reference.speed <= e->tables.wave_speed / sqrt(e->part.dim));
+    if (diverged) mesh_points_move(&e->reference.mesh, &e->part);
+    TRY(engine_divergence_check(e, e->stability.diverged || e->part.n_grid_coupled > 0, diverged));
+    TRY(inversion_check(&e->clock, &e->part, &e->reference));
+    if (e->clock.step % RISE_STRIDE == 0)
+        rise_note(&e->stability.speed, e->clock.step, square(engine_stability_fastest(&e->part, &e->reference)));
     return OK;
 }
 
@@ -242,7 +250,7 @@ static int64_t fastest_particle(const struct particles *p)
 
 static bool is_round_off(const struct engine *e)
 {
-    return e->diagnostics.energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->wave_speed);
+    return e->diagnostics.energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->stability.mass * square(e->tables.wave_speed);
 }
 
 /* For unstable runs without a particle that is too fast for diagnostics_divergence: a body that breaks all its bonds.
@@ -250,31 +258,31 @@ static bool is_round_off(const struct engine *e)
  * energy is round-off. */
 status engine_energy_check(struct engine *e)
 {
-    if (e->lost)
+    if (e->stability.lost)
         return status_set(
             FAILED,
             "step %lld, t = %.4g s: an energy is no finite number, though all places are; see whether material, "
             "supports and initial state are meant (`cleave check`)",
-            (long long)e->step, e->t);
+            (long long)e->clock.step, e->clock.t);
     const struct particles *p = &e->part;
     const struct diagnostics *w = &e->diagnostics;
     const real excess = w->now.balance_error * w->energy_scale;
-    const bool last = e->step == e->steps && e->scene->solver == SOLVER_EXPLICIT;
-    if (!e->sampling.due && !last) return OK;
-    rise_note(&e->excess_rise, e->step, excess);
-    if (w->now.balance_error <= ENERGY_FROM_NOWHERE || e->step < ENERGY_STEPS) return OK;
+    const bool last = e->clock.step == e->clock.steps && e->scene->solver == SOLVER_EXPLICIT;
+    if (!e->report.sampling.due && !last) return OK;
+    rise_note(&e->stability.excess, e->clock.step, excess);
+    if (w->now.balance_error <= ENERGY_FROM_NOWHERE || e->clock.step < ENERGY_STEPS) return OK;
     if (is_round_off(e)) return OK;
     int64_t i = fastest_particle(p);
     char place[96], remedy[ENGINE_REMEDY];
     int used = 0;
-    engine_remedy(e, &e->excess_rise, excess, remedy, sizeof remedy);
+    engine_remedy(e, &e->stability.excess, excess, remedy, sizeof remedy);
     for (int d = 0; d < p->dim; d++)
         used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
     return status_set(
         FAILED,
         "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of "
         "its energy from nowhere; %s",
-        (long long)e->step, e->t, (int)p->id[i], place, 100 * w->now.balance_error, remedy);
+        (long long)e->clock.step, e->clock.t, (int)p->id[i], place, 100 * w->now.balance_error, remedy);
 }
 
 void engine_say_balance(struct engine *e)

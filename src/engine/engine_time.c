@@ -30,28 +30,29 @@ static real points_share(const struct scene *s)
  * c11 + (dim - 1) c12, waves c11: near nu = 1/2 the ratio is 2 in the plane and 3 in space. The shares above were
  * observed up to a ratio of 5/3 (nu 1/4 in space); beyond, limits fall with its root: from nu 0.25 to 0.499 in space by
  * 0.80 (FLIP) and 0.76 (APIC), where the root gives 0.75. */
-static real volume_share(const struct engine *e)
+static real volume_share(const struct scene *s, const struct material_tables *tables, const struct particles *p)
 {
     const real observed = 5.0 / 3;
     real most = observed;
-    for (int m = 0; m < e->scene->materials; m++)
-        most = real_max(most, 1 + (e->part.dim - 1) * e->elastic[m].c12 / e->elastic[m].c11);
+    for (int m = 0; m < s->materials; m++)
+        most = real_max(most, 1 + (p->dim - 1) * tables->elastic[m].c12 / tables->elastic[m].c11);
     return sqrt(observed / most);
 }
 
-static real engine_time_fastest(const struct engine *e)
+static real engine_time_fastest(const struct scene *s, const struct particles *p, const struct stability *stability)
 {
-    real speed = e->start_speed;
-    for (int b = 0; b < e->scene->boundaries; b++)
-        if (e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
-            speed = real_max(speed, sqrt(dot(e->scene->boundary[b].value, e->scene->boundary[b].value, e->part.dim)));
+    real speed = stability->start_speed;
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_VELOCITY)
+            speed = real_max(speed, sqrt(dot(s->boundary[b].value, s->boundary[b].value, p->dim)));
     return speed;
 }
 
 static real critical_of_points(const struct engine *e)
 {
     if (e->part.n_free + e->part.n_grid_coupled == 0) return INFINITY;
-    return points_share(e->scene) * volume_share(e) * e->grid.h / (e->wave_speed + engine_time_fastest(e));
+    return points_share(e->scene) * volume_share(e->scene, &e->tables, &e->part) * e->mpm.grid.h /
+           (e->tables.wave_speed + engine_time_fastest(e->scene, &e->part, &e->stability));
 }
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
@@ -64,12 +65,13 @@ static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4,
  * worst where few particles share a node. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
-static real share_of_coupling(const struct engine *e)
+static real share_of_coupling(const struct scene *s, const struct coupling_state *coupling)
 {
-    const bool two = e->scene->cell >= 2;
-    if (coupling_unified(e->coupling)) return moved_by_grid[two][e->scene->dim];
-    return coupling_moves_by_grid(e->coupling) && e->scene->transfer == TRANSFER_FLIP ? met_by_grid[two][e->scene->dim]
-                                                                                      : 1;
+    const bool two = s->cell >= 2;
+    if (coupling_unified(coupling->kind)) return moved_by_grid[two][s->dim];
+    return coupling_moves_by_grid(coupling->kind) && s->transfer == TRANSFER_FLIP
+               ? met_by_grid[two][s->dim]
+               : 1;
 }
 
 /* Force kernel of elastic bonds: yielding bonds are no stiffer. */
@@ -92,7 +94,7 @@ static real critical_of_lattices(struct engine *e, real *bound)
         real its_bound;
         struct bond_source one = e->source;      /* its particles are of material 0 */
         one.material = &s->material[m], one.materials = 1;
-        if (e->modulus) one.modulus = &e->modulus[m];
+        if (e->tables.modulus) one.modulus = &e->tables.modulus[m];
         one.yield = (struct bond_yield){0};
         step = real_min(step,
                         critical_step_of_lattice(&one, elastic_force(e), s->material[m].density, longest, &its_bound));
@@ -113,26 +115,25 @@ static real critical_of_bonds(struct engine *e)
     if (s->method == METHOD_MPM) return INFINITY;
     if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
         const real step = critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
-        return isfinite(step) ? step : s->spacing / e->wave_speed;   /* no bond: any step that the loads allow */
+        return isfinite(step) ? step : s->spacing / e->tables.wave_speed;   /* no bond: any step that the loads allow */
     }
     const real step = critical_of_lattices(e, &bound);
     const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
-    return share * step * share_of_coupling(e);
+    return share * step * share_of_coupling(e->scene, &e->coupling);
 }
 
 /* ---- the step ---------------------------------------------------------------------------------------------------- */
 
 #define STEPS_MOST 1e12                  /* as in scene_check.c: more than any machine can do */
 
-static status make_steps(struct engine *e, real dt)
+static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
 {
-    const struct scene *s = e->scene;
     if (!(s->duration / dt <= STEPS_MOST))
         return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
                           s->duration / dt, dt);
-    e->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a little less: round-off adds no step */
-    if (e->steps < 1) e->steps = 1;
-    e->dt = s->duration / (real)e->steps;
+    clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a little less: round-off adds no step */
+    if (clock->steps < 1) clock->steps = 1;
+    clock->dt = s->duration / (real)clock->steps;
     return OK;
 }
 
@@ -141,9 +142,10 @@ static status make_steps(struct engine *e, real dt)
 status engine_time_make(struct engine *e)
 {
     const struct scene *s = e->scene;
-    e->dt_critical = real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
-    const real dt = s->time_step > 0 ? s->time_step : s->safety * e->dt_critical;
-    if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e, dt));
-    else e->steps = s->solver_steps, e->dt = dt;
+    e->clock.dt_critical =
+        real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
+    const real dt = s->time_step > 0 ? s->time_step : s->safety * e->clock.dt_critical;
+    if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e->scene, &e->clock, dt));
+    else e->clock.steps = s->solver_steps, e->clock.dt = dt;
     return OK;
 }

@@ -4,12 +4,11 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "solver_parts.h"
+#include "engine/engine.h"
 
 /* Number of directed bonds cut at the start. */
-static int64_t bonds_cut(const struct engine *e)
+static int64_t bonds_cut(const struct bonds *b)
 {
-    const struct bonds *b = &e->bonds;
     int64_t cut = 0;
     for (int64_t g = 0; g < b->row_blocks; g++)
         for (int64_t q = b->column[g] * LANES; q < (b->column[g] + b->column_count[g]) * LANES && !b->stencil[g]; q++)
@@ -33,19 +32,19 @@ static bool may_rotate(const struct scene *s)
 static void warn_of_method(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    if (s->solver == SOLVER_EXPLICIT && e->dt > e->dt_critical)
+    if (s->solver == SOLVER_EXPLICIT && e->clock.dt > e->clock.dt_critical)
         warnings_add(to, "the time step is above the critical one: expect a run that blows up");
     if (s->method == METHOD_MPM && s->cracks > 0)
         warnings_add(to, "method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them");
-    if ((e->coupling == COUPLING_PM || e->coupling == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
+    if ((e->coupling.kind == COUPLING_PM || e->coupling.kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add(to,
                      "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
-    if (coupling_moves_by_grid(e->coupling))
+    if (coupling_moves_by_grid(e->coupling.kind))
         warnings_add(
             to,
             "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
             "energy.balance_error, or use partial stress",
-            coupling_name[e->coupling]);
+            coupling_name[e->coupling.kind]);
     if (s->method == METHOD_ADAPTIVE && may_rotate(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 &&
         e->part.n_of[KIND_PD] > 0)
         warnings_add(to, "in bodies that turn, FLIP points beside bonds gain energy (2 to 6 %% in four turns) and "
@@ -57,13 +56,15 @@ static void warn_of_method(const struct engine *e, struct warnings *to)
             s->cell);
 }
 
-static void warn_of_materials(const struct engine *e, struct warnings *to)
+static void warn_of_materials(const struct scene *s, const struct material_tables *tables, struct warnings *to)
 {
-    for (int m = 0; m < e->scene->materials; m++) {
-        const struct material *a = &e->scene->material[m];
-        if (isfinite(e->elastic[m].trigger) && e->elastic[m].trigger > a->young * a->critical_stretch)
-            warnings_add(to, "material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the "
-                         "strain at which bonds break", a->name, e->elastic[m].trigger, a->young * a->critical_stretch);
+    for (int m = 0; m < s->materials; m++) {
+        const struct material *a = &s->material[m];
+        if (isfinite(tables->elastic[m].trigger) && tables->elastic[m].trigger > a->young * a->critical_stretch)
+            warnings_add(to,
+                         "material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the "
+                         "strain at which bonds break",
+                         a->name, tables->elastic[m].trigger, a->young * a->critical_stretch);
     }
 }
 
@@ -85,18 +86,17 @@ static void warn_of_empty(const struct engine *e, struct warnings *to)
         if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
             warnings_add(to, "boundary %s holds no particle%s", e->scene->boundary[b].name,
                          e->scene->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
-    if (e->source.cracks > 0 && bonds_cut(e) == 0)
+    if (e->source.cracks > 0 && bonds_cut(&e->bonds) == 0)
         warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
 }
 
 /* Measured in inputs/bar_converge.yaml: with mirrors 0.15 and 0.25 of a cell from a node displacements are 11 to 24 %
  * off with 50 to 200 points per metre; halving the spacing removes at most a third of that. */
-static void warn_of_mirrors(const struct engine *e, struct warnings *to)
+static void warn_of_mirrors(const struct scene *s, const struct grid_method *mpm, struct warnings *to)
 {
-    const struct scene *s = e->scene;
     for (int b = 0; b < s->boundaries; b++)
         if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
-            !mirror_on_nodes(&s->boundary[b], &e->grid, s->spacing))
+            !mirror_on_nodes(&s->boundary[b], &mpm->grid, s->spacing))
             warnings_add(to, "the mirror of boundary %s stands neither on a node of the grid nor half-way between "
                          "two: errors of 15 to 20 %%, and refinement helps little; mpm.origin or mpm.cell can move the "
                          "nodes",
@@ -121,14 +121,13 @@ static void name_add(struct name_list *l, const char *name)
 }
 
 /* Several bodies of which some are in the reference frame. */
-static void warn_of_reference(const struct engine *e, struct warnings *to)
+static void warn_of_reference(const struct scene *s, const struct reference_frame *reference, struct warnings *to)
 {
-    const struct scene *s = e->scene;
     struct name_list names = {0};
-    for (int b = 0; b < s->bodies; b++) names.all += e->frame[b].reference;
+    for (int b = 0; b < s->bodies; b++) names.all += reference->choice[b].reference;
     if (names.all == 0) return;
     for (int b = 0; b < s->bodies; b++)
-        if (e->frame[b].reference) name_add(&names, s->body[b].name);
+        if (reference->choice[b].reference) name_add(&names, s->body[b].name);
     warnings_add(
         to,
         "%s %s in the reference frame and meet%s no other body: they pass through each other; in mpm.frame current "
@@ -137,18 +136,18 @@ static void warn_of_reference(const struct engine *e, struct warnings *to)
 }
 
 /* Contact between several bodies, by method. */
-static void warn_of_contact(const struct engine *e, struct warnings *to)
+static void warn_of_contact(const struct scene *s, const struct reference_frame *reference,
+                            const struct coupling_state *coupling, struct warnings *to)
 {
-    const struct scene *s = e->scene;
     bool current = false;
-    for (int b = 0; b < s->bodies; b++) current |= !e->frame[b].reference;
+    for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
     if (s->bodies < 2) return;
     if (s->method == METHOD_PD)
         warnings_add(
             to, "peridynamic bodies do not meet in this version: they pass through each other; with mpm and adaptive "
                 "material points meet through the grid");
-    else warn_of_reference(e, to);
-    if (s->method == METHOD_ADAPTIVE && current && !coupling_unified(e->coupling))
+    else warn_of_reference(s, reference, to);
+    if (s->method == METHOD_ADAPTIVE && current && !coupling_unified(coupling->kind))
         warnings_add(
             to, "what is or becomes peridynamic meets no other body and passes through it; material points meet on "
                 "the grid, and stick");
@@ -212,17 +211,18 @@ static void warn_of_touch(const struct engine *e, struct warnings *to)
 
 void engine_warn(struct engine *e)
 {
-    struct warnings *to = &e->warnings;
+    struct warnings *to = &e->report.warnings;
     warn_of_method(e, to);
-    warn_of_materials(e, to);
+    warn_of_materials(e->scene, &e->tables, to);
     warn_of_solver(e, to);
     warn_of_empty(e, to);
-    warn_of_mirrors(e, to);
-    warn_of_contact(e, to);
+    warn_of_mirrors(e->scene, &e->mpm, to);
+    warn_of_contact(e->scene, &e->reference, &e->coupling, to);
     warn_of_touch(e, to);
 }
 
 void engine_say(struct engine *e, const char *text)
 {
-    if (warnings_add(&e->warnings, "%s", text)) warnings_print(&e->warnings, e->warnings.n - 1, stderr);
+    if (warnings_add(&e->report.warnings, "%s", text))
+        warnings_print(&e->report.warnings, e->report.warnings.n - 1, stderr);
 }

@@ -94,14 +94,14 @@ static void put_run(struct json *j, const struct engine *e, status s, const char
     json_text(j, "method", method[e->scene->method]);
     json_text(j, "status", s == OK ? "done" : s == INTERRUPTED ? "interrupted" : "failed");
     if (s != OK && message[0]) json_text(j, "message", message);
-    json_count(j, "steps", e->step);
-    json_real(j, "time_step", e->dt);
-    json_real(j, "time_step_critical", e->dt_critical);
-    json_real(j, "time_end", e->t);
+    json_count(j, "steps", e->clock.step);
+    json_real(j, "time_step", e->clock.dt);
+    json_real(j, "time_step_critical", e->clock.dt_critical);
+    json_real(j, "time_end", e->clock.t);
     json_count(j, "particles", e->part.n);
-    json_count(j, "particles_pd_start", e->conversion.start);
+    json_count(j, "particles_pd_start", e->coupling.conversion.start);
     json_count(j, "particles_pd_end", e->part.n_of[KIND_PD]);
-    json_count(j, "bonds_peak", e->conversion.peak_bonds);
+    json_count(j, "bonds_peak", e->coupling.conversion.peak_bonds);
 }
 
 static void put_warnings(struct json *j, const struct warnings *w)
@@ -117,7 +117,7 @@ static void put_solver(struct json *j, const struct engine *e)
     if (e->scene->solver == SOLVER_EXPLICIT) return;
     json_open(j, "solver", '{');
     json_text(j, "name", name[e->scene->solver]);
-    json_count(j, "steps", e->step);
+    json_count(j, "steps", e->clock.step);
     json_real(j, "residual", e->solver.residual);
     json_count(j, "bonds_past_limit", e->solver.past_limit);
     json_close(j, '}');
@@ -175,7 +175,7 @@ static void put_tip(struct json *j, const struct tip *tip, int dim)
 
 static void put_crack(struct json *j, const struct engine *e)
 {
-    const struct tip *longest = tips_longest(&e->tips);
+    const struct tip *longest = tips_longest(&e->fracture.tips);
     int dim = e->part.dim;
     json_open(j, "crack", '{');
     json_real(j, "start_time", e->diagnostics.break_time);
@@ -188,7 +188,7 @@ static void put_crack(struct json *j, const struct engine *e)
         json_real(j, "tip_speed_mean", longest->speed_mean);
     }
     json_open(j, "tips", '[');
-    for (int k = 0; k < e->tips.n; k++) put_tip(j, &e->tips.tip[k], dim);
+    for (int k = 0; k < e->fracture.tips.n; k++) put_tip(j, &e->fracture.tips.tip[k], dim);
     json_close(j, ']');
     json_close(j, '}');
 }
@@ -203,7 +203,7 @@ static int reversions_most(const struct particles *p)
 
 static void put_conversion(struct json *j, const struct engine *e)
 {
-    const struct conversion *c = &e->conversion;
+    const struct conversion *c = &e->coupling.conversion;
     real n = (real)e->part.n, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
     json_open(j, "conversion", '{');
     if (isfinite(c->first_time) && c->events > 0) {
@@ -244,7 +244,7 @@ static void put_probes(struct json *j, const struct engine *e)
     struct observed o = engine_observed(e);
     struct probe_sink sink = {.json = j};
     json_open(j, "probes", '{');
-    probes_figures(&e->probes, &o, put_figure, &sink);
+    probes_figures(&e->probing.probes, &o, put_figure, &sink);
     if (sink.open) json_close(j, '}');
     json_close(j, '}');
 }
@@ -254,16 +254,16 @@ static void put_probes(struct json *j, const struct engine *e)
 /* Figures that depend on the machine: threads, kernels, times, memory. */
 static void put_machine(struct json *j, const struct engine *e, int threads, double wall_seconds)
 {
-    real steps = 0, ns = 1e9 * e->loop_seconds;
-    for (int k = 0; k < KINDS; k++) steps += (real)e->particle_steps[k];
+    real steps = 0, ns = 1e9 * e->report.loop_seconds;
+    for (int k = 0; k < KINDS; k++) steps += (real)e->report.particle_steps[k];
     json_count(j, "threads", threads);
     json_text(j, "kernels", simd_in_use()->name);
     json_number(j, "wall_seconds", wall_seconds, DIGITS_TIMING);
-    json_number(j, "loop_seconds", e->loop_seconds, DIGITS_TIMING);
+    json_number(j, "loop_seconds", e->report.loop_seconds, DIGITS_TIMING);
     json_count(j, "memory_peak_bytes", memory_peak());
     json_number(j, "ns_per_particle_step", ns / steps, DIGITS_TIMING);
-    json_number(j, "ns_per_bond_step", ns / (real)e->bond_visits, DIGITS_TIMING);
-    json_number(j, "rest_share", e->inactive / (real)(e->step > 0 ? e->step : 1), DIGITS_TIMING);
+    json_number(j, "ns_per_bond_step", ns / (real)e->report.bond_visits, DIGITS_TIMING);
+    json_number(j, "rest_share", e->report.inactive / (real)(e->clock.step > 0 ? e->clock.step : 1), DIGITS_TIMING);
 }
 
 static void summary_print(FILE *file, const struct engine *e, status s, const char *message, int threads,
@@ -272,7 +272,7 @@ static void summary_print(FILE *file, const struct engine *e, status s, const ch
     struct json j = {.file = file, .depth = 1};
     fputc('{', file);
     put_run(&j, e, s, message);
-    put_warnings(&j, &e->warnings);
+    put_warnings(&j, &e->report.warnings);
     put_solver(&j, e);
     put_choice(&j, &e->scene->choice);
     put_energy_balance(&j, &e->diagnostics.now);
@@ -287,14 +287,14 @@ status summary_write(const struct engine *e, status s, int threads, double wall_
 {
     char message[1024], *text = NULL;
     size_t length = 0;
-    if (!e->out) return OK;
+    if (!e->report.out) return OK;
     snprintf(message, sizeof message, "%s", status_message());
     FILE *file = open_memstream(&text, &length);
     if (!file) return status_set(FAILED, "cannot write summary.json: out of memory");
     summary_print(file, e, s, message, threads, wall_seconds);
     bool whole = !ferror(file);
     if (fclose(file) != 0) whole = false;
-    status written = whole ? output_text(e->out, "summary.json", text, length)
+    status written = whole ? output_text(e->report.out, "summary.json", text, length)
                            : status_set(FAILED, "cannot write summary.json: out of memory");
     free(text);
     /* The cause of a failed run has precedence over a fault of writing its summary. */

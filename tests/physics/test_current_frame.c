@@ -72,7 +72,7 @@ static void at_rest(struct run *r, const struct places *was)
         for (int64_t i = 0; i < p->n; i++) p->stretch[d][i] = 1;
     for (int c = 0; c < symmetric_count(p->dim); c++)
         for (int64_t i = 0; i < p->n; i++) p->stress[c][i] = 0;
-    r->e.sort_needed = true;
+    r->e.mpm.sort_needed = true;
 }
 
 /* n x n each. */
@@ -90,11 +90,11 @@ static void add_column(const struct particles *p, real *to, int n, int k, real u
 static void column(struct run *r, const struct places *was, int k, real sign, struct operators *o)
 {
     struct particles *p = &r->e.part;
-    const real share = r->e.interface_damping_share, unit = sign * AMPLITUDE * r->e.wave_speed;
+    const real share = r->e.coupling.damping_share, unit = sign * AMPLITUDE * r->e.tables.wave_speed;
     for (int damped = 1; damped >= 0; damped--) {
         at_rest(r, was);
         p->v[k % p->dim][k / p->dim] = unit;
-        r->e.interface_damping_share = damped ? share : 0;
+        r->e.coupling.damping_share = damped ? share : 0;
         assert_ok(engine_step(&r->e));
         add_column(p, damped ? o->Q : o->W, o->n, k, 2 * unit);
     }
@@ -102,7 +102,7 @@ static void column(struct run *r, const struct places *was, int k, real sign, st
     add_column(p, o->W, o->n, k, -2 * unit);
     assert_ok(engine_step(&r->e));
     add_column(p, o->third, o->n, k, 2 * unit);
-    r->e.interface_damping_share = share;
+    r->e.coupling.damping_share = share;
 }
 
 /* Q and dt^2 W of motions scaled by the root of the mass, so that symmetric in mass is symmetric. */
@@ -238,7 +238,7 @@ static real shaken(struct run *r, int steps)
     struct particles *p = &r->e.part;
     uint64_t seed = 1;
     for (int d = 0; d < p->dim; d++)
-        for (int64_t i = 0; i < p->n; i++) p->v[d][i] = 1e-8 * r->e.wave_speed * bench_random(&seed);
+        for (int64_t i = 0; i < p->n; i++) p->v[d][i] = 1e-8 * r->e.tables.wave_speed * bench_random(&seed);
     const real start = diagnostics_kinetic(p);
     real most = 0;
     for (int k = 0; k < steps; k++) {
@@ -290,11 +290,11 @@ static void test_plate(void **state)
         bench_overrides_ready(&o), o.n));
     const real start = diagnostics_kinetic(&r->e.part);
     assert_ok(bench_engine_run(&r->e, 1, NULL));         /* makes the record of samples */
-    while (r->e.step < 10000) {
+    while (r->e.clock.step < 10000) {
         assert_ok(engine_step(&r->e));
-        if (r->e.step < 1000) continue;  /* what ended the record's first step is extrapolated */
+        if (r->e.clock.step < 1000) continue;  /* what ended the record's first step is extrapolated */
         if (!(fabs(r->e.diagnostics.now.balance_error) < 1e-5))
-            print_message("step %d: %g\n", (int)r->e.step, r->e.diagnostics.now.balance_error);
+            print_message("step %d: %g\n", (int)r->e.clock.step, r->e.diagnostics.now.balance_error);
         /* weights change with strains of 2e-5 and turns of 0.4 degrees */
         assert_true(fabs(r->e.diagnostics.now.balance_error) < 1e-5);
     }

@@ -63,7 +63,7 @@ static void run(struct ran *r, const char *text, const struct scene_override *ke
     if (scene_read_text(&r->s, text, strlen(text), "test.yaml", key, keys) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(&r->e, &r->s, &r->o));
     assert_ok(output_open(&r->o, FOLDER, r->s.text, OUTPUT_OVERWRITE, false));
-    r->e.quiet = true;
+    r->e.report.quiet = true;
     assert_ok(engine_run(&r->e));
 }
 

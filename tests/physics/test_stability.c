@@ -116,7 +116,7 @@ static double automatic_of(const char *text, const char *key, const char *value)
     struct bench_overrides o = {0};
     if (key) bench_override(&o, key, "%s", value);
     assert_ok(bench_engine_make(&e, &s, "block", text, bench_overrides_ready(&o), o.n));
-    const double critical = e.dt_critical;
+    const double critical = e.clock.dt_critical;
     bench_engine_free(&e, &s);
     return critical;
 }

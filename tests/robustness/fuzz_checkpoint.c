@@ -28,9 +28,9 @@ static void begin(struct engine *e)
 {
     if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
         fuzz_fail("the scene", status_message());
-    *e = (struct engine){.quiet = true};
+    *e = (struct engine){.report.quiet = true};
     if (engine_make(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
-    e->quiet = true;
+    e->report.quiet = true;
     if (!out.folder && output_open(&out, "fuzz_run", scene.text, OUTPUT_OVERWRITE, false) != OK)
         fuzz_fail("the folder", status_message());
 }
@@ -68,8 +68,9 @@ void fuzz_checkpoint(const uint8_t *bytes, size_t n)
     status_set(OK, "%s", "");
     status s = checkpoint_read(&out, scene.text, engine_archive, &e);
     if (s == OK) {
-        e.out = NULL;
-        if (e.steps > e.step && e.step >= 0) e.steps = e.step + STEPS < e.steps ? e.step + STEPS : e.steps;
+        e.report.out = NULL;
+        if (e.clock.steps > e.clock.step && e.clock.step >= 0)
+            e.clock.steps = e.clock.step + STEPS < e.clock.steps ? e.clock.step + STEPS : e.clock.steps;
         s = engine_run(&e);
     }
     if (s != OK && (!status_message()[0] || strchr(status_message(), '\n')))

@@ -145,9 +145,9 @@ static void run(const char *text)
     status done = scene_read_text(&s, text, strlen(text), "valid", NULL, 0);
     if (done == OK) {
         done = engine_make(&e, &s, NULL);
-        e.quiet = true;
+        e.report.quiet = true;
         if (done == OK) judge(&e, "at the start");
-        if (e.steps > STEPS) e.steps = STEPS;
+        if (e.clock.steps > STEPS) e.clock.steps = STEPS;
         if (done == OK && (done = engine_run(&e)) == OK) judge(&e, "at the end");
         engine_free(&e);
         scene_free(&s);

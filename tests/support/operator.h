@@ -39,11 +39,11 @@ struct spectrum {
 /* Components of particles that a driven region holds, and of nodes that walls hold or that follow others. */
 static inline uint8_t *operator_held(struct engine *e, bool node)
 {
-    const int64_t n = node ? e->mesh.grid.n : e->part.n;
+    const int64_t n = node ? e->reference.mesh.grid.n : e->part.n;
     uint8_t *held = NEW("test.held", n + 1, uint8_t);
     if (node) {
-        const struct grid *g = &e->mesh.grid;
-        loads_mesh_walls(&e->loads, &e->mesh, 0, e->dt);
+        const struct grid *g = &e->reference.mesh.grid;
+        loads_mesh_walls(&e->loads, &e->reference.mesh, 0, e->clock.dt);
         for (int64_t k = 0; k < g->walls; k++) held[g->wall[k].node] |= (uint8_t)(1 << g->wall[k].component);
         for (int64_t k = 0; k < g->mirror_nodes; k++) held[g->mirror_node[k].node] = 7;
         return held;
@@ -66,8 +66,8 @@ static inline void operator_add(struct operator *o, bool node, const uint8_t *he
 static inline void operator_unknowns(struct operator *o)
 {
     struct engine *e = &o->e;
-    const struct grid *g = &e->mesh.grid;
-    const int64_t nodes = e->mesh.points > 0 ? g->n : 0;
+    const struct grid *g = &e->reference.mesh.grid;
+    const int64_t nodes = e->reference.mesh.points > 0 ? g->n : 0;
     uint8_t *held = operator_held(e, false), *held_node = nodes > 0 ? operator_held(e, true) : NULL;
     real *mass = NEW("test.node_mass", nodes + 1, real);
     for (int64_t I = 0; I < nodes; I++) mass[I] = g->mass[I];
@@ -91,7 +91,7 @@ static inline void operator_unknowns(struct operator *o)
 static inline void operator_place(struct operator *o, struct unknown q, real u)
 {
     struct engine *e = &o->e;
-    if (q.node) e->mesh.displacement[q.d][q.at] = u;
+    if (q.node) e->reference.mesh.displacement[q.d][q.at] = u;
     else e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
 }
 
@@ -99,12 +99,12 @@ static inline void operator_place(struct operator *o, struct unknown q, real u)
 static inline void operator_forces(struct operator *o, real *f)
 {
     struct engine *e = &o->e;
-    struct grid *g = &e->mesh.grid;
-    const int64_t mirror_nodes = e->mesh.points > 0 ? g->mirror_nodes : 0;
+    struct grid *g = &e->reference.mesh.grid;
+    const int64_t mirror_nodes = e->reference.mesh.points > 0 ? g->mirror_nodes : 0;
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
-            e->mesh.displacement[d][g->mirror_node[k].node] =
-                g->mirror_node[k].sign[d] * e->mesh.displacement[d][g->mirror_node[k].image];
+            e->reference.mesh.displacement[d][g->mirror_node[k].node] =
+                g->mirror_node[k].sign[d] * e->reference.mesh.displacement[d][g->mirror_node[k].image];
     if (getenv("OPERATOR_SHOW")) engine_mesh_sync(e);
     engine_forces(e);
     for (int64_t k = 0; k < mirror_nodes; k++)
@@ -168,7 +168,7 @@ static inline real operator_energy(struct operator *o)
     }
     operator_forces(o, f);
     const real W = e->kernels.bond_energy(&e->bonds, &e->part) +
-                   mesh_strain(&e->mesh, &e->part, e->cell_elastic, !o->s.small_strain);
+                   mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !o->s.small_strain);
     for (int64_t k = 0; k < o->n * o->n; k++) half += 0.5 * u[k / o->n] * o->K[k] * u[k % o->n];
     for (int64_t k = 0; k < o->n; k++) operator_place(o, o->unknown[k], 0);
     memory_free(u);
@@ -209,7 +209,7 @@ static inline void operator_dump(const struct operator *o, const char *path)
     fprintf(to, "# %lld unknowns: node at component X Y Z mass; then K\n", (long long)o->n);
     for (int64_t k = 0; k < o->n; k++) {
         const struct unknown q = o->unknown[k];
-        const struct grid *g = &o->e.mesh.grid;
+        const struct grid *g = &o->e.reference.mesh.grid;
         fprintf(to, "%d %d %d", q.node, q.at, q.d);
         for (int d = 0; d < DIM_MAX; d++)
             fprintf(to, " %.9g",

@@ -46,7 +46,7 @@ static real shaken(const struct engine *e, const real *X, int d, uint64_t *seed)
 static void shake(struct engine *e)
 {
     struct particles *p = &e->part;
-    struct mesh *mesh = &e->mesh;
+    struct mesh *mesh = &e->reference.mesh;
     uint64_t seed = 5;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0};
@@ -65,7 +65,7 @@ static real energy_of(struct engine *e)
 {
     engine_forces(e);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
-           mesh_strain(&e->mesh, &e->part, e->cell_elastic, !e->scene->small_strain);
+           mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain);
 }
 
 /* Force on one component against the slope of the energy. */
@@ -94,7 +94,7 @@ static real largest(const struct engine *e)
 static void check_gradient(struct engine *e)
 {
     struct particles *p = &e->part;
-    struct mesh *mesh = &e->mesh;
+    struct mesh *mesh = &e->reference.mesh;
     int64_t particles = 0, nodes = 0;
     shake(e);
     (void)energy_of(e);
@@ -140,7 +140,8 @@ static void check_point(const struct engine *e, int64_t row)
     const int32_t i = b->particle[row];
     const int dim = p->dim, n = symmetric_count(dim);
     const struct state_modulus *m = &b->state.modulus[0];
-    const real share = p->volume0[i] / b->state.weighted[row], *local = e->partial.local + e->partial.index[i] * n;
+    const real share = p->volume0[i] / b->state.weighted[row],
+               *local = e->coupling.partial.local + e->coupling.partial.index[i] * n;
     real S = 0, compliance[SYM_MAX * SYM_MAX];
     material_compliance(&e->scene->material[0], dim, compliance);
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
@@ -172,7 +173,9 @@ static void check_points(const char *text)
     states_precompute(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];
-        if (e.part.kind[i] != KIND_MPM || e.partial.index[i] < 0 || !partial_end(&e.partial, i, e.part.dim)) continue;
+        if (e.part.kind[i] != KIND_MPM || e.coupling.partial.index[i] < 0 ||
+            !partial_end(&e.coupling.partial, i, e.part.dim))
+            continue;
         check_point(&e, row);
         points++;
     }
@@ -219,14 +222,15 @@ static void check_partials(const char *text)
     int64_t point = 0;
     while (e.part.kind[point] != KIND_MPM || e.bonds.row_of[point] < 0) point++;
     e.part.flag[point] |= FLAG_STRESSED;
-    assert_true(convert(&e.conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.partial, NULL, 0) > 0);
+    assert_true(
+        convert(&e.coupling.conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.coupling.partial, NULL, 0) > 0);
     assert_non_null(e.bonds.site_map);
     bonds_make(&searched, NULL, &e.part, &e.source);
     struct lattice *sites = searched.site_map;
     searched.site_map = NULL;
     partial_stress_make(&again, &e.part, &searched, &e.source, NULL, 0);
     searched.site_map = sites;
-    same_partials(&e.partial, &again, e.part.n, e.part.dim);
+    same_partials(&e.coupling.partial, &again, e.part.n, e.part.dim);
     partial_stress_free(&again);
     bonds_free(&searched);
     engine_free(&e);

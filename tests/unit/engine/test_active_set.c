@@ -7,7 +7,6 @@
 #include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "engine/engine.h"
-#include "src/engine/engine_report.h"
 #include "tests/support/same.h"
 #include "kernels/simd/variants.h"
 
@@ -91,7 +90,7 @@ static struct engine *run_make(struct scene *s, const char *body, const char *bo
              rest ? "true" : "false");
     if (scene_read_text(s, text, strlen(text), "rest.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
-    e->quiet = true;
+    e->report.quiet = true;
     assert_ok(engine_report_start(e));
     return e;
 }
@@ -109,10 +108,12 @@ static void same_bits(const struct engine *a, const struct engine *b)
     assert_int_equal(p->n_of[KIND_PD], q->n_of[KIND_PD]);
     assert_same_particles(p, q, a->optional);
     assert_memory_equal(a->loads.impulse, b->loads.impulse, sizeof a->loads.impulse);
-    assert_int_equal(a->mesh.points, b->mesh.points);
-    for (int d = 0; d < p->dim && a->mesh.points > 0; d++) {
-        assert_memory_equal(a->mesh.displacement[d], b->mesh.displacement[d], (size_t)a->mesh.grid.n * sizeof(real));
-        assert_memory_equal(a->mesh.grid.velocity[d], b->mesh.grid.velocity[d], (size_t)a->mesh.grid.n * sizeof(real));
+    assert_int_equal(a->reference.mesh.points, b->reference.mesh.points);
+    for (int d = 0; d < p->dim && a->reference.mesh.points > 0; d++) {
+        assert_memory_equal(a->reference.mesh.displacement[d], b->reference.mesh.displacement[d],
+                            (size_t)a->reference.mesh.grid.n * sizeof(real));
+        assert_memory_equal(a->reference.mesh.grid.velocity[d], b->reference.mesh.grid.velocity[d],
+                            (size_t)a->reference.mesh.grid.n * sizeof(real));
     }
     const real energy = a->kernels.bond_energy(&a->bonds, p);
     assert_memory_equal(&energy, &(real){b->kernels.bond_energy(&b->bonds, q)}, sizeof energy);
@@ -121,8 +122,8 @@ static void same_bits(const struct engine *a, const struct engine *b)
 /* Of the body, or of the points on the grid. */
 static real sleeping(const struct engine *e)
 {
-    const struct transfer_order *active = e->transfer.order;
-    const real points = e->order.n > 0 && active != &e->order ? 1 - (real)active->n / (real)e->order.n : 0;
+    const struct transfer_order *active = e->mpm.transfer.order;
+    const real points = e->mpm.order.n > 0 && active != &e->mpm.order ? 1 - (real)active->n / (real)e->mpm.order.n : 0;
     return real_max(engine_inactive_share(e), points);
 }
 
@@ -134,17 +135,17 @@ static int64_t check_same(const char *body, const char *boundary, const char *mo
     struct scene s[2];
     struct engine *on = run_make(&s[0], body, boundary, more, keys, true),
                   *off = run_make(&s[1], body, boundary, more, keys, false);
-    assert_true(on->steps > 50);
+    assert_true(on->clock.steps > 50);
     const int64_t before = on->part.n_of[KIND_PD];
     const int64_t look =
-        strstr(keys, "reference") || strstr(keys, "method: pd") ? on->steps / 10 : ACTIVE_POINTS_STEPS + 1;
-    for (int64_t step = 1; step <= on->steps; step++) {
+        strstr(keys, "reference") || strstr(keys, "method: pd") ? on->clock.steps / 10 : ACTIVE_POINTS_STEPS + 1;
+    for (int64_t step = 1; step <= on->clock.steps; step++) {
         omp_set_num_threads(1 + (int)(step & 1));
         assert_ok(engine_step(on));
         assert_ok(engine_step(off));
         assert_true(sleeping(off) == 0);
         if (step == look && !(sleeping(on) >= early)) fail_msg("%s: only %g sleep", keys, sleeping(on));
-        if (step % 10 == 0 || step == on->steps) same_bits(on, off);
+        if (step % 10 == 0 || step == on->clock.steps) same_bits(on, off);
     }
     if (sleeping(on) > 0) fail_msg("%s: %g sleep at the end", keys, sleeping(on));
     const int64_t converted = on->part.n_of[KIND_PD] - before;

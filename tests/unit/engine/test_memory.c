@@ -24,7 +24,7 @@ static void takes_what_it_says(const char *space, const char *box, const char *p
         space, particles, box);
     if (scene_read_text(&s, text, strlen(text), "block", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
-    e.quiet = true;
+    e.report.quiet = true;
     if (engine_run(&e) != OK) fail_msg("%s", status_message());
     *taken = (double)memory_peak();
     const double said = engine_memory(&e);

@@ -45,9 +45,9 @@ static void solve(struct solution *a, const char *text, ...)
     va_end(list);
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", override, n) != OK) fail_msg("%s", status_message());
-    a->e.quiet = true;
+    a->e.report.quiet = true;
     a->made = engine_make(&a->e, &a->s, NULL);
-    a->e.quiet = true;
+    a->e.report.quiet = true;
     a->ran = a->made == OK ? engine_run(&a->e) : a->made;
 }
 
@@ -55,7 +55,7 @@ static void solved(const struct solution *a)
 {
     if (a->ran != OK) fail_msg("%s", status_message());
     assert_true(a->e.solver.residual <= a->s.solver_tolerance);
-    assert_true(a->e.t == a->s.duration);
+    assert_true(a->e.clock.t == a->s.duration);
     for (int d = 0; d < a->e.part.dim; d++)
         for (int64_t i = 0; i < a->e.part.n; i++) assert_true(a->e.part.v[d][i] == 0);
 }
@@ -237,7 +237,7 @@ static void test_crack(void **state)
     assert_true(difference(&a, &b) < 1e-4);
     near("energy", a.e.diagnostics.now.energy.strain, b.e.diagnostics.now.energy.strain, 1e-5);
     near("energy of cg", b.e.diagnostics.now.energy.strain, b.e.diagnostics.now.external_work, 1e-5);
-    assert_true(a.e.step < 2000 && b.e.step < 300);
+    assert_true(a.e.clock.step < 2000 && b.e.clock.step < 300);
     solution_free(&a);
     solve(&a, CRACKED, "solver=cg", "solver_tolerance=1e-8", NULL);
     solved(&a);
@@ -324,7 +324,7 @@ static void test_on_plane(void **state)
     assert_true(fabs(a.e.part.X[0][0]) < 1e-15);
     assert_int_equal(a.e.loads.images, 3 * 24 + 3 * 24 + 3 * 3 + 2 * 3);   /* three layers, and those of the planes */
     assert_true(difference(&a, &b) < 1e-4);
-    assert_true(b.e.step < 150);
+    assert_true(b.e.clock.step < 150);
     solution_free(&a), solution_free(&b);
 }
 
@@ -388,7 +388,7 @@ static void test_unloaded(void **state)
     for (int k = 0; k < 2; k++) {
         solve(&a, BAR BAR_FIXED, solver[k], NULL);
         solved(&a);
-        assert_true(a.e.step <= 1);
+        assert_true(a.e.clock.step <= 1);
         solution_free(&a);
     }
     solve(&a, BAR BAR_FIXED "initial:\n  - {displacement_gradient: [1e-6]}\n", "solver=relaxation", NULL);

@@ -109,7 +109,7 @@ static void cure_of(const char *key, const char *value, real tenfold, char *reme
     if (key) bench_override(&o, key, "%s", value);
     assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_ready(&o), o.n));
     const struct rise r = rising(tenfold, 200);
-    e.step = 20000, e.t = 20000 * e.dt;
+    e.clock.step = 20000, e.clock.t = 20000 * e.clock.dt;
     e.part.v[0][0] = 1;                                  /* which no load has paid for */
     engine_remedy(&e, &r, 1, remedy, ENGINE_REMEDY);
     bench_engine_free(&e, &s);

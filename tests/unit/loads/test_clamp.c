@@ -13,7 +13,6 @@
 #include "tests/support/cloud.h"
 #include "tests/support/eigen.h"
 #include "engine/engine.h"
-#include "src/engine/engine_report.h"
 #include "base/memory.h"
 #include "tests/support/near.h"
 #include "base/team.h"
@@ -55,7 +54,7 @@ static void body_make(struct body *a, const char *text, const char *const *with)
     memset(a, 0, sizeof *a);
     assert_ok(scene_read_text(&a->s, text, strlen(text), "clamp.yaml", override, n));
     assert_ok(engine_make(&a->e, &a->s, NULL));
-    a->e.quiet = true;
+    a->e.report.quiet = true;
 }
 
 static void body_free(struct body *a)
@@ -232,7 +231,7 @@ static real run(struct engine *e)
 {
     real most = 0;
     assert_ok(engine_report_start(e));
-    while (e->step < e->steps) {
+    while (e->clock.step < e->clock.steps) {
         assert_ok(engine_step(e));
         assert_ok(engine_report(e));
         most = real_max(most, fabs(e->diagnostics.now.balance_error));
@@ -258,9 +257,9 @@ static void test_long(void **state)
     for (size_t k = 0; k < COUNT_OF(with); k++) {
         struct body a;
         body_make(&a, BEAM, with[k]);
-        assert_true(a.e.steps >= 100000);
+        assert_true(a.e.clock.steps >= 100000);
         const real most = run(&a.e);
-        printf("beam of case %d: %lld steps, energy balance %.2g\n", (int)k, (long long)a.e.steps, most);
+        printf("beam of case %d: %lld steps, energy balance %.2g\n", (int)k, (long long)a.e.clock.steps, most);
         assert_true(most < 0.005);
         body_free(&a);
     }
@@ -285,7 +284,7 @@ static void test_coupled(void **state)
         body_make(&a, COUPLED, with[k]);
         assert_true(a.e.bonds.clamped.n > 0 && a.e.part.n_of[KIND_MPM] > 0);
         const real most = run(&a.e);
-        printf("coupled, case %d: %lld steps, energy balance %.2g\n", (int)k, (long long)a.e.steps, most);
+        printf("coupled, case %d: %lld steps, energy balance %.2g\n", (int)k, (long long)a.e.clock.steps, most);
         assert_true(most < 0.005);
         body_free(&a);
     }
@@ -399,7 +398,7 @@ static void test_cantilever(void **state)
             grid_coupled += a.e.part.f[1][i];
         }
         printf("cantilever %s: tip %.4g of a beam's in %lld steps\n", model[k].with[0], tip / beam,
-               (long long)a.e.step);
+               (long long)a.e.clock.step);
         assert_close(tip, model[k].over * beam, 0.03);
         assert_close(grid_coupled, -b * L * h * 1e-3, 1e-4);
         body_free(&a);

@@ -6,7 +6,6 @@
 #include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "engine/engine.h"
-#include "src/engine/engine_report.h"
 #include "scene/fill.h"
 #include "base/memory.h"
 #include "tests/support/near.h"
@@ -378,11 +377,11 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
                      : "3e5, -2e5");
     if (scene_read_text(&s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(e, &s, NULL) != OK) fail_msg("%s", status_message());
-    e->quiet = true;
+    e->report.quiet = true;
     assert_ok(engine_report_start(e));
     for (int step = 0; step < STEPS; step++) assert_ok(engine_step(e));
     diagnostics_make(&w);
-    diagnostics_momentum(&w, &e->part, &e->mesh.grid, (const real[DIM_MAX]){0});
+    diagnostics_momentum(&w, &e->part, &e->reference.mesh.grid, (const real[DIM_MAX]){0});
     const real t = engine_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
                                                           (one     ? 3e-6
                                                            : three ? 1

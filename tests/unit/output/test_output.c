@@ -354,13 +354,13 @@ static void summary_has_the_figures(void **state)
     char *text;
     size_t length;
     open_fresh(&o, "summary", false);
-    e->scene = &s, e->out = &o, e->step = 7, e->t = 0.1, e->loop_seconds = 1e-3;
+    e->scene = &s, e->report.out = &o, e->clock.step = 7, e->clock.t = 0.1, e->report.loop_seconds = 1e-3;
     e->part.n = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
-    e->particle_steps[KIND_PD] = 1000;
+    e->report.particle_steps[KIND_PD] = 1000;
     e->diagnostics.break_time = NAN;
-    e->conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
-    e->tips = (struct tips){.dim = 2, .n = 1, .spacing = 1e-3};
-    e->tips.tip[0] = (struct tip){.along = {1}, .place = {0, 2e-3}, .growth = 2e-3, .start_time = 0.06,
+    e->coupling.conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
+    e->fracture.tips = (struct tips){.dim = 2, .n = 1, .spacing = 1e-3};
+    e->fracture.tips.tip[0] = (struct tip){.along = {1}, .place = {0, 2e-3}, .growth = 2e-3, .start_time = 0.06,
                                   .arrest_time = 0.08, .first_time = 0.05, .particles = 2};
     assert_int_equal(summary_write(e, OK, 2, 1.5), OK);
     assert_int_equal(file_get("summary/summary.json", &text, &length), OK);

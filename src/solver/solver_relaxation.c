@@ -2,26 +2,28 @@
  * damping, until the body is at rest. */
 #include <math.h>
 
+#include "base/team.h"
 #include "solver_parts.h"
 
 /* Moves supports by one step of their ramp. */
-static void supports_move(struct engine *e)
+static void supports_move(const struct solver *s, struct particles *p, int64_t step)
 {
-    const struct solver *s = &e->solver;
-    struct particles *p = &e->part;
-    if (e->step >= s->ramp) return;
+    if (step >= s->ramp) return;
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < p->dim; d++)
             if (s->held[i] >> d & 1) p->x[d][i] += s->driven.of[d][i] / (real)s->ramp;
 }
 
+/* What damping_block reads. */
+struct relaxing { const struct solver *solver; const struct particles *part; };
+
 /* u^T k u with k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}), u^T u and v^T v, free components. */
 static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct engine *e = context;
-    const struct solver *s = &e->solver;
-    const struct particles *p = &e->part;
+    const struct relaxing *relaxing = context;
+    const struct solver *s = relaxing->solver;
+    const struct particles *p = relaxing->part;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = first; i < end; i++) {
             if (s->held[i] >> d & 1) continue;
@@ -43,11 +45,9 @@ static real damping(const real *sum)
 }
 
 /* v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c); the first half step from rest is f/(2 Lambda). */
-static void particles_move(struct engine *e, real c)
+static void particles_move(struct solver *s, struct particles *p, int64_t step, real c)
 {
-    struct solver *s = &e->solver;
-    struct particles *p = &e->part;
-    const real kick = e->step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);
+    const real kick = step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < p->dim; d++) {
@@ -59,23 +59,20 @@ static void particles_move(struct engine *e, real c)
         }
 }
 
-status relaxation_step(struct engine *e, bool *done)
+status relaxation_step(struct solver *s, const struct static_body *body, int64_t step, bool *done)
 {
-    struct solver *s = &e->solver;
+    struct particles *p = body->part;
     real sum[3];
-    supports_move(e);
-    solver_bond_force(e);
-    loads_static_force(&e->loads, &e->part);
-    lap(&e->laps, LAP_BONDS);
-    solver_measure(e);
-    loads_static_hold(&e->loads, &e->part);
-    team_sums(e->part.n, 3, damping_block, e, sum);
+    supports_move(s, p, step);
+    solver_bond_force(body);
+    loads_static_force(body->loads, p);
+    solver_measure(s, p);
+    loads_static_hold(body->loads, p);
+    team_sums(p->n, 3, damping_block, &(struct relaxing){s, p}, sum);
     /* small forces alone also occur in a body that swings through its equilibrium */
     s->way = real_max(s->way, sqrt(sum[1]));
-    *done = e->step >= s->ramp && s->residual <= e->scene->solver_tolerance &&
-            (s->residual == 0 || sqrt(sum[2]) <= 10 * e->scene->solver_tolerance * s->way);
-    if (*done) return OK;
-    particles_move(e, e->step > 0 ? damping(sum) : 0);
-    lap(&e->laps, LAP_WATCH);
+    *done = step >= s->ramp && s->residual <= body->tolerance &&
+            (s->residual == 0 || sqrt(sum[2]) <= 10 * body->tolerance * s->way);
+    if (!*done) particles_move(s, p, step, step > 0 ? damping(sum) : 0);
     return OK;
 }

@@ -1,5 +1,6 @@
-/* Static equilibrium instead of steps in time: what the solvers keep between two steps
- * (src/engine/solver.c).
+/* Room `solver`: static equilibrium of peridynamic bodies instead of steps in time, by adaptive dynamic relaxation or
+ * conjugate gradients. It knows particles, bonds and loads, but neither scenes nor the engine, whose file
+ * engine_solve.c drives it.
  *
  * Bonds do not break while solving. Forces have their value at the end of the scene's duration, and driven particles
  * are where they have moved to until then. */
@@ -7,6 +8,8 @@
 #define CLEAVE_SOLVER
 
 #include "base/archive.h"
+#include "bonds/bonds.h"
+#include "loads/loads.h"
 
 /* A vector of every particle. */
 struct field { real *of[DIM_MAX]; };
@@ -36,7 +39,36 @@ struct solver {
     int stalls;                          /* restarts without gain                                     */
 };
 
+/* The body to solve for; all of it borrowed. */
+struct static_body {
+    struct particles *part;
+    struct bonds *bonds;
+    struct loads *loads;
+    bond_force_fn *force;
+    const struct material *material;
+    real spacing;                        /* [m]                                                       */
+    real tolerance;                      /* of the residual, over the loads [1]                       */
+    int bodies;
+};
+
+/* Driven components and applied forces after `ramp_time` of the loads [s]; velocities become 0. REFUSED for loads
+ * without equilibrium. Enough for a relaxation on the grid (engine_relaxation.c). */
+status solver_make(struct solver *s, const struct static_body *body, real ramp_time);
+/* What relaxation_step and cg_step (conjugate_gradients) need besides. */
+void solver_iteration_make(struct solver *s, const struct static_body *body, bool conjugate_gradients);
 void solver_free(struct solver *s);
+
+/* Step number `step` of an iteration; *done if the residual is small enough. FAILED where no equilibrium is in
+ * reach. */
+typedef status solver_step_fn(struct solver *s, const struct static_body *body, int64_t step, bool *done);
+solver_step_fn relaxation_step, cg_step;
+
+/* Largest |entry|. */
+real solver_largest(const struct field *v, int dim, int64_t n);
+/* Residual and scale from the norms of reactions and of residual forces `left` [N]. */
+void solver_scale(struct solver *s, real reaction, real left);
+
+/* Saves or restores what changes in steps. */
 status solver_archive(struct solver *s, struct archive *a);
 
 #endif

@@ -2,17 +2,15 @@
  * and velocities damped near the critical damping of the slowest motion of the body. */
 #include <math.h>
 
-#include "base/memory.h"
-#include "solver_parts.h"
+#include "engine_relaxation.h"
 
-#define LOOK_STEPS 10                    /* steps between estimates of damping and residual */
-#define CALM 1e-6                        /* kinetic over strain energy of a body at rest */
+#define ESTIMATE_STEPS 10                    /* steps between estimates of damping and residual */
+#define MOTION_SMALL 1e-6                        /* kinetic over strain energy of a body at rest */
 
-void grid_relaxation_make(struct engine *e)
+real grid_relaxation_ramp(const struct engine *e)
 {
-    e->solver.ramp_time = 1;
-    if (e->scene->method == METHOD_PD) return;
-    e->solver.ramp_time = ceil(2 * (particles_longest(&e->part) + e->scene->spacing) / (e->wave_speed * e->dt)) * e->dt;
+    const real twice = 2 * (particles_longest(&e->part) + e->scene->spacing);
+    return ceil(twice / (e->tables.wave_speed * e->clock.dt)) * e->clock.dt;
 }
 
 /* sum m u^2 and sum m v^2. */
@@ -29,10 +27,11 @@ static void motion_block(const void *context, int64_t first, int64_t end, real *
 /* Squares of the forces that still accelerate nodes, and of those on particles that are not on the grid. */
 static void node_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct engine *e = context;
-    const struct grid *g = &e->grid;
+    const struct grid_method *mpm = context;
+    const struct grid *g = &mpm->grid;
     for (int d = 0; d < g->dim; d++)
-        for (int64_t I = first; I < end; I++) sum[0] += square(g->mass[I] * g->force[d][I] / e->transfer.dt_velocity);
+        for (int64_t I = first; I < end; I++)
+            sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
 }
 
 static void particle_block(const void *context, int64_t first, int64_t end, real *sum)
@@ -43,36 +42,36 @@ static void particle_block(const void *context, int64_t first, int64_t end, real
 }
 
 /* Norm of the reactions, each shared evenly by its particles [N]. */
-static real solver_grid_reactions(const struct engine *e)
+static real reactions_norm(const struct loads *loads, int dim)
 {
     real sum = 0;
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
+    for (int b = 0; b < loads->n; b++) {
+        const struct load *l = &loads->load[b];
         if (l->boundary->kind == BOUNDARY_VELOCITY)
-            sum += dot(l->reaction, l->reaction, e->part.dim) / (l->n > 0 ? (real)l->n : 1);
+            sum += dot(l->reaction, l->reaction, dim) / (l->n > 0 ? (real)l->n : 1);
     }
     return sqrt(sum);
 }
 
 /* Updates damping and residual; *done at equilibrium. The slowest motion has nearly the form of the deflection, so its
  * frequency is omega^2 = 2 U/sum m u^2 (Rayleigh), with the strain energy U; critical damping is 2 omega. */
-static void look(struct engine *e, bool *done)
+static void estimate(struct engine *e, bool *done)
 {
     struct solver *s = &e->solver;
     real nodes = 0, particles, motion[2];
     const real strain = e->kernels.bond_energy(&e->bonds, &e->part) +
-                        diagnostics_strain(&e->part, e->scene->material, &e->partial);
+                        diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial);
     team_sums(e->part.n, 2, motion_block, &e->part, motion);
-    s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->dt, 1) : 0;
-    if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0) team_sums(e->grid.n, 1, node_block, e, &nodes);
+    s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->clock.dt, 1) : 0;
+    if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0) team_sums(e->mpm.grid.n, 1, node_block, &e->mpm, &nodes);
     team_sums(e->part.n, 1, particle_block, &e->part, &particles);
-    solver_scale(s, solver_grid_reactions(e), sqrt(nodes + particles));
-    *done = e->t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
-            0.5 * motion[1] <= CALM * strain;
+    solver_scale(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
+    *done = e->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
+            0.5 * motion[1] <= MOTION_SMALL * strain;
 }
 
 /* Damps the velocities, and their gradients (APIC), by one step. */
-static void slow_down(struct engine *e)
+static void damp_velocities(struct engine *e)
 {
     struct particles *p = &e->part;
     const real keep = (2 - e->solver.damping) / (2 + e->solver.damping);
@@ -92,7 +91,7 @@ status grid_relaxation_step(struct engine *e, bool *done)
 {
     TRY(engine_step(e));
     TRY(engine_stability_check(e));
-    if (e->step % LOOK_STEPS == 0) look(e, done);
-    slow_down(e);
+    if (e->clock.step % ESTIMATE_STEPS == 0) estimate(e, done);
+    damp_velocities(e);
     return OK;
 }

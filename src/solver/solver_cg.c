@@ -3,6 +3,7 @@
  * counts a particle on a plane of symmetry by half: the other half belongs to the body beyond the plane. */
 #include <math.h>
 
+#include "base/team.h"
 #include "solver_parts.h"
 
 #define CHECK_STEPS 50              /* steps between evaluations of the true residual, which gives the reactions, too */
@@ -43,62 +44,58 @@ static void residual_block(const void *context, int64_t first, int64_t end, real
 }
 
 /* Stiffness of the whole body at unit strain: sum E V [J]. */
-static real unit_energy(const struct engine *e)
+static real unit_energy(const struct static_body *body)
 {
+    const struct particles *p = body->part;
     real sum = 0;
-    for (int64_t i = 0; i < e->part.n; i++)
-        sum += e->scene->material[e->part.material[i]].young * e->part.volume0[i];
+    for (int64_t i = 0; i < p->n; i++) sum += body->material[p->material[i]].young * p->volume0[i];
     return sum;
 }
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
 /* part.f = b - K u. Reactions on constrained components are measured, then removed. */
-static void true_residual(struct engine *e)
+static void true_residual(struct solver *s, const struct static_body *body)
 {
-    struct solver *s = &e->solver;
-    struct particles *p = &e->part;
+    struct particles *p = body->part;
     real energy;
-    solver_tangent(e, &s->u, &s->q, s->u_ratio);
+    solver_tangent(body, &s->u, &s->q, s->u_ratio);
     team_sums(s->n, 1, energy_block, s, &energy);
-    if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(e)) / solver_largest(&s->u, s->dim, s->n);
+    if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(body)) / solver_largest(&s->u, s->dim, s->n);
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->f[d][i] = -s->q.of[d][i];
-    loads_static_force(&e->loads, p);
-    solver_measure(e);
-    loads_static_hold(&e->loads, p);
+    loads_static_force(body->loads, p);
+    solver_measure(s, p);
+    loads_static_hold(body->loads, p);
 }
 
 /* r = part.f, and a new search direction. */
-static void restart(struct engine *e)
+static void restart(struct solver *s, const struct particles *p)
 {
-    struct solver *s = &e->solver;
     real sum[2];
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < s->n; i++) {
-            s->r.of[d][i] = is_constrained(s, i, d) ? 0 : e->part.f[d][i];
+            s->r.of[d][i] = is_constrained(s, i, d) ? 0 : p->f[d][i];
             s->d.of[d][i] = s->r.of[d][i] / s->diagonal[i];
         }
     team_sums(s->n, 2, residual_block, s, sum);
     s->rz = sum[0];
 }
 
-static void solver_cg_start(struct engine *e)
+static void solver_cg_start(struct solver *s, const struct static_body *body)
 {
-    struct solver *s = &e->solver;
+    const struct particles *p = body->part;
     for (int d = 0; d < s->dim; d++)
-        for (int64_t i = 0; i < s->n; i++)
-            s->u.of[d][i] = e->part.x[d][i] - e->part.X[d][i] + s->driven.of[d][i];
-    s->strain_ratio = s->u_ratio = 1 / e->scene->spacing;
+        for (int64_t i = 0; i < s->n; i++) s->u.of[d][i] = p->x[d][i] - p->X[d][i] + s->driven.of[d][i];
+    s->strain_ratio = s->u_ratio = 1 / body->spacing;
     s->least = INFINITY;
-    true_residual(e);
-    restart(e);
+    true_residual(s, body);
+    restart(s, p);
 }
 
 /* u += alpha d, r -= alpha K d; returns r . r. */
-static real solver_cg_advance(struct engine *e, real alpha)
+static real solver_cg_advance(struct solver *s, real alpha)
 {
-    struct solver *s = &e->solver;
     real sum[2];
     for (int d = 0; d < s->dim; d++) {
 #pragma omp parallel for schedule(static)
@@ -118,54 +115,50 @@ static real solver_cg_advance(struct engine *e, real alpha)
 }
 
 /* x = X + u, and the bond forces there, which energies and stresses of state-based models use. */
-static void solver_cg_place(struct engine *e)
+static void solver_cg_place(const struct solver *s, const struct static_body *body)
 {
-    struct particles *p = &e->part;
+    struct particles *p = body->part;
     for (int d = 0; d < p->dim; d++)
-        for (int64_t i = 0; i < p->n; i++) p->x[d][i] = p->X[d][i] + e->solver.u.of[d][i];
-    solver_bond_force(e);
+        for (int64_t i = 0; i < p->n; i++) p->x[d][i] = p->X[d][i] + s->u.of[d][i];
+    solver_bond_force(body);
 }
 
 /* *done if the true residual is small enough. Where the residual of the recurrence (`by_recurrence` [N]) has drifted
  * off it by round-off, the iteration restarts; FAILED after STALLS_MOST restarts without gain. */
-static status check(struct engine *e, real by_recurrence, bool *done)
+static status check(struct solver *s, const struct static_body *body, int64_t step, real by_recurrence, bool *done)
 {
-    struct solver *s = &e->solver;
-    true_residual(e);
-    *done = s->residual <= e->scene->solver_tolerance;
-    if (*done) solver_cg_place(e);
+    true_residual(s, body);
+    *done = s->residual <= body->tolerance;
+    if (*done) solver_cg_place(s, body);
     if (*done || s->residual * s->scale <= 2 * by_recurrence) return OK;
     s->stalls = s->residual < 0.5 * s->least ? 0 : s->stalls + 1;
     s->least = real_min(s->least, s->residual);
-    restart(e);
+    restart(s, body->part);
     if (s->stalls < STALLS_MOST) return OK;
     return status_set(FAILED,
                       "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
                       "wanted; choose a larger solver_tolerance (below 1e-8 it is round-off), or see whether "
                       "moments of the loads are balanced",
-                      (long long)e->step, s->least, e->scene->solver_tolerance);
+                      (long long)step, s->least, body->tolerance);
 }
 
-status cg_step(struct engine *e, bool *done)
+status cg_step(struct solver *s, const struct static_body *body, int64_t step, bool *done)
 {
-    struct solver *s = &e->solver;
     real curvature;
-    if (e->step == 0) {
-        solver_cg_start(e);
-        if (s->rz == 0) return check(e, 0, done);
+    if (step == 0) {
+        solver_cg_start(s, body);
+        if (s->rz == 0) return check(s, body, step, 0, done);
     }
-    solver_tangent(e, &s->d, &s->q, s->strain_ratio);
-    lap(&e->laps, LAP_BONDS);
+    solver_tangent(body, &s->d, &s->q, s->strain_ratio);
     team_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
         return status_set(FAILED, "conjugate gradients at step %lld: the body gives way without a force; is every "
-                                  "part of it held, or bonded to one that is?", (long long)e->step);
-    s->strain_ratio = sqrt(curvature / unit_energy(e)) / solver_largest(&s->d, s->dim, s->n);
-    const real left = sqrt(solver_cg_advance(e, s->rz / curvature));
+                                  "part of it held, or bonded to one that is?", (long long)step);
+    s->strain_ratio = sqrt(curvature / unit_energy(body)) / solver_largest(&s->d, s->dim, s->n);
+    const real left = sqrt(solver_cg_advance(s, s->rz / curvature));
     s->residual = left / s->scale;
-    lap(&e->laps, LAP_WATCH);
-    const bool claimed = left <= 0.9 * e->scene->solver_tolerance * s->scale;
-    if (claimed || e->step % CHECK_STEPS == CHECK_STEPS - 1)
-        return check(e, left, done);
+    const bool claimed = left <= 0.9 * body->tolerance * s->scale;
+    if (claimed || step % CHECK_STEPS == CHECK_STEPS - 1)
+        return check(s, body, step, left, done);
     return OK;
 }

@@ -1,0 +1,279 @@
+/* Samples: the lines of history.csv. The energies of t_n lie between the forces and the motion of a step, the kinetic
+ * energy between the velocities before and after it, so that a sample is taken in three parts. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "engine_report.h"
+
+/* ---- columns ----------------------------------------------------------------------------------------------------- */
+
+enum { RECORD_FIXED = 22 };
+
+static const struct column fixed_columns[RECORD_FIXED] = {
+    {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
+    {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
+    {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
+    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}, {"mpm_share", ""},
+    {"rest_share", ""}};
+
+/* Mean inactive share of the body over the steps since the last sample; 0 where there was none. */
+static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
+{
+    const int64_t steps = clock->step - report->sampled.step;
+    const real share = steps > 0 ? (report->inactive - report->sampled.inactive) / (real)steps : 0;
+    report->sampled.inactive = report->inactive, report->sampled.step = clock->step;
+    return share;
+}
+
+/* Fills one line of history.csv, the record [RECORD_FIXED + columns of probes]. */
+static void fill_record(struct engine *e)
+{
+    const struct energy_balance *l = &e->diagnostics.now;
+    const struct energy *u = &l->energy;
+    const struct tip *tip = tips_longest(&e->fracture.tips);
+    real *r = e->report.record;
+    const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
+    const int dim = e->part.dim;
+    const real n = (real)e->part.n, pd = (real)e->part.n_of[KIND_PD];
+    const real fixed[RECORD_FIXED] = {
+        l->time, (real)e->clock.step, u->kinetic, u->strain, u->plastic, u->fracture, l->external_work,
+        l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
+        (real)e->bonds.n, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN, dim > 2 ? place[2] : NAN,
+        u->damped, (real)e->part.n_of[KIND_MPM] / n, inactive_since_sample(&e->clock, &e->report)};
+    memcpy(r, fixed, sizeof fixed);
+    for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
+}
+
+status engine_history_start(struct probing *probing, struct run_report *report, bool resume)
+{
+    const int columns = RECORD_FIXED + probing->probes.columns;
+    report->record = NEW("report.record", columns, real);
+    if (!report->out) return OK;
+    struct column *column = NEW("report.columns", columns, struct column);
+    memcpy(column, fixed_columns, sizeof fixed_columns);
+    for (int c = 0; c < probing->probes.columns; c++) column[RECORD_FIXED + c] = probing->probes.column[c];
+    status s = output_history_open(report->out, column, columns, resume);
+    memory_free(column);
+    return s;
+}
+
+/* ---- samples ----------------------------------------------------------------------------------------------------- */
+
+/* True if a probe uses stresses of peridynamic particles, which are computed only then. */
+static bool wants_stress(const struct scene *s)
+{
+    for (int k = 0; k < s->probes; k++) {
+        const struct probe_request *q = &s->probe[k];
+        if (q->kind == PROBE_POINT || q->kind == PROBE_RIGID) return true;
+        if (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE) return true;
+    }
+    return false;
+}
+
+/* State precompute is anew at the current positions: a step moves particles after its forces, so that stresses in a
+ * turning body would else include the rotation of a step. */
+void engine_stress(struct engine *e)
+{
+    states_precompute(&e->bonds, &e->part, &e->source);
+    e->kernels.bond_stress(&e->bonds, &e->part);
+}
+
+void engine_sync(struct engine *e)
+{
+    engine_mesh_sync(e);
+    engine_stress(e);
+}
+
+/* Updates the points of a mesh for probes of the motion of particles; damage and bonds are always up to date. */
+static void sync_probes(struct engine *e)
+{
+    bool motion = false;
+    for (int k = 0; k < e->scene->probes; k++) {
+        const enum probe_kind kind = e->scene->probe[k].kind;
+        motion |= kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION && kind != PROBE_GROWTH;
+    }
+    if (motion) engine_mesh_sync(e);
+}
+
+static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
+{
+    return diagnostics_kinetic(p) + mesh_kinetic(&reference->mesh);
+}
+
+/* Samples all quantities but energies: stress, momentum, tips, probes. */
+static void sample_state(struct engine *e)
+{
+    if (wants_stress(e->scene)) engine_stress(e);
+    diagnostics_momentum(&e->diagnostics, &e->part, &e->reference.mesh.grid, e->loads.impulse);
+    tips_sample(&e->fracture.tips, &e->part, &e->cells, e->clock.t);
+    struct observed o = engine_observed(e);
+    probes_sample(&e->probing.probes, &o);
+}
+
+/* Energies of a sample at the current positions, but the kinetic energy [J]. */
+static void sample_energies(struct engine *e)
+{
+    const struct material *m = e->scene->material;
+    e->report.sampling.energy = (struct energy){
+        .strain = e->kernels.bond_energy(&e->bonds, &e->part) + diagnostics_strain(&e->part, m, &e->coupling.partial) +
+                  mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain),
+        .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling.partial),
+        .fracture = bonds_fracture_energy(&e->bonds),
+        .damped = e->coupling.damped,
+    };
+}
+
+/* Completes a sample and writes its line. t_velocity: time of the current velocities [s]; kinetic, work [J]. */
+static void sample_write(struct engine *e, real t_velocity, real kinetic, real work)
+{
+    struct sampling *sampling = &e->report.sampling;
+    sync_probes(e);
+    struct observed o = engine_observed(e);
+    probes_sample_end(&e->probing.probes, &o, t_velocity);
+    sampling->energy.kinetic = kinetic;
+    const struct energy *u = &sampling->energy;
+    e->stability.lost = !isfinite(kinetic + u->strain + u->plastic + u->fracture + u->damped + work);
+    if (e->stability.lost) return;               /* engine_energy_check reports it; nothing is written */
+    diagnostics_balance(&e->diagnostics, e->clock.t, &sampling->energy, work);
+    fill_record(e);
+    if (e->report.out && e->report.history_status == OK)
+        e->report.history_status = output_history(e->report.out, e->report.record);
+}
+
+/* Keeps the velocities before a step: forces on the grid appear at points only as a change of their velocity. */
+static void keep_velocities(struct sampling *sampling, const struct particles *p, enum coupling kind)
+{
+    if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;
+    for (int d = 0; d < p->dim; d++) {
+        if (!sampling->before[d]) sampling->before[d] = BARE("report.before", p->n, real);
+        memcpy(sampling->before[d], p->v[d], (size_t)p->n * sizeof(real));
+    }
+}
+
+/* Excess of the mean of the kinetic energies before and after a step over 1/2 m v_before . v_after [J]
+ * (diagnostics_kick). */
+static real kick_now(const struct engine *e)
+{
+    const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling.kind);
+    const real dt = e->mpm.transfer.dt_velocity;
+    return diagnostics_kick(&e->part, grid ? e->report.sampling.before : NULL, dt) + mesh_kick(&e->reference.mesh, dt);
+}
+
+void engine_sample_begin(struct engine *e)
+{
+    struct sampling *sampling = &e->report.sampling;
+    sampling->due = engine_sample_due(e->scene, &e->clock);
+    sampling->work = e->loads.work;
+    sampling->constraint_work = e->loads.constraint_work;
+    if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
+    sync_probes(e);
+    if (sampling->due) sample_state(e);
+    else if (wants_stress(e->scene)) engine_stress(e);
+    struct observed o = engine_observed(e);
+    probes_keep(&e->probing.probes, &o);
+    keep_velocities(sampling, &e->part, e->coupling.kind);
+    sampling->kinetic = kinetic_now(&e->part, &e->reference);
+}
+
+void engine_sample_energy(struct engine *e)
+{
+    if (e->report.sampling.due) sample_energies(e);
+}
+
+/* True if a boundary drives particles at a speed, so that velocities jump in the first step. */
+static bool sets_out(const struct scene *s)
+{
+    bool drives = false;
+    for (int b = 0; b < s->boundaries; b++)
+        drives |=
+            s->boundary[b].kind == BOUNDARY_VELOCITY && dot(s->boundary[b].value, s->boundary[b].value, s->dim) > 0;
+    return drives;
+}
+
+/* Twice the excess of the start [J]: leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the
+ * start. 0 where the first step changes velocities by more than forces do and the two cannot be separated: with APIC,
+ * and for points beside driven ones. */
+static real start_excess(const struct engine *e)
+{
+    const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !sets_out(e->scene));
+    return kept ? 2 * kick_now(e) : 0;
+}
+
+void engine_sample_end(struct engine *e)
+{
+    struct sampling *sampling = &e->report.sampling;
+    if (!sampling->due) return;
+    if (e->clock.step == 0) {                /* velocities of t = 0, not of half a step before; nothing is damped yet */
+        sampling->energy.damped = 0;
+        sample_write(e, e->clock.t + 0.5 * e->clock.dt, sampling->kinetic, sampling->work);
+        e->diagnostics.energy_start -= start_excess(e);
+        return;
+    }
+    real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, &e->reference)) - kick_now(e);
+    sample_write(e, e->clock.t + 0.5 * e->clock.dt, kinetic,
+                 sampling->work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
+}
+
+void engine_sample_rest(struct engine *e)
+{
+    sample_state(e);
+    sample_energies(e);
+    sample_write(e, e->clock.t, 0, 0);
+}
+
+/* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; serial, as calls are few. */
+static real power_now(const struct particles *p, const struct reference_frame *reference)
+{
+    const struct grid *g = &reference->mesh.grid;
+    real power = 0;
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) power += p->v[d][i] * p->f[d][i];
+    }
+    for (int64_t I = 0; I < g->n && reference->mesh.points > 0; I++)
+        for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
+    return power;
+}
+
+/* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of
+ * loads are restored. *held: work of walls of the grid in that step [J]; the work of driven particles and of nodes of a
+ * mesh is part of the power. */
+static real power_last(struct engine *e, real *held)
+{
+    const struct loads account = e->loads;
+    struct load *own = BARE("report.load", e->loads.n, struct load);
+    if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
+    loads_clear(&e->loads, &e->part);
+    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
+    loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, e->clock.dt);
+    if (e->reference.mesh.points > 0) engine_nodes_force(e);
+    const real power = power_now(&e->part, &e->reference) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);
+    *held = e->loads.constraint_work - account.constraint_work;
+    if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
+    memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
+    e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
+    memory_free(own);
+    return power;
+}
+
+/* The last sample. No force follows the last step: kinetic energy is 1/2 m v- . v+, as in all samples before, with v+
+ * after the kick of the forces at the end. */
+void engine_sample_last(struct engine *e)
+{
+    real held = 0;
+    states_precompute(&e->bonds, &e->part, &e->source);
+    engine_mesh_sync(e);                         /* callers may read the particles from here on */
+    sample_state(e);
+    sample_energies(e);
+    real kinetic = kinetic_now(&e->part, &e->reference);
+    if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * e->clock.dt * power_last(e, &held);
+    sample_write(e, e->clock.t - 0.5 * e->clock.dt, kinetic, e->loads.work + e->loads.constraint_work + 0.5 * held);
+}
+
+void engine_breaks(struct engine *e, int64_t broken)
+{
+    if (broken > 0) diagnostics_breaks(&e->diagnostics, &e->part, broken, e->clock.t);
+    struct observed o = engine_observed(e);
+    probes_step(&e->probing.probes, &o);
+}

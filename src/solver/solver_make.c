@@ -1,0 +1,237 @@
+/* Static solvers before their first step: constraints, preconditioner, norm of the loads; and their archive. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/eigenvalue.h"
+#include "base/memory.h"
+#include "base/team.h"
+#include "solver_parts.h"
+
+/* Largest moment of loads, relative to what they could make, that scattered particles explain. */
+#define TURNING_MOST 0.05
+
+static void field_make(struct field *v, int dim, int64_t n)
+{
+    for (int d = 0; d < dim; d++) v->of[d] = NEW("solver.field", n, real);
+}
+
+static void field_free(struct field *v)
+{
+    for (int d = 0; d < DIM_MAX; d++) memory_free(v->of[d]);
+}
+
+/* What solver_scaled_stiffness works on. */
+struct scaled { struct solver *solver; const struct static_body *body; };
+
+/* y = Lambda^-1/2 K Lambda^-1/2 x, both [dim n]; `before` and v are scratch arrays. */
+static void solver_scaled_stiffness(void *context, const real *x, real *y)
+{
+    const struct scaled *scaled = context;
+    struct solver *s = scaled->solver;
+    struct particles *p = scaled->body->part;
+    struct field out = {{p->v[0], p->v[1], p->v[2]}};
+    const int64_t n = p->n;
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = 0; i < n; i++) s->before.of[d][i] = x[d * n + i] / sqrt(s->diagonal[i]);
+    solver_tangent(scaled->body, &s->before, &out, 1 / scaled->body->spacing);
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t i = 0; i < n; i++) y[d * n + i] = out.of[d][i] / sqrt(s->diagonal[i]);
+}
+
+#define MARGIN_OF_EIGENVALUE 1.02        /* the iteration converges from below */
+
+/* Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci 2010), of the bonds as springs; scaled up by the largest
+ * eigenvalue where the model is stiffer than its springs. */
+static void make_diagonal(struct solver *s, const struct static_body *body)
+{
+    struct particles *p = body->part;
+    const struct bonds *b = body->bonds;
+    real most = 0;
+    struct field kept = {{0}};
+    for (int64_t r = 0; r < b->rows; r++) {
+        s->diagonal[b->particle[r]] = 0.25 * bonds_row_bound(b, p, r);
+        most = real_max(most, s->diagonal[b->particle[r]]);
+    }
+    for (int64_t i = 0; i < p->n; i++)
+        if (s->diagonal[i] < 1e-6 * most || most == 0) s->diagonal[i] = most > 0 ? 1e-6 * most : 1;
+    field_make(&kept, p->dim, p->n);
+    for (int d = 0; d < p->dim; d++) memcpy(kept.of[d], p->x[d], (size_t)p->n * sizeof(real));
+    struct scaled scaled = {s, body};
+    const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, solver_scaled_stiffness, &scaled) / 4;
+    for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
+    for (int d = 0; d < p->dim; d++) memcpy(p->x[d], kept.of[d], (size_t)p->n * sizeof(real));
+    solver_bond_force(body);              /* energies of state-based models use it */
+    for (int d = 0; d < p->dim; d++) {
+        memset(p->v[d], 0, (size_t)p->n * sizeof(real));
+        memset(p->f[d], 0, (size_t)p->n * sizeof(real));
+    }
+    field_free(&kept);
+}
+
+/* Weights and constraints of particles on planes of symmetry: no force takes them off the plane, and only half of each
+ * belongs to the body. */
+static void make_weights(struct solver *s, const struct static_body *body)
+{
+    const struct particles *p = body->part;
+    for (int64_t i = 0; i < p->n; i++) s->weight[i] = 1;
+    for (int b = 0; b < body->loads->n; b++) {
+        const struct boundary *m = body->loads->load[b].boundary;
+        for (int64_t i = 0; m->kind == BOUNDARY_MIRROR && i < p->n; i++) {
+            if (fabs(p->X[m->axis][i] - m->at) > ON_SURFACE * body->spacing) continue;
+            if (m->body >= 0 && p->body[i] != m->body) continue;
+            s->weight[i] *= 0.5;
+            s->held[i] |= (uint8_t)(m->hold_tangential ? (1 << DIM_MAX) - 1 : 1 << m->axis);
+        }
+    }
+}
+
+/* Steps in which supports reach their place. Relaxation spreads by one spacing per step at the most: over as many steps
+ * as the body has spacings, supports strain bonds about as much as the body. */
+static int64_t supports_ramp(const struct solver *s, const struct static_body *body)
+{
+    const real most = solver_largest(&s->driven, s->dim, s->n);
+    return most > 0 ? 1 + (int64_t)(particles_longest(body->part) / body->spacing) : 0;
+}
+
+/* Norm of the applied forces on free components, s->applied [N]. */
+static void make_applied(struct solver *s, const struct static_body *body)
+{
+    struct particles *p = body->part;
+    real norm[2];
+    for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
+    loads_static_force(body->loads, p);
+    solver_norms(s, p, norm);
+    s->applied = norm[0];
+    for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
+}
+
+/* Norm of the forces that the round-off of positions makes in a body at rest [N], with a margin of ten. */
+static void make_noise(struct solver *s, const struct particles *p)
+{
+    real sum = 0;
+    for (int64_t i = 0; i < s->n; i++)
+        for (int d = 0; d < s->dim; d++) sum += square(s->diagonal[i] * p->X[d][i] * DBL_EPSILON);
+    s->noise = 10 * sqrt(sum);
+}
+
+/* True if a support or a plane of symmetry constrains component d of any particle. */
+static bool component_constrained(const struct loads *l, int d)
+{
+    for (int b = 0; b < l->n; b++) {
+        const struct boundary *c = l->load[b].boundary;
+        if (c->kind == BOUNDARY_VELOCITY && (c->components >> d & 1)) return true;
+        if (c->kind == BOUNDARY_MIRROR && (c->axis == d || c->hold_tangential)) return true;
+    }
+    return false;
+}
+
+/* REFUSED for applied forces along d that are neither balanced nor carried by supports. */
+static status force_balanced(const struct loads *loads, int d)
+{
+    real sum = 0, size = 0;
+    for (int b = 0; b < loads->n; b++) {
+        const struct load *l = &loads->load[b];
+        if (l->boundary->kind != BOUNDARY_TRACTION && l->boundary->kind != BOUNDARY_BODY_FORCE) continue;
+        for (int64_t k = 0; k < l->n; k++) {
+            sum += l->share[d][k] * l->boundary->value[d];
+            size += fabs(l->share[d][k] * l->boundary->value[d]);
+        }
+    }
+    if (fabs(sum) <= 1e-9 * size || component_constrained(loads, d)) return OK;
+    return status_set(REFUSED,
+                      "nothing holds the body along %c against an applied force of %.4g N; balance the loads, or hold "
+                      "that component somewhere",
+                      "xyz"[d], sum);
+}
+
+/* REFUSED for loads without equilibrium. Moments are those of one plane body that no support touches. */
+static status loads_balanced(const struct static_body *body)
+{
+    struct loads *l = body->loads;
+    for (int d = 0; d < body->part->dim; d++) TRY(force_balanced(l, d));
+    if (body->part->dim != 2 || body->bodies != 1 || component_constrained(l, 0) || component_constrained(l, 1))
+        return OK;
+    const real turning = loads_static_balance(l, body->part);
+    if (turning <= TURNING_MOST) return OK;
+    return status_set(REFUSED,
+                      "nothing keeps the body from turning under loads whose moment is %.3g of what they could make; "
+                      "balance the loads, or hold the body somewhere",
+                      turning);
+}
+
+status solver_make(struct solver *s, const struct static_body *body, real ramp_time)
+{
+    struct particles *p = body->part;
+    s->n = p->n, s->dim = p->dim;
+    s->residual = INFINITY;
+    s->ramp_time = ramp_time;
+    s->held = NEW("solver.held", s->n, uint8_t);
+    for (int d = 0; d < s->dim; d++) memset(p->v[d], 0, (size_t)s->n * sizeof(real));
+    field_make(&s->driven, s->dim, s->n);
+    loads_static_driven(body->loads, p, s->ramp_time, s->driven.of, s->held);
+    TRY(loads_balanced(body));
+    make_applied(s, body);
+    return OK;
+}
+
+void solver_iteration_make(struct solver *s, const struct static_body *body, bool conjugate_gradients)
+{
+    s->weight = NEW("solver.weight", s->n, real);
+    s->diagonal = NEW("solver.diagonal", s->n, real);
+    field_make(&s->before, s->dim, s->n);
+    make_weights(s, body);
+    make_diagonal(s, body);
+    make_noise(s, body->part);
+    s->ramp = supports_ramp(s, body);
+    if (!conjugate_gradients) return;
+    field_make(&s->u, s->dim, s->n);
+    field_make(&s->r, s->dim, s->n);
+    field_make(&s->d, s->dim, s->n);
+    field_make(&s->q, s->dim, s->n);
+}
+
+void solver_free(struct solver *s)
+{
+    memory_free(s->held);
+    memory_free(s->weight);
+    memory_free(s->diagonal);
+    field_free(&s->driven);
+    field_free(&s->before);
+    field_free(&s->u);
+    field_free(&s->r);
+    field_free(&s->d);
+    field_free(&s->q);
+    *s = (struct solver){0};
+}
+
+static status field_archive(const struct field *v, struct archive *a, const char *name, const struct solver *s)
+{
+    for (int d = 0; d < s->dim; d++) {
+        char entry[48];
+        snprintf(entry, sizeof entry, "solver/%s%d", name, d);
+        TRY(a->exchange(a, entry, v->of[d], (size_t)s->n * sizeof(real)));
+    }
+    return OK;
+}
+
+status solver_archive(struct solver *s, struct archive *a)
+{
+    if (!s->held) return OK;             /* an explicit run */
+    ARCHIVE_VALUE(a, "solver/residual", s->residual);
+    ARCHIVE_VALUE(a, "solver/scale", s->scale);
+    ARCHIVE_VALUE(a, "solver/first", s->first);
+    ARCHIVE_VALUE(a, "solver/way", s->way);
+    ARCHIVE_VALUE(a, "solver/damping", s->damping);
+    ARCHIVE_VALUE(a, "solver/past_limit", s->past_limit);
+    if (!s->u.of[0]) return OK;
+    ARCHIVE_VALUE(a, "solver/rz", s->rz);
+    ARCHIVE_VALUE(a, "solver/strain_ratio", s->strain_ratio);
+    ARCHIVE_VALUE(a, "solver/u_ratio", s->u_ratio);
+    ARCHIVE_VALUE(a, "solver/least", s->least);
+    ARCHIVE_VALUE(a, "solver/stalls", s->stalls);
+    TRY(field_archive(&s->u, a, "u", s));
+    TRY(field_archive(&s->r, a, "r", s));
+    return field_archive(&s->d, a, "d", s);
+}
