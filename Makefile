@@ -85,7 +85,7 @@ $(BUILD)/fuzz/%.o: %.c Makefile
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(FUZZED) $(LIBFLAGS) -MMD -MP -c -o $@ $<
 $(BUILD)/fuzz/src/auto/cost_accuracy.o: $(BUILD)/cost_accuracy_text.h
 $(BUILD)/fuzz/fuzz: $(BUILD)/tests/robustness/fuzz.o $(patsubst %.c,$(BUILD)/fuzz/%.o,$(wildcard tests/robustness/fuzz_*.c) \
-                    $(filter-out src/app/main.c,$(wildcard src/*.c))) $(filter $(BUILD)/kernels/% $(BUILD)/bench/%,$(OBJECTS))
+                    $(filter-out src/app/main.c,$(wildcard src/*/*.c))) $(filter $(BUILD)/kernels/% $(BUILD)/bench/%,$(OBJECTS))
 	$(Q)$(CC) $(CFLAGS) $(FUZZED) -o $@ $^ $(LIBS)
 
 # The main job: installs what is missing, builds, breaks a steel plate, draws it.

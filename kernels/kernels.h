@@ -80,7 +80,7 @@ struct pd_motion {
 /* Force of all intact bonds on the particle of every active row (active_set.h; overwrites f there), then breaks
  * bonds that are stretched beyond their limit. A bond acts with half its force in the step in which it breaks: a
  * leap-frog kick stands half before and half after that instant, so the energy of breaking is second order in the
- * time step (first order with the whole force or none). Sets FLAG_CUT (and FLAG_CRACKED where neither end is
+ * time step (first order with the whole force or none). Sets FLAG_LOST_BOND (and FLAG_CRACKED where neither end is
  * driven), damage, broken counts and fracture energy. Reads 4 bytes per bond from memory on a lattice, 12 where
  * weights differ, 16 or 24 elsewhere (bond_column.h); positions come from cache. Returns the directed bonds broken.
  * With `motion` active peridynamic particles that the grid does not move and that are not `loaded` move in the same
@@ -218,7 +218,7 @@ KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, co
 KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p));
 /* Cauchy stress and volume of all points of the mesh. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
-/* FLAG_STRESSED for points past their trigger, in the cut cells and runs that mesh_force marked. */
+/* FLAG_STRESSED for points past their trigger, in the partial cells and runs that mesh_force marked. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 
 /* Sum of 1/2 m v^2 of the nodes, and of 1/4 (dt f)^2/m [J]. */

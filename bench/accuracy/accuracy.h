@@ -75,7 +75,7 @@ struct accuracy_problem {
     const char *error;           /* what the error is, in words                              */
     const char *part[ACCURACY_PARTS];            /* what it is split into; NULL: nothing     */
     bool draws_parts;            /* they have panels, of the worst of all cases              */
-    const char *cases[ACCURACY_CASES];           /* a chart has a panel for each; NULL ends  */
+    const char *cases[ACCURACY_CASES];           /* a table has a panel for each; NULL ends  */
     const char *counts;          /* what its resolutions count                               */
     int families;                /* that apply                                               */
     int dim;                     /* of its space: how work grows with resolution             */
@@ -129,14 +129,14 @@ struct accuracy_result {
     char settings[20];           /* of scene and machine, as a number                        */
 };
 
-/* A point of the whole chart and what is known of it. */
+/* A point of the whole table and what is known of it. */
 struct accuracy_entry {
     struct accuracy_point point;
     struct accuracy_result result;
-    bool quick;                  /* belongs to the short chart, too                          */
+    bool quick;                  /* belongs to the short table, too                          */
 };
 
-/* accuracy_plan.c: every point of the whole chart, and the scene that it is. */
+/* accuracy_plan.c: every point of the whole table, and the scene that it is. */
 struct accuracy_plan { int n, room; struct accuracy_entry *entry; struct machine machine; };
 status accuracy_plan_make(struct accuracy_plan *plan);
 void accuracy_plan_free(struct accuracy_plan *plan);
@@ -154,14 +154,14 @@ void accuracy_result_clear(struct accuracy_result *r);
 status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team,
                           struct accuracy_result *r, struct scene_choice *choice);
 #define ACCURACY_AUTO BENCH_FOLDER "/accuracy_auto.csv"
-/* accuracy_auto.c: `cleave bench accuracy=auto`: method auto on every case of the chart and on other problems. */
+/* accuracy_auto.c: `cleave bench accuracy=auto`: method auto on every case of the table and on other problems. */
 status accuracy_auto(struct accuracy_plan *plan, bool quick);
-/* accuracy_others.c: problems with known solutions that are not in the chart. */
+/* accuracy_others.c: problems with known solutions that are not in the table. */
 extern const struct accuracy_problem *const accuracy_other[];
 extern const int accuracy_others;
 
-/* accuracy_chart.c: results/bench/chart.csv, from which `method: auto` chooses. */
-status accuracy_chart_write(const struct accuracy_plan *plan);
+/* accuracy_table.c: results/bench/cost_accuracy.csv, from which `method: auto` chooses. */
+status accuracy_table_write(const struct accuracy_plan *plan);
 
 /* ---- accuracy_front.c: what a cloud of points says --------------------------------------------------------------- */
 

@@ -1,4 +1,4 @@
-/* `cleave bench accuracy=auto`: `method: auto` on every case of the chart, beside the cheapest run of the
+/* `cleave bench accuracy=auto`: `method: auto` on every case of the table, beside the cheapest run of the
  * chart that is as accurate, both timed here in turn; and on problems that are not in it.
  * results/bench/accuracy_auto.csv. */
 #include <math.h>
@@ -9,7 +9,7 @@
 
 static const double asked[] = {0.05, 0.01, 0.003};
 
-#define RATIO_ASKED 1.5                  /* time over that of the chart's best */
+#define RATIO_ASKED 1.5                  /* time over that of the table's best */
 enum { TURNS_LEAST = 3, TURNS_MOST = 30 };
 #define TURNS_SECONDS 1.5                /* all in all: short runs are repeated for their time */
 
@@ -30,7 +30,7 @@ static bool any_known(const struct accuracy_plan *plan)
 }
 
 /* The problem without a method: what its scene says of one is left out; whatever finds rest may do so. By what was
- * measured here, or where nothing was by the chart of the program. */
+ * measured here, or where nothing was by the table of the program. */
 static void make_auto(const struct accuracy_plan *plan, const struct accuracy_point *p, double accuracy,
                       struct accuracy_scene *s)
 {
@@ -49,12 +49,12 @@ static void make_auto(const struct accuracy_plan *plan, const struct accuracy_po
     bench_override(&s->set, "particles.spacing", "%s", "");
     bench_override(&s->set, "method", "auto");
     bench_override(&s->set, "accuracy", "%.9g", accuracy);
-    if (any_known(plan)) bench_override(&s->set, "accuracy_chart", "%s", BENCH_FOLDER "/chart.csv");
+    if (any_known(plan)) bench_override(&s->set, "accuracy_table", "%s", BENCH_FOLDER "/cost_accuracy.csv");
     bench_override(&s->set, "output.frames", "0");
     bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
 
-/* The cheapest run of the chart in this case that is accurate enough. */
+/* The cheapest run of the table in this case that is accurate enough. */
 static const struct accuracy_entry *best_of(const struct accuracy_plan *plan, const struct accuracy_point *p,
                                             double accuracy)
 {
@@ -177,7 +177,7 @@ status accuracy_auto(struct accuracy_plan *plan, bool quick)
     struct tally sum = {0};
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_store_read(plan));
-    if (any_known(plan)) TRY(accuracy_chart_write(plan));
+    if (any_known(plan)) TRY(accuracy_table_write(plan));
     bench_table_make(&table, "",
                      "problem,case,picked,horizon,resolution,asked,expected,measured,seconds,best_seconds,ratio,"
                      "best");
@@ -186,7 +186,7 @@ status accuracy_auto(struct accuracy_plan *plan, bool quick)
     if (s == OK) s = bench_write("accuracy_auto", &table, 1);
     bench_table_free(&table);
     if (s == OK) s = accuracy_page(plan);
-    printf("  %d asked, %d refused; of the others %d missed; of %d beside the chart's best %d took more than %.2g "
+    printf("  %d asked, %d refused; of the others %d missed; of %d beside the table's best %d took more than %.2g "
            "times its "
            "time\n",
            sum.asked, sum.refused, sum.missed, sum.timed, sum.slow, RATIO_ASKED);

@@ -1,4 +1,4 @@
-/* Problem 1 of the speed-accuracy chart: an elastic bar, a step and a smooth pulse, beside d'Alembert's
+/* Problem 1 of the cost-accuracy table: an elastic bar, a step and a smooth pulse, beside d'Alembert's
  * solution. */
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Problem 5 of the speed-accuracy chart: stress-intensity factors of an edge crack and of an inclined one,
+/* Problem 5 of the cost-accuracy table: stress-intensity factors of an edge crack and of an inclined one,
  * at rest. As inputs/edge_crack_k1.yaml and inputs/inclined_crack.yaml. Solvers as with the hole (accuracy_hole.c).
  * Material points alone know cracks only as gaps, here of one cell, and an inclined one does not follow the lattice.
  * In the current frame they do not apply: beside a gap of two cells relaxation (gimp, apic) was not at rest after

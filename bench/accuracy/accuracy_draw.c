@@ -1,4 +1,4 @@
-/* Pictures of the speed-accuracy chart: a panel for each case of a problem, and one page with all problems.
+/* Pictures of the cost-accuracy table: a panel for each case of a problem, and one page with all problems.
  *
  * A point is a run: its time on one thread, a thin line to that on two. Lines join the resolutions of a method;
  * small marks are other horizons and steps; a cross at the upper edge is a run that was unstable. The broad grey

@@ -1,4 +1,4 @@
-/* Problem 8 of the speed-accuracy chart: the plates of inputs/kalthoff_winkler.yaml and
+/* Problem 8 of the cost-accuracy table: the plates of inputs/kalthoff_winkler.yaml and
  * inputs/plate_crack.yaml: path, start and speed of their cracks beside peridynamics at a quarter of the scenes'
  * spacing (accuracy_reference.h). */
 #include <math.h>

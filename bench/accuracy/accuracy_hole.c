@@ -1,4 +1,4 @@
-/* Problem 4 of the speed-accuracy chart: a square plate with a circular hole, pulled at two edges, at rest.
+/* Problem 4 of the cost-accuracy table: a square plate with a circular hole, pulled at two edges, at rest.
  * Its exact field is a series: complex potentials whose coefficients boundary collocation found (Muskhelishvili
  * 1953).
  *
@@ -100,7 +100,7 @@ static status accuracy_hole_measure(const struct accuracy_point *p, struct engin
     return OK;
 }
 
-/* Where the whole chart would take minutes a point: relaxation. */
+/* Where the whole table would take minutes a point: relaxation. */
 static bool accuracy_hole_applies(const struct accuracy_point *p)
 {
     if (accuracy_is_reference(p)) return true;

@@ -1,4 +1,4 @@
-/* Problem 3 of the speed-accuracy chart: a square and a cube between mirrors, driven along a known motion. */
+/* Problem 3 of the cost-accuracy table: a square and a cube between mirrors, driven along a known motion. */
 #include <math.h>
 #include <stdio.h>
 

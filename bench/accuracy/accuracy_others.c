@@ -72,7 +72,7 @@ static status spall_measure(const struct accuracy_point *p, struct engine *e, do
 
 /* ---- plane ------------------------------------------------------------------------------------------------------- */
 
-/* As the chart's but for their angles, and two for Poisson's ratio. */
+/* As the table's but for their angles, and two for Poisson's ratio. */
 static void wave_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     static const char *const poisson[] = {"1/3", "1/3", "0.1", "0.45"};
@@ -85,7 +85,7 @@ static status wave_measure(const struct accuracy_point *p, struct engine *e, dou
     return accuracy_wave.measure(p, e, error, part);
 }
 
-/* A crack of 15 mm in 30 mm of an alloy of nu = 0.3, a/W = 0.5, H = W as in the chart. */
+/* A crack of 15 mm in 30 mm of an alloy of nu = 0.3, a/W = 0.5, H = W as in the table. */
 static void crack_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     (void)p;
@@ -106,7 +106,7 @@ static status crack_measure(const struct accuracy_point *p, struct engine *e, do
     return OK;
 }
 
-/* The plate of the chart, 40 mm wide with a hole of 4 mm, of a stiffer material. */
+/* The plate of the table, 40 mm wide with a hole of 4 mm, of a stiffer material. */
 static const double hole_radius = 4e-3, hole_young = 70e9, hole_pull = 1e6;
 static void hole_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {

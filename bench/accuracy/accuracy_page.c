@@ -1,4 +1,4 @@
-/* The overview page of the speed-accuracy chart: the cheapest way to 5 %, 1 % and 0.3 % of every problem. */
+/* The overview page of the cost-accuracy table: the cheapest way to 5 %, 1 % and 0.3 % of every problem. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Every point of the speed-accuracy chart: which there are, and the scene of each. */
+/* Every point of the cost-accuracy table: which there are, and the scene of each. */
 #include <stdio.h>
 #include <string.h>
 
@@ -112,7 +112,7 @@ static bool is_here(const struct accuracy_problem *q)
     return !s.path[0] || bench_scene_exists(s.path);
 }
 
-/* Coarse to fine, so that a chart that is broken off shows every case and method. */
+/* Coarse to fine, so that a table that is broken off shows every case and method. */
 status accuracy_plan_make(struct accuracy_plan *plan)
 {
     *plan = (struct accuracy_plan){.machine = team_machine()};

@@ -2,7 +2,7 @@
  * bench accuracy=fracture`, made by `cleave bench accuracy=reference`, which prints these lines (0.4 of the critical
  * step).
  *
- * Particles across the plate: 100, the spacing of the scenes, to 800. The chart's reference are those with 400. What
+ * Particles across the plate: 100, the spacing of the scenes, to 800. The table's reference are those with 400. What
  * 800 says otherwise is how well it is known: of Kalthoff's plate the path by 0.043 rad (2.5 degrees), start 0.8 %,
  * speed 0.3 %, in all 2.5 %; of the pulled plate length 0.8 %, start 0.8 %, speed 4.5 %, in all 2.7 %. Smaller
  * errors mean nothing. */

@@ -1,4 +1,4 @@
-/* Problem 7 of the speed-accuracy chart: a bar spalls behind a plane impact: when and where it breaks. As
+/* Problem 7 of the cost-accuracy table: a bar spalls behind a plane impact: when and where it breaks. As
  * inputs/bar_spall.yaml, in one piece: bodies of bonds alone do not meet others, and in the exact solution nothing
  * pulls at the joint.
  *

@@ -1,4 +1,4 @@
-/* Problem 6 of the speed-accuracy chart: plane waves load a semi-infinite crack suddenly, at rest and
+/* Problem 6 of the cost-accuracy table: plane waves load a semi-infinite crack suddenly, at rest and
  * running at 1000 m/s (Freund 1990). As inputs/semi_infinite_crack.yaml, with the Poisson's ratio that bonds have.
  * Material points alone know the crack only as a gap, and only at rest. */
 #include <math.h>

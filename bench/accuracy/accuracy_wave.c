@@ -1,4 +1,4 @@
-/* Problem 2 of the speed-accuracy chart: plane P and S waves across a square, at three angles to the
+/* Problem 2 of the cost-accuracy table: plane P and S waves across a square, at three angles to the
  * lattice. The waves are endless in their planes; what comes from the edges has not reached the disc where they are
  * compared. */
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "accuracy.h"
 
-/* Those of the chart, and after them those of accuracy_others.c. */
+/* Those of the table, and after them those of accuracy_others.c. */
 enum { WAVES = ACCURACY_CASES + 4 };
 static const struct { double angle; bool transverse; } wave_of[WAVES] = {       /* [degrees] */
     {0, false}, {22.5, false}, {45, false}, {0, true}, {22.5, true}, {45, true}, {30, false}, {12, true}, {22.5, false},

@@ -1,5 +1,5 @@
 /* `cleave bench accuracy`: error against loop time of every method on problems with known solutions. Runs
- * what is not known yet of the chart, point by point, then writes tables, charts and the overview page. */
+ * what is not known yet of the table, point by point, then writes tables, charts and the overview page. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -161,7 +161,7 @@ static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_store_read(plan));
-    return accuracy_chart_write(plan);
+    return accuracy_table_write(plan);
 }
 
 static status accuracy_measure_all(struct accuracy_plan *plan, const char *only, bool quick)
@@ -171,7 +171,7 @@ static status accuracy_measure_all(struct accuracy_plan *plan, const char *only,
     TRY(accuracy_run_all(plan, only, quick));
     team_make(0);
     TRY(accuracy_store_write(plan));
-    TRY(accuracy_chart_write(plan));
+    TRY(accuracy_table_write(plan));
     TRY(accuracy_page(plan));
     return accuracy_draw(plan);
 }

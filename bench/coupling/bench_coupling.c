@@ -19,7 +19,7 @@ const struct coupling_way coupling_way[WAYS] = {
 void coupling_way_override(struct bench_overrides *o, int way)
 {
     bench_override(o, "coupling", "%s", coupling_way[way].coupling);
-    if (coupling_way[way].damping) bench_override(o, "rim_damping", "%s", coupling_way[way].damping);
+    if (coupling_way[way].damping) bench_override(o, "interface_damping", "%s", coupling_way[way].damping);
 }
 
 /* ---- runs of the bar --------------------------------------------------------------------------------------------- */

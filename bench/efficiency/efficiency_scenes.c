@@ -48,12 +48,12 @@ status efficiency_make(struct engine *e, struct scene *s, const struct scene_cas
                                           {"output.samples", samples},
                                           {"model", c->model},
                                           {"mpm.frame", w->frame},
-                                          {"time.rest", w->rest},
+                                          {"time.active_set", w->rest},
                                           {"pd.surface", efficiency_of_bonds(c) ? "volume" : "none"}};
     int n = 6;
     snprintf(step, sizeof step, "%.17g", dt);
     snprintf(samples, sizeof samples, "%d", EFFICIENCY_SAMPLES);
-    if (way > 0) override[n++] = (struct scene_override){"conversion.return", w->back};
+    if (way > 0) override[n++] = (struct scene_override){"conversion.reversion", w->back};
     if (way > 0) override[n++] = (struct scene_override){"conversion.tips", c->tips};
     /* chosen for another surface */
     if (strstr(c->path, "plate_hole")) override[n++] = (struct scene_override){"mpm.origin", ""};

@@ -40,7 +40,7 @@ static status kernels_body_make(struct engine *e, struct scene *s, int dim, cons
              "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmodel: %s\nmaterial: {name: steel, young: 190 GPa, "
              "%sdensity: 7800%s}\n"
              "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
-             "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {rest: false}\n",
+             "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {active_set: false}\n",
              space[dim], method, model, poisson[dim], yields ? ", yield_stress: 1 GPa" : "", corner[dim], size[dim],
              mpm);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));

@@ -20,7 +20,7 @@ struct way {
     struct scene_override override[5];
 };
 
-#define COMMON {"particles.spacing", "0.5mm"}, {"time.rest", "false"}
+#define COMMON {"particles.spacing", "0.5mm"}, {"time.active_set", "false"}
 #define POINTS(SHAPE) COMMON, {"method", "mpm"}, {"mpm.shape", SHAPE}, {"mpm.transfer", "flip"}
 
 enum { WAY_PD, WAY_POINTS, WAY_GIMP, WAY_ADAPTIVE, WAY_PD_SAMPLED, WAY_ADAPTIVE_SAMPLED, WAYS };

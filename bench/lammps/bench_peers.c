@@ -340,9 +340,10 @@ static void print_result(const struct peer_case *c, const struct peer_result *r)
 static status peers_write_table(const struct peer_result *result)
 {
     struct bench_table t;
-    bench_table_make(&t, "",
-                     "case,law,dim,reach,particles,directed_bonds,bonds_cut,ns_per_bond_step,ns_per_bond_step_lammps,"
-                     "time_ratio,difference,damage,damage_lammps");
+    bench_table_make(
+        &t, "",
+        "case,law,dim,reach,particles,directed_bonds,bonds_pre_cut,ns_per_bond_step,ns_per_bond_step_lammps,"
+        "time_ratio,difference,damage,damage_lammps");
     for (int k = 0; k < CASES; k++) {
         const struct peer_result *r = &result[k];
         if (!r->known) continue;

@@ -9,12 +9,12 @@
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-static status sif_job_start(struct factors_job *job, struct bench_child *child, int threads)
+static status sif_job_start(struct sif_bench_job *job, struct bench_child *child, int threads)
 {
     return bench_child_start(child, job->path, bench_overrides_ready(&job->overrides), job->overrides.n, threads);
 }
 
-static status job_end(struct factors_job *job, struct bench_child *child)
+static status job_end(struct sif_bench_job *job, struct bench_child *child)
 {
     TRY(bench_child_wait(child));
     TRY(job->take(job->row, child->folder));
@@ -22,7 +22,7 @@ static status job_end(struct factors_job *job, struct bench_child *child)
     return OK;
 }
 
-status factors_run(struct factors_job *job, int n, int at_once)
+status sif_bench_run(struct sif_bench_job *job, int n, int at_once)
 {
     const int threads = at_once > 1 ? 1 : team_make(0);
     struct bench_child *child = NEW("bench.children", n, struct bench_child);
@@ -39,7 +39,7 @@ status factors_run(struct factors_job *job, int n, int at_once)
     return s;
 }
 
-double factors_figure(const char *folder, const char *key)
+double sif_bench_figure(const char *folder, const char *key)
 {
     double value;
     return summary_number(folder, key, &value) == OK ? value : NAN;
@@ -47,28 +47,28 @@ double factors_figure(const char *folder, const char *key)
 
 /* ---- targets ----------------------------------------------------------------------------------------------------- */
 
-void factors_ask(struct factors_targets *t, double measured, double asked, const char *name, ...)
+void sif_bench_ask(struct sif_bench_targets *t, double measured, double asked, const char *name, ...)
 {
     va_list more;
     assert(t->n < TARGETS_MAX);
-    struct factors_target *new = &t->target[t->n++];
+    struct sif_bench_target *new = &t->target[t->n++];
     va_start(more, name);
     vsnprintf(new->name, sizeof new->name, name, more);
     va_end(more);
     new->measured = measured, new->asked = asked;
 }
 
-static void print_targets(const struct factors_targets *t)
+static void print_targets(const struct sif_bench_targets *t)
 {
     printf("\n  what is asked%-46s %10s %10s\n", "", "measured", "at most");
     for (int k = 0; k < t->n; k++) {
-        const struct factors_target *g = &t->target[k];
+        const struct sif_bench_target *g = &t->target[k];
         printf("  %-59s %8.2f %% %8.2f %%%s\n", g->name, 100 * g->measured, 100 * g->asked,
                g->measured <= g->asked ? "" : "   missed");
     }
 }
 
-static status write_targets(const struct factors_targets *t)
+static status write_targets(const struct sif_bench_targets *t)
 {
     struct bench_table rows;
     bench_table_make(&rows, "", "figure,measured,asked_at_most");
@@ -85,7 +85,7 @@ static status write_targets(const struct factors_targets *t)
 /* Bars of measured over target. */
 static void draw_targets(FILE *to, const void *context)
 {
-    const struct factors_targets *t = context;
+    const struct sif_bench_targets *t = context;
     fputs("$bars << EOD\n", to);
     for (int k = 0; k < t->n; k++)
         fprintf(to, "%d %.6g \"%s\"\n", t->n - k, t->target[k].measured / t->target[k].asked, t->target[k].name);
@@ -111,7 +111,7 @@ static bool scenes_here(void)
 
 status bench_sif(bool quick)
 {
-    struct factors_targets asked = {0};
+    struct sif_bench_targets asked = {0};
     if (!scenes_here())
         return status_set(REFUSED, "bench sif: its scenes are not here; start it where the folder inputs is");
     printf("stress-intensity factors\n");

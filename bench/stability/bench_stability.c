@@ -137,7 +137,7 @@ status bench_stability(bool quick)
         stability_put_table(&t[0], map);
         s = stability_scenes(&t[1]);
     }
-    if (s == OK) s = lasting_map(&t[2], NULL, quick);
+    if (s == OK) s = drift_map(&t[2], NULL, quick);
     if (s == OK) {
         s = bench_write("stability", t, 3);
         if (!quick)
@@ -146,7 +146,7 @@ status bench_stability(bool quick)
     }
     if (s == OK) s = bench_draw("stability", 1800, 1150, stability_draw, map);
     if (s == OK) s = stability_scenes_draw(&t[1]);
-    if (s == OK) s = lasting_draw(&t[2]);
+    if (s == OK) s = drift_draw(&t[2]);
     for (int k = 0; k < 3; k++) bench_table_free(&t[k]);
     memory_free(map);
     return s;
@@ -157,9 +157,9 @@ status bench_stability_of(const char *only, bool quick)
     struct bench_table t = {0};
     const bool all = !strcmp(only, "lasting");
     bench_print_machine(1);
-    status s = lasting_map(&t, all ? NULL : only, quick);
+    status s = drift_map(&t, all ? NULL : only, quick);
     if (s == OK && all) s = bench_write("stability", &t, 1);
-    if (s == OK && all) s = lasting_draw(&t);
+    if (s == OK && all) s = drift_draw(&t);
     bench_table_free(&t);
     return s;
 }

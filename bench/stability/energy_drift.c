@@ -13,16 +13,16 @@ struct mapping_of { struct bench_table *t; const char *only; int64_t steps; int 
 
 static const char *promise_of(const struct lasting *r) { return r->keeps ? "kept" : "not exceeded"; }
 
-static const char *verdict_of(const struct lasting_case *l, const struct lasting *r)
+static const char *verdict_of(const struct drift_case *l, const struct lasting *r)
 {
-    return r->refused ? "refused" : lasting_holds(l, r) ? "holds" : r->stopped > 0 ? "stopped" : "fails";
+    return r->refused ? "refused" : drift_holds(l, r) ? "holds" : r->stopped > 0 ? "stopped" : "fails";
 }
 
-static void energy_drift_put(struct bench_table *t, const struct lasting_case *l, const struct lasting *r,
+static void energy_drift_put(struct bench_table *t, const struct drift_case *l, const struct lasting *r,
                              const char *label)
 {
     const bool there = !r->refused;
-    bench_text(t, lasting_group_name[l->group]);
+    bench_text(t, drift_group_name[l->group]);
     bench_text(t, label);
     bench_text(t, promise_of(r));
     bench_number(t, there ? (double)r->particles : NAN);
@@ -39,14 +39,14 @@ static void energy_drift_put(struct bench_table *t, const struct lasting_case *l
     bench_text(t, r->why[0] ? r->why : "-");
 }
 
-static void print(const struct lasting_case *l, const struct lasting *r, const char *label)
+static void print(const struct drift_case *l, const struct lasting *r, const char *label)
 {
     if (r->refused) {
         printf("  %-66s refused: %s\n", label, r->why);
         return;
     }
     printf("  %-66s %9.1e %9.1e %9.1e %9.1e %s", label, r->end, r->largest, r->least, r->rate,
-           lasting_holds(l, r) ? " " : "!");
+           drift_holds(l, r) ? " " : "!");
     if (isfinite(r->turn)) printf("  turn %.0e", r->turn);
     if (l->converts) printf("  converted %.3g", r->converted);
     if (r->stopped > 0) printf("  stopped at %lld", (long long)r->stopped);
@@ -54,25 +54,25 @@ static void print(const struct lasting_case *l, const struct lasting *r, const c
     fflush(stdout);
 }
 
-static status energy_drift_measure(void *context, const struct lasting_case *l)
+static status energy_drift_measure(void *context, const struct drift_case *l)
 {
     struct mapping_of *m = context;
     struct lasting r;
     char label[128];
-    lasting_label(l, label, sizeof label);
-    if (m->only && !strstr(label, m->only) && !strstr(lasting_group_name[l->group], m->only)) return OK;
+    drift_label(l, label, sizeof label);
+    if (m->only && !strstr(label, m->only) && !strstr(drift_group_name[l->group], m->only)) return OK;
     if (m->group != (int)l->group)
-        printf("\n  %-66s energy at the end, most, least  rate a step\n", lasting_group_name[l->group]);
+        printf("\n  %-66s energy at the end, most, least  rate a step\n", drift_group_name[l->group]);
     m->group = (int)l->group;
-    TRY(lasting_run(l, m->steps, &r));
+    TRY(drift_run(l, m->steps, &r));
     print(l, &r, label);
     energy_drift_put(m->t, l, &r, label);
     if (l->group == LASTING_PUBLISHED) return OK;
-    m->cases += !r.refused, m->held += lasting_holds(l, &r), m->refused += r.refused;
+    m->cases += !r.refused, m->held += drift_holds(l, &r), m->refused += r.refused;
     return OK;
 }
 
-status lasting_map(struct bench_table *t, const char *only, bool quick)
+status drift_map(struct bench_table *t, const char *only, bool quick)
 {
     struct mapping_of m = {.t = t, .only = only, .steps = quick ? LASTING_STEPS_QUICK : LASTING_STEPS, .group = -1};
     bench_table_make(t, "lasting", header);
@@ -80,7 +80,7 @@ status lasting_map(struct bench_table *t, const char *only, bool quick)
            "within %g %%, "
            "points of the current frame never above it), and its rate\n",
            (long long)m.steps, 100 * LASTING_ENERGY);
-    TRY(lasting_cases(quick && !only, energy_drift_measure, &m));
+    TRY(drift_cases(quick && !only, energy_drift_measure, &m));
     if (t->cells == 0) return status_set(REFUSED, "bench stability: no case of the long map has %s in its name", only);
     printf("\n  %d of %d cases hold, %d are refused; couplings published by others are not counted\n", m.held, m.cases,
            m.refused);

@@ -5,7 +5,7 @@
 
 #include "stability.h"
 
-enum lasting_group {
+enum drift_group {
     LASTING_NAMED,                       /* scenes in which something grew once (energy_drift_named.c)              */
     LASTING_BODIES,                      /* bonds, states or cells of the reference frame alone                     */
     LASTING_REFERENCE, LASTING_CURRENT,  /* coupled, by frame                                                       */
@@ -14,12 +14,12 @@ enum lasting_group {
     LASTING_PUBLISHED,                   /* couplings published by others, drawn as what they are                   */
     LASTING_GROUP
 };
-extern const char *const lasting_group_name[LASTING_GROUP];
+extern const char *const drift_group_name[LASTING_GROUP];
 
 /* A body, started at random unless `moves`. */
-struct lasting_case {
-    enum lasting_group group;
-    const char *name;                    /* NULL: what lasting_label makes of the rest                              */
+struct drift_case {
+    enum drift_group group;
+    const char *name;                    /* NULL: what drift_label makes of the rest                              */
     struct stability_case c;
     bool moves;                          /* the scene's own initial state or load moves it                          */
     bool converts;                       /* what counts is that nothing converts                                    */
@@ -52,20 +52,20 @@ enum { LASTING_STEPS = 100000, LASTING_STEPS_QUICK = 10000 };
 #define LASTING_RATE (LASTING_ENERGY / LASTING_STEPS)
 
 /* Runs it for so many steps on one thread. FAILED where the bench itself fails. */
-status lasting_run(const struct lasting_case *l, int64_t steps, struct lasting *to);
-bool lasting_holds(const struct lasting_case *l, const struct lasting *r);
-void lasting_label(const struct lasting_case *l, char *text, size_t size);
+status drift_run(const struct drift_case *l, int64_t steps, struct lasting *to);
+bool drift_holds(const struct drift_case *l, const struct lasting *r);
+void drift_label(const struct drift_case *l, char *text, size_t size);
 
 /* All cases, with `quick` each fourth of them, one after the other (energy_drift_cases.c); those of scenes that once
  * grew (energy_drift_named.c). */
-typedef status lasting_take(void *context, const struct lasting_case *l);
-status lasting_cases(bool quick, lasting_take *take, void *context);
-extern const struct lasting_case lasting_named[];
-extern const int lasting_named_count;
+typedef status drift_take(void *context, const struct drift_case *l);
+status drift_cases(bool quick, drift_take *take, void *context);
+extern const struct drift_case drift_named[];
+extern const int drift_named_count;
 
 /* The table, on the screen, in results/bench/stability_lasting.csv and as a picture; `only`: cases in whose name
  * this is, NULL: all (energy_drift.c, energy_drift_draw.c). */
-status lasting_map(struct bench_table *t, const char *only, bool quick);
-status lasting_draw(const struct bench_table *t);
+status drift_map(struct bench_table *t, const char *only, bool quick);
+status drift_draw(const struct bench_table *t);
 
 #endif

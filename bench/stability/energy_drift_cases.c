@@ -4,20 +4,20 @@
 
 #include "energy_drift.h"
 
-const char *const lasting_group_name[LASTING_GROUP] = {
+const char *const drift_group_name[LASTING_GROUP] = {
     [LASTING_NAMED] = "scenes that grew once",           [LASTING_BODIES] = "one method",
     [LASTING_REFERENCE] = "coupled, reference frame",    [LASTING_CURRENT] = "coupled, current frame",
     [LASTING_POINTS] = "material points, current frame", [LASTING_SUPPORTS] = "supports",
     [LASTING_PUBLISHED] = "couplings by others"};
 
 /* With `quick` every few cases of a group alone. */
-struct taker { bool quick; int given; lasting_take *take; void *context; };
+struct taker { bool quick; int given; drift_take *take; void *context; };
 enum { QUICK_EACH = 4 };
 
-static status energy_drift_cases_give(struct taker *t, enum lasting_group group, struct stability_case c)
+static status energy_drift_cases_give(struct taker *t, enum drift_group group, struct stability_case c)
 {
     if (t->quick && t->given++ % QUICK_EACH) return OK;
-    return t->take(t->context, &(struct lasting_case){.group = group, .c = c});
+    return t->take(t->context, &(struct drift_case){.group = group, .c = c});
 }
 
 /* ---- laws -------------------------------------------------------------------------------------------------------- */
@@ -249,10 +249,10 @@ static status energy_drift_cases_published(struct taker *t)
     return OK;
 }
 
-status lasting_cases(bool quick, lasting_take *take, void *context)
+status drift_cases(bool quick, drift_take *take, void *context)
 {
     struct taker t = {quick, 0, take, context};
-    for (int k = 0; k < lasting_named_count; k++) TRY(take(context, &lasting_named[k]));
+    for (int k = 0; k < drift_named_count; k++) TRY(take(context, &drift_named[k]));
     TRY(bodies(&t));
     TRY(energy_drift_cases_reference(&t));
     TRY(current(&t));
@@ -275,7 +275,7 @@ static const char *const support_name[] = {[MIRROR] = "mirror",
                                            [FIXED] = "fixed",
                                            [DRIVEN] = "driven"};
 
-void lasting_label(const struct lasting_case *l, char *text, size_t size)
+void drift_label(const struct drift_case *l, char *text, size_t size)
 {
     static const char *const space[] = {"", "line", "plate", "solid"};
     const struct stability_case *c = &l->c;

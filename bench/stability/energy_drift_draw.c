@@ -31,7 +31,7 @@ static bool energy_drift_draw_is(const struct bench_table *t, int64_t row, const
 }
 static bool of_group(const struct bench_table *t, int64_t row, int g)
 {
-    return !strcmp(energy_drift_draw_text_of(t, row, GROUP), lasting_group_name[g]);
+    return !strcmp(energy_drift_draw_text_of(t, row, GROUP), drift_group_name[g]);
 }
 
 /* Decades over the least rate, with the sign. */
@@ -85,7 +85,7 @@ static void put_cases(FILE *to, int last)
                 "$g%dv0 using 1:2 with points pt 7 ps 0.7 lc rgb '%s' title '%s', $g%dv1 using 1:2 with points pt 6 ps "
                 "1.2 lw 1.6 "
                 "lc rgb '%s' notitle, $g%dv2 using 1:2 with points pt 2 ps 1.1 lw 1.8 lc rgb '%s' notitle, ",
-                g, curve_colour[g], lasting_group_name[g], g, curve_colour[g], g, curve_colour[g]);
+                g, curve_colour[g], drift_group_name[g], g, curve_colour[g], g, curve_colour[g]);
     fprintf(to,
             "NaN with points pt 7 ps 0.7 lc rgb '#333333' title 'holds', NaN with points pt 6 ps 1.2 lw 1.6 lc rgb "
             "'#333333' title "
@@ -123,7 +123,7 @@ static void put_named(FILE *to, const struct bench_table *t)
             snprintf(text, sizeof text, "stopped at step %.0f", energy_drift_draw_number_of(t, r, STOPPED));
         else snprintf(text, sizeof text, "%s", energy_drift_draw_text_of(t, r, VERDICT));
         energy_drift_draw_put_label(to, text, 0.93, y, style);
-        y -= 0.95 / (lasting_named_count + 1);
+        y -= 0.95 / (drift_named_count + 1);
     }
 }
 
@@ -136,8 +136,8 @@ static void energy_drift_draw_picture(FILE *to, const void *table)
     put_cases(to, at);
 }
 
-status lasting_draw(const struct bench_table *t)
+status drift_draw(const struct bench_table *t)
 {
-    return bench_draw("stability_lasting", WIDTH, (lasting_named_count + 2) * LINE_HEIGHT, energy_drift_draw_picture,
+    return bench_draw("stability_lasting", WIDTH, (drift_named_count + 2) * LINE_HEIGHT, energy_drift_draw_picture,
                       t);
 }

@@ -73,7 +73,7 @@
         .group = LASTING_NAMED, .name = label, .c = {.text = scene}, .moves = true, __VA_ARGS__                        \
     }
 #define SHAKEN(label, ...) {.group = LASTING_NAMED, .name = label, .c = {__VA_ARGS__}}
-const struct lasting_case lasting_named[] = {
+const struct drift_case drift_named[] = {
     NAMED("strip, mospd nu 1/4, reference", PLATE("mospd", "reference", "partial stress", "1/4")),
     NAMED("strip, mospd nu 0.45, reference", PLATE("mospd", "reference", "partial stress", "0.45")),
     NAMED("strip, mospd nu 1/4, reference, hand-shake", PLATE("mospd", "reference", "handshake", "1/4")),
@@ -86,7 +86,7 @@ const struct lasting_case lasting_named[] = {
     NAMED("square, bonds, current flip", SQUARE_TURNED("flip", "gimp", "partial stress", "")),
     NAMED("square, bonds, current flip, hand-shake", SQUARE_TURNED("flip", "gimp", "handshake", "")),
     NAMED("square, bonds, current flip, no rim damping",
-          SQUARE_TURNED("flip", "gimp", "partial stress\nrim_damping: 0", "")),
+          SQUARE_TURNED("flip", "gimp", "partial stress\ninterface_damping: 0", "")),
     NAMED("square, bonds, current apic", SQUARE_TURNED("apic", "gimp", "partial stress", "")),
     NAMED("clamped beam, bonds", BEAM("pd", "bond", "1/3", "particles: {spacing: 0.5 mm}\n")),
     NAMED("clamped beam, bonds, isotropic, horizon 2.015",
@@ -110,4 +110,4 @@ const struct lasting_case lasting_named[] = {
     NAMED("slotted disc, bonds, reference", DISC_TURNED("reference", "bond"), .converts = true),
     NAMED("slotted disc, mospd, reference", DISC_TURNED("reference", "mospd"), .converts = true),
 };
-const int lasting_named_count = COUNT_OF(lasting_named);
+const int drift_named_count = COUNT_OF(drift_named);

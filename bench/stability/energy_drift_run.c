@@ -158,7 +158,7 @@ static real kinetic_between(const struct earlier *b, const struct engine *e, rea
 /* ---- the run ----------------------------------------------------------------------------------------------------- */
 
 /* So many steps of the automatic step of the scene, with evenly spread samples. */
-static status energy_drift_body_make(struct engine *e, struct scene *s, const struct lasting_case *l, int64_t steps)
+static status energy_drift_body_make(struct engine *e, struct scene *s, const struct drift_case *l, int64_t steps)
 {
     struct bench_overrides o = {0};
     char text[4096];
@@ -231,7 +231,7 @@ static double turned(const struct engine *e, const real *centre, const real *L, 
     return most / size;
 }
 
-static status energy_drift_run_body(struct engine *e, const struct lasting_case *l, struct lasting *to)
+static status energy_drift_run_body(struct engine *e, const struct drift_case *l, struct lasting *to)
 {
     struct course *c = NEW("lasting.course", 1, struct course);
     struct earlier before = {{{0}}};
@@ -260,7 +260,7 @@ static status energy_drift_run_body(struct engine *e, const struct lasting_case 
     return s == OK || s == FAILED ? OK : s;
 }
 
-status lasting_run(const struct lasting_case *l, int64_t steps, struct lasting *to)
+status drift_run(const struct drift_case *l, int64_t steps, struct lasting *to)
 {
     struct engine e;
     struct scene s;
@@ -282,7 +282,7 @@ status lasting_run(const struct lasting_case *l, int64_t steps, struct lasting *
     return made;
 }
 
-bool lasting_holds(const struct lasting_case *l, const struct lasting *r)
+bool drift_holds(const struct drift_case *l, const struct lasting *r)
 {
     const bool within = r->largest <= LASTING_ENERGY && r->loudest <= LASTING_LOUDEST;
     if (r->refused || r->stopped > 0 || r->inverted || !within) return false;

@@ -6,13 +6,14 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-const struct failing_scene *const failing_scene[FAILING_SCENES] = {
-    &failing_crossing, &failing_homologous, &failing_null_mode,  &failing_faces,  &failing_spin,    &failing_disc,
-    &failing_corner,   &failing_shear,      &failing_vibration,  &failing_million, &failing_modes,  &failing_softest,
-    &failing_single,   &failing_inversion,  &failing_closing,    &failing_beyond, &failing_twins,   &failing_renumbered,
+const struct limits_scene *const limits_scene[FAILING_SCENES] = {
+    &limits_crossing,    &limits_homologous,   &limits_null_mode,  &limits_faces,     &limits_spin,
+    &limits_disc,        &limits_corner_figure, &limits_shear,      &limits_vibration, &limits_million,
+    &limits_modes_figure, &limits_softest,      &limits_single,     &limits_inversion, &limits_closing,
+    &limits_beyond,      &limits_twins,        &limits_renumbered,
 };
 
-status failing_measure(const struct failing_scene *s, const struct failing_row *r, double figure[FAILING_FIGURES])
+status limits_measure(const struct limits_scene *s, const struct limits_row *r, double figure[FAILING_FIGURES])
 {
     const int team = omp_get_max_threads();
     for (int k = 0; k < FAILING_FIGURES; k++) figure[k] = NAN;
@@ -22,28 +23,28 @@ status failing_measure(const struct failing_scene *s, const struct failing_row *
     return done;
 }
 
-void failing_label(const struct failing_scene *s, const struct failing_row *r, char *text, size_t size)
+void limits_label(const struct limits_scene *s, const struct limits_row *r, char *text, size_t size)
 {
     char given[64];
     snprintf(given, sizeof given, s->given ? s->given : "", r->given);
     snprintf(text, size, "%s%s%s", r->method, s->given ? ", " : "", given);
 }
 
-int failing_figures(const struct failing_scene *s)
+int limits_figures(const struct limits_scene *s)
 {
     int n = 0;
     while (n < FAILING_FIGURES && s->figure[n].quantity) n++;
     return n;
 }
 
-bool failing_holds(const struct failing_scene *s, const double *figure)
+bool limits_holds(const struct limits_scene *s, const double *figure)
 {
-    for (int k = 0; k < failing_figures(s); k++)
+    for (int k = 0; k < limits_figures(s); k++)
         if (!(figure[k] <= s->figure[k].threshold)) return false;
     return true;
 }
 
-status failing_make(struct engine *e, struct scene *s, const struct failing_row *r, const char *text, ...)
+status limits_make(struct engine *e, struct scene *s, const struct limits_row *r, const char *text, ...)
 {
     struct bench_overrides o = {0};
     char whole[4096];
@@ -56,7 +57,7 @@ status failing_make(struct engine *e, struct scene *s, const struct failing_row 
     return bench_engine_make(e, s, "failing", whole, bench_overrides_ready(&o), o.n);
 }
 
-void failing_start(struct engine *e, failing_field *field, const void *context)
+void limits_start(struct engine *e, limits_field *field, const void *context)
 {
     struct grid *g = &e->reference.mesh.grid;
     real X[DIM_MAX], v[DIM_MAX];

@@ -7,11 +7,11 @@
 
 /* A corner torn off: every family it was in has lost it, and its own is empty. Breaking is second order in the step:
  * at a fifth of the critical one bonds leave some percent of this energy too much or too little. */
-static status single(const struct failing_row *r, double *to)
+static status single(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
-    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
+    TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
                      "material: {young: 72e9, density: 2440, critical_stretch: 0.01, poisson: 1/3}\n"
                      "body: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
                      "particles: {spacing: 1e-3}\n"
@@ -28,11 +28,11 @@ static status single(const struct failing_row *r, double *to)
 
 #define LAW(law, kind, ...) .method = law " " kind, .set = {"model", law, "method", kind, __VA_ARGS__}
 #define SINGLE(law, kind) {LAW(law, kind, NULL), .known = {{0, 0}, {0, 1e-13}, {0, 0.05}}}
-static const struct failing_row singles[] = {
+static const struct limits_row singles[] = {
     SINGLE("bond", "pd"), SINGLE("ospd", "pd"), SINGLE("mospd", "pd"),
     SINGLE("bond", "adaptive"), SINGLE("ospd", "adaptive"), SINGLE("mospd", "adaptive"),
 };
-const struct failing_scene failing_single = {
+const struct limits_scene limits_single = {
     "a single particle comes off",
     NULL,
     {{"particles lost", 0}, {"error of momentum", 1e-12}, {"error of energy", 0.05}},
@@ -50,11 +50,11 @@ static int inverted(const struct particles *p)
 }
 
 /* Halves of a plate meet at +-`given` of the wave speed of a bar. */
-static status inversion(const struct failing_row *r, double *to)
+static status inversion(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
-    TRY(failing_make(
+    TRY(limits_make(
         &e, &s, r,
         "space: plane stress\nthickness: 1\nduration: 0.3\ntime: {safety: 0.2}\nmethod: pd\n"
         "material: {young: 1e4, density: 1}\nbody: {box: {from: [0, 0], to: [40, 6]}}\nparticles: {spacing: 1}\n"
@@ -76,7 +76,7 @@ static status inversion(const struct failing_row *r, double *to)
 #define INVERSION(law) \
     {LAW(law, "pd", NULL), .given = 0.2, .known = {{0, 0}, {0, 0.05}}}, \
     {LAW(law, "pd", NULL), .given = 0.6, .known = {{1, 200}, {0, 0.05}}, .remedy = NO_INVERSION}
-static const struct failing_row inversions[] = {
+static const struct limits_row inversions[] = {
     INVERSION("bond"),
     INVERSION("ospd"),
     INVERSION("mospd"),
@@ -90,7 +90,7 @@ static const struct failing_row inversions[] = {
      .given = 0.6,
      .known = {{0, 0}, {0, 0.01}}},
 };
-const struct failing_scene failing_inversion = {"compression past inversion",
+const struct limits_scene limits_inversion = {"compression past inversion",
                                                 "at %g of the wave speed",
                                                 {{"pairs that changed sides", 0}, {"error of energy", 0.05}},
                                                 ROWS(inversions),
@@ -114,11 +114,11 @@ static double overlap(const struct engine *e)
 /* Halves of a plate that is cut through meet at +-0.04 c, c = 106: two bars of 12 spacings that throw each other
  * back until 0.226, or two spacings deep in each other at 0.25. Most overlap of the faces, and the share of their
  * momentum that they keep. */
-static status closing(const struct failing_row *r, double *to)
+static status closing(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
-    TRY(failing_make(&e, &s, r,
+    TRY(limits_make(&e, &s, r,
                      "space: plane stress\nthickness: 1\nduration: 0.25\nmaterial: {young: 1e4, density: 1}\n"
                      "bodies:\n  - {name: left, shape: {box: {from: [0, 0], to: [12, 6]}}, velocity: [4, 0]}\n"
                      "  - {name: right, shape: {box: {from: [12, 0], to: [24, 6]}}, velocity: [-4, 0]}\n"
@@ -140,7 +140,7 @@ static status closing(const struct failing_row *r, double *to)
 #define CRACK "cracks", "[{from: [12, -1], to: [12, 7]}]"
 #define BONDS_BESIDE "pd.region", "[{box: {from: [6, 0], to: [18, 6]}}]"
 #define NO_CONTACT "none in bonds yet; material points meet on the grid"
-static const struct failing_row closings[] = {
+static const struct limits_row closings[] = {
     {LAW("bond", "pd", CRACK), .known = {{1.8, 2}, {0.99, 1.001}}, .remedy = NO_CONTACT},
     {LAW("ospd", "pd", CRACK), .known = {{1.8, 2}, {0.99, 1.001}}, .remedy = NO_CONTACT},
     {LAW("mospd", "pd", CRACK), .known = {{1.8, 2}, {0.99, 1.001}}, .remedy = NO_CONTACT},
@@ -154,7 +154,7 @@ static const struct failing_row closings[] = {
     {.method = "gimp flip", .set = {"method", "mpm"}, .known = {{0, 0.1}, {0, 0.1}}},
     {.method = "gimp apic", .set = {"method", "mpm", "mpm.transfer", "apic"}, .known = {{0, 0.1}, {0, 0.1}}},
 };
-const struct failing_scene failing_closing = {"faces of a crack close",
+const struct limits_scene limits_closing = {"faces of a crack close",
                                               NULL,
                                               {{"overlap [spacings]", 0.1}, {"momentum not handed over", 0.1}},
                                               ROWS(closings),

@@ -12,12 +12,12 @@
 #define SPEED 0.1
 
 /* `given`: up to where bonds reach at the start [mm]; 40: the interface is flat. */
-static status corner(const struct failing_row *r, double *to)
+static status corner(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
     const double c = sqrt(72e9 * 9 / 8 / 2440), peak = 2440 * c * SPEED;
-    TRY(failing_make(&e, &s, r,
+    TRY(limits_make(&e, &s, r,
                      "space: plane stress\nthickness: 1e-3\nduration: %.9g\nmaterial: {young: 72e9, density: 2440}\n"
                      "body: {box: {from: [0, 0], to: [100e-3, 40e-3]}}\nparticles: {spacing: 1e-3}\n"
                      "pd: {weights: isotropic, surface: none, region: {box: {from: [0, 0], to: [50e-3, %ge-3]}}}\n"
@@ -44,7 +44,7 @@ static status corner(const struct failing_row *r, double *to)
 /* In the reference frame energy is kept to 1e-8; 1.1 and 1.4 % are between the sample at t = 0, whose velocities are
  * those given, and all others, whose kinetic energy is that which leap-frog keeps: a quarter of a kick less. */
 #define CALM "partial stress with apic or frame: reference"
-static const struct failing_row corners[] = {
+static const struct limits_row corners[] = {
     {.method = "partial stress, flip, no corner",
      ADAPTIVE(NULL),
      .given = 40,
@@ -75,7 +75,7 @@ static const struct failing_row corners[] = {
      .known = {{0.11, 0.22}, {0, 0.015}, {0, 1e-13}},
      .remedy = CALM},
 };
-const struct failing_scene failing_corner = {
+const struct limits_scene limits_corner_figure = {
     "a conversion front passes a corner of the interface", NULL,
     {{"motion across the wave [of its peak]", 0.05}, {"error of energy", 0.02}, {"error of momentum", 1e-12}},
     ROWS(corners), corner};

@@ -103,14 +103,14 @@ static void put_plate(FILE *to, const struct twin *t, const char *list)
     fputs("}\nconversion: {criteria: none}\n", to);
 }
 
-static status plate_run(struct engine *e, struct scene *s, const struct twin *t, const struct failing_row *r)
+static status plate_run(struct engine *e, struct scene *s, const struct twin *t, const struct limits_row *r)
 {
     char text[4096], list[64] = "";
     if (t->listed) TRY(list_write(t, list));
     FILE *to = fmemopen(text, sizeof text, "w");
     put_plate(to, t, list);
     fclose(to);
-    const status made = failing_make(e, s, r, "%s", text);
+    const status made = limits_make(e, s, r, "%s", text);
     if (t->listed) remove(list);
     TRY(made);
     return engine_run(e);
@@ -146,7 +146,7 @@ static double difference(const struct engine *a, const struct engine *b, const s
     return most_speed > 1 && most_shift > 1e-6 ? fmax(speed / most_speed, shift / most_shift) : INFINITY;
 }
 
-static status limits_invariance_compare(const struct twin *one, const struct twin *other, const struct failing_row *r,
+static status limits_invariance_compare(const struct twin *one, const struct twin *other, const struct limits_row *r,
                                         double *to)
 {
     struct engine a, b;
@@ -171,7 +171,7 @@ static const struct twin plate[] = {{.scale = 1},
 enum { ITSELF, LARGER, MIRRORED, TURNED, ALL_OF_IT, LISTED, SHUFFLED };
 
 /* `given`: which twin. */
-static status twins(const struct failing_row *r, double *to)
+static status twins(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[ITSELF], &plate[(int)r->given], r, to);
 }
@@ -186,18 +186,18 @@ static status twins(const struct failing_row *r, double *to)
     TWIN(kind, "bond", "from a list", LISTED), TWIN(kind, "bond", "renumbered", SHUFFLED)
 #define LAW_TWINS(law) \
     TWIN("pd", law, law ", 1e-6, mirrored, turned", ALL_OF_IT), TWIN("pd", law, law ", renumbered", SHUFFLED)
-static const struct failing_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adaptive"), LAW_TWINS("ospd"),
+static const struct limits_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adaptive"), LAW_TWINS("ospd"),
                                           LAW_TWINS("mospd")};
-const struct failing_scene failing_twins = {
+const struct limits_scene limits_twins = {
     "twins of a plate", NULL, {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
 
 /* Particles are sorted by place: the same bits. */
-static status renumbered(const struct failing_row *r, double *to)
+static status renumbered(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[LISTED], &plate[SHUFFLED], r, to);
 }
 
 #define SHUFFLE(kind) {.method = kind, .set = {"method", kind}, .known = {{0, 0}}}
-static const struct failing_row shuffled[] = {SHUFFLE("pd"), SHUFFLE("mpm"), SHUFFLE("adaptive")};
-const struct failing_scene failing_renumbered = {
+static const struct limits_row shuffled[] = {SHUFFLE("pd"), SHUFFLE("mpm"), SHUFFLE("adaptive")};
+const struct limits_scene limits_renumbered = {
     "a list of particles in another order", NULL, {{"difference", 0}}, ROWS(shuffled), renumbered};

@@ -74,9 +74,9 @@ static real bound(const struct matrix *m)
 #define NOTHING 1e-6                /* of the stiffest mode: differences leave 1e-7, the softest elastic one has 1e-2 */
 enum { RIGID = 3 };
 
-static status square_make(struct engine *e, struct scene *s, const struct failing_row *r, double poisson)
+static status square_make(struct engine *e, struct scene *s, const struct limits_row *r, double poisson)
 {
-    return failing_make(e, s, r, "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
+    return limits_make(e, s, r, "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
                         "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
                         "body: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"
                         "output: {frames: 0, samples: 1}\n", poisson, SIDE, SIDE);
@@ -84,7 +84,7 @@ static status square_make(struct engine *e, struct scene *s, const struct failin
 
 /* ---- motions that cost nothing ----------------------------------------------------------------------------------- */
 
-static status modes(const struct failing_row *r, double *to)
+static status modes(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
@@ -103,7 +103,7 @@ static status modes(const struct failing_row *r, double *to)
                           .set = {"model", law, "particles.horizon", reach, "particles.irregularity", "0.5"}
 #define LOOSE 2 * SIDE - RIGID
 #define LONGER "a horizon of 1.5 or more, or mospd"
-static const struct failing_row costless[] = {
+static const struct limits_row costless[] = {
     {LATTICE("bond", "1"), .known = {{LOOSE, LOOSE}}, .remedy = LONGER},
     {LATTICE("ospd", "1"), .known = {{LOOSE, LOOSE}}, .remedy = LONGER},
     {LATTICE("mospd", "1"), .known = {{0, 0}}},
@@ -114,7 +114,7 @@ static const struct failing_row costless[] = {
     {CLOUD("bond", "3.015"), .known = {{0, 0}}}, {CLOUD("ospd", "3.015"), .known = {{0, 0}}}, {CLOUD("mospd", "3.015"),
      .known = {{0, 0}}},
 };
-const struct failing_scene failing_modes = {
+const struct limits_scene limits_modes_figure = {
     "motions that cost nothing", NULL, {{"zero-energy modes that are not rigid", 0}}, ROWS(costless), modes};
 
 /* ---- the softest elastic motion ---------------------------------------------------------------------------------- */
@@ -123,7 +123,7 @@ const struct failing_scene failing_modes = {
  * families that surfaces cut short make it softer or stiffer. */
 #define LOWEST 2.321
 
-static status softest(const struct failing_row *r, double *to)
+static status softest(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
@@ -136,7 +136,7 @@ static status softest(const struct failing_row *r, double *to)
     return OK;
 }
 
-static const struct failing_row soft[] = {
+static const struct limits_row soft[] = {
     {LATTICE("ospd", "1.5"), .known = {{0.02, 0.04}}},
     {LATTICE("mospd", "1.5"), .known = {{0, 0.01}}},
     {CLOUD("ospd", "1.5"), .known = {{0.12, 0.2}}, .remedy = "a horizon of 3.015, or mospd"},
@@ -152,5 +152,5 @@ static const struct failing_row soft[] = {
      .set = {"model", "ospd", "pd.normalisation", "bulk"},
      .known = {{0.03, 0.06}}},
 };
-const struct failing_scene failing_softest = {
+const struct limits_scene limits_softest = {
     "softest mode of a small free body: surfaces", NULL, {{"error of the frequency", 0.1}}, ROWS(soft), softest};

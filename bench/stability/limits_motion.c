@@ -38,12 +38,12 @@ static status limits_motion_turn(struct engine *e, double *to)
     {{"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, {"change of kinetic energy", threshold}}
 
 /* Corners at `given` m/s, a tenth of a turn at 10 m/s, a whole one at 100 m/s. */
-static status spin(const struct failing_row *r, double *to)
+static status spin(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
     const double rate = r->given / 14.1421356237e-3;
-    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\n"
+    TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\n"
                      "material: {young: 192 GPa, density: 8000}\n"
                      "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\nparticles: {spacing: 0.5 mm}\n"
                      "initial: [{velocity_gradient: [[0, %.12g], [%.12g, 0]]}]\n"
@@ -59,7 +59,7 @@ static status spin(const struct failing_row *r, double *to)
 #define POINTS(shape, transfer) .set = {"method", "mpm", "mpm.shape", shape, "mpm.transfer", transfer}
 #define REFERENCE .set = {"method", "mpm", "mpm.frame", "reference"}
 #define NO_BIAS "apic with gimp, or frame: reference"
-static const struct failing_row spins[] = {
+static const struct limits_row spins[] = {
     {.method = "linear flip",
      POINTS("linear", "flip"),
      .given = 10,
@@ -81,14 +81,14 @@ static const struct failing_row spins[] = {
     {.method = "bonds", .set = {"method", "pd"}, .given = 10, .known = {{0, 1}, {0, 1e-12}, {0, 5e-4}}},
     {.method = "bonds", .set = {"method", "pd"}, .given = 100, .known = {{0, 15}, {0, 1e-12}, {0, 5e-3}}},
 };
-const struct failing_scene failing_spin = {"rigid spin of a square", "%g m/s", TURNING(5e-3), ROWS(spins), spin};
+const struct limits_scene limits_spin = {"rigid spin of a square", "%g m/s", TURNING(5e-3), ROWS(spins), spin};
 
 /* Radius 10 mm, edge at 100 m/s, one turn, peridynamic within 4 mm. */
-static status disc(const struct failing_row *r, double *to)
+static status disc(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
-    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\n"
+    TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\n"
                      "material: {young: 192e9, density: 8000}\nbody: {disc: {centre: [0, 0], radius: 10e-3}}\n"
                      "particles: {spacing: 0.5e-3}\npd: {region: {disc: {centre: [0, 0], radius: 4e-3}}}\n"
                      "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -1e4], [1e4, 0]]}]\n"
@@ -100,12 +100,12 @@ static status disc(const struct failing_row *r, double *to)
 
 /* The sheet: 110 MPa, 7e-6, 0.23 %, of points that grow by the square of a step's angle while bonds do not
  * (kernels/mpm/stress.h). */
-static const struct failing_row discs[] = {
+static const struct limits_row discs[] = {
     {.method = "partial stress, apic", .set = {"mpm.frame", "current", "mpm.transfer", "apic"},
      .known = {{0, 15}, {0, 1e-4}, {0, 6e-3}}},
     {.method = "reference frame", .set = {"mpm.frame", "reference"}, .known = {{0, 15}, {0, 1e-5}, {0, 1e-5}}},
 };
-const struct failing_scene failing_disc = {"a coupled disc turns", NULL, TURNING(6e-3), ROWS(discs), disc};
+const struct limits_scene limits_disc = {"a coupled disc turns", NULL, TURNING(6e-3), ROWS(discs), disc};
 
 /* ---- shear at constant volume ------------------------------------------------------------------------------------ */
 
@@ -156,17 +156,17 @@ static status periods(struct engine *e, double *steps)
 }
 
 /* `given`: Poisson's ratio. */
-static status shear(const struct failing_row *r, double *to)
+static status shear(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
     double steps = 0;
-    TRY(failing_make(&e, &s, r,
+    TRY(limits_make(&e, &s, r,
                      "space: plane strain\nthickness: 1 mm\nduration: 1 ms\nmaterial: {young: 72e9, density: 2440, "
                      "poisson: %.17g}\nbody: {box: {from: [0, 0], to: [32e-3, 32e-3]}}\nparticles: {spacing: 1e-3}\n"
                      "output: {frames: 0, samples: 1}\n",
                      r->given));
-    failing_start(&e, lame, NULL);
+    limits_start(&e, lame, NULL);
     const status ran = periods(&e, &steps);
     const double omega = M_PI / EDGE * sqrt(72e9 / (1 + r->given) / 2440);
     *to = fabs((STANDS - 0.5) * M_PI / (steps * e.clock.dt) / omega - 1);
@@ -182,7 +182,7 @@ static status shear(const struct failing_row *r, double *to)
                            .set = {"method", "pd", "space", "plane stress", "particles.horizon", horizon, __VA_ARGS__}
 #define ISOTROPIC "pd.weights", "isotropic"
 #define UNLOCKED "ospd, mospd, or quadratic or cubic shapes"
-static const struct failing_row shears[] = {
+static const struct limits_row shears[] = {
     {STATE("ospd"), .given = 0.3, .known = {{0.01, 0.025}}},
     {STATE("ospd"), .given = 0.49, .known = {{0.01, 0.025}}},
     {STATE("ospd"), .given = 0.4999, .known = {{0.01, 0.03}}},
@@ -212,7 +212,7 @@ static const struct failing_row shears[] = {
     {BOND("5.015", "", NULL), .known = {{0, 0.045}}},
     {BOND("6.015", "", NULL), .known = {{0, 0.03}}},
 };
-const struct failing_scene failing_shear = {"shear at constant volume", "nu %.4g",
+const struct limits_scene limits_shear = {"shear at constant volume", "nu %.4g",
                                             {{"error of the frequency", 0.05}}, ROWS(shears), shear};
 
 /* ---- long runs --------------------------------------------------------------------------------------------------- */
@@ -240,11 +240,11 @@ static status million_steps(struct engine *e, double *to)
     return OK;
 }
 
-static status million(const struct failing_row *r, double *to)
+static status million(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
-    TRY(failing_make(&e, &s, r,
+    TRY(limits_make(&e, &s, r,
                      "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, "
                      "density: 2440}\nbody: {box: {from: [0, 0], to: [5e-3, 4e-3]}}\nparticles: {spacing: 1e-3}\n"
                      "initial: [{velocity_gradient: [[300, 100], [0, -200]], centre: [2.5e-3, 2e-3]}]\n"
@@ -255,13 +255,13 @@ static status million(const struct failing_row *r, double *to)
 }
 
 /* What material points lose is all that is no rigid rotation: about half of this energy. */
-static const struct failing_row millions[] = {
+static const struct limits_row millions[] = {
     {.method = "bonds", .known = {{0, 1e-5}}},
     {.method = "gimp flip", POINTS("gimp", "flip"), .known = {{0.3, 0.7}}, .remedy = "bonds, or frame: reference"},
     {.method = "gimp apic", POINTS("gimp", "apic"), .known = {{0.3, 0.7}}, .remedy = "bonds, or frame: reference"},
     {.method = "reference frame", REFERENCE, .known = {{0, 1e-4}}},
 };
-const struct failing_scene failing_million = {
+const struct limits_scene limits_million = {
     "a million steps of a free plate", NULL, {{"change of energy", 1e-3}}, ROWS(millions), million};
 
 /* A bar of 64 spacings in its first free mode. */
@@ -272,15 +272,15 @@ static void first_mode(const void *context, const real *X, real *v)
 }
 
 /* Ten periods: share of its energy that is lost. Peaks fall between samples: 1e-3. */
-static status vibration(const struct failing_row *r, double *to)
+static status vibration(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
     double first = 0, last = 0;
-    TRY(failing_make(&e, &s, r,
+    TRY(limits_make(&e, &s, r,
                      "space: line\nmaterial: {young: 1e4, density: 1}\nparticles: {spacing: 0.01}\nduration: 0.128\n"
                      "body: {box: {from: [0], to: [0.64]}}\noutput: {frames: 0, samples: 1}\n"));
-    failing_start(&e, first_mode, NULL);
+    limits_start(&e, first_mode, NULL);
     status ran = bench_engine_run(&e, 1, NULL);
     const int64_t period = e.clock.steps / 10;
     while (ran == OK && e.clock.step < e.clock.steps - 1) {
@@ -295,7 +295,7 @@ static status vibration(const struct failing_row *r, double *to)
 }
 
 /* APIC loses 0.04 % with GIMP or less, 0.3 % with quadratic shapes. */
-static const struct failing_row vibrations[] = {
+static const struct limits_row vibrations[] = {
     {.method = "bonds", .set = {"method", "pd"}, .known = {{0, 1e-3}}},
     {.method = "gimp flip", POINTS("gimp", "flip"), .known = {{0, 1e-3}}},
     {.method = "reference frame", REFERENCE, .known = {{0, 1e-3}}},
@@ -305,5 +305,5 @@ static const struct failing_row vibrations[] = {
      .known = {{2e-3, 4e-3}},
      .remedy = "gimp, or frame: reference"},
 };
-const struct failing_scene failing_vibration = {
+const struct limits_scene limits_vibration = {
     "ten periods of a bar", NULL, {{"energy lost", 1.5e-3}}, ROWS(vibrations), vibration};

@@ -19,13 +19,13 @@ static void stretch(struct particles *p, double lambda, double shift)
 }
 
 /* Largest force on an inner node over stress and section, at the worst of 64 places of the points in their cells. */
-static status crossing(const struct failing_row *r, double *to)
+static status crossing(const struct limits_row *r, double *to)
 {
     const double lambda = r->given;
     struct engine e;
     struct scene s;
     status done = OK;
-    TRY(failing_make(&e, &s, r, BAR "duration: 1e-3\nmethod: mpm\nbody: {box: {from: [0], to: [0.6]}}\n"));
+    TRY(limits_make(&e, &s, r, BAR "duration: 1e-3\nmethod: mpm\nbody: {box: {from: [0], to: [0.6]}}\n"));
     *to = 0;
     for (int place = 0; place < 64 && done == OK; place++) {
         real from[DIM_MAX] = {-0.1}, until[DIM_MAX] = {0.1 + 0.6 * lambda};
@@ -50,7 +50,7 @@ static status crossing(const struct failing_row *r, double *to)
  * two cells wide. */
 #define STRETCHED "cpgimp, frame: reference, or bonds"
 #define SHAPE(name) .method = name, .set = {"mpm.shape", name}
-static const struct failing_row crossings[] = {
+static const struct limits_row crossings[] = {
     {SHAPE("linear"), .given = 1, .known = {{0, 1e-12}}},
     {SHAPE("linear"), .given = 1.1, .known = {{0.53, 0.57}}, .remedy = "gimp, cpgimp, quadratic, cubic"},
     {SHAPE("linear"), .given = 1.5, .known = {{0.73, 0.77}}, .remedy = STRETCHED},
@@ -73,7 +73,7 @@ static const struct failing_row crossings[] = {
     {SHAPE("cpgimp"), .given = 3, .known = {{0, 1e-12}}},
     {SHAPE("cpgimp"), .given = 6, .known = {{0.1, 3.1}}, .remedy = "frame: reference, or bonds"},
 };
-const struct failing_scene failing_crossing = {"uniform stress, stretched",
+const struct limits_scene limits_crossing = {"uniform stress, stretched",
                                                "stretch %g",
                                                {{"force on an inner node [stress x section]", 0.1}},
                                                ROWS(crossings),
@@ -83,11 +83,11 @@ const struct failing_scene failing_crossing = {"uniform stress, stretched",
 
 /* v = a X until a strain is reached, in 100 D/c: largest error of the stress in the middle, which the ends do not
  * reach. Rates of stress add up to E ln lambda, the strain of the reference frame is lambda - 1. */
-static status homologous(const struct failing_row *r, double *to)
+static status homologous(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
-    TRY(failing_make(&e, &s, r,
+    TRY(limits_make(&e, &s, r,
                      BAR "duration: 0.01\ntime: {step: 1e-5}\nmethod: mpm\nbody: {box: {from: [-2.5], to: [2.5]}}\n"
                          "initial: [{velocity_gradient: [[%.9g]]}]\n",
                      r->given / 0.01));
@@ -104,7 +104,7 @@ static status homologous(const struct failing_row *r, double *to)
 
 /* Of the sheet: linear 1.8 and 2.4, uGIMP 0.06 and 0.54, quadratic 0.05 and 0.39. */
 #define HOMOLOGOUS "cpgimp or frame: reference"
-static const struct failing_row stretches[] = {
+static const struct limits_row stretches[] = {
     {SHAPE("linear"), .given = 0.05, .known = {{1, 2.5}}, .remedy = "gimp, cpgimp, quadratic, cubic"},
     {SHAPE("linear"), .given = 0.2, .known = {{1, 3}}, .remedy = HOMOLOGOUS},
     {SHAPE("gimp"), .given = 0.05, .known = {{0, 0.065}}},
@@ -116,18 +116,18 @@ static const struct failing_row stretches[] = {
     {SHAPE("cubic"), .given = 0.05, .known = {{0, 0.01}}},
     {.method = "reference frame", .set = {"mpm.frame", "reference"}, .given = 0.2, .known = {{0, 1e-10}}},
 };
-const struct failing_scene failing_homologous = {
+const struct limits_scene limits_homologous = {
     "homologous stretch", "strain %g", {{"error of the stress", 0.065}}, ROWS(stretches), homologous};
 
 /* ---- what the grid cannot see ------------------------------------------------------------------------------------ */
 
 /* Two points a cell, at h/4 and 3h/4, with +-v: nodes see nothing. Share of the energy that is left after some
  * steps. */
-static status null_mode(const struct failing_row *r, double *to)
+static status null_mode(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
-    TRY(failing_make(&e, &s, r, BAR "duration: 1\nmethod: mpm\nbody: {box: {from: [0], to: [0.8]}}\n"));
+    TRY(limits_make(&e, &s, r, BAR "duration: 1\nmethod: mpm\nbody: {box: {from: [0], to: [0.8]}}\n"));
     for (int64_t i = 0; i < e.part.n; i++) e.part.v[0][i] = i % 2 ? 1e-3 : -1e-3;
     const double first = diagnostics_kinetic(&e.part);
     const status ran = bench_engine_run(&e, (int64_t)r->given, NULL);
@@ -137,12 +137,12 @@ static status null_mode(const struct failing_row *r, double *to)
 }
 
 /* After `given` steps; what APIC leaves is at the ends. */
-static const struct failing_row null_modes[] = {
+static const struct limits_row null_modes[] = {
     {.method = "flip", .set = {"mpm.transfer", "flip"}, .given = 1000, .known = {{0.99, 1.0001}},
      .remedy = "apic; rim damping at bonds"},
     {.method = "apic", .set = {"mpm.transfer", "apic"}, .given = 1, .known = {{0, 0.01}}},
 };
-const struct failing_scene failing_null_mode = {"null mode +-v",
+const struct limits_scene limits_null_mode = {"null mode +-v",
                                                 "after %g steps",
                                                 {{"energy left of what the grid cannot see", 0.01}},
                                                 ROWS(null_modes),
@@ -152,12 +152,12 @@ const struct failing_scene failing_null_mode = {"null mode +-v",
 
 /* Points on the faces of cells, or beside them where nodes beyond the edge have a mass of 1e-9 or less, in a body
  * that moves as it is: largest stress over rho c v, after 300 s at c = 1 m/s. */
-static status on_faces(const struct failing_row *r, double *to)
+static status on_faces(const struct limits_row *r, double *to)
 {
     struct engine e;
     struct scene s;
     *to = 0;
-    TRY(failing_make(&e, &s, r, "space: plane stress\nthickness: 1\nduration: 300\nmethod: mpm\n"
+    TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1\nduration: 300\nmethod: mpm\n"
                      "material: {young: 1, density: 1}\n"
                      "body: {box: {from: [0, 0], to: [12, 8]}}\nparticles: {spacing: 1}\n"
                      "initial: [{velocity: [0.03125, -0.0625]}]\n"
@@ -177,11 +177,11 @@ static status on_faces(const struct failing_row *r, double *to)
         }                                                                                                              \
     }
 #define ON_AND_BESIDE(shape, transfer) FACES(shape, transfer, 0.5), FACES(shape, transfer, 0.5 - 1e-9)
-static const struct failing_row faces[] = {
+static const struct limits_row faces[] = {
     ON_AND_BESIDE("linear", "flip"), ON_AND_BESIDE("gimp", "flip"), ON_AND_BESIDE("gimp", "apic"),
     ON_AND_BESIDE("cpgimp", "flip"), ON_AND_BESIDE("cpgimp", "apic"), ON_AND_BESIDE("quadratic", "flip"),
     ON_AND_BESIDE("quadratic", "apic"), ON_AND_BESIDE("cubic", "flip"), ON_AND_BESIDE("cubic", "apic"),
 };
-const struct failing_scene failing_faces = {
+const struct limits_scene limits_faces = {
     "points on faces of cells, tiny nodal masses", "nodes at %.10g", {{"stress of rigid motion [rho c v]", 1e-12}},
     ROWS(faces), on_faces};

@@ -7,18 +7,18 @@
 #define ROWS(array) (array), COUNT_OF(array)
 
 /* limits_points.c */
-extern const struct failing_scene failing_crossing, failing_homologous, failing_null_mode, failing_faces;
+extern const struct limits_scene limits_crossing, limits_homologous, limits_null_mode, limits_faces;
 /* limits_motion.c */
-extern const struct failing_scene failing_spin, failing_disc, failing_vibration, failing_million, failing_shear;
+extern const struct limits_scene limits_spin, limits_disc, limits_vibration, limits_million, limits_shear;
 /* limits_bonds.c */
-extern const struct failing_scene failing_single, failing_inversion, failing_closing;
+extern const struct limits_scene limits_single, limits_inversion, limits_closing;
 /* limits_modes.c */
-extern const struct failing_scene failing_modes, failing_softest;
+extern const struct limits_scene limits_modes_figure, limits_softest;
 /* limits_corner.c */
-extern const struct failing_scene failing_corner;
+extern const struct limits_scene limits_corner_figure;
 /* limits_invariance.c */
-extern const struct failing_scene failing_twins, failing_renumbered;
+extern const struct limits_scene limits_twins, limits_renumbered;
 /* limits_time_step.c */
-extern const struct failing_scene failing_beyond;
+extern const struct limits_scene limits_beyond;
 
 #endif

@@ -47,16 +47,16 @@ static const struct stability_case beyond[] = {
 };
 
 /* `given`: which of them. */
-static status caught(const struct failing_row *r, double *to)
+static status caught(const struct limits_row *r, double *to)
 {
     return stability_caught(&beyond[(int)r->given], 1.2, to);
 }
 
 #define BEYOND(name, k) {.method = name, .given = k, .known = {{1, 1000}}}
-static const struct failing_row steps[] = {
+static const struct limits_row steps[] = {
     BEYOND("bonds", 0), BEYOND("mospd", 1), BEYOND("gimp flip", 2), BEYOND("gimp apic", 3),
     BEYOND("partial stress, gimp flip", 4),
     BEYOND("reference frame", 5),
 };
-const struct failing_scene failing_beyond = {
+const struct limits_scene limits_beyond = {
     "1.2 times the critical step", NULL, {{"steps until it is stopped", 1000}}, ROWS(steps), caught};

@@ -15,14 +15,14 @@ enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, CURE, COLUMNS };
 static const char header[] = "scene,method,quantity,threshold,measured,verdict,cure";
 
 /* A line for each figure: what a method fails at has the cure, what it holds has none. */
-static status stability_scenes_take(struct bench_table *t, const struct failing_scene *s, const struct failing_row *r)
+static status stability_scenes_take(struct bench_table *t, const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];
     char label[128];
-    TRY(failing_measure(s, r, figure));
-    failing_label(s, r, label, sizeof label);
+    TRY(limits_measure(s, r, figure));
+    limits_label(s, r, label, sizeof label);
     printf("  %-48s", label);
-    for (int k = 0; k < failing_figures(s); k++) {
+    for (int k = 0; k < limits_figures(s); k++) {
         const bool holds = figure[k] <= s->figure[k].threshold;
         bench_text(t, s->name);
         bench_text(t, label);
@@ -42,9 +42,9 @@ status stability_scenes(struct bench_table *t)
 {
     bench_table_make(t, "scenes", header);
     for (int k = 0; k < FAILING_SCENES; k++) {
-        const struct failing_scene *s = failing_scene[k];
+        const struct limits_scene *s = limits_scene[k];
         printf("\n  %s:", s->name);
-        for (int f = 0; f < failing_figures(s); f++)
+        for (int f = 0; f < limits_figures(s); f++)
             printf("%s %s, at most %.3g", f ? ";" : "", s->figure[f].quantity, s->figure[f].threshold);
         putchar('\n');
         for (int r = 0; r < s->rows; r++) TRY(stability_scenes_take(t, s, &s->row[r]));

@@ -15,7 +15,7 @@ enum coupling {
                                             the interface; with linear and with GIMP shapes                     */
     COUPLING_PMG, COUPLING_PGG           /* the same on one unified grid, which moves everything                 */
 };
-enum { CONVERT_ON_CUT = 1, CONVERT_ON_STRESS = 2 };
+enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
 
 struct conversion_rule {
     unsigned criteria;                   /* sum of CONVERT_ON_*                                       */
@@ -23,7 +23,7 @@ struct conversion_rule {
     real alpha;                          /* share of it that triggers                                 */
     bool block;                          /* the triggered particle takes its horizon neighbours along */
     real tips;                           /* peridynamic from the start round ends of pre-cracks [horizons] */
-    bool back;                           /* particles return to material points (reversion.h)            */
+    bool reverts;                        /* particles revert to material points (reversion.h)            */
     real hold_time;                          /* after a stress that was low for so long [horizon/c]       */
     real low_stress;                           /* low: share of the stress that converts                    */
 };
@@ -49,7 +49,7 @@ struct conversion_sync {
     void *context;
 };
 
-/* Converts every material point flagged FLAG_STRESSED or FLAG_CUT (as the criteria say), both ends of a bond that
+/* Converts every material point flagged FLAG_STRESSED or FLAG_LOST_BOND (as the criteria say), both ends of a bond that
  * broke, and with `block` their neighbours within the horizon; clears the flags of the step. Rows of bonds and
  * partial stresses (`partial` NULL: hand-shake without them) are rebuilt only if something converted. Bonds that are
  * past their limit when made are cut at once and their energy is booked as fracture. `sync` may be NULL. Returns the

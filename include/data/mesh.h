@@ -14,7 +14,7 @@
  *     cell I     0 .. 2^dim - 1      point[(I << dim) + c]: the particle there, -1 without
  *
  * Cells with all their points, of one material, none beside bonds, are whole: runs of them along x are swept eight
- * at a time in closed form. All other cells that hold points are cut: each has its own stiffness, and eight are
+ * at a time in closed form. All other cells that hold points are partial: each has its own stiffness, and eight are
  * swept side by side. */
 #ifndef CLEAVE_MESH
 #define CLEAVE_MESH
@@ -35,7 +35,7 @@ struct mesh_run {
 /* Points of a cell whose motion is needed in every step, by place. */
 struct mesh_exposed { int32_t cell; uint8_t places; };
 
-/* A material point at the end of state-based bonds, and the lane of its cell in the group of cut cells. */
+/* A material point at the end of state-based bonds, and the lane of its cell in the group of partial cells. */
 struct mesh_end { int32_t point, lane; };
 
 struct mesh {
@@ -45,7 +45,7 @@ struct mesh {
     real *displacement[DIM_MAX];         /* of the nodes                                    [m]       */
     real *inverse_mass;                  /* of the nodes; 0 where there is no mass          [1/kg]    */
     int32_t *point;                      /* [grid.n << dim] particle of a place of a cell, -1 without */
-    uint8_t *kind;                       /* [grid.n] of cells: empty, whole or cut                    */
+    uint8_t *kind;                       /* [grid.n] of cells: empty, whole or partial                    */
     int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh        */
     real volume;                         /* of a point in the reference frame               [m^3]     */
 
@@ -54,19 +54,19 @@ struct mesh {
     int64_t bands, *band;               /* layers of cells in bands: runs of band b: run[band[b]] .. run[band[b+1]-1] */
     int64_t runs, runs_room;
     struct mesh_run *run;
-    int64_t cuts, cuts_room;
-    int32_t *cut;                        /* [cuts, filled up to whole groups of LANES] cut cells, ascending */
-    uint8_t *cut_material;               /* [as cut] of their points, the one that converts first     */
-    bool *cut_stressed;                  /* [as cut] as of a run                                      */
+    int64_t partial_cells, partial_room;
+    int32_t *partial_cell; /* [partial_cells, filled up to whole groups of LANES] partial cells, ascending */
+    uint8_t *partial_material;               /* [as partial_cell] of their points, the one that converts first     */
+    bool *partial_stressed;                  /* [as partial_cell] as of a run                                      */
     real *stiffness;                     /* [groups][modes (modes + 1)/2][LANES] half of it, by modes
-                                          * (mesh_cut.h), of all the cell's volume            [Pa]    */
+                                          * (mesh_partial.h), of all the cell's volume            [Pa]    */
     /* [groups + 1] points at the end of state-based bonds in the cells of a group: end[ends[group]] ..
      * end[ends[group + 1] - 1]; NULL: there are none */
     int32_t *ends;
     struct mesh_end *end;
     real *end_share;                   /* [ends][modes] what a cell's modes add to a point's particles.end_strain [1] */
     int32_t *alike;                      /* [groups] one of the same stiffness to the last bit, still in the cache */
-    real *cut_force;                     /* [groups][corners dim][LANES]                      [N]     */
+    real *partial_force;                     /* [groups][corners dim][LANES]                      [N]     */
     int64_t exposed, exposed_room;
     struct mesh_exposed *exposed_list;               /* [seen] by ascending cell                                  */
     struct active_set active;                    /* of blocks of nodes                                        */
@@ -78,8 +78,8 @@ struct mesh {
 static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }
 static inline int mesh_modes(int dim) { return symmetric_count(dim) + mesh_bends(dim); }
 
-/* Groups of cut cells side by side. */
-static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->cuts + LANES - 1) / LANES; }
+/* Groups of partial cells side by side. */
+static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->partial_cells + LANES - 1) / LANES; }
 
 /* Block of a node. */
 static inline int64_t mesh_block(const struct mesh *mesh, int64_t I)

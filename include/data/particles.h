@@ -18,7 +18,7 @@ enum { ROTATION = 4 };                   /* numbers that hold a rotation in spac
 enum kind { KIND_MPM, KIND_PD, KINDS };
 
 enum particle_flag {
-    FLAG_CUT = 1,                        /* lost a bond in this step                             */
+    FLAG_LOST_BOND = 1,                        /* lost a bond in this step                             */
     FLAG_STRESSED = 2,                   /* largest principal stress passed the trigger          */
     FLAG_DRIVEN = 4,                     /* a velocity or fixed condition holds a component      */
     FLAG_CRACKED = 8,                    /* lost a bond to a particle, neither of them driven    */

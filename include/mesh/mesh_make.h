@@ -9,7 +9,7 @@
 #include "data/mesh.h"
 #include "data/particles.h"
 
-/* What cut cells hang on. */
+/* What partial cells hang on. */
 struct mesh_source {
     const struct elastic *elastic;       /* [materials] of the cells                                  */
     const struct elastic *isotropic;     /* [materials] those that partial stress rests on            */
@@ -32,7 +32,7 @@ int64_t mesh_pieces(const struct particles *p, const struct grid *like);
 real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed,
                  int64_t n);
 /* The same where all points stay and only what bonds carry of their stress has changed; false, and nothing is
- * settled, where other cells are cut than before. */
+ * settled, where other cells are partial than before. */
 bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                   const int32_t *changed, int64_t n);
 

@@ -75,7 +75,7 @@ void curves_title(FILE *to, const char *title, const char *what);
 void curves_time_axis(FILE *to, const struct series *s);
 
 /* sif.png: stress-intensity factors over time, below how far contours differ; nothing without sif probes. */
-status factors_draw(const char *pictures, const char *title, const struct series *s);
+status sif_bench_draw(const char *pictures, const char *title, const struct series *s);
 /* path.png: the ways that tips watched by growth probes have gone, beside the angle of an experiment where the scene
  * tells one; nothing without such probes. */
 status paths_draw(const char *folder, const char *pictures, const char *title, const struct history *h);

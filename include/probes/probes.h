@@ -123,8 +123,8 @@ void probes_sample(struct probes *s, const struct observed *o);
  * in equilibrium. */
 void probes_keep(struct probes *s, const struct observed *o);
 void probes_sample_end(struct probes *s, const struct observed *o, real t_velocity);
-/* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_CUT marks that bonds
- * broke, REACTION adds up its largest and rms force. */
+/* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_LOST_BOND marks that
+ * bonds broke, REACTION adds up its largest and rms force. */
 void probes_step(struct probes *s, const struct observed *o);
 /* Calls `emit` for every figure of every probe: probe name, quantity, value (SI). Figures a run does not have
  * (NAN) are left out. */

@@ -48,15 +48,15 @@ struct scene_initial {
     struct wave_pulse pulse;
 };
 
-/* What `method: auto` chose, and why: from the chart's problem that the scene is like. */
+/* What `method: auto` chose, and why: from the table's problem that the scene is like. */
 struct scene_choice {
     bool made;
     char like[80], feature[40];          /* that problem; what the spacing resolves                   */
     real size, points;                   /* of the feature [m], in spacings                           */
     real resolution;                     /* as that problem counts                                    */
     real accuracy, error;                /* required, expected [1]                                    */
-    real seconds;                        /* of the loop on one thread of the chart's machine, about   */
-    char picked[80];                     /* the chart's method                                        */
+    real seconds;                        /* of the loop on one thread of the table's machine, about   */
+    char picked[80];                     /* the table's method                                        */
     real horizon, step;                  /* [spacings], 0 without bonds; share of the critical step   */
     char second[80];                     /* the next best method and how much longer it takes; "": none */
     real second_error, second_share;     /* [1], its time over that of the choice                     */
@@ -116,7 +116,7 @@ struct scene {
     int probes;     struct probe_request *probe;
 
     real time_step;                      /* [s]; 0: automatic                                         */
-    bool rest;                           /* what nothing has reached is skipped (active_set.h)                  */
+    bool active_set;                     /* what nothing has reached is skipped (active_set.h)                  */
     real safety;                         /* of the automatic step                                     */
     int frames;                          /* frames after the one at t = 0                             */
     bool has_frames;                     /* the scene says how many                                   */
@@ -127,6 +127,7 @@ struct scene {
     bool compress;                       /* gzip the frames                                           */
     real speed_window;                   /* of the crack tip's speed [s]                              */
 
+    char renamed[400];                   /* keys given by an earlier name; "" : none                  */
     char *text;                          /* the scene as run: every key, defaults written out, YAML    */
 };
 

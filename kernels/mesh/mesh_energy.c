@@ -1,5 +1,5 @@
 /* Kinetic and elastic energy of the mesh, for the energy balance. */
-#include "mesh_cut.h"
+#include "mesh_partial.h"
 #include "mesh_run.h"
 #include "base/team.h"
 
@@ -59,14 +59,14 @@ static ALWAYS_INLINE real lanes_sum(lanes a)
 }
 
 /* Elastic energy of a group of partial cells [J]; lanes beyond the last cell have no stiffness. */
-static ALWAYS_INLINE real cut_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
+static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
 {
     const struct mesh *mesh = s->mesh;
     struct mesh_cell cell;
     lanes u[CORNERS_MAX][3];
-    mesh_cut_load(mesh, group, u, dim);
+    mesh_partial_load(mesh, group, u, dim);
     cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
-    cut_law(mesh, s->p, group, &cell, dim);
+    partial_law(mesh, s->p, group, &cell, dim);
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
@@ -95,7 +95,7 @@ static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct me
     }                                                                                                                  \
     static real cut_term_##D##_##FINITE(const void *context, int64_t group)                                            \
     {                                                                                                                  \
-        return cut_energy(context, group, D, FINITE);                                                                  \
+        return partial_energy(context, group, D, FINITE);                                                              \
     }
 TERM(1, 0)
 TERM(2, 0)
@@ -107,10 +107,10 @@ real mesh_strain(const struct mesh *mesh, const struct particles *p, const struc
 {
     static real (*const run[DIM_MAX + 1][2])(const void *, int64_t) = {
         {NULL, NULL}, {run_term_1_0, run_term_1_0}, {run_term_2_0, run_term_2_1}, {run_term_3_0, run_term_3_1}};
-    static real (*const cut[DIM_MAX + 1][2])(const void *, int64_t) = {
+    static real (*const partial[DIM_MAX + 1][2])(const void *, int64_t) = {
         {NULL, NULL}, {cut_term_1_0, cut_term_1_0}, {cut_term_2_0, cut_term_2_1}, {cut_term_3_0, cut_term_3_1}};
     struct strain_sum s = {mesh, p, m, finite};
     const int dim = mesh->grid.dim;
     if (mesh->points == 0) return 0;
-    return team_sum(mesh_groups(mesh), cut[dim][finite], &s) + team_sum(mesh->runs, run[dim][finite], &s);
+    return team_sum(mesh_groups(mesh), partial[dim][finite], &s) + team_sum(mesh->runs, run[dim][finite], &s);
 }

@@ -4,7 +4,7 @@
  * node: two colours give the same bits on any number of threads. */
 #include <string.h>
 
-#include "mesh_cut.h"
+#include "mesh_partial.h"
 #include "mesh_run.h"
 
 /* ---- whole cells ------------------------------------------------------------------------------------------------- */
@@ -75,44 +75,45 @@ static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, cons
 /* ---- partial cells ----------------------------------------------------------------------------------------------- */
 
 /* Are all cells of a group of partial cells inactive? */
-static ALWAYS_INLINE bool cuts_inactive(const struct mesh *mesh, int64_t group)
+static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
-    for (int l = 0; l < LANES; l++) level |= mesh->active.level[mesh_block(mesh, mesh->cut[group * LANES + l])];
+    for (int l = 0; l < LANES; l++)
+        level |= mesh->active.level[mesh_block(mesh, mesh->partial_cell[group * LANES + l])];
     return level == 0;
 }
 
-/* Sets cut_stressed of the cells of a group that may have a point past its trigger. */
-static ALWAYS_INLINE void cut_mark(struct mesh *mesh, const struct elastic *m, int64_t group, const struct mesh_cell *s,
-                                   const int dim)
+/* Sets partial_stressed of the cells of a group that may have a point past its trigger. */
+static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
+                                       const struct mesh_cell *s, const int dim)
 {
-    const uint8_t *material = mesh->cut_material + group * LANES;
+    const uint8_t *material = mesh->partial_material + group * LANES;
     lanes tension = lanes_of(0), P[3][3];
     for (int l = 0; l < LANES; l++) {
         if (l == 0 || material[l] != material[l - 1]) {
             stress_of(&m[material[l]], s->e, P, dim);
             tension = cell_tension(&m[material[l]], s, P, dim);
         }
-        mesh->cut_stressed[group * LANES + l] = tension[l] > m[material[l]].trigger;
+        mesh->partial_stressed[group * LANES + l] = tension[l] > m[material[l]].trigger;
     }
 }
 
-/* Forces of a group of partial cells on their corners, into mesh->cut_force [N]. */
-static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
+/* Forces of a group of partial cells on their corners, into mesh->partial_force [N]. */
+static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                     int64_t group, const int dim, const bool finite)
 {
     const bool rotates = finite && dim > 1;
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3], moment[3] = {{0}};
-    mesh_cut_load(mesh, group, u, dim);
+    mesh_partial_load(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, rotates);
-    cut_mark(mesh, m, group, &s, dim);
-    cut_law(mesh, p, group, &s, dim);
-    if (mesh->ends && p->end_rotation[0]) cut_add_moments(mesh, p, group, moment, dim);
+    partial_mark(mesh, m, group, &s, dim);
+    partial_law(mesh, p, group, &s, dim);
+    if (mesh->ends && p->end_rotation[0]) partial_add_moments(mesh, p, group, moment, dim);
     if (rotates) cell_balance(&s, moment, dim);
     else if (dim > 1 && mesh->ends && p->end_rotation[0]) cell_skew(&s, moment, dim);
     cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
-    lanes *out = (lanes *)mesh->cut_force + group * (1 << dim) * dim;
+    lanes *out = (lanes *)mesh->partial_force + group * (1 << dim) * dim;
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
 }
@@ -122,10 +123,10 @@ static ALWAYS_INLINE void cut_force(struct mesh *mesh, const struct particles *p
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
     for (int64_t group = 0; group < mesh_groups(mesh); group++) {
-        const int32_t *cell = mesh->cut + group * LANES;
-        const int64_t left = mesh->cuts - group * LANES;
-        const lanes *f = (const lanes *)mesh->cut_force + group * (1 << dim) * dim;
-        if (cuts_inactive(mesh, group)) continue;
+        const int32_t *cell = mesh->partial_cell + group * LANES;
+        const int64_t left = mesh->partial_cells - group * LANES;
+        const lanes *f = (const lanes *)mesh->partial_force + group * (1 << dim) * dim;
+        if (partial_inactive(mesh, group)) continue;
         const bool in_line = list_together(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
@@ -142,8 +143,9 @@ enum { FEW = 16 };                       /* groups that one thread computes in l
 #define CUTS(D, FINITE)                                                                                                \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_groups(mesh) > FEW, for (int64_t k = 0; k < mesh_groups(mesh); k++)                             \
-            if (!cuts_inactive(mesh, k)) cut_force(mesh, p, m, k, D, FINITE););                                        \
+        TEAM_LOOP(mesh_groups(mesh) > FEW,                                                                             \
+                  for (int64_t k = 0; k < mesh_groups(mesh); k++) if (!partial_inactive(mesh, k))                      \
+                      partial_force(mesh, p, m, k, D, FINITE););                                                       \
         cuts_add(mesh, D);                                                                                             \
     }
 

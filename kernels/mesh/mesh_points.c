@@ -1,5 +1,5 @@
 /* The material points of a mesh: their motion, their stress, and the mark for conversion. */
-#include "mesh_cut.h"
+#include "mesh_partial.h"
 #include "mesh_point.h"
 #include "mesh_run.h"
 #include "kernels/pd/rotation.h"
@@ -120,9 +120,9 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     lanes u[CORNERS_MAX][3], v[MODES_MAX], rotation[ROTATION];
     const int n = mesh_modes(dim);
     if (mesh->ends[group] == mesh->ends[group + 1]) return;
-    mesh_cut_load(mesh, group, u, dim);
+    mesh_partial_load(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, finite);
-    cut_modes(&s, v, dim);
+    partial_modes(&s, v, dim);
     if (p->end_rotation[0]) cells_rotate(&s, rotation, dim, finite);
     for (int32_t k = mesh->ends[group]; k < mesh->ends[group + 1]; k++) {
         const struct mesh_end *end = &mesh->end[k];
@@ -334,22 +334,23 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     lanes_mask there[CORNERS_MAX] = {{0}};
     for (int q = 0; q < 1 << dim; q++)
         for (int l = 0; l < LANES; l++)
-            there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->cut[first + l] << dim) + q] >= 0);
-    mesh_cut_load(mesh, group, u, dim);
+            there[q][l] = -(int64_t)(mesh->point[((int64_t)mesh->partial_cell[first + l] << dim) + q] >= 0);
+    mesh_partial_load(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
-    for (int64_t k = first; k < first + LANES && k < mesh->cuts; k++) {
-        const uint8_t material = mesh->cut_material[k];
-        if (k == first || material != mesh->cut_material[k - 1]) tension = cells_tension(&m[material], &s, there, dim);
-        if (mesh->cut_stressed[k] &&
-            (tension[k - first] > m[material].trigger || cell_mixed(mesh, p, mesh->cut[k], material, dim)))
-            cell_mark(mesh, p, m, mesh->cut[k], dim, finite);
+    for (int64_t k = first; k < first + LANES && k < mesh->partial_cells; k++) {
+        const uint8_t material = mesh->partial_material[k];
+        if (k == first || material != mesh->partial_material[k - 1])
+            tension = cells_tension(&m[material], &s, there, dim);
+        if (mesh->partial_stressed[k] &&
+            (tension[k - first] > m[material].trigger || cell_mixed(mesh, p, mesh->partial_cell[k], material, dim)))
+            cell_mark(mesh, p, m, mesh->partial_cell[k], dim, finite);
     }
 }
 
 static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 {
     bool any = false;
-    for (int l = 0; l < LANES; l++) any |= mesh->cut_stressed[group * LANES + l];
+    for (int l = 0; l < LANES; l++) any |= mesh->partial_stressed[group * LANES + l];
     return any;
 }
 

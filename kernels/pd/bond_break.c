@@ -45,7 +45,7 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
     bonds_changed(b, row, q);
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
-    set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_CUT : FLAG_CUT | FLAG_CRACKED);
+    set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_LOST_BOND : FLAG_LOST_BOND | FLAG_CRACKED);
     if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
 }
 
@@ -128,7 +128,7 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
     const int32_t *row = b->particle + g * LANES;
     lanes x[DIM_MAX], largest = lanes_of(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(SLOT) largest = bond_break_largest_of(largest, p, x, SLOT, dim)
+#define VISIT(COLUMN) largest = bond_break_largest_of(largest, p, x, COLUMN, dim)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     return largest > lanes_of(square(1 + least) * (1 - ROUND_OFF));

@@ -5,7 +5,7 @@
 #include "bonds/bonds.h"
 #include "kernels/simd/lanes.h"
 
-enum { SLOTS_AHEAD = 40 };               /* prefetched this far ahead: about 200 ns                */
+enum { COLUMNS_AHEAD = 40 };               /* prefetched this far ahead: about 200 ns                */
 
 /* What a column's bonds share: nothing; neighbours in a row, with lengths of the lattice; their weight too; all but
  * the weight with other row blocks; all with other row blocks; and that weight is one, as it is inside a body. */
@@ -21,11 +21,11 @@ struct column {
     enum column_kind kind;
 };
 
-/* A stored column; prefetches the columns SLOTS_AHEAD further on. */
+/* A stored column; prefetches the columns COLUMNS_AHEAD further on. */
 static ALWAYS_INLINE struct column column_stored(const struct bonds *b, int64_t number, const enum column_kind kind)
 {
-    const int64_t q = (number + SLOTS_AHEAD) * LANES;
-    __builtin_prefetch(b->common + number + SLOTS_AHEAD);
+    const int64_t q = (number + COLUMNS_AHEAD) * LANES;
+    __builtin_prefetch(b->common + number + COLUMNS_AHEAD);
     if (kind == COLUMN_FREE) __builtin_prefetch(b->inverse_length + q), __builtin_prefetch(b->nbr + q);
     if (kind != COLUMN_ALIKE) __builtin_prefetch(b->w + q);
     return (struct column){b, number, b->common[number].first, NULL, NULL, kind};

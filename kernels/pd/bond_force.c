@@ -51,7 +51,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     const lanes zero = lanes_of(0), x0 = lanes_at(p->x[0], own, row);
     struct bond_sums sum = {x0, dim > 1 ? lanes_at(p->x[1], own, row) : x0, dim > 2 ? lanes_at(p->x[2], own, row) : x0,
                             zero, zero, zero, lanes_of(-1)};
-#define VISIT(SLOT) sum = bond_force_column(sum, p, SLOT, dim, model)
+#define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     rows_store(p->f[0], row, rows, aligned, sum.f0 * b->stiffness, share);

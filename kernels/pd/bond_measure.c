@@ -42,7 +42,7 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
     const int32_t *row = b->particle + g * LANES;
     lanes sum = lanes_of(0), x[DIM_MAX];
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(SLOT) sum += bond_energy_column(SLOT, p, x, dim, model)
+#define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     real total = 0;
@@ -71,7 +71,7 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
     lanes sum[SYM_MAX], x[DIM_MAX];
     for (int s = 0; s < dim * (dim + 1) / 2; s++) sum[s] = lanes_of(0);
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(SLOT) bond_stress_column(sum, SLOT, p, x, dim, model)
+#define VISIT(COLUMN) bond_stress_column(sum, COLUMN, p, x, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)

@@ -174,7 +174,7 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
         x[d] = lanes_at(p->x[d], own, row);
         if (state_rotates(model)) X[d] = lanes_at(p->X[d], own, row);
     }
-#define VISIT(SLOT) precompute_column(&sum, p, SLOT, x, X, dim, model)
+#define VISIT(COLUMN) precompute_column(&sum, p, COLUMN, x, X, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
@@ -251,7 +251,7 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
         sum.x[d] = lanes_at(p->x[d], own, row), sum.f[d] = sum.arm[d] = lanes_of(0);
         if (state_rotates(model)) sum.X[d] = lanes_at(p->X[d], own, row);
     }
-#define VISIT(SLOT) force_column(&sum, p, SLOT, dim, model)
+#define VISIT(COLUMN) force_column(&sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     if (state_rotates(model)) {

@@ -61,7 +61,7 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
     const struct own_state s = own_state_of(b, p, g, dim, state_rotates(model));
     lanes sum = lanes_of(0), T[DIM_MAX], y[DIM_MAX];
     real total = 0;
-#define VISIT(SLOT) sum += own_force_column(&s, SLOT, p, T, y, dim, state_rotates(model))
+#define VISIT(COLUMN) sum += own_force_column(&s, COLUMN, p, T, y, dim, state_rotates(model))
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
@@ -85,7 +85,7 @@ static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particl
     const int32_t *row = b->particle + g * LANES;
     lanes sum[SYM_MAX];
     for (int c = 0; c < dim * (dim + 1) / 2; c++) sum[c] = lanes_of(0);
-#define VISIT(SLOT) stress_column(sum, &s, SLOT, p, dim, model)
+#define VISIT(COLUMN) stress_column(sum, &s, COLUMN, p, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)

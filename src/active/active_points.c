@@ -76,7 +76,7 @@ static void make_room(struct active_points *r, const struct grid *g)
     if (r->nodes >= g->n) return;
     memory_free(r->busy), memory_free(r->near);
     r->nodes = g->n;
-    r->busy = NEW("rest.busy", g->n, uint8_t), r->near = NEW("rest.near", g->n, uint8_t);
+    r->busy = NEW("active_set.busy", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
 }
 
 /* The cells of `all` that are marked, in their order. */

@@ -98,7 +98,7 @@ status command_check(int argc, char **argv)
     struct cost cost = {0};
     const double start = team_clock();
     status result = scene_read(&s, a.scene, a.override, a.overrides);
-    s.rest = false;                              /* cost with the whole body active */
+    s.active_set = false;                              /* cost with the whole body active */
     if (result == OK) result = engine_make(&e, &s, NULL);
     cost.make = team_clock() - start;
     if (result == OK) {

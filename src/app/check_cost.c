@@ -74,7 +74,7 @@ static status make_other(struct scene *s, struct engine *e, const struct run_arg
     const status read = scene_read(s, a->scene, override, key ? a->overrides + 1 : a->overrides);
     memory_free(override);
     TRY(read);
-    s->rest = s->rest && rest;
+    s->active_set = s->active_set && rest;
     return engine_make(e, s, NULL);
 }
 

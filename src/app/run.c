@@ -50,7 +50,7 @@ static void print_summary(const struct engine *e, const char *folder, double wal
     printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n,
            (long long)e->clock.step, e->clock.dt, wall);
     bool broke = !isnan(e->diagnostics.break_time);
-    if (broke) printf("  first bond cut at %.4g s", e->diagnostics.break_time);
+    if (broke) printf("  first bond broken at %.4g s", e->diagnostics.break_time);
     if (tip)
         printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
                tip_angle(tip, e->part.dim));

@@ -28,7 +28,7 @@ struct ask {
 /* Reads the scene with stand-ins for the keys that are to be chosen, which contradict no other key. */
 static status read_first(struct reader *r, const char *text, size_t length, struct scene *s)
 {
-    static const char *const dropped[] = {"accuracy", "accuracy_chart", "pd.surface", "particles.spacing"};
+    static const char *const dropped[] = {"accuracy", "accuracy_table", "pd.surface", "particles.spacing"};
     struct reader first = *r;
     struct node *root;
     first.scene = s;
@@ -113,7 +113,7 @@ static bool concerns(const char *path, const struct cost_point *p)
 /* True if no key of the user contradicts the method of p. */
 static bool agrees(const struct cost_point *p, const struct node *root)
 {
-    char value[CHART_WORD];
+    char value[TABLE_WORD];
     for (int i = 0; i < keys_count; i++) {
         const struct node *n = keys[i].type <= KEY_CHOICE ? tree_at(root, keys[i].path) : NULL;
         if (!n || n->kind != NODE_SCALAR || !concerns(keys[i].path, p)) continue;
@@ -157,7 +157,7 @@ static void keep_choice(struct scene_choice *c, const struct ask *a, const struc
 {
     const struct auto_match *m = &a->match;
     c->made = true;
-    snprintf(c->like, sizeof c->like, "%s (%s of the chart)", m->kind->title, m->kind->problem);
+    snprintf(c->like, sizeof c->like, "%s (%s of the cost-accuracy table)", m->kind->title, m->kind->problem);
     snprintf(c->feature, sizeof c->feature, "%s", m->kind->feature);
     const bool gap = m->needs_bonds && !auto_has_bonds(f->best.of);
     snprintf(c->picked, sizeof c->picked, "%.40s%s", f->best.of->method, gap ? ", the crack a gap of one cell" : "");
@@ -182,7 +182,7 @@ void scene_choice_print(const struct scene *s, FILE *out)
     fprintf(
         out,
         "auto           the cheapest for an error of %.2g %% where %.2g %% is asked, in about %.2g s on one thread of "
-        "the chart's machine\n",
+        "the table's machine\n",
         100 * c->error, 100 * c->accuracy, c->seconds);
     if (!c->second[0]) return;
     fprintf(out, "auto           next best: %s, %.2g %% in %.2f times that time\n", c->second, 100 * c->second_error,
@@ -221,7 +221,7 @@ static status make_ask(struct reader *r, struct ask *a)
     }
     if (a->match.strain > a->accuracy)
         return fault(r, method,
-                     "strains of about %.2g are more than the accuracy of %.2g, and the chart's problems are "
+                     "strains of about %.2g are more than the accuracy of %.2g, and the table's problems are "
                      "linear; write method and particles.spacing",
                      a->match.strain, a->accuracy);
     return OK;
@@ -236,18 +236,19 @@ static status fault_unreached(struct reader *r, const struct ask *a, const struc
     if (!at) at = tree_at(a->root, "method");
     if (!f->finest.of)
         return fault(r, at,
-                     "no method of the chart for %s does what this scene asks and fits what it fixes; leave keys of "
+                     "no method of the cost-accuracy table for %s does what this scene asks and fits what it fixes; "
+                     "leave keys of "
                      "pd, mpm, model and spacing to auto, or write method and particles.spacing",
                      m->kind->title);
     return fault(r, at,
-                 "an error of %.2g %% is not reached by the chart of %s; %.2g %% is, by %s with %.4g spacings in %s: "
+                 "an error of %.2g %% is not reached by the table of %s; %.2g %% is, by %s with %.4g spacings in %s: "
                  "ask for that, or write method and particles.spacing",
                  100 * a->accuracy, m->kind->title, 100 * m->growth * f->finest.error, f->finest.of->method,
                  f->finest.resolution * m->kind->per_resolution, m->kind->feature);
 }
 
 /* Picks the point and a spacing that fits the geometry, and writes them into the tree. */
-static status choose(struct reader *r, struct node *root, struct ask *a, const struct chart *chart)
+static status choose(struct reader *r, struct node *root, struct ask *a, const struct cost_accuracy *table)
 {
     const real unit = a->match.feature / a->match.kind->per_resolution;      /* resolution x spacing */
     const struct node *spacing = tree_at(a->root, "particles.spacing");
@@ -257,40 +258,40 @@ static status choose(struct reader *r, struct node *root, struct ask *a, const s
     real h = NAN;
     if (spacing) TRY(read_number(r, key_find("particles", "spacing"), spacing, &h));
     if (spacing) w.resolution = unit / h;
-    auto_pick(&f, chart, &w);
+    auto_pick(&f, table, &w);
     if (!f.best.of) return fault_unreached(r, a, &f);
     if (!spacing) h = auto_spacing_fit(a->scene, unit / f.best.resolution, !cost_point_has(f.best.of, "method", "pd"));
     keep_choice(&r->scene->choice, a, &f, h);
     return auto_lay(r, root, &a->match, a->scene, f.best.of, h);
 }
 
-/* Reads the table given by accuracy_chart, sought in the folder of the scene, then in the current folder; without this
+/* Reads the table given by accuracy_table, sought in the folder of the scene, then in the current folder; without this
  * key the table of the program. */
-static status read_cost_accuracy(struct reader *r, const struct node *root, struct chart *chart)
+static status read_cost_accuracy(struct reader *r, const struct node *root, struct cost_accuracy *table)
 {
-    const struct node *n = tree_at(root, "accuracy_chart");
+    const struct node *n = tree_at(root, "accuracy_table");
     const char *slash = strrchr(r->name, '/');
     char path[4096];
-    if (!n) return cost_accuracy_read(chart, NULL);
+    if (!n) return cost_accuracy_read(table, NULL);
     if (n->kind != NODE_SCALAR || !*n->text)
-        return fault(r, n, "%s is no file name; results/bench/chart.csv is one", shown(r, n));
+        return fault(r, n, "%s is no file name; results/bench/cost_accuracy.csv is one", shown(r, n));
     snprintf(path, sizeof path, "%.*s%s", slash && n->text[0] != '/' ? (int)(slash - r->name) + 1 : 0, r->name,
              n->text);
-    return cost_accuracy_read(chart, access(path, R_OK) == 0 ? path : n->text);
+    return cost_accuracy_read(table, access(path, R_OK) == 0 ? path : n->text);
 }
 
 status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length)
 {
     const struct node *method = root->kind == NODE_MAP ? tree_at(root, "method") : NULL;
-    struct chart chart = {0};
+    struct cost_accuracy table = {0};
     struct scene first = {0};
     if (!method || strcmp(method->text, "auto") != 0) return OK;
     struct ask a = {.scene = &first, .root = root};
     status s = read_first(r, text, length, &first);
-    if (s == OK) s = read_cost_accuracy(r, root, &chart);
+    if (s == OK) s = read_cost_accuracy(r, root, &table);
     if (s == OK) s = make_ask(r, &a);
-    if (s == OK) s = choose(r, root, &a, &chart);
-    cost_accuracy_free(&chart);
+    if (s == OK) s = choose(r, root, &a, &table);
+    cost_accuracy_free(&table);
     scene_free(&first);
     return s;
 }

@@ -63,7 +63,7 @@ struct auto_wish {
 /* best: the cheapest point; second: the cheapest of another method; finest: the smallest error that an allowed line
  * reaches. `of` NULL: none. */
 struct auto_found { struct auto_point best, second, finest; };
-void auto_pick(struct auto_found *f, const struct chart *c, const struct auto_wish *w);
+void auto_pick(struct auto_found *f, const struct cost_accuracy *c, const struct auto_wish *w);
 
 /* Writes method, keys, horizon and step of a point, and a spacing, into the tree of a scene (auto_lay.c); keys of the
  * user stay. */

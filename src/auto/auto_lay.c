@@ -26,10 +26,10 @@ static status lay_number(struct reader *r, struct node *root, const char *key, r
 static status lay_keys(struct reader *r, struct node *root, const struct cost_point *p)
 {
     for (const char *at = p->keys; *at; at += strcspn(at, ";"), at += *at == ';') {
-        char key[CHART_KEYS], *value;
+        char key[TABLE_KEYS], *value;
         snprintf(key, sizeof key, "%.*s", (int)strcspn(at, ";"), at);
         value = strchr(key, '=');
-        if (!value) return status_set(REFUSED, "accuracy_chart: %s is no key=value", key);
+        if (!value) return status_set(REFUSED, "accuracy_table: %s is no key=value", key);
         *value++ = '\0';
         TRY(lay(r, root, key, value));
     }
@@ -145,7 +145,7 @@ static status lay_rings(struct reader *r, struct node *root, const struct auto_m
 status auto_lay(struct reader *r, struct node *root, const struct auto_match *m, const struct scene *s,
                 const struct cost_point *p, real spacing)
 {
-    static const char *const done[] = {"accuracy", "accuracy_chart"};
+    static const char *const done[] = {"accuracy", "accuracy_table"};
     for (size_t k = 0; k < COUNT_OF(done); k++)
         if (tree_at(root, done[k])) TRY(tree_set(r, root, done[k], ""));
     TRY(lay_keys(r, root, p));

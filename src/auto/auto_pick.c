@@ -33,7 +33,7 @@ static bool in_case(const struct cost_point *p, const struct auto_match *m, int 
 }
 
 /* Error and time of the worst case at the resolution of p; false: a case was not run there. */
-static bool worst_case(const struct chart *c, const struct auto_match *m, const struct cost_point *p,
+static bool worst_case(const struct cost_accuracy *c, const struct auto_match *m, const struct cost_point *p,
                        struct auto_point *worst)
 {
     *worst = (struct auto_point){p, p->resolution, fmax(p->error, m->kind->known), p->seconds, p->particles, p->steps};
@@ -50,7 +50,8 @@ static bool worst_case(const struct chart *c, const struct auto_match *m, const 
 }
 
 /* Makes the line of the run `first`, by ascending resolution, with the errors of the envelope. */
-static void make_line(struct line *l, const struct chart *c, const struct auto_match *m, const struct cost_point *first)
+static void make_line(struct line *l, const struct cost_accuracy *c, const struct auto_match *m,
+                      const struct cost_point *first)
 {
     struct auto_point next;
     l->n = 0;
@@ -124,14 +125,14 @@ static void auto_pick_take(struct auto_found *f, const struct auto_point *p)
     }
 }
 
-static bool is_first_of_line(const struct chart *c, const struct auto_match *m, int k)
+static bool is_first_of_line(const struct cost_accuracy *c, const struct auto_match *m, int k)
 {
     for (int j = 0; j < k; j++)
         if (in_case(&c->point[j], m, 0) && auto_pick_same_line(&c->point[j], &c->point[k])) return false;
     return in_case(&c->point[k], m, 0);
 }
 
-void auto_pick(struct auto_found *f, const struct chart *c, const struct auto_wish *w)
+void auto_pick(struct auto_found *f, const struct cost_accuracy *c, const struct auto_wish *w)
 {
     struct line l;
     struct auto_point p;

@@ -29,7 +29,7 @@ static bool take_word(const char **at, char *word, size_t room)
 
 static bool take_number(const char **at, real *value)
 {
-    char word[CHART_WORD], *end;
+    char word[TABLE_WORD], *end;
     if (!take_word(at, word, sizeof word)) return false;
     *value = strtod(word, &end);
     return *end == '\0' && isfinite(*value) && *value >= 0;
@@ -46,50 +46,52 @@ static bool read_line(const char *line, struct cost_point *p)
            p->error > 0 && p->seconds > 0 && p->particles > 0;
 }
 
-status cost_accuracy_read_text(struct chart *c, const char *text, const char *name)
+status cost_accuracy_read_text(struct cost_accuracy *c, const char *text, const char *name)
 {
-    const size_t header = strlen(CHART_HEADER);
+    const size_t header = strlen(TABLE_HEADER);
     int lines = 0, room = 0;
-    *c = (struct chart){0};
-    if (strncmp(text, CHART_HEADER "\n", header + 1) != 0)
+    *c = (struct cost_accuracy){0};
+    if (strncmp(text, TABLE_HEADER "\n", header + 1) != 0)
         return status_set(REFUSED,
-                          "%s:1:1: no chart; a file as `cleave bench accuracy` writes it (results/bench/chart.csv) "
+                          "%s:1:1: no cost-accuracy table; a file as `cleave bench accuracy` writes it "
+                          "(results/bench/cost_accuracy.csv) "
                           "is expected",
                           name);
     for (const char *at = text; (at = strchr(at, '\n')); at++) room++;
-    c->point = NEW("chart", room, struct cost_point);
+    c->point = NEW("auto.table", room, struct cost_point);
     for (const char *line = text + header + 1; *line; line = strchr(line, '\n') + 1, lines++) {
         if (read_line(line, &c->point[c->n])) {
             c->n++;
             continue;
         }
         cost_accuracy_free(c);
-        return status_set(REFUSED, "%s:%d:1: no point of a chart; %s is expected", name, lines + 2, CHART_HEADER);
+        return status_set(REFUSED, "%s:%d:1: no point of a cost-accuracy table; %s is expected", name, lines + 2,
+                          TABLE_HEADER);
     }
     return OK;
 }
 
-status cost_accuracy_read(struct chart *c, const char *path)
+status cost_accuracy_read(struct cost_accuracy *c, const char *path)
 {
     char *text;
     size_t length;
-    *c = (struct chart){0};
+    *c = (struct cost_accuracy){0};
     if (!path) return cost_accuracy_read_text(c, built_in, "src/auto/cost_accuracy.csv");
     if (!path_is_file(path))
-        return status_set(REFUSED, "%s: no such file; a chart as `cleave bench accuracy` writes it is expected", path);
+        return status_set(REFUSED, "%s: no such file; a table as `cleave bench accuracy` writes it is expected", path);
     TRY(file_get(path, &text, &length));
     status s =
         strlen(text) == length && (length == 0 || text[length - 1] == '\n')
             ? cost_accuracy_read_text(c, text, path)
-            : status_set(REFUSED, "%s: broken off; a chart as `cleave bench accuracy` writes it is expected", path);
+            : status_set(REFUSED, "%s: broken off; a table as `cleave bench accuracy` writes it is expected", path);
     memory_free(text);
     return s;
 }
 
-void cost_accuracy_free(struct chart *c)
+void cost_accuracy_free(struct cost_accuracy *c)
 {
     memory_free(c->point);
-    *c = (struct chart){0};
+    *c = (struct cost_accuracy){0};
 }
 
 /* ---- keys -------------------------------------------------------------------------------------------------------- */
@@ -107,6 +109,6 @@ bool cost_accuracy_key(const struct cost_point *p, const char *key, char *text, 
 
 bool cost_point_has(const struct cost_point *p, const char *key, const char *value)
 {
-    char text[CHART_WORD];
+    char text[TABLE_WORD];
     return cost_accuracy_key(p, key, text, sizeof text) && strcmp(text, value) == 0;
 }

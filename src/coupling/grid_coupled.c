@@ -23,7 +23,7 @@ static void mark_occupied(struct grid_coupled *c, const struct particles *p, con
 {
     int64_t k[DIM_MAX];
     if (c->cells_room < g->n) {
-        c->occupied = memory_resize("carry.occupied", c->occupied, c->cells_room, g->n, sizeof *c->occupied);
+        c->occupied = memory_resize("grid_coupled.occupied", c->occupied, c->cells_room, g->n, sizeof *c->occupied);
         c->cells_room = g->n;
     }
     memset(c->occupied, 0, (size_t)g->n);
@@ -60,7 +60,7 @@ void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct 
     const bool unified = coupling_unified(coupling);
     int64_t k[DIM_MAX] = {0};
     if (c->room < p->n) {
-        c->list = memory_resize("carry.list", c->list, c->room, p->n, sizeof *c->list);
+        c->list = memory_resize("grid_coupled.list", c->list, c->room, p->n, sizeof *c->list);
         c->room = p->n;
     }
     c->n = 0;

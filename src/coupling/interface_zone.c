@@ -107,7 +107,7 @@ static void interface_zone_pairs_make(struct interface_zone *r, const struct par
 {
     const int64_t most = pairs_pass(r, p, s, mark, place, true);
     for (int64_t k = 0; k < r->n; k++) r->start[k + 1] += r->start[k];
-    r->neighbour = NEW("rim.neighbour", r->start[r->n], int32_t);
+    r->neighbour = NEW("interface_zone.neighbour", r->start[r->n], int32_t);
     pairs_pass(r, p, s, mark, place, false);
     r->scale = 4 / ((real)most * (1 + 1.0 / p->dim));    /* the sum of e e of n neighbours has a norm of about n/dim */
 }
@@ -115,15 +115,15 @@ static void interface_zone_pairs_make(struct interface_zone *r, const struct par
 void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source)
 {
     interface_zone_free(r);
-    uint8_t *mark = NEW("rim.mark", p->n, uint8_t);
-    int32_t *place = BARE("rim.place", p->n, int32_t);   /* [n] index of members */
-    r->particle = NEW("rim.particle", p->n, int32_t);
+    uint8_t *mark = NEW("interface_zone.mark", p->n, uint8_t);
+    int32_t *place = BARE("interface_zone.place", p->n, int32_t);   /* [n] index of members */
+    r->particle = NEW("interface_zone.particle", p->n, int32_t);
     members_make(r, p, source, mark, place);
-    r->particle = memory_resize("rim.particle", r->particle, p->n, r->n, sizeof *r->particle);
-    r->start = NEW("rim.start", r->n + 1, int64_t);
+    r->particle = memory_resize("interface_zone.particle", r->particle, p->n, r->n, sizeof *r->particle);
+    r->start = NEW("interface_zone.start", r->n + 1, int64_t);
     interface_zone_pairs_make(r, p, source, mark, place);
-    r->difference = NEW("rim.difference", r->n * p->dim, real);
-    r->change = NEW("rim.change", r->n * p->dim, real);
+    r->difference = NEW("interface_zone.difference", r->n * p->dim, real);
+    r->change = NEW("interface_zone.change", r->n * p->dim, real);
     memory_free(mark);
     memory_free(place);
 }

@@ -9,7 +9,7 @@
 #include "partial_parts.h"
 #include "kernels/mpm/stress.h"
 
-#define CUT_HORIZONS 2                   /* distance from broken bonds within which particles stay peridynamic */
+#define BROKEN_HORIZONS 2                   /* distance from broken bonds within which particles stay peridynamic */
 
 /* ---- selection --------------------------------------------------------------------------------------------------- */
 
@@ -77,7 +77,7 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
     return rested;
 }
 
-/* `bound`: peridynamic particles that have one of `held` within the cutoff or one of `cut` within CUT_HORIZONS; they
+/* `bound`: peridynamic particles that have one of `held` within the cutoff or one of `cut` within BROKEN_HORIZONS; they
  * stay peridynamic. `near`: particles that have an unbound peridynamic particle within the cutoff, and may be the
  * centre of a ball without bound particles. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
@@ -90,7 +90,7 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
 #pragma omp for schedule(dynamic, 64)
         for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
             const int32_t i = p->list[KIND_PD][k];
-            bound[i] = held[i] || meets(&s, i, f->cutoff, held) || meets(&s, i, CUT_HORIZONS * f->horizon, cut);
+            bound[i] = held[i] || meets(&s, i, f->cutoff, held) || meets(&s, i, BROKEN_HORIZONS * f->horizon, cut);
         }
         memory_free(s.near.at);
     }

@@ -9,9 +9,9 @@
 void active_set_make(struct active_set *r, int64_t blocks)
 {
     *r = (struct active_set){.blocks = blocks};
-    r->level = NEW("rest.level", blocks, uint8_t);
-    r->moved = NEW("rest.moved", blocks, uint8_t);
-    r->list = NEW("rest.list", blocks, int32_t);
+    r->level = NEW("active_set.level", blocks, uint8_t);
+    r->moved = NEW("active_set.moved", blocks, uint8_t);
+    r->list = NEW("active_set.list", blocks, int32_t);
     memset(r->level, 1, (size_t)blocks);
     active_set_list(r);
 }
@@ -40,11 +40,11 @@ status active_set_archive(struct active_set *r, const char *name, struct archive
 {
     char path[48];
     if (r->blocks == 0) return OK;
-    snprintf(path, sizeof path, "rest/%s_level", name);
+    snprintf(path, sizeof path, "active_set/%s_level", name);
     TRY(a->exchange(a, path, r->level, (size_t)r->blocks * sizeof *r->level));
-    snprintf(path, sizeof path, "rest/%s_settled", name);
+    snprintf(path, sizeof path, "active_set/%s_settled", name);
     ARCHIVE_VALUE(a, path, r->is_current);
-    snprintf(path, sizeof path, "rest/%s_empty", name);
+    snprintf(path, sizeof path, "active_set/%s_empty", name);
     ARCHIVE_VALUE(a, path, r->empty);
     if (a->saving) return OK;
     list_all(r);

@@ -49,7 +49,7 @@ static status points_sort(struct engine *e)
 /* Leaves cells that no motion has reached out of the transfers. */
 static void update_active_points(struct engine *e)
 {
-    if (!e->scene->rest || e->mpm.active.over || coupling_moves_by_grid(e->coupling.kind) ||
+    if (!e->scene->active_set || e->mpm.active.over || coupling_moves_by_grid(e->coupling.kind) ||
         e->scene->solver != SOLVER_EXPLICIT)
         return;
     e->mpm.transfer.order =
@@ -244,7 +244,7 @@ static void move(struct engine *e, struct step *now)
  * stresses, the interface zone, partial cells. */
 static void convert_points(struct engine *e, struct step *now)
 {
-    if (e->scene->rest) active_rows_update(&e->bonds, &e->part, &e->loads);
+    if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
     engine_breaks(e, now->broken);
     const struct conversion_sync sync = {engine_mesh_sync_points, e};
     now->converted = convert(&e->coupling.conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,

@@ -98,7 +98,7 @@ status engine_archive(void *engine, struct archive *a)
     ARCHIVE_VALUE(a, "engine/residual_step0", e->probing.residual_step0);
     ARCHIVE_VALUE(a, "engine/particle_steps", e->report.particle_steps);
     ARCHIVE_VALUE(a, "engine/bond_visits", e->report.bond_visits);
-    ARCHIVE_VALUE(a, "engine/rested", e->report.inactive);
+    ARCHIVE_VALUE(a, "engine/inactive", e->report.inactive);
     ARCHIVE_VALUE(a, "engine/sampled", e->report.sampled);
     TRY(active_set_archive(&e->bonds.active, "bonds", a));
     TRY(active_set_archive(&e->reference.mesh.active, "mesh", a));

@@ -166,7 +166,7 @@ void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
     e->reference.speed = mesh_move(mesh, e->clock.dt, dt_velocity, e->loads.impulse, &e->loads.constraint_work);
     loads_react(&e->loads, &mesh->grid, dt_velocity);
     exposed_follow(e->scene, &e->part, &e->reference);
-    if (e->scene->rest) active_nodes_update(mesh, &e->loads);
+    if (e->scene->active_set) active_nodes_update(mesh, &e->loads);
 }
 
 void engine_mesh_sync(struct engine *e)

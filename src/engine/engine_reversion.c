@@ -18,7 +18,7 @@ static int64_t period(const struct run_clock *clock, const struct material_table
 status engine_reversion_check(const struct scene *s)
 {
     const char *why = NULL;
-    if (!s->conversion.back || s->method != METHOD_ADAPTIVE) return OK;
+    if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
     if (!(s->conversion.criteria & CONVERT_ON_STRESS)) why = "criteria with stress, which says what a low one is";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
         why = "coupling partial stress or handshake";
@@ -26,7 +26,7 @@ status engine_reversion_check(const struct scene *s)
     if (s->solver != SOLVER_EXPLICIT) why = "solver explicit";
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m])) why = "materials that do not yield";
-    return why ? status_set(REFUSED, "conversion.return: true goes with %s", why) : OK;
+    return why ? status_set(REFUSED, "conversion.reversion: true goes with %s", why) : OK;
 }
 
 /* Marks material points with bonds, e->bonded [n], for FLIP. */

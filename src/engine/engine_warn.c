@@ -7,7 +7,7 @@
 #include "engine/engine.h"
 
 /* Number of directed bonds cut at the start. */
-static int64_t bonds_cut(const struct bonds *b)
+static int64_t bonds_pre_cut(const struct bonds *b)
 {
     int64_t cut = 0;
     for (int64_t g = 0; g < b->row_blocks; g++)
@@ -48,7 +48,7 @@ static void warn_of_method(const struct engine *e, struct warnings *to)
     if (s->method == METHOD_ADAPTIVE && may_rotate(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 &&
         e->part.n_of[KIND_PD] > 0)
         warnings_add(to, "in bodies that turn, FLIP points beside bonds gain energy (2 to 6 %% in four turns) and "
-                         "rim_damping brakes "
+                         "interface_damping brakes "
                          "slow turns; mpm.transfer apic and the reference frame do neither");
     if (s->method != METHOD_PD && s->cell < 1.5)
         warnings_add(
@@ -86,7 +86,7 @@ static void warn_of_empty(const struct engine *e, struct warnings *to)
         if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
             warnings_add(to, "boundary %s holds no particle%s", e->scene->boundary[b].name,
                          e->scene->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
-    if (e->source.cracks > 0 && bonds_cut(&e->bonds) == 0)
+    if (e->source.cracks > 0 && bonds_pre_cut(&e->bonds) == 0)
         warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
 }
 
@@ -212,6 +212,8 @@ static void warn_of_touch(const struct engine *e, struct warnings *to)
 void engine_warn(struct engine *e)
 {
     struct warnings *to = &e->report.warnings;
+    if (e->scene->renamed[0])
+        warnings_add(to, "%s; the old name works in this version, with the same meaning", e->scene->renamed);
     warn_of_method(e, to);
     warn_of_materials(e->scene, &e->tables, to);
     warn_of_solver(e, to);

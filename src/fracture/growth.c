@@ -145,7 +145,7 @@ static int claim(const struct growth *g, struct particles *p, const struct bond_
     int claimed = 0;
     for (int k = 0; k < n; k++) {
         if (found[k] >= p->n || p->kind[found[k]] != KIND_MPM) continue;
-        p->flag[found[k]] |= FLAG_CUT;
+        p->flag[found[k]] |= FLAG_LOST_BOND;
         claimed++;
     }
     memory_free(found);

@@ -150,7 +150,7 @@ static void driven_walls(struct loads *l, int which, struct grid *g, real veloci
 }
 
 /* Time factors of all loads at time t, and their change since the step before, both [loads] [1]. */
-static void factors_at(const struct loads *l, real t, real dt, real *velocity, real *change)
+static void sif_bench_at(const struct loads *l, real t, real dt, real *velocity, real *change)
 {
     for (int b = 0; b < l->n; b++) {
         velocity[b] = time_function_at(&l->load[b].boundary->time, t);
@@ -178,7 +178,7 @@ void loads_walls(struct loads *l, struct grid *g, const struct particles *p, con
     g->walls = 0;
     if (l->n == 0) return;
     if (!constrained_is_current(&l->held, g)) constrained_find(l, &l->held, g);
-    factors_at(l, t, dt, velocity, change);
+    sif_bench_at(l, t, dt, velocity, change);
     constrained_walls(l, &l->held, g, velocity, change);
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
@@ -223,6 +223,6 @@ void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
 {
     real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
     mesh->grid.walls = 0;
-    factors_at(l, t, dt, velocity, change);
+    sif_bench_at(l, t, dt, velocity, change);
     constrained_walls(l, &l->constrained_mesh, &mesh->grid, velocity, change);
 }

@@ -114,7 +114,7 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
         alike = alike && (point[0] >= 0 && p->material[point[q]] == p->material[point[0]]) &&
                 !(s->partial && s->partial->index && s->partial->index[point[q]] >= 0);
     }
-    return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_CUT;
+    return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_PARTIAL;
 }
 
 /* Adds whole cell I to the last run of the band, or starts a run. */
@@ -155,14 +155,14 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     const struct grid *g = &mesh->grid;
     const int last = g->dim - 1;
     const int64_t layers = g->dim == 1 ? 1 : g->count[last], each = band_layers(g->dim);
-    mesh->runs = mesh->bands = mesh->cuts = 0;
+    mesh->runs = mesh->bands = mesh->partial_cells = 0;
     for (int64_t layer = 0; layer < layers; layer += each < layers ? each : layers) {
         const int64_t end = layer + each < layers && each < layers ? layer + each : layers;
         const int64_t from = g->dim == 1 ? 0 : layer * g->stride[last], to = g->dim == 1 ? g->n : end * g->stride[last];
         mesh->band[mesh->bands] = mesh->runs;
         for (int64_t I = from; I < to; I++) {
             if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, p->material[mesh->point[I << g->dim]]);
-            if (mesh->kind[I] == CELL_CUT) mesh_cuts_add(mesh, I);
+            if (mesh->kind[I] == CELL_PARTIAL) mesh_partial_add(mesh, I);
         }
         mesh->bands++;
     }
@@ -173,13 +173,13 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
-    struct mesh_cuts old = mesh_cuts_keep(mesh);
+    struct mesh_partial old = mesh_partial_keep(mesh);
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++)
         if (!dirty || dirty[I]) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     rows_span(mesh);
     cells_list(mesh, p);
-    mesh_cuts_make(mesh, p, s, dirty, &old);
+    mesh_partial_make(mesh, p, s, dirty, &old);
 }
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
@@ -257,7 +257,7 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->place);
     memory_free(mesh->band);
     memory_free(mesh->run);
-    mesh_cuts_free(mesh);
+    mesh_partial_free(mesh);
     memory_free(mesh->exposed_list);
     memory_free(mesh->span);
     active_set_free(&mesh->active);
@@ -332,9 +332,9 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
         const int64_t cell = mesh->place[changed[k]] >> p->dim;
         if (mesh->place[changed[k]] < 0 || dirty[cell]) continue;
         dirty[cell] = 1;
-        same = mesh->kind[cell] == CELL_CUT && cell_kind(mesh, p, source, cell) == CELL_CUT;
+        same = mesh->kind[cell] == CELL_PARTIAL && cell_kind(mesh, p, source, cell) == CELL_PARTIAL;
     }
-    if (same) mesh_cuts_again(mesh, p, source, dirty);
+    if (same) mesh_partial_again(mesh, p, source, dirty);
     memory_free(dirty);
     return same;
 }

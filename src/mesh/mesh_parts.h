@@ -4,19 +4,20 @@
 
 #include "mesh/mesh_make.h"
 
-enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_CUT };
+enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL };
 
-/* Partial cells with their stiffness (mesh_cut.c). mesh_cuts_keep takes them off the mesh before cells are sorted out
- * anew; mesh_cuts_make puts the stiffness of unchanged cells back and makes that of all others (`dirty` by cell; NULL:
- * all are made), and frees `old`. */
-struct mesh_cuts { int64_t cuts; int32_t *cut; real *stiffness; };
-struct mesh_cuts mesh_cuts_keep(struct mesh *mesh);
-void mesh_cuts_add(struct mesh *mesh, int64_t I);
-void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
-                    struct mesh_cuts *old);
+/* Partial cells with their stiffness (mesh_partial.c). mesh_partial_keep takes them off the mesh before cells are
+ * sorted out anew; mesh_partial_make puts the stiffness of unchanged cells back and makes that of all others (`dirty`
+ * by cell; NULL: all are made), and frees `old`. */
+struct mesh_partial { int64_t partial_cells; int32_t *partial_cell; real *stiffness; };
+struct mesh_partial mesh_partial_keep(struct mesh *mesh);
+void mesh_partial_add(struct mesh *mesh, int64_t I);
+void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
+                    struct mesh_partial *old);
 /* Makes the stiffness of the cells marked in `dirty` anew; the set of partial cells stays. */
-void mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
-void mesh_cuts_free(struct mesh *mesh);
+void mesh_partial_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                        const uint8_t *dirty);
+void mesh_partial_free(struct mesh *mesh);
 
 /* Nodal values `node` [dim][nodes] of a field that the points sample as `value` [dim][particles]: least squares
  * weighted by mass, started from the lumped projection. */

@@ -190,7 +190,7 @@ status curves_draw(const char *folder, const char *pictures, const char *title)
         result = draw_crack(path, title, &s);
         snprintf(path, sizeof path, "%s/energy.png", pictures);
         if (result == OK) result = draw_energy(path, title, &s);
-        if (result == OK) result = factors_draw(pictures, title, &s);
+        if (result == OK) result = sif_bench_draw(pictures, title, &s);
         if (result == OK) result = paths_draw(folder, pictures, title, &h);
     }
     history_free(&h);

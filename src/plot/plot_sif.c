@@ -81,7 +81,7 @@ static void plot_spread(FILE *to, const struct series *s, const struct factors *
     putc('\n', to);
 }
 
-status factors_draw(const char *pictures, const char *title, const struct series *s)
+status sif_bench_draw(const char *pictures, const char *title, const struct series *s)
 {
     struct factors f;
     struct gnuplot g;

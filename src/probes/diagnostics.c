@@ -351,14 +351,14 @@ status diagnostics_divergence(const struct particles *p, bool peridynamic, bool 
 
 status diagnostics_archive(struct diagnostics *w, struct archive *a)
 {
-    ARCHIVE_VALUE(a, "watch/now", w->now);
-    ARCHIVE_VALUE(a, "watch/energy_start", w->energy_start);
-    ARCHIVE_VALUE(a, "watch/energy_scale", w->energy_scale);
-    ARCHIVE_VALUE(a, "watch/momentum_start", w->momentum_start);
-    ARCHIVE_VALUE(a, "watch/momentum_scale", w->momentum_scale);
-    ARCHIVE_VALUE(a, "watch/started", w->started);
-    ARCHIVE_VALUE(a, "watch/break_time", w->break_time);
-    ARCHIVE_VALUE(a, "watch/break_place", w->break_place);
-    ARCHIVE_VALUE(a, "watch/bonds_broken", w->bonds_broken);
+    ARCHIVE_VALUE(a, "diagnostics/now", w->now);
+    ARCHIVE_VALUE(a, "diagnostics/energy_start", w->energy_start);
+    ARCHIVE_VALUE(a, "diagnostics/energy_scale", w->energy_scale);
+    ARCHIVE_VALUE(a, "diagnostics/momentum_start", w->momentum_start);
+    ARCHIVE_VALUE(a, "diagnostics/momentum_scale", w->momentum_scale);
+    ARCHIVE_VALUE(a, "diagnostics/started", w->started);
+    ARCHIVE_VALUE(a, "diagnostics/break_time", w->break_time);
+    ARCHIVE_VALUE(a, "diagnostics/break_place", w->break_place);
+    ARCHIVE_VALUE(a, "diagnostics/bonds_broken", w->bonds_broken);
     return OK;
 }

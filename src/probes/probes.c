@@ -258,7 +258,7 @@ static bool any_cut(const struct particles *p)
 {
     uint8_t any = 0;
     for (int64_t i = 0; i < p->n; i++) any |= p->flag[i];
-    return any & FLAG_CUT;
+    return any & FLAG_LOST_BOND;
 }
 
 void probes_step(struct probes *s, const struct observed *o)

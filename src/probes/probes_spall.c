@@ -79,7 +79,7 @@ static void columns_points(struct columns *c, const struct particles *p, int bod
 {
     for (int64_t k = 0; k < c->n; k++) c->last[k] = -INFINITY, c->next[k] = INFINITY;
     for (int64_t i = 0; i < p->n; i++) {
-        if (p->body[i] != body || p->kind[i] != KIND_MPM || p->flag[i] & FLAG_CUT) continue;
+        if (p->body[i] != body || p->kind[i] != KIND_MPM || p->flag[i] & FLAG_LOST_BOND) continue;
         int64_t k = probes_spall_column_of(c, p->X[0][i]);
         c->last[k] = real_max(c->last[k], p->X[0][i]);
         if (k > 0) c->next[k - 1] = real_min(c->next[k - 1], p->X[0][i]);

@@ -24,7 +24,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(expect(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
     TRY(check_keys(r, root, ""));
     TRY(read_space(r, root));
-    s->conversion.criteria = CONVERT_ON_CUT | CONVERT_ON_STRESS;
+    s->conversion.criteria = CONVERT_ON_BREAK | CONVERT_ON_STRESS;
     TRY(read_group(r, root, root, "", s));
     TRY(check_scene(r, root));
     TRY(read_materials(r, root));
@@ -44,7 +44,9 @@ status scene_tree(struct reader *r, const char *text, size_t length, struct node
 {
     TRY(tree_read(r, text, length, -1, root));
     if (!*root) return fault_mark(r, -1, 1, 1, "empty; a scene begins with keys such as space and duration");
-    return tree_override(r, *root);
+    TRY(tree_rename(r, *root));
+    TRY(tree_override(r, *root));
+    return tree_rename(r, *root);        /* values of overrides may be mappings */
 }
 
 void scene_free(struct scene *s)

@@ -117,7 +117,7 @@ static const char *frame_wish(const struct scene *s)
 {
     if (s->has_shape) return "the scene says mpm.shape, which frame reference knows nothing of";
     if (s->has_transfer) return "the scene says mpm.transfer, which frame reference knows nothing of";
-    if (s->has_interface_damping) return "the scene says rim_damping, which frame reference knows nothing of";
+    if (s->has_interface_damping) return "the scene says interface_damping, which frame reference knows nothing of";
     return NULL;
 }
 
@@ -155,10 +155,10 @@ static status check_times(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for accuracy and accuracy_chart: they control method auto, which removes them from the tree. */
+/* REFUSED for accuracy and accuracy_table: they control method auto, which removes them from the tree. */
 static status check_accuracy(struct reader *r, const struct node *root)
 {
-    const char *const keys_of_auto[] = {"accuracy", "accuracy_chart"};
+    const char *const keys_of_auto[] = {"accuracy", "accuracy_table"};
     for (size_t k = 0; k < COUNT_OF(keys_of_auto); k++) {
         const struct node *n = node_find(root, keys_of_auto[k]);
         if (n) return fault(r, n, "has no meaning without method: auto");

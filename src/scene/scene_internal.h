@@ -42,6 +42,10 @@ void node_append(struct node *parent, struct node *child);
 struct node *node_find(const struct node *map, const char *key);
 /* Lays the overrides over the tree (scene_override.c). */
 status tree_override(struct reader *r, struct node *root);
+/* Gives keys of an earlier version their name of now, in the tree or in the path of an override (scene_renamed.c); the
+ * scene keeps a note of them. REFUSED where both names are given. */
+status tree_rename(struct reader *r, struct node *root);
+const char *path_renamed(struct reader *r, const char *path);
 /* Applies one more override, as from the command line. An empty value removes the key; REFUSED if it is not there. */
 status tree_set(struct reader *r, struct node *root, const char *key, const char *value);
 /* The node at a path of keys without lists; NULL: the scene does not give it. */

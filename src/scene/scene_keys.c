@@ -29,7 +29,7 @@ const struct key keys[] = {
     KEY("duration", KEY_REAL, UNIT_TIME, AT(scene, duration), ABOVE(0), REQUIRED, "simulated time"),
     KEY("method", KEY_CHOICE, UNIT_NONE, AT(scene, method), ANY, "adaptive",
         "peridynamics, material points, or material points that become peridynamic where the material breaks; auto: "
-        "these and spacing, horizon, shape, coupling and step from the measured chart, by accuracy",
+        "these and spacing, horizon, shape, coupling and step from the cost-accuracy table, by accuracy",
         .words = "pd|mpm|adaptive|auto"),
     KEY("model", KEY_CHOICE, UNIT_NONE, AT(scene, model), ANY, "bond",
         "peridynamic law: bond-based; ordinary state-based; state-based with rotations (both: any Poisson's ratio)",
@@ -44,10 +44,12 @@ const struct key keys[] = {
     KEY("solver_steps", KEY_INT, UNIT_NONE, AT(scene, solver_steps), BETWEEN(1, 1000000000), "200000",
         "most steps (relaxation, cg); a run that needs more fails"),
     KEY("accuracy", KEY_REAL, UNIT_NONE, AT(scene, accuracy), INSIDE(0, 0.5), "(1 % with method auto)",
-        "method auto: largest error that the chart may expect, as it measures the problem that the scene is like",
+        "method auto: largest error that the cost-accuracy table may expect, as measured for the problem that the "
+        "scene is like",
         .has = FLAG(scene, has_accuracy)),
-    KEY("accuracy_chart", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(that of the program)",
-        "method auto: a chart measured elsewhere, as `cleave bench accuracy` writes it (results/bench/chart.csv); "
+    KEY("accuracy_table", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(that of the program)",
+        "method auto: a cost-accuracy table measured elsewhere, as `cleave bench accuracy` writes it "
+        "(results/bench/cost_accuracy.csv); "
         "sought in the scene's folder, then in the current one",
         .words = "file name, .csv"),
 
@@ -166,7 +168,7 @@ const struct key keys[] = {
         "the cost; auto: reference where the body is one piece on a regular lattice, elastic, the only one and not at "
         "rest by a solver, "
         "with mpm.cell 2 and coupling partial stress or handshake, and the scene says nothing of shape, transfer and "
-        "rim_damping, "
+        "interface_damping, "
         "which have no meaning then; else current (`cleave check` says why)",
         .words = "current|reference|auto"),
     KEY("mpm.strain", KEY_CHOICE, UNIT_NONE, AT(scene, small_strain), ANY, "finite",
@@ -184,7 +186,7 @@ const struct key keys[] = {
     KEY("coupling", KEY_CHOICE, UNIT_NONE, AT(scene, coupling), ANY, "partial stress",
         "of material points and bonds where both meet", .words = "partial stress|handshake|pm|pg|pmg|pgg"),
 
-    KEY("rim_damping", KEY_REAL, UNIT_NONE, AT(scene, interface_damping), FROM(0), "0.25",
+    KEY("interface_damping", KEY_REAL, UNIT_NONE, AT(scene, interface_damping), FROM(0), "0.25",
         "coupling partial stress with transfer flip: damping of motion beside peridynamic particles that the grid "
         "cannot see, in wave speed over cell; 0: none; a scene that says it wants the current frame",
         .has = FLAG(scene, has_interface_damping)),
@@ -198,18 +200,18 @@ const struct key keys[] = {
     KEY("conversion.block", KEY_FLAG, UNIT_NONE, AT(scene, conversion.block), ANY, "true",
         "a particle takes its horizon neighbours along"),
     KEY("conversion.criteria", KEY_SET, UNIT_NONE, AT(scene, conversion.criteria), ANY, "([bond, stress])",
-        "what converts: a cut bond, the stress; a list, or none", .words = "bond|stress"),
+        "what converts: a broken bond, the stress; a list, or none", .words = "bond|stress"),
     KEY("conversion.tips", KEY_REAL, UNIT_NONE, AT(scene, conversion.tips), BETWEEN(0, 1000), "0",
         "peridynamic from the start this many horizons round the ends of pre-cracks; 2 starts cracks when peridynamics "
         "does"),
-    KEY("conversion.return", KEY_FLAG, UNIT_NONE, AT(scene, conversion.back), ANY, "false",
-        "peridynamic particles become material points again where no bond within two horizons was ever cut and the "
+    KEY("conversion.reversion", KEY_FLAG, UNIT_NONE, AT(scene, conversion.reverts), ANY, "false",
+        "peridynamic particles become material points again where no bond within two horizons was ever broken and the "
         "stress "
         "stays low (coupling partial stress or handshake, elastic materials)"),
-    KEY("conversion.dwell", KEY_REAL, UNIT_NONE, AT(scene, conversion.hold_time), BETWEEN(1, 1e6), "5",
-        "return: how long the stress must have been low, in horizon over wave speed"),
-    KEY("conversion.return_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.low_stress), INSIDE(0, 0.9), "0.5",
-        "return: what low stress is, as a share of the one that converts"),
+    KEY("conversion.hold_time", KEY_REAL, UNIT_NONE, AT(scene, conversion.hold_time), BETWEEN(1, 1e6), "5",
+        "reversion: how long the stress must have been low, in horizon over wave speed"),
+    KEY("conversion.low_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.low_stress), INSIDE(0, 0.9), "0.5",
+        "reversion: what low stress is, as a share of the one that converts"),
 
     KEY("cracks", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "cracks there at the start"),
     KEY("cracks.from", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "one end of a segment (plane)"),
@@ -327,7 +329,7 @@ const struct key keys[] = {
         "wall clock, as 2 h or 90 min, after which the run ends with a checkpoint (exit status 130); scene.yaml leaves "
         "it out",
         .words = "none", .word_value = INFINITY, .of_process = true),
-    KEY("time.rest", KEY_FLAG, UNIT_NONE, AT(scene, rest), ANY, "true",
+    KEY("time.active_set", KEY_FLAG, UNIT_NONE, AT(scene, active_set), ANY, "true",
         "what no wave has reached is not computed; the results are the same to the last bit, false is slower"),
     KEY("time.safety", KEY_REAL, UNIT_NONE, AT(scene, safety), INSIDE(0, 2), "(0.8, or 0.5 where bonds may break)",
         "share of the critical step; above 1 shows instability"),

@@ -179,7 +179,7 @@ static void replace(struct node *n, const struct node *value)
 static status override_one(struct reader *r, struct node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];
-    const char *path = o->key, *key = NULL;
+    const char *path = path_renamed(r, o->key), *key = NULL;
     size_t length = 0;
     int index;
     struct node *n = root, *value;

@@ -39,7 +39,7 @@ reflected() { compute "100 * $(f "$1" probes.pulse.reflected)"; }
 
 for width in 16 32 64 128; do
     for c in $all; do pulse "pulse_$c$width" $width -s "coupling=$(coupling $c)"; done
-    pulse "pulse_undamped$width" $width -s rim_damping=0
+    pulse "pulse_undamped$width" $width -s interface_damping=0
 done
 for width in 16 32 64; do
     for origin in 0.5 1 1.5; do pulse "pulse_at$origin-$width" $width -s "mpm.origin=[${origin}mm]"; done
@@ -113,7 +113,7 @@ done
 # ---- a loaded bar --------------------------------------------------------------------------------------------------
 
 for c in $all; do bar "coupled_$c" bar_coupled -s "coupling=$(coupling $c)"; done
-bar coupled_undamped bar_coupled -s rim_damping=0
+bar coupled_undamped bar_coupled -s interface_damping=0
 # whole: the bar and its image in the fixed end
 line='probes=[line: {name: bar, from: [0.0025], to: [0.9975], points: 200}]'
 both='boundary=[{traction: 1, face: x+}, {traction: -1, face: x-}]'

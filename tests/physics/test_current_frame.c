@@ -50,7 +50,7 @@ static void run_make(struct run *r, const struct block *b, const char *method, c
              b->edge, strcmp(method, "mpm") ? "pd: {region: " : "", strcmp(method, "mpm") ? b->region : "",
              strcmp(method, "mpm") ? "}\n" : "", more);
     struct bench_overrides o = {0};
-    bench_override(&o, "time.rest", "false");
+    bench_override(&o, "time.active_set", "false");
     bench_override(&o, "mpm.frame", "current");
     bench_override(&o, "mpm.origin", "[%s]", b->origin);
     if (poisson) bench_override(&o, "material.poisson", "%s", poisson);

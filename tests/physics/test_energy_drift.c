@@ -10,27 +10,27 @@
 #include "../bench/stability/energy_drift.h"
 #include "tests/support/near.h"
 
-static const struct lasting_case *named(const char *name)
+static const struct drift_case *named(const char *name)
 {
-    for (int k = 0; k < lasting_named_count; k++)
-        if (!strcmp(lasting_named[k].name, name)) return &lasting_named[k];
+    for (int k = 0; k < drift_named_count; k++)
+        if (!strcmp(drift_named[k].name, name)) return &drift_named[k];
     fail_msg("no case %s", name);
     return NULL;
 }
 
-static bool holds(const struct lasting_case *l, int64_t steps)
+static bool holds(const struct drift_case *l, int64_t steps)
 {
     struct lasting r;
     char label[128];
-    lasting_label(l, label, sizeof label);
-    assert_ok(lasting_run(l, steps, &r));
-    if (lasting_holds(l, &r)) return true;
+    drift_label(l, label, sizeof label);
+    assert_ok(drift_run(l, steps, &r));
+    if (drift_holds(l, &r)) return true;
     print_message("%s: energy %.2e at the end, %.2e at most, %.2e at least, %.2e a step, turned %.1e, %s\n", label,
                   r.end, r.largest, r.least, r.rate, r.turn, r.why[0] ? r.why : "went on");
     return false;
 }
 
-static void all_hold(const struct lasting_case *sample, int n, int64_t steps)
+static void all_hold(const struct drift_case *sample, int n, int64_t steps)
 {
     int wrong = 0;
     for (int k = 0; k < n; k++) wrong += !holds(&sample[k], steps);
@@ -44,13 +44,13 @@ static void all_hold(const struct lasting_case *sample, int n, int64_t steps)
 static void test_seen(void **state)
 {
     (void)state;
-    const struct lasting_case bar = {
+    const struct drift_case bar = {
         .c = {.text = "space: line\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, density: 2440}\n"
                       "body: {box: {from: [0], to: [48e-3]}}\nparticles: {spacing: 1e-3}\n"
                       "time: {safety: 1.03}\noutput: {frames: 0, samples: 1}\n"}};
     struct lasting r;
-    assert_ok(lasting_run(&bar, 400, &r));
-    assert_false(lasting_holds(&bar, &r));
+    assert_ok(drift_run(&bar, 400, &r));
+    assert_false(drift_holds(&bar, &r));
     assert_true(r.stopped > 0 && r.loudest > 10 && r.rate > 1e-3);
 }
 
@@ -59,7 +59,7 @@ static void test_seen(void **state)
 #define PLATE .dim = 2, .edge = 12
 #define MESH(by, law, nu, where) PLATE, .method = "adaptive", .frame = "reference", .coupling = by, .model = law,      \
                                  .poisson = nu, .region = where
-static const struct lasting_case meshed[] = {
+static const struct drift_case meshed[] = {
     {.c = {MESH("partial stress", "bond", 0, DISC)}},
     {.c = {MESH("partial stress", "ospd", 0.2, NOTCH)}},
     {.c = {MESH("partial stress", "ospd", 0.49, SQUARE), .space = "plane strain"}},
@@ -72,7 +72,7 @@ static const struct lasting_case meshed[] = {
 static void test_meshed(void **state)
 {
     (void)state;
-    const struct lasting_case solid = {.c = {.dim = 3,
+    const struct drift_case solid = {.c = {.dim = 3,
                                              .edge = 6,
                                              .method = "adaptive",
                                              .frame = "reference",
@@ -85,7 +85,7 @@ static void test_meshed(void **state)
     all_hold(&solid, 1, 20000);
 }
 
-static const struct lasting_case held[] = {
+static const struct drift_case held[] = {
     {.c = {PLATE, .method = "pd", .model = "bond", .weights = "isotropic", .horizon = 2.015, .support = CLAMP}},
     {.c = {PLATE, .method = "pd", .model = "mospd", .poisson = 0.45, .support = CLAMP_MIRROR}},
     {.c = {PLATE, .method = "pd", .model = "ospd", .poisson = 0.3, .irregularity = 0.5, .support = FIXED}},
@@ -104,7 +104,7 @@ static void test_held(void **state)
 
 #define GRID(by, law, nu, where, to) PLATE, .method = "adaptive", .frame = "current", .transfer = to, .shape = "gimp", \
                                      .coupling = by, .model = law, .poisson = nu, .region = where
-static const struct lasting_case current[] = {
+static const struct drift_case current[] = {
     {.c = {GRID("partial stress", "bond", 0, SQUARE, "flip"), .offset = 0.25}},
     {.c = {GRID("handshake", "bond", 0, HALF, "flip")}},
     {.c = {GRID("partial stress", "ospd", 0.2, DISC, "flip")}},
@@ -127,12 +127,12 @@ static void test_current(void **state)
 static void test_noise(void **state)
 {
     (void)state;
-    const struct lasting_case
+    const struct drift_case
         flip = {.c = {.dim = 1, .edge = 32, .method = "mpm", .frame = "current", .transfer = "flip", .shape = "gimp"}},
         apic = {.c = {.dim = 1, .edge = 32, .method = "mpm", .frame = "current", .transfer = "apic", .shape = "gimp"}},
         mesh = {.c = {.dim = 1, .edge = 32, .method = "mpm", .frame = "reference"}};
     struct lasting r;
-    assert_ok(lasting_run(&flip, 50000, &r));
+    assert_ok(drift_run(&flip, 50000, &r));
     if (!(r.end > 0.005 && r.largest < 0.15))
         fail_msg("a bar of FLIP points: energy %+.2e, known to gain 0.5 to 15 %%", r.end);
     assert_true(holds(&apic, 50000) && holds(&mesh, 50000));

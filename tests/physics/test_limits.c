@@ -9,29 +9,29 @@
 #include "../bench/stability/limits.h"
 #include "tests/support/near.h"
 
-static bool row_is_as_known(const struct failing_scene *s, const struct failing_row *r)
+static bool row_is_as_known(const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];
     char label[128];
     bool known = true;
-    failing_label(s, r, label, sizeof label);
-    const status done = failing_measure(s, r, figure);
+    limits_label(s, r, label, sizeof label);
+    const status done = limits_measure(s, r, figure);
     if (done != OK) print_message("%s: %s\n", label, status_message());
-    for (int k = 0; k < failing_figures(s); k++) {
+    for (int k = 0; k < limits_figures(s); k++) {
         const bool good = figure[k] >= r->known[k].low && figure[k] <= r->known[k].high;
         if (!good)
             print_message("%s: %s %.4g, known %g to %g\n", label, s->figure[k].quantity, figure[k], r->known[k].low,
                           r->known[k].high);
         known = known && good;
     }
-    if (failing_holds(s, figure) == !r->remedy) return done == OK && known;
+    if (limits_holds(s, figure) == !r->remedy) return done == OK && known;
     print_message("%s: %s\n", label, r->remedy ? "holds, and is said to fail" : "fails without a cure");
     return false;
 }
 
 static void figures_are_as_known(void **state)
 {
-    const struct failing_scene *s = *state;
+    const struct limits_scene *s = *state;
     int wrong = 0;
     for (int k = 0; k < s->rows; k++) wrong += !row_is_as_known(s, &s->row[k]);
     assert_int_equal(wrong, 0);
@@ -41,7 +41,7 @@ int main(void)
 {
     struct CMUnitTest tests[FAILING_SCENES];
     for (int k = 0; k < FAILING_SCENES; k++)
-        tests[k] = (struct CMUnitTest){.name = failing_scene[k]->name, .test_func = figures_are_as_known,
-                                       .initial_state = (void *)failing_scene[k]};
+        tests[k] = (struct CMUnitTest){.name = limits_scene[k]->name, .test_func = figures_are_as_known,
+                                       .initial_state = (void *)limits_scene[k]};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

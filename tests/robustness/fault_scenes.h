@@ -34,11 +34,14 @@ static const struct fault_scene converting_scene = {"converting",
 
 /* A pulse passes through a bar: its front turns points into peridynamic particles, which become points again behind
  * it. */
-#define PASSING {"passing",                                                                                            \
-     "space: line\nduration: 5 ms\nmaterial: {young: 1e4, density: 1}\nbody: {box: {from: [0], to: [1.024]}}\n"        \
-     "particles: {spacing: 8 mm, horizon: 3}\nconversion: {stress: 50, alpha: 1, return: true}\n"                      \
-     "initial: [{pulse: {at: [0.256], direction: [1], width: 80 mm, velocity: -1}}]\ntime: {step: 40 us}\n"            \
-     EVERY_STEP_KEPT "probes: [pulse: {at: [0.512], direction: [1]}, energy]\n"}
+#define PASSING                                                                                                        \
+    {                                                                                                                  \
+        "passing",                                                                                                     \
+            "space: line\nduration: 5 ms\nmaterial: {young: 1e4, density: 1}\nbody: {box: {from: [0], to: [1.024]}}\n" \
+            "particles: {spacing: 8 mm, horizon: 3}\nconversion: {stress: 50, alpha: 1, reversion: true}\n"            \
+            "initial: [{pulse: {at: [0.256], direction: [1], width: 80 mm, velocity: -1}}]\ntime: {step: 40 "          \
+            "us}\n" EVERY_STEP_KEPT "probes: [pulse: {at: [0.512], direction: [1]}, energy]\n"                         \
+    }
 static const struct fault_scene passing_scene = PASSING;
 
 static const struct fault_scene fault_scenes[] = {

@@ -94,9 +94,9 @@ static void add_methods(struct maker *m)
     add_one(m, "|, transfer: flip|, transfer: apic"), add_one(m, "|, frame: current|, frame: reference"),
         add_one(m, "|, strain: small");
     add(m, "}\n"), add_one(m, "|coupling: handshake\n|coupling: pm\n|coupling: pg\n|coupling: pmg\n|coupling: pgg\n");
-    add_one(m, "|conversion: {stress: 0.01}\n|conversion: {stress: 0.01, return: true}\n|conversion: {criteria: "
+    add_one(m, "|conversion: {stress: 0.01}\n|conversion: {stress: 0.01, reversion: true}\n|conversion: {criteria: "
                "none}\n|conversion: {block: false}\n");
-    add_one(m, "||time: {safety: 0.2}\n|time: {safety: 1.9}\n|time: {step: 0.1}\n|time: {rest: false}\n");
+    add_one(m, "||time: {safety: 0.2}\n|time: {safety: 1.9}\n|time: {step: 0.1}\n|time: {active_set: false}\n");
 }
 
 static void add_loads(struct maker *m, const double *edge)

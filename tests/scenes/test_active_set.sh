@@ -40,7 +40,7 @@ for name in pd mpm adaptive; do
         adaptive) points=0.5859375; set -- -s "$right" ;;          # 300 of 512 columns
     esac
     calm "$work/$name" "$work/strip.yaml" -s method=$name "$@"
-    calm "$work/never" "$work/strip.yaml" -s method=$name "$@" -s time.rest=false
+    calm "$work/never" "$work/strip.yaml" -s method=$name "$@" -s time.active_set=false
     is "$name: all is either" "$(series "$work/$name" 'pd + mpm < 1 - 1e-8 || pd + mpm > 1 + 1e-8')" ""
     between "$name: share of points" "$(series "$work/$name" 'END { print mpm }')" $points $points
     is "$name: without rest nobody rests" "$(series "$work/never" 'rest != 0')" ""

@@ -100,7 +100,7 @@ refused()
     holds "$what: says '$(cat "$work/err")'" grep -q -- "$words" "$work/err"
     holds "$what: left behind" test ! -e "$work/refused"
 }
-refused "too accurate" "is not reached by the chart of a pulse in a bar; .* % is, by .*: ask for that" "$work/pulse.yaml" -s accuracy=1e-6
+refused "too accurate" "is not reached by the table of a pulse in a bar; .* % is, by .*: ask for that" "$work/pulse.yaml" -s accuracy=1e-6
 refused "no accuracy" "accuracy: 0 is out of range" "$work/pulse.yaml" -s accuracy=0
 refused "no pulse" "a bar without initial pulse and without traction" "$work/pulse.yaml" -s initial=
 refused "a pulse and a moving end" "a load that its nearest problem does not have" "$work/pulse.yaml" \
@@ -112,17 +112,17 @@ refused "yields" "a material that yields" "$work/pulse.yaml" -s material.yield_s
 refused "shaken" "a shaken lattice" "$work/crack.yaml" -s particles.irregularity=0.3
 refused "at rest, no crack" "plates with a round hole or a crack" "$work/crack.yaml" -s cracks=
 refused "a hole in time" "nearest is one at rest (solver: static)" inputs/plate_hole.yaml -s method=auto -s material.critical_stretch=inf -s particles.spacing=
-refused "large strains" "the chart's problems are linear" "$work/pulse.yaml" -s "initial[0].pulse.velocity=500"
-refused "large strains of a spall" "the chart.s problems are linear" inputs/hopkinson_bar.yaml -s method=auto -s particles= -s mpm= -s time= -s accuracy=5%
+refused "large strains" "the table's problems are linear" "$work/pulse.yaml" -s "initial[0].pulse.velocity=500"
+refused "large strains of a spall" "the table.s problems are linear" inputs/hopkinson_bar.yaml -s method=auto -s particles= -s mpm= -s time= -s accuracy=5%
 refused "a spacing too wide" "leave keys of pd, mpm, model and spacing to auto" "$work/pulse.yaml" -s particles.spacing=0.1
-refused "what no method is" "no method of the chart for" "$work/pulse.yaml" -s particles.horizon=7.3 -s method=auto -s mpm.frame=current -s mpm.transfer=flip -s mpm.cell=3 -s accuracy=5%
+refused "what no method is" "no method of the cost-accuracy table for" "$work/pulse.yaml" -s particles.horizon=7.3 -s method=auto -s mpm.frame=current -s mpm.transfer=flip -s mpm.cell=3 -s accuracy=5%
 refused "static alone" "static leaves the choice to method auto" "$work/crack.yaml" -s method=pd -s model=mospd -s particles.spacing=1mm
-refused "no chart" "no such file" "$work/pulse.yaml" -s accuracy_chart=nowhere.csv
+refused "no chart" "no such file" "$work/pulse.yaml" -s accuracy_table=nowhere.csv
 printf 'problem\nbar\n' >"$work/bad.csv"
-refused "a bad chart" "bad.csv:1:1: no chart" "$work/pulse.yaml" -s "accuracy_chart=$work/bad.csv"
+refused "a bad chart" "bad.csv:1:1: no cost-accuracy table" "$work/pulse.yaml" -s "accuracy_table=$work/bad.csv"
 
-# A chart of one's own: with peridynamics alone, it is peridynamics.
+# A table of one's own: with peridynamics alone, it is peridynamics.
 { head -n 1 src/auto/cost_accuracy.csv; grep '^bar,pulse,pd bond,' src/auto/cost_accuracy.csv; } >"$work/own.csv"
-calm "$work/own" "$work/pulse.yaml" -s "accuracy_chart=own.csv" -s accuracy=5%
-is "a chart of one's own" "$(figure "$work/own" auto.picked)" "pd bond"
+calm "$work/own" "$work/pulse.yaml" -s "accuracy_table=own.csv" -s accuracy=5%
+is "a table of one's own" "$(figure "$work/own" auto.picked)" "pd bond"
 finish

@@ -93,7 +93,7 @@ cut -d, -f1-9 results/bench/accuracy.csv | cmp -s - one || fail "accuracy differ
 cd results/bench
 [ "$(head -1 accuracy.csv)" = problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,\
 particles,steps,stable,version,settings ] || fail "columns of accuracy.csv"
-for file in accuracy.json accuracy.md accuracy.png accuracy.svg accuracy_bar.png accuracy_bar.svg chart.csv; do
+for file in accuracy.json accuracy.md accuracy.png accuracy.svg accuracy_bar.png accuracy_bar.svg cost_accuracy.csv; do
     [ -s $file ] || fail "$file is missing"
 done
 cd ../..
@@ -104,13 +104,13 @@ space: line
 duration: 4 ms
 method: auto
 accuracy: 0.1 %
-accuracy_chart: results/bench/chart.csv
+accuracy_table: results/bench/cost_accuracy.csv
 material: {young: 1e4, density: 1, critical_stretch: inf}
 body: {box: {from: [0], to: [1.6]}}
 initial: [{pulse: {at: [0.6], direction: [1], width: 0.4, velocity: 1e-5}}]
 END
-"$cleave" check pulse.yaml >out 2>&1 && fail "a quick chart knows what only long runs reach"
-grep -q ' % is, by pd bond with 160 spacings' out || fail "a chart of one's own: $(cat out)"
+"$cleave" check pulse.yaml >out 2>&1 && fail "a quick table knows what only long runs reach"
+grep -q ' % is, by pd bond with 160 spacings' out || fail "a table of one's own: $(cat out)"
 
 # Couplings: the columns, and figures known from the literature's couplings and from an independent prototype.
 cp "$inputs/bar_pulse.yaml" "$inputs/plate_pulse.yaml" inputs

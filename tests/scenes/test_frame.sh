@@ -184,7 +184,7 @@ few="-s particles.spacing=1mm -s duration=1us"
 chooses reference "keeps its neighbours" $crack $few
 chooses current "mpm.shape" $crack $few -s mpm.shape=gimp
 chooses current "mpm.transfer" $crack $few -s mpm.frame=auto -s mpm.transfer=flip
-chooses current "rim_damping" $crack $few -s rim_damping=0
+chooses current "interface_damping" $crack $few -s interface_damping=0
 chooses current "mpm.cell 2" $crack $few -s mpm.cell=3
 chooses current "couplings pm" $crack $few -s coupling=pgg
 chooses current "regular lattice" $crack $few -s particles.irregularity=0.1

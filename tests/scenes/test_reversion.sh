@@ -1,5 +1,5 @@
 #!/bin/sh
-# Back to material points (conversion.return) in whole runs: the share of peridynamics falls again behind a wave, without
+# Back to material points (conversion.reversion) in whole runs: the share of peridynamics falls again behind a wave, without
 # flutter, at no cost in momentum and little in energy; the same bits on any number of threads and after any interruption;
 # and what cannot return is refused.
 test_name=test_reversion
@@ -17,7 +17,7 @@ start current bar_return -s mpm.frame=current
 start reference bar_return
 wait
 start apic bar_return -s mpm.transfer=apic
-start never bar_return -s mpm.frame=current -s conversion.return=false
+start never bar_return -s mpm.frame=current -s conversion.reversion=false
 wait
 for run in current reference apic; do
     sound $run $([ $run = apic ] && echo $adaptive_balance || echo 0.01)
@@ -43,7 +43,7 @@ duration: 40 us
 material: {young: 200 GPa, density: 8000}
 body: {box: {from: [0, 0], to: [160 mm, 20 mm]}}
 particles: {spacing: 1 mm}
-conversion: {stress: 200 MPa, alpha: 1, return: true}
+conversion: {stress: 200 MPa, alpha: 1, reversion: true}
 initial: [{pulse: {at: [40 mm, 0], width: 32 mm, velocity: -10 m/s, direction: [1, 0]}}]
 output: {frames: 4, samples: 100}
 END
@@ -68,7 +68,7 @@ done
 # ---- beside cracks nobody returns ------------------------------------------------------------------------------------
 
 # The plate with a hole: what converts lies within two horizons of bonds that break. The result is that without return.
-start hole plate_hole -s conversion.stress=3000MPa -s duration=20us -s conversion.return=true
+start hole plate_hole -s conversion.stress=3000MPa -s duration=20us -s conversion.reversion=true
 start hole_never plate_hole -s conversion.stress=3000MPa -s duration=20us
 wait
 is "hole: returned" "$(f hole conversion.returned)" 0
@@ -82,9 +82,9 @@ holds "hole: the same history" cmp "$work/hole/history.csv" "$work/hole_never/hi
 kalthoff="kalthoff_winkler -s duration=24us -s output.frames=1"
 tip() { echo "{ball: {centre: [50 mm, $1 mm], radius: 6.03 mm}}"; }
 start pd $kalthoff -s method=pd -s pd.surface=none
-start tips $kalthoff -s conversion.tips=2 -s conversion.return=true
+start tips $kalthoff -s conversion.tips=2 -s conversion.reversion=true
 wait
-start region $kalthoff -s conversion.return=true -s "pd.region=[$(tip -25), $(tip 25)]"
+start region $kalthoff -s conversion.reversion=true -s "pd.region=[$(tip -25), $(tip 25)]"
 start bare_notch $kalthoff
 wait
 holds "tips: the region" cmp "$work/tips/history.csv" "$work/region/history.csv"
@@ -104,8 +104,8 @@ refused()
     holds "$what: $(cat "$work/err")" grep -q "$part" "$work/err"
 }
 refused tips "out of range" -s conversion.tips=-1
-refused dwell "out of range" -s conversion.dwell=0.5
-refused share "out of range" -s conversion.return_stress=0.95
+refused dwell "out of range" -s conversion.hold_time=0.5
+refused share "out of range" -s conversion.low_stress=0.95
 refused criteria "criteria with stress" -s "conversion.criteria=[bond]"
 refused coupling "partial stress or handshake" -s coupling=pm
 refused yields "do not yield" -s material.yield_stress=300MPa

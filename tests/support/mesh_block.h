@@ -11,7 +11,7 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* A block of points with a hole in one corner, so that it has whole and cut cells. */
+/* A block of points with a hole in one corner, so that it has whole and partial cells. */
 struct block {
     struct cloud c;
     struct mesh mesh;
@@ -46,7 +46,7 @@ static void block_make(struct block *b, enum space space, bool hole, bool cubic)
         p->flag[i] |= FLAG_MESHED;
     }
     assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
-    assert_true(b->mesh.runs > 0 && b->mesh.cuts > 0);
+    assert_true(b->mesh.runs > 0 && b->mesh.partial_cells > 0);
 }
 
 static void block_free(struct block *b)

@@ -89,7 +89,7 @@ duration: 34 us
 material: {young: 200 GPa, density: 8000}
 body: {box: {from: [0, 0], to: [160 mm, 20 mm]}}
 particles: {spacing: 1 mm}
-conversion: {stress: 200 MPa, alpha: 1, return: true}
+conversion: {stress: 200 MPa, alpha: 1, reversion: true}
 initial: [{pulse: {at: [40 mm, 0], width: 32 mm, velocity: -10 m/s, direction: [1, 0]}}]
 output: {frames: 2, samples: 10}
 END
@@ -103,7 +103,7 @@ wedge="inputs/kalthoff_winkler_3d.yaml $few -s particles.spacing=5mm -s time.ste
 # One scene a line: name, scene and arguments.
 scenes="\
 plate|$kalthoff
-plate_return|$kalthoff -s conversion.return=true -s conversion.dwell=1
+plate_return|$kalthoff -s conversion.reversion=true -s conversion.hold_time=1
 plate_handshake|$kalthoff -s coupling=handshake
 plate_pm|$kalthoff -s coupling=pm
 plate_pg|$kalthoff -s coupling=pg

@@ -1,4 +1,4 @@
-/* `method: auto`: the choice from a chart written by hand, whose cheapest point is known in closed form;
+/* `method: auto`: the choice from a table written by hand, whose cheapest point is known in closed form;
  * what scenes are like; the spacing that fits; and that the scene as run says the same without auto. */
 #include <math.h>
 #include <setjmp.h>
@@ -13,7 +13,7 @@
 #include "auto/scene_read.h"
 #include "src/auto/auto.h"
 
-/* ---- a chart whose lines are powers ---------------------------------------------------------------------------------
+/* ---- a table whose lines are powers ---------------------------------------------------------------------------------
  *
  * first   error 1/N, 1e-6 N^2 s;  second   error 10/N^2, 4e-6 N^2 s:  with errors met exactly 1e-6/e^2 and 4e-5/e s, so
  *            that
@@ -48,11 +48,11 @@ static bool not_second(const struct cost_point *p, const void *context)
 }
 
 static char text[16384];
-static struct chart two_lines(void)
+static struct cost_accuracy two_lines(void)
 {
-    struct chart c;
+    struct cost_accuracy c;
     FILE *to = fmemopen(text, sizeof text, "w");
-    fputs(CHART_HEADER "\n", to);
+    fputs(TABLE_HEADER "\n", to);
     put_line(to, "pulse", "first", 1, 1, 1e-6, "method=pd");
     put_line(to, "pulse", "second", 10, 2, 4e-6, "method=mpm;mpm.frame=reference");
     fclose(to);
@@ -61,8 +61,8 @@ static struct chart two_lines(void)
     return c;
 }
 
-static struct auto_found picked(const struct chart *c, const struct auto_kind *kind, double accuracy, double resolution,
-                                bool (*allows)(const struct cost_point *, const void *))
+static struct auto_found picked(const struct cost_accuracy *c, const struct auto_kind *kind, double accuracy,
+                                double resolution, bool (*allows)(const struct cost_point *, const void *))
 {
     const struct auto_match m = {.kind = kind, .cases = 1, .at = {"pulse"}, .feature = 1, .growth = 1};
     const struct auto_wish w = {.match = &m, .accuracy = accuracy, .resolution = resolution, .allows = allows};
@@ -76,7 +76,7 @@ static struct auto_found picked(const struct chart *c, const struct auto_kind *k
 static void cheapest_of_two_powers(void **state)
 {
     (void)state;
-    struct chart c = two_lines();
+    struct cost_accuracy c = two_lines();
     const double coarse = 0.04, fine = 0.004;
     struct auto_found f = picked(&c, &smooth, coarse, 0, all);
     assert_string_equal(f.best.of->method, "first");
@@ -92,11 +92,11 @@ static void cheapest_of_two_powers(void **state)
     cost_accuracy_free(&c);
 }
 
-/* Where nothing says that errors are powers, a run of the chart; a run that is good enough as it is needs no margin. */
+/* Where nothing says that errors are powers, a run of the table; a run that is good enough as it is needs no margin. */
 static void runs_where_it_is_not_smooth(void **state)
 {
     (void)state;
-    struct chart c = two_lines();
+    struct cost_accuracy c = two_lines();
     assert_true(picked(&c, &rough, 0.09, 0, all).best.resolution == 20);     /* first: 1/20 */
     assert_true(picked(&c, &rough, 0.003, 0, all).best.resolution == 80);  /* second: 10/80^2; first is never so good */
     /* the coarsest: nothing coarser is known */
@@ -107,7 +107,7 @@ static void runs_where_it_is_not_smooth(void **state)
 static void what_is_not_reached_is_said(void **state)
 {
     (void)state;
-    struct chart c = two_lines();
+    struct cost_accuracy c = two_lines();
     struct auto_found f = picked(&c, &smooth, 1e-5, 0, all);
     assert_null(f.best.of);
     assert_string_equal(f.finest.of->method, "second");
@@ -123,7 +123,7 @@ static void what_is_not_reached_is_said(void **state)
 static void at_a_given_resolution(void **state)
 {
     (void)state;
-    struct chart c = two_lines();
+    struct cost_accuracy c = two_lines();
     struct auto_found f = picked(&c, &smooth, 0.02, 30, all);
     assert_string_equal(f.best.of->method, "second");
     assert_true(fabs(f.best.error / (10 / (0.9 * 30 * 30)) - 1) < 1e-12);
@@ -142,7 +142,7 @@ static void at_a_given_resolution(void **state)
 static void dips_are_not_believed(void **state)
 {
     (void)state;
-    struct chart c = two_lines();
+    struct cost_accuracy c = two_lines();
     c.point[2].error = 1e-4;                             /* first at 40 */
     const struct auto_found f = picked(&c, &smooth, 1e-3, 0, all);
     assert_string_equal(f.best.of->method, "second");
@@ -156,7 +156,7 @@ static void what_is_alone_or_unknown(void **state)
 {
     (void)state;
     static const struct auto_kind vague = {"bar", "pulse", "a pulse", "its width", 1, 1, 0, false, 0, 0.05, 0};
-    struct chart c = two_lines();
+    struct cost_accuracy c = two_lines();
     strcpy(c.point[0].method, "alone");
     c.point[0].error = 1e-9, c.point[0].seconds = 1e-9;
     assert_string_equal(picked(&c, &smooth, 0.1, 0, all).best.of->method, "alone");
@@ -170,9 +170,9 @@ static void what_is_alone_or_unknown(void **state)
 static void worst_of_the_cases(void **state)
 {
     (void)state;
-    struct chart c;
+    struct cost_accuracy c;
     FILE *to = fmemopen(text, sizeof text, "w");
-    fputs(CHART_HEADER "\n", to);
+    fputs(TABLE_HEADER "\n", to);
     put_line(to, "a", "first", 1, 1, 1e-6, "method=pd");
     put_line(to, "b", "first", 3, 1, 2e-6, "method=pd");
     put_line(to, "a", "alone", 0.01, 1, 1e-6, "method=pd");      /* not known in b */
@@ -192,13 +192,13 @@ static void worst_of_the_cases(void **state)
 static void charts_that_are_none(void **state)
 {
     (void)state;
-    struct chart c;
+    struct cost_accuracy c;
     const char *const bad[] = {"",
                                "a,b\n",
-                               CHART_HEADER "\nbar,pulse,pd,x,3,0.8,0.1,1,1,1,method=pd\n",
-                               CHART_HEADER "\nbar,pulse,pd,1\n",
-                               CHART_HEADER "\nbar,pulse,pd,1,3,0.8,-0.1,1,1,1,method=pd\n",
-                               CHART_HEADER "\nbar,pulse,pd,1,3,0.8,0.1,1,1,1,\n"};
+                               TABLE_HEADER "\nbar,pulse,pd,x,3,0.8,0.1,1,1,1,method=pd\n",
+                               TABLE_HEADER "\nbar,pulse,pd,1\n",
+                               TABLE_HEADER "\nbar,pulse,pd,1,3,0.8,-0.1,1,1,1,method=pd\n",
+                               TABLE_HEADER "\nbar,pulse,pd,1,3,0.8,0.1,1,1,1,\n"};
     for (size_t k = 0; k < COUNT_OF(bad); k++) assert_int_equal(cost_accuracy_read_text(&c, bad[k], "bad"), REFUSED);
     assert_int_equal(cost_accuracy_read(&c, NULL), OK);          /* the program's own */
     assert_true(c.n > 100);
@@ -224,7 +224,7 @@ static status read_text(struct scene *s, const char *from)
     return scene_read_text(s, from, strlen(from), "mine", NULL, 0);
 }
 
-/* Feature [m], its spacings over the resolution, and how much farther waves go than in the chart. */
+/* Feature [m], its spacings over the resolution, and how much farther waves go than in the table. */
 static void scenes_are_like(void **state)
 {
     (void)state;
@@ -292,7 +292,7 @@ static void scenes_are_like(void **state)
     }
 }
 
-/* What the chart has nothing like is no problem of it. */
+/* What the table has nothing like is no problem of it. */
 static void scenes_that_are_like_nothing(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What the speed-accuracy chart says of a cloud of points: its front, and the cheapest way to an error. */
+/* What the cost-accuracy table says of a cloud of points: its front, and the cheapest way to an error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -240,7 +240,7 @@ static void particles_start_in_a_transverse_wave(void **state)
     scene_free(&s);
 }
 
-/* ---- the chart of the program ------------------------------------------------------------------------------------ */
+/* ---- the table of the program ------------------------------------------------------------------------------------ */
 
 static const struct accuracy_problem *problem_named(const char *name)
 {
@@ -268,7 +268,7 @@ static const struct accuracy_method *method_named(const char *name)
 static void the_chart_is_of_these_methods(void **state)
 {
     (void)state;
-    struct chart c;
+    struct cost_accuracy c;
     assert_int_equal(cost_accuracy_read(&c, NULL), OK);
     for (int k = 0; k < c.n; k++) {
         const struct cost_point *p = &c.point[k];

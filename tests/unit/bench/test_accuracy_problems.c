@@ -1,4 +1,4 @@
-/* The problems of the speed-accuracy chart: every scene is sound, the exact field of the plate with a hole
+/* The problems of the cost-accuracy table: every scene is sound, the exact field of the plate with a hole
  * is one, and a cheap point of each problem is as far off as it was measured to be. */
 #include <math.h>
 #include <setjmp.h>

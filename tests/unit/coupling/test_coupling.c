@@ -245,7 +245,7 @@ static void test_energy_in_run(void **state)
         struct partial_stress partial = {0};
         struct conversion conversion = {.first_time = NAN};
         const struct conversion_rule rule = {
-            .criteria = CONVERT_ON_STRESS | CONVERT_ON_CUT, .stress = NAN, .alpha = 1, .block = true};
+            .criteria = CONVERT_ON_STRESS | CONVERT_ON_BREAK, .stress = NAN, .alpha = 1, .block = true};
         real stress[SYM_MAX];
         bool with = coupling == COUPLING_PARTIAL_STRESS;
         cloud_make(&c, &bar);

@@ -189,14 +189,14 @@ static real distance(const struct particles *p, int64_t i, int64_t j)
     return sqrt(sum) / CLOUD_SPACING;
 }
 
-enum reason { REASON_CUT, REASON_STRESS, REASON_REGION };
+enum reason { REASON_BREAK, REASON_STRESS, REASON_REGION };
 
 /* A square in which one particle has a reason to stay: how far it holds others, against a plain definition. */
 static void test_who_stays(void **state)
 {
     (void)state;
-    static const real reach[] = {[REASON_CUT] = 6.03, [REASON_STRESS] = 3.015, [REASON_REGION] = 3.015};
-    for (int reason = REASON_CUT; reason <= REASON_REGION; reason++) {
+    static const real reach[] = {[REASON_BREAK] = 6.03, [REASON_STRESS] = 3.015, [REASON_REGION] = 3.015};
+    for (int reason = REASON_BREAK; reason <= REASON_REGION; reason++) {
         struct setting s;
         int32_t *list;
         setting_make(&s,
@@ -210,7 +210,7 @@ static void test_who_stays(void **state)
         for (int d = 0; d < 2; d++)
             box.from[d] = p->X[d][one] - 0.1 * CLOUD_SPACING, box.to[d] = p->X[d][one] + 0.1 * CLOUD_SPACING;
         struct region region = {1, &box};
-        if (reason == REASON_CUT) p->damage[one] = 0.1;
+        if (reason == REASON_BREAK) p->damage[one] = 0.1;
         if (reason == REASON_REGION) s.rule.kept = &region;
         know_stress(&s);
         if (reason == REASON_STRESS) p->stress[1][one] = 0.51 * s.elastic[0].trigger;

@@ -86,9 +86,9 @@ static struct engine *run_make(struct scene *s, const char *body, const char *bo
     char text[4096], edges[1024];
     struct engine *e = NEW("test.engine", 1, struct engine);
     snprintf(edges, sizeof edges, boundary, more);
-    snprintf(text, sizeof text, "%s%s%s\ntime: {rest: %s, step: 0.08 us}\n", body, edges, keys,
+    snprintf(text, sizeof text, "%s%s%s\ntime: {active_set: %s, step: 0.08 us}\n", body, edges, keys,
              rest ? "true" : "false");
-    if (scene_read_text(s, text, strlen(text), "rest.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    if (scene_read_text(s, text, strlen(text), "active_set.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
     e->report.quiet = true;
     assert_ok(engine_report_start(e));

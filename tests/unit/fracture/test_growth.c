@@ -363,7 +363,7 @@ static void test_points(void **state)
     assert_exact(s.g.grown, 0);
     for (int64_t i = 0; i < s.c.p.n; i++) {
         const bool near = hypot(s.c.p.X[0][i] - s.rule.at[0], s.c.p.X[1][i] - s.rule.at[1]) < s.c.source.family.cutoff;
-        assert_int_equal((s.c.p.flag[i] & FLAG_CUT) != 0, near);
+        assert_int_equal((s.c.p.flag[i] & FLAG_LOST_BOND) != 0, near);
     }
     stage_free(&s);
 }

@@ -87,7 +87,7 @@ static int64_t check_breaking(const struct cloud *c, const real *w, const real *
         energy += 0.5 * 0.5 * c->bonds.stiffness * w[i * p->n + j] * square(q.stretch) * q.length;
     }
     assert_int_equal(c->bonds.broken[row], broken);
-    assert_int_equal((p->flag[i] & FLAG_CUT) != 0, broken > 0);
+    assert_int_equal((p->flag[i] & FLAG_LOST_BOND) != 0, broken > 0);
     assert_int_equal((p->flag[i] & FLAG_CRACKED) != 0, cracked);
     assert_true(fabs(c->bonds.fracture_energy[row] - energy) <= CLOSE * energy);
     /* volumes are kept in single precision: 6e-8 for each of up to ten additions */

@@ -107,7 +107,7 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     }
 }
 
-/* Cut cells that leave any part of their stress to bonds that has an energy, against sums of V P grad N point by
+/* Partial cells that leave any part of their stress to bonds that has an energy, against sums of V P grad N point by
  * point: round-off of a few hundred terms. What changes after the mesh is made is followed, cell by cell. */
 static void test_partial(void **state)
 {
@@ -259,7 +259,7 @@ static void test_release(void **state)
         assert_close(kinetic, mesh_kinetic(&b.mesh), 1e-13);
         assert_int_equal(b.mesh.points, fresh.mesh.points);
         assert_int_equal(b.mesh.runs, fresh.mesh.runs);
-        assert_int_equal(b.mesh.cuts, fresh.mesh.cuts);
+        assert_int_equal(b.mesh.partial_cells, fresh.mesh.partial_cells);
         block_free(&b);
         block_free(&fresh);
     }

@@ -293,7 +293,7 @@ static void future_formats_are_refused(void **state)
     output_close(&o);
 }
 
-static status failing_archive(void *context, struct archive *a)
+static status limits_archive(void *context, struct archive *a)
 {
     int64_t step = 8;
     (void)context;
@@ -307,7 +307,7 @@ static void fault_of_a_module_loses_nothing(void **state)
     struct output o;
     open_fresh(&o, "module");
     assert_int_equal(write_step(&o, 5, 100), OK);
-    assert_int_equal(checkpoint_write(&o, scene_text, failing_archive, NULL), FAILED);
+    assert_int_equal(checkpoint_write(&o, scene_text, limits_archive, NULL), FAILED);
     assert_message("the toy is broken");
     assert_false(path_exists("module/checkpoint.h5.tmp"));
     assert_resumes_at(&o, 5, 100);

@@ -145,7 +145,7 @@ static void first_break_is_booked_once(void **state)
     diagnostics_make(&w);
     diagnostics_breaks(&w, &b.p, 0, 1);
     assert_true(isnan(w.break_time));
-    b.p.flag[0] = FLAG_CUT;                              /* of a bond with a driven particle */
+    b.p.flag[0] = FLAG_LOST_BOND;                              /* of a bond with a driven particle */
     diagnostics_breaks(&w, &b.p, 2, 2);
     assert_true(isnan(w.break_time));
     b.p.flag[particle_at(&b, 2.5, 3.5, 0)] |= FLAG_CRACKED;

@@ -210,7 +210,7 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
             b->w[q] = 0;
             bonds_changed(b, row, q);
             b->broken[row]++;
-            p->flag[i] |= FLAG_CUT | FLAG_CRACKED;
+            p->flag[i] |= FLAG_LOST_BOND | FLAG_CRACKED;
         }
     }
 }
@@ -280,7 +280,7 @@ static void probe_of_a_spall_knows_the_grid(void **state)
     probes_step(&s, &o);
     probes_figures(&s, &o, figure_keep, &l);
     assert_int_equal(l.n, 0);
-    p->flag[particle_at(&bar.b, 13.5, 0, 0)] = FLAG_CUT;
+    p->flag[particle_at(&bar.b, 13.5, 0, 0)] = FLAG_LOST_BOND;
     probes_step(&s, &o);
     probes_figures(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 15, 1e-12);

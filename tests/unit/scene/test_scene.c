@@ -125,7 +125,7 @@ static void test_bar_and_defaults(void **state)
     assert_true(s.horizon == 3.015 && s.irregularity == 0 && s.seed == 1 && s.surface == SURFACE_NONE);
     assert_true(s.cell == 2 && s.shape == SHAPE_GIMP && s.transfer == TRANSFER_FLIP && !s.has_grid_origin);
     assert_true(s.coupling == COUPLING_PARTIAL_STRESS && isnan(s.conversion.stress) && s.conversion.alpha == 0.95);
-    assert_true(s.conversion.block && s.conversion.criteria == (CONVERT_ON_CUT | CONVERT_ON_STRESS));
+    assert_true(s.conversion.block && s.conversion.criteria == (CONVERT_ON_BREAK | CONVERT_ON_STRESS));
     assert_true(s.time_step == 0 && s.safety == 0.5 && s.frames == 20 && s.samples == 200 && !s.compress);
     assert_true(s.checkpoint_interval == 60 && s.speed_window == 1e-3 / 10 && s.probes == 0);
     assert_true(s.body[0].velocity[0] == 30 && s.body[0].shape.solid->from[0] == -30e-3 && s.body[1].shape.n == 2);
@@ -265,6 +265,29 @@ static void test_overrides(void **state)
     scene_free(&s);
 }
 
+/* Keys by their earlier names, in the file, in the path of an override and in its value; the echo has the new names. */
+static void test_renamed(void **state)
+{
+    (void)state;
+    static const char text[] = "space: line\nduration: 1\nmaterial: {young: 1, density: 1}\n"
+                               "body: {box: {from: [0], to: [1]}}\nparticles: {spacing: 0.1}\nrim_damping: 0.5\n"
+                               "time: {rest: false}\n";
+    static const struct scene_override o[] = {{"conversion", "{return: true, dwell: 3}"},
+                                              {"conversion.return_stress", "0.25"},
+                                              {"interface_damping", "0.75"}};
+    struct scene s = read_ok(text, o, COUNT_OF(o));
+    assert_true(s.interface_damping == 0.75 && !s.active_set && s.conversion.reverts);
+    assert_true(s.conversion.hold_time == 3 && s.conversion.low_stress == 0.25);
+    assert_non_null(strstr(s.renamed, "rim_damping is now called interface_damping"));
+    assert_non_null(strstr(s.renamed, "conversion.dwell is now called conversion.hold_time"));
+    assert_null(strstr(s.text, "rim_damping"));
+    struct scene again = read_ok(s.text, NULL, 0);
+    assert_string_equal(again.renamed, "");
+    assert_string_equal(again.text, s.text);
+    scene_free(&again);
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -277,7 +300,7 @@ int main(void)
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_closed_forms_and_frame_times),
         cmocka_unit_test(test_units),
-        cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_overrides), cmocka_unit_test(test_renamed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

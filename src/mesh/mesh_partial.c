@@ -1,4 +1,4 @@
-/* Partial cells of the mesh and their stiffness by modes (kernels/mesh/mesh_cut.h), from the points they have left.
+/* Partial cells of the mesh and their stiffness by modes (kernels/mesh/mesh_partial.h), from the points they have left.
  *
  * The strain at a point is the mean strain plus each bending mode times a product of coordinates +-1/4. The stiffness
  * thus consists of sums over the points of D, the matrix of stress by strain at a point, times products of signs: one
@@ -44,7 +44,7 @@ static void bends_terms(struct mode_terms *t, int dim)
             }
 }
 
-/* Terms of all modes, t [MODES_MAX], in the order of kernels/mesh/mesh_cut.h. */
+/* Terms of all modes, t [MODES_MAX], in the order of kernels/mesh/mesh_partial.h. */
 static void modes_terms(struct mode_terms *t, int dim)
 {
     const int symmetric = symmetric_count(dim);
@@ -114,7 +114,7 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
 }
 
 /* Entry of the stiffness: force on mode `to` by mode `by` [Pa]. */
-static real mesh_cut_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
+static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
                               const struct mode_terms *to, const struct mode_terms *by)
 {
     real value = 0;
@@ -126,13 +126,13 @@ static real mesh_cut_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][
 }
 
 /* Stiffness K of cell I, as one lane of its group. D is symmetric but for round-off; K is symmetric to the last bit. */
-static void mesh_cut_cell_make(const struct cell_maker *c, int64_t I, real *K)
+static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
     real sum[CORNERS_MAX][SYM_MAX * SYM_MAX];
     cell_sums(c, I, sum);
     for (int a = 0; a < n; a++)
-        for (int b = a; b < n; b++, K += LANES) *K = mesh_cut_entry_of(c, sum, &c->in[a], &c->in[b]);
+        for (int b = a; b < n; b++, K += LANES) *K = mesh_partial_entry_of(c, sum, &c->in[a], &c->in[b]);
 }
 
 /* ---- ends of bonds ----------------------------------------------------------------------------------------------- */
@@ -170,7 +170,7 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
 {
     const struct partial_stress *partial = c->source->partial;
     for (int q = 0; q < 1 << c->dim; q++) {
-        const int32_t i = mesh->point[((int64_t)mesh->cut[k] << c->dim) + q];
+        const int32_t i = mesh->point[((int64_t)mesh->partial_cell[k] << c->dim) + q];
         const int64_t entry = end_entry(c, i);
         if (entry < 0) continue;
         mesh->end[*n] = (struct mesh_end){i, (int32_t)(k % LANES)};
@@ -179,19 +179,19 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
 }
 
 /* Lists the ends of state-based bonds in all partial cells, group by group. */
-static void mesh_cut_ends_make(struct mesh *mesh, const struct cell_maker *c)
+static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;
     int32_t n = 0;
     if (!partial || !partial->index || !partial->local) return;
     mesh->ends = NEW("mesh.ends", mesh_groups(mesh) + 1, int32_t);
-    for (int64_t k = 0; k < mesh->cuts; k++)
+    for (int64_t k = 0; k < mesh->partial_cells; k++)
         for (int q = 0; q < 1 << c->dim; q++)
-            n += end_entry(c, mesh->point[((int64_t)mesh->cut[k] << c->dim) + q]) >= 0;
+            n += end_entry(c, mesh->point[((int64_t)mesh->partial_cell[k] << c->dim) + q]) >= 0;
     mesh->end = NEW("mesh.end", n, struct mesh_end);
     mesh->end_share = NEW("mesh.end_share", (int64_t)n * c->modes, real);
     n = 0;
-    for (int64_t k = 0; k < mesh->cuts; k++) {
+    for (int64_t k = 0; k < mesh->partial_cells; k++) {
         ends_of_cell(mesh, c, k, &n);
         mesh->ends[k / LANES + 1] = n;
     }
@@ -199,40 +199,43 @@ static void mesh_cut_ends_make(struct mesh *mesh, const struct cell_maker *c)
 
 /* ---- all partial cells ------------------------------------------------------------------------------------------- */
 
-void mesh_cuts_add(struct mesh *mesh, int64_t I)
+void mesh_partial_add(struct mesh *mesh, int64_t I)
 {
-    if (mesh->cuts == mesh->cuts_room) {
-        const int64_t room = mesh->cuts_room ? 2 * mesh->cuts_room : 256;
-        mesh->cut = memory_resize("mesh.cut", mesh->cut, mesh->cuts_room, room, sizeof *mesh->cut);
-        mesh->cuts_room = room;
+    if (mesh->partial_cells == mesh->partial_room) {
+        const int64_t room = mesh->partial_room ? 2 * mesh->partial_room : 256;
+        mesh->partial_cell = memory_resize("mesh.partial_cell", mesh->partial_cell, mesh->partial_room, room,
+                                           sizeof *mesh->partial_cell);
+        mesh->partial_room = room;
     }
-    mesh->cut[mesh->cuts++] = (int32_t)I;
+    mesh->partial_cell[mesh->partial_cells++] = (int32_t)I;
 }
 
-struct mesh_cuts mesh_cuts_keep(struct mesh *mesh)
+struct mesh_partial mesh_partial_keep(struct mesh *mesh)
 {
-    const struct mesh_cuts old = {mesh->cuts, mesh->cut, mesh->stiffness};
-    mesh->cut = NULL, mesh->stiffness = NULL;
-    mesh->cuts = mesh->cuts_room = 0;
-    mesh_cuts_free(mesh);
+    const struct mesh_partial old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
+    mesh->partial_cell = NULL, mesh->stiffness = NULL;
+    mesh->partial_cells = mesh->partial_room = 0;
+    mesh_partial_free(mesh);
     return old;
 }
 
-void mesh_cuts_free(struct mesh *mesh)
+void mesh_partial_free(struct mesh *mesh)
 {
-    memory_free(mesh->cut);
+    memory_free(mesh->partial_cell);
     memory_free(mesh->stiffness);
     ends_free(mesh);
     memory_free(mesh->alike);
-    memory_free(mesh->cut_force);
-    memory_free(mesh->cut_stressed);
-    memory_free(mesh->cut_material);
-    mesh->cut = NULL, mesh->cut_force = NULL, mesh->cut_stressed = NULL, mesh->cut_material = NULL, mesh->alike = NULL;
+    memory_free(mesh->partial_force);
+    memory_free(mesh->partial_stressed);
+    memory_free(mesh->partial_material);
+    mesh->partial_cell = NULL, mesh->partial_force = NULL, mesh->partial_stressed = NULL, mesh->partial_material = NULL,
+    mesh->alike = NULL;
     mesh->stiffness = NULL;
 }
 
 /* Material of the point of cell I with the lowest trigger. */
-static uint8_t cut_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s, int64_t I)
+static uint8_t partial_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                                int64_t I)
 {
     int least = -1;
     for (int q = 0; q < 1 << p->dim; q++) {
@@ -271,18 +274,21 @@ static void lane_copy(real *to, real *from, int each)
 /* Fills the last group of cells up with its first cell, which has no stiffness in these lanes. */
 static void groups_fill(struct mesh *mesh)
 {
-    const int64_t whole = mesh_groups(mesh) * LANES, cuts = mesh->cuts;
-    while (mesh->cuts < whole) mesh_cuts_add(mesh, mesh->cut[whole - LANES]);
-    mesh->cuts = cuts;
+    const int64_t whole = mesh_groups(mesh) * LANES, partial_cells = mesh->partial_cells;
+    while (mesh->partial_cells < whole) mesh_partial_add(mesh, mesh->partial_cell[whole - LANES]);
+    mesh->partial_cells = partial_cells;
 }
 
 /* Index of each partial cell among the old ones, -1 where its stiffness has to be made. The caller frees the result. */
-static int64_t *origins(const struct mesh *mesh, const struct mesh_cuts *old, const uint8_t *dirty)
+static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
-    int64_t *from = NEW("mesh.from", mesh->cuts, int64_t);
-    for (int64_t k = 0, q = 0; k < mesh->cuts; k++) {
-        while (q < old->cuts && old->cut[q] < mesh->cut[k]) q++;
-        from[k] = dirty && q < old->cuts && old->cut[q] == mesh->cut[k] && !dirty[mesh->cut[k]] ? q : -1;
+    int64_t *from = NEW("mesh.from", mesh->partial_cells, int64_t);
+    for (int64_t k = 0, q = 0; k < mesh->partial_cells; k++) {
+        while (q < old->partial_cells && old->partial_cell[q] < mesh->partial_cell[k]) q++;
+        from[k] = dirty && q < old->partial_cells && old->partial_cell[q] == mesh->partial_cell[k] &&
+                          !dirty[mesh->partial_cell[k]]
+                      ? q
+                      : -1;
     }
     return from;
 }
@@ -315,43 +321,44 @@ static void alike_find(struct mesh *mesh, int modes)
     }
 }
 
-void mesh_cuts_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
-                    struct mesh_cuts *old)
+void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
+                    struct mesh_partial *old)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
     const int64_t groups = mesh_groups(mesh);
     groups_fill(mesh);
     mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
-    mesh->cut_force = NEW("mesh.cut_force", groups * unknowns * LANES, real);
-    mesh->cut_stressed = NEW("mesh.cut_stressed", groups * LANES, bool);
-    mesh->cut_material = NEW("mesh.cut_material", groups * LANES, uint8_t);
-    for (int64_t k = 0; k < groups * LANES; k++) mesh->cut_material[k] = cut_material(mesh, p, s, mesh->cut[k]);
+    mesh->partial_force = NEW("mesh.partial_force", groups * unknowns * LANES, real);
+    mesh->partial_stressed = NEW("mesh.partial_stressed", groups * LANES, bool);
+    mesh->partial_material = NEW("mesh.partial_material", groups * LANES, uint8_t);
+    for (int64_t k = 0; k < groups * LANES; k++)
+        mesh->partial_material[k] = partial_material(mesh, p, s, mesh->partial_cell[k]);
     int64_t *from = origins(mesh, old, dirty);
 #pragma omp parallel for schedule(dynamic, 16)
-    for (int64_t k = 0; k < mesh->cuts; k++) {
+    for (int64_t k = 0; k < mesh->partial_cells; k++) {
         real *K = lane_of(mesh->stiffness, k, half);
-        if (from[k] < 0) mesh_cut_cell_make(&c, mesh->cut[k], K);
+        if (from[k] < 0) mesh_partial_cell_make(&c, mesh->partial_cell[k], K);
         else lane_copy(K, lane_of(old->stiffness, from[k], half), half);
     }
     alike_find(mesh, c.modes);
-    mesh_cut_ends_make(mesh, &c);
+    mesh_partial_ends_make(mesh, &c);
     memory_free(from);
     memory_free(c.whole);
-    memory_free(old->cut);
+    memory_free(old->partial_cell);
     memory_free(old->stiffness);
 }
 
 /* Index of cell I among the partial cells, -1 if it is none. */
-static int64_t cut_find(const struct mesh *mesh, int64_t I)
+static int64_t partial_find(const struct mesh *mesh, int64_t I)
 {
-    int64_t low = 0, high = mesh->cuts;
+    int64_t low = 0, high = mesh->partial_cells;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
-        if (mesh->cut[middle] < I) low = middle + 1;
+        if (mesh->partial_cell[middle] < I) low = middle + 1;
         else high = middle;
     }
-    return low < mesh->cuts && mesh->cut[low] == I ? low : -1;
+    return low < mesh->partial_cells && mesh->partial_cell[low] == I ? low : -1;
 }
 
 /* Detaches the groups marked in `changed` from mesh->alike, and groups that refer to them: their stiffness may no
@@ -362,20 +369,20 @@ static void alike_part(struct mesh *mesh, const uint8_t *changed)
         if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
 }
 
-void mesh_cuts_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+void mesh_partial_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2;
     uint8_t *changed = NEW("mesh.changed", mesh_groups(mesh), uint8_t);
-    for (int64_t k = 0; k < mesh->cuts; k++) changed[k / LANES] |= dirty[mesh->cut[k]];
+    for (int64_t k = 0; k < mesh->partial_cells; k++) changed[k / LANES] |= dirty[mesh->partial_cell[k]];
     alike_part(mesh, changed);
     memory_free(changed);
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t I = 0; I < mesh->grid.n; I++) {
-        const int64_t k = dirty[I] ? cut_find(mesh, I) : -1;
-        if (k >= 0) mesh_cut_cell_make(&c, I, lane_of(mesh->stiffness, k, half));
+        const int64_t k = dirty[I] ? partial_find(mesh, I) : -1;
+        if (k >= 0) mesh_partial_cell_make(&c, I, lane_of(mesh->stiffness, k, half));
     }
     ends_free(mesh);
-    mesh_cut_ends_make(mesh, &c);
+    mesh_partial_ends_make(mesh, &c);
     memory_free(c.whole);
 }

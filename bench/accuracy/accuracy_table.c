@@ -1,5 +1,5 @@
-/* Results/bench/chart.csv: what `method: auto` chooses from (src/auto/cost_accuracy.h), made of what is
- * known of the chart. Kept are lines, all resolutions of a method at one horizon and step, of which a point lies on
+/* Results/bench/cost_accuracy.csv: what `method: auto` chooses from (src/auto/cost_accuracy.h), made of what is
+ * known of the table. Kept are lines, all resolutions of a method at one horizon and step, of which a point lies on
  * the front of its family in some case: a scene may rule out all families but one. */
 #include <errno.h>
 #include <math.h>
@@ -18,7 +18,7 @@ static bool is_usable(const struct accuracy_entry *e)
     return e->result.known && e->result.stable && isfinite(e->result.error) && isfinite(e->result.seconds[0]);
 }
 
-static bool accuracy_chart_same_line(const struct accuracy_point *a, const struct accuracy_point *b)
+static bool accuracy_table_same_line(const struct accuracy_point *a, const struct accuracy_point *b)
 {
     return a->problem == b->problem && a->method == b->method && a->horizon == b->horizon && a->step == b->step;
 }
@@ -52,7 +52,7 @@ static bool *kept_points(const struct accuracy_plan *plan)
                 mark_front(plan, accuracy_problem[k], at, family, marked);
     for (int k = 0; k < plan->n; k++)
         for (int j = 0; j < plan->n && !kept[k]; j++)
-            kept[k] = marked[j] && accuracy_chart_same_line(&plan->entry[k].point, &plan->entry[j].point);
+            kept[k] = marked[j] && accuracy_table_same_line(&plan->entry[k].point, &plan->entry[j].point);
     memory_free(marked);
     return kept;
 }
@@ -60,7 +60,7 @@ static bool *kept_points(const struct accuracy_plan *plan)
 /* ---- lines of the file ------------------------------------------------------------------------------------------- */
 
 /* Keys that have columns of their own or say nothing of the method. */
-static bool accuracy_chart_is_apart(const char *key)
+static bool accuracy_table_is_apart(const char *key)
 {
     return strncmp(key, "particles.", 10) == 0 || strncmp(key, "time.", 5) == 0 || strncmp(key, "output.", 7) == 0;
 }
@@ -71,7 +71,7 @@ static void put_keys(FILE *to, const struct accuracy_point *p)
     const char *between = "";
     accuracy_scene_make(p, &s);
     for (int k = 0; k < s.set.n; k++) {
-        bool again = accuracy_chart_is_apart(s.set.at[k].key);
+        bool again = accuracy_table_is_apart(s.set.at[k].key);
         for (int j = k + 1; j < s.set.n; j++) again |= strcmp(s.set.at[j].key, s.set.at[k].key) == 0;
         if (again) continue;
         fprintf(to, "%s%s=%s", between, s.set.at[k].key, s.set.value[k]);
@@ -89,14 +89,14 @@ static void put_entry(FILE *to, const struct accuracy_entry *e)
     fputc('\n', to);
 }
 
-status accuracy_chart_write(const struct accuracy_plan *plan)
+status accuracy_table_write(const struct accuracy_plan *plan)
 {
-    static const char path[] = BENCH_FOLDER "/chart.csv";
+    static const char path[] = BENCH_FOLDER "/cost_accuracy.csv";
     TRY(bench_folder_make());
     FILE *to = fopen(path, "w");
     if (!to) return file_fault(path, errno);
     bool *kept = kept_points(plan);
-    fputs(CHART_HEADER "\n", to);
+    fputs(TABLE_HEADER "\n", to);
     for (int k = 0; k < plan->n; k++)
         if (kept[k] && is_usable(&plan->entry[k])) put_entry(to, &plan->entry[k]);
     memory_free(kept);

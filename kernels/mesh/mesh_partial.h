@@ -4,22 +4,23 @@
  * in 3D on 18 modes instead of 24 displacements. The stiffness is that of these modes, eight cells side by side, and
  * symmetric: one half is stored, 171 numbers in 3D and 15 in the plane. Shear strains are angles (twice the tensor
  * component), so that their conjugate forces are stresses. */
-#ifndef CLEAVE_KERNELS_MESH_CUT
-#define CLEAVE_KERNELS_MESH_CUT
+#ifndef CLEAVE_KERNELS_MESH_PARTIAL
+#define CLEAVE_KERNELS_MESH_PARTIAL
 
 #include "mesh_law.h"
 
 /* Displacements of the corners of the eight partial cells of a group [m]. */
-static ALWAYS_INLINE void mesh_cut_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3], const int dim)
+static ALWAYS_INLINE void mesh_partial_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
+                                            const int dim)
 {
-    const int32_t *cell = mesh->cut + group * LANES;
+    const int32_t *cell = mesh->partial_cell + group * LANES;
     const int32_t first = cell[LANES - 1] - cell[0] == LANES - 1 ? cell[0] : -1;
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
 /* The modes as one vector: symmetric components of the mean strain, then the bending modes, set by set [1]. */
-static ALWAYS_INLINE void cut_modes(const struct mesh_cell *s, lanes *v, const int dim)
+static ALWAYS_INLINE void partial_modes(const struct mesh_cell *s, lanes *v, const int dim)
 {
     int n = symmetric_count(dim);
     for (int k = 0; k < n; k++) {
@@ -46,7 +47,7 @@ static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, co
 
 /* Adds the forces on the modes of the cells of a group by points that are ends of bonds (struct mesh_end): f += share^T
  * pull [Pa]. */
-static ALWAYS_INLINE void cut_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f,
+static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f,
                                        const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
@@ -60,7 +61,7 @@ static ALWAYS_INLINE void cut_add_ends(const struct mesh *mesh, const struct par
 }
 
 /* Adds the moments of bonds about the points at their ends, per volume of the cell [Pa]. */
-static ALWAYS_INLINE void cut_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
+static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
                                           lanes *moment, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
@@ -71,14 +72,14 @@ static ALWAYS_INLINE void cut_add_moments(const struct mesh *mesh, const struct 
 }
 
 /* Stress of the mean strain and forces on the bending modes of a group of partial cells [Pa]. */
-static ALWAYS_INLINE void cut_law(const struct mesh *mesh, const struct particles *p, int64_t group,
+static ALWAYS_INLINE void partial_law(const struct mesh *mesh, const struct particles *p, int64_t group,
                                   struct mesh_cell *s, const int dim)
 {
     const int n = mesh_modes(dim), half = n * (n + 1) / 2;
     lanes v[MODES_MAX], f[MODES_MAX];
-    cut_modes(s, v, dim);
+    partial_modes(s, v, dim);
     cut_times((const lanes *)mesh->stiffness + mesh->alike[group] * half, v, f, n);
-    if (mesh->ends) cut_add_ends(mesh, p, group, f, dim);
+    if (mesh->ends) partial_add_ends(mesh, p, group, f, dim);
     int k = symmetric_count(dim);
     for (int t = 0; t < k; t++) {
         int a, b;

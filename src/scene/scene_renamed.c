@@ -1,0 +1,49 @@
+/* Keys of scenes that had another name before: the old one still works, with one line that says so. */
+#include "scene_internal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Old and new path, which differ in the last key only. */
+static const struct { const char *old, *now; } renamed[] = {
+    {"rim_damping", "interface_damping"},
+    {"conversion.return", "conversion.reversion"},
+    {"conversion.dwell", "conversion.hold_time"},
+    {"conversion.return_stress", "conversion.low_stress"},
+    {"time.rest", "time.active_set"},
+    {"accuracy_chart", "accuracy_table"},
+};
+
+/* Adds a pair of names to the text that engine_warn shows. */
+static void renamed_note(struct scene *s, int k)
+{
+    const size_t used = strlen(s->renamed);
+    char pair[80];
+    snprintf(pair, sizeof pair, "%s is now called %s", renamed[k].old, renamed[k].now);
+    if (strstr(s->renamed, pair)) return;
+    snprintf(s->renamed + used, sizeof s->renamed - used, "%s%s", used ? ", " : "", pair);
+}
+
+const char *path_renamed(struct reader *r, const char *path)
+{
+    for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
+        if (strcmp(path, renamed[k].old) != 0) continue;
+        renamed_note(r->scene, k);
+        return renamed[k].now;
+    }
+    return path;
+}
+
+status tree_rename(struct reader *r, struct node *root)
+{
+    for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
+        struct node *old = (struct node *)tree_at(root, renamed[k].old);
+        const struct node *now = tree_at(root, renamed[k].now);
+        if (!old) continue;
+        if (now) return fault_both(r, now, old);
+        const char *dot = strrchr(renamed[k].now, '.'), *leaf = dot ? dot + 1 : renamed[k].now;
+        old->key = arena_text(r, leaf, strlen(leaf));
+        renamed_note(r->scene, k);
+    }
+    return OK;
+}
