@@ -36,29 +36,37 @@ static status bench_mark(const char *word, bool *asked)
             asked[k] = true;
             return OK;
         }
-    return status_set(
-        REFUSED,
-        "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
-        "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability[=lasting|=CASE]] [sensitivity] [--quick]",
-        word);
+    return status_set(REFUSED,
+                      "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
+                      "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability[=lasting|=CASE]] [sensitivity] "
+                      "[--quick] [--readme]",
+                      word);
+}
+
+/* One bench; with `readme` its figures go to bench/README.md, too. */
+static status bench_call(const struct bench *b, bool quick, bool readme)
+{
+    struct bench_readme r;
+    if (!readme) return b->call(quick);
+    TRY(bench_readme_begin(&r, b->name));
+    return bench_readme_end(&r, b->name, quick, b->call(quick));
 }
 
 status command_bench(int argc, char **argv)
 {
-    bool asked[BENCHES] = {false}, quick = false, any = false;
+    bool asked[BENCHES] = {false}, quick = false, readme = false, any = false;
     const char *only = NULL, *lasting = NULL;
     for (int k = 1; k < argc; k++) {
-        if (!strcmp(argv[k], "--quick")) {
-            quick = true;
-            continue;
-        }
+        const bool faster = !strcmp(argv[k], "--quick"), written = !strcmp(argv[k], "--readme");
+        quick |= faster, readme |= written;
+        if (faster || written) continue;
         if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of))) only = argv[k] + strlen(accuracy_of);
         else if (!strncmp(argv[k], stability_of, strlen(stability_of))) lasting = argv[k] + strlen(stability_of);
         else TRY(bench_mark(argv[k], asked));
         any = true;
     }
     for (int k = 0; k < BENCHES; k++)
-        if (asked[k] || !any) TRY(benches[k].call(quick));
+        if (asked[k] || !any) TRY(bench_call(&benches[k], quick, readme));
     if (lasting) TRY(bench_stability_of(lasting, quick));
     return only ? bench_accuracy_of(only, quick) : OK;
 }

@@ -43,6 +43,15 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
 /* One line about the processor, and one under it about the program. */
 void bench_print_machine(int threads);
 
+/* ---- bench_readme.c: figures in bench/README.md ------------------------------------------------------------------ */
+
+/* Standard output while it is kept. */
+struct bench_readme { FILE *printed; int output; };
+/* From `begin` to `end` what is printed is kept; `end` prints it and, if the bench (`measured`) is OK, puts it between
+ * the marks of its name. REFUSED before anything is measured if the file or the marks are missing. */
+status bench_readme_begin(struct bench_readme *r, const char *name);
+status bench_readme_end(struct bench_readme *r, const char *name, bool quick, status measured);
+
 /* ---- bench_scene.c: engines made for timing ---------------------------------------------------------------------- */
 
 /* Reads a scene (`text` NULL: the file `path`) with overrides and makes its engine, without output. The scene must stay
@@ -108,28 +117,28 @@ status bench_block_make(struct engine *e, struct scene *s, const struct bench_bl
 
 /* ---- the benches ------------------------------------------------------------------------------------------------- */
 
-/* Every kernel instance beside the machine's limits, and the speed floor; few repetitions with `quick`. */
+/* Every kernel instance beside the machine's limits, and the targets; few repetitions with `quick`. */
 status bench_kernels(bool quick);
 
 /* bench_targets.c: targets for inputs/kalthoff_winkler.yaml at a spacing of 0.5 mm, beside the probes. */
-enum { FLOOR_THREADS = 2 };
-struct floor_figure {
+enum { TARGET_THREADS = 2 };
+struct target_figure {
     const char *name, *unit;
     double factor, measured, limit, asked;
     bool at_least;
 };
-enum { FLOOR_FIGURES_MAX = 8 };
-struct floor {
+enum { SPEED_TARGETS_MAX = 8 };
+struct targets {
     int figures;
-    struct floor_figure
-        figure[FLOOR_FIGURES_MAX]; /* ratio = measured / limit <= target, or >= target; SI x factor: as printed */
+    struct target_figure
+        figure[SPEED_TARGETS_MAX]; /* ratio = measured / limit <= target, or >= target; SI x factor: as printed */
     struct bench_table laps;
 };
 /* Peak memory: before anything large is allocated, since a child process inherits its parent's high-water mark. */
-status bench_floor_memory(struct floor *f);
-status bench_floor_speed(struct floor *f, bool quick);
-void bench_floor_print(const struct floor *f);
-void bench_floor_table(const struct floor *f, struct bench_table *t);
+status bench_targets_memory(struct targets *f);
+status bench_targets_speed(struct targets *f, bool quick);
+void bench_targets_print(const struct targets *f);
+void bench_targets_table(const struct targets *f, struct bench_table *t);
 
 /* bench_coupling.c: what an interface of material points and bonds does to waves and uniform strain. */
 status bench_coupling(bool quick);

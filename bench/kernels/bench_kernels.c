@@ -246,15 +246,15 @@ static void find_limits(struct kernel_bench *b)
 
 static status kernels_run(struct kernel_bench *b, bool quick)
 {
-    TRY(bench_floor_memory(&b->floor));
+    TRY(bench_targets_memory(&b->targets));
     team_make(1);
     bench_print_machine(1);
     for (int d = 1; d <= DIM_MAX; d++) TRY(ground_make(&b->ground[d], d));
     time_all(b, quick ? 2 : 12);
     find_limits(b);
     kernels_print(b);
-    TRY(bench_floor_speed(&b->floor, quick));
-    bench_floor_print(&b->floor);
+    TRY(bench_targets_speed(&b->targets, quick));
+    bench_targets_print(&b->targets);
     return kernels_write(b);
 }
 
@@ -268,7 +268,7 @@ status bench_kernels(bool quick)
     printf("kernels\n");
     status s = kernels_run(b, quick);
     for (int d = 1; d <= DIM_MAX; d++) ground_free(&b->ground[d]);
-    bench_table_free(&b->floor.laps);
+    bench_table_free(&b->targets.laps);
     memory_free(b->job);
     memory_free(b);
     return s;

@@ -1,4 +1,4 @@
-/* The speed floor: whole steps of Kalthoff's plate beside the probes, on one thread and on two, and memory.
+/* Targets: whole steps of Kalthoff's plate beside the probes, on one thread and on two, and memory.
  * Probes and runs take turns; the fastest repetition counts. Where a step's time goes, by phase. */
 #include <math.h>
 #include <stdio.h>
@@ -35,15 +35,15 @@ static const struct way ways[WAYS] = {
 
 /* The fastest repetition of a way, by threads - 1. */
 struct timing {
-    double seconds[FLOOR_THREADS];
-    struct laps laps[FLOOR_THREADS];
+    double seconds[TARGET_THREADS];
+    struct laps laps[TARGET_THREADS];
     double particles, bonds;
 };
 
-struct floor_bench {
+struct targets_bench {
     int threads; /* 1 or 2 */
     struct timing way[WAYS];
-    double cell_stencil[FLOOR_THREADS], points[FLOOR_THREADS];
+    double cell_stencil[TARGET_THREADS], points[TARGET_THREADS];
 };
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
@@ -63,7 +63,7 @@ static void keep_fastest(struct timing *t, int threads, const struct laps *spent
     t->laps[threads - 1] = *spent;
 }
 
-static status targets_time_way(struct floor_bench *b, int which)
+static status targets_time_way(struct targets_bench *b, int which)
 {
     const struct way *w = &ways[which];
     struct timing *t = &b->way[which];
@@ -87,7 +87,7 @@ static status targets_time_way(struct floor_bench *b, int which)
     return ran;
 }
 
-static void time_probes(struct floor_bench *b, struct stencil_probe *cell_stencil, struct point_probe *points)
+static void time_probes(struct targets_bench *b, struct stencil_probe *cell_stencil, struct point_probe *points)
 {
     for (int threads = 1; threads <= b->threads; threads++) {
         team_make(threads);
@@ -98,7 +98,7 @@ static void time_probes(struct floor_bench *b, struct stencil_probe *cell_stenci
     }
 }
 
-static status time_everything(struct floor_bench *b, int repetitions)
+static status time_everything(struct targets_bench *b, int repetitions)
 {
     struct stencil_probe *cell_stencil = stencil_probe_make(2);
     struct point_probe *points = point_probe_make();
@@ -116,28 +116,28 @@ static status time_everything(struct floor_bench *b, int repetitions)
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
 
-static void add_figure(struct floor *f, struct floor_figure figure)
+static void add_figure(struct targets *f, struct target_figure figure)
 {
-    if (f->figures < FLOOR_FIGURES_MAX) f->figure[f->figures++] = figure;
+    if (f->figures < SPEED_TARGETS_MAX) f->figure[f->figures++] = figure;
 }
 
-static void add_speed(struct floor *f, const struct floor_bench *b)
+static void add_speed(struct targets *f, const struct targets_bench *b)
 {
     const struct timing *pd = &b->way[WAY_PD], *sampled = &b->way[WAY_PD_SAMPLED], *points = &b->way[WAY_POINTS];
-    add_figure(f, (struct floor_figure){"full PD, whole step, per directed bond", "ns", 1e9, pd->seconds[0] / pd->bonds,
-                                        b->cell_stencil[0], 2.5, false});
-    add_figure(f, (struct floor_figure){"the same with all samples of the scene", "ns", 1e9,
+    add_figure(f, (struct target_figure){"full PD, whole step, per directed bond", "ns", 1e9,
+                                         pd->seconds[0] / pd->bonds, b->cell_stencil[0], 2.5, false});
+    add_figure(f, (struct target_figure){"the same with all samples of the scene", "ns", 1e9,
                                         sampled->seconds[0] / sampled->bonds, b->cell_stencil[0], 2.5, false});
-    add_figure(f, (struct floor_figure){"all MPM (linear, FLIP), per particle", "ns", 1e9,
+    add_figure(f, (struct target_figure){"all MPM (linear, FLIP), per particle", "ns", 1e9,
                                         points->seconds[0] / points->particles, b->points[0], 3, false});
     if (b->threads < 2) return;
-    add_figure(f, (struct floor_figure){"gain of two threads, full PD", "", 1, pd->seconds[0] / pd->seconds[1],
+    add_figure(f, (struct target_figure){"gain of two threads, full PD", "", 1, pd->seconds[0] / pd->seconds[1],
                                         b->cell_stencil[0] / b->cell_stencil[1], 0.9, true});
-    add_figure(f, (struct floor_figure){"gain of two threads, all MPM", "", 1, points->seconds[0] / points->seconds[1],
+    add_figure(f, (struct target_figure){"gain of two threads, all MPM", "", 1, points->seconds[0] / points->seconds[1],
                                         b->points[0] / b->points[1], 0.9, true});
 }
 
-static void add_laps(struct floor *f, const struct floor_bench *b)
+static void add_laps(struct targets *f, const struct targets_bench *b)
 {
     bench_table_make(&f->laps, "laps", "method,threads,bonds_s,scatter_s,grid_s,gather_s,convert_s,watch_s,step_s");
     for (int w = 0; w < WAYS; w++)
@@ -151,11 +151,11 @@ static void add_laps(struct floor *f, const struct floor_bench *b)
         }
 }
 
-status bench_floor_speed(struct floor *f, bool quick)
+status bench_targets_speed(struct targets *f, bool quick)
 {
-    struct floor_bench b = {.threads = team_machine().threads_allowed < 2 ? 1 : 2};
+    struct targets_bench b = {.threads = team_machine().threads_allowed < 2 ? 1 : 2};
     if (!path_is_file(SCENE)) return OK;
-    for (int k = 0; k < FLOOR_THREADS; k++) {
+    for (int k = 0; k < TARGET_THREADS; k++) {
         b.cell_stencil[k] = b.points[k] = INFINITY;
         for (int w = 0; w < WAYS; w++) b.way[w].seconds[k] = INFINITY;
     }
@@ -178,7 +178,7 @@ static status peak_per_particle(const struct way *w, double *peak)
     return OK;
 }
 
-status bench_floor_memory(struct floor *f)
+status bench_targets_memory(struct targets *f)
 {
     static const struct {
         int way;
@@ -192,14 +192,14 @@ status bench_floor_memory(struct floor *f)
         if (peak_per_particle(&ways[asked[k].way], &peak) != OK)
             printf("  %s: not measured: %s\n", asked[k].name, status_message());
         else
-            add_figure(f, (struct floor_figure){asked[k].name, "B", 1, peak, 1, asked[k].asked, false});
+            add_figure(f, (struct target_figure){asked[k].name, "B", 1, peak, 1, asked[k].asked, false});
     }
     return OK;
 }
 
 /* ---- what is said ------------------------------------------------------------------------------------------------ */
 
-static bool met(const struct floor_figure *a)
+static bool met(const struct target_figure *a)
 {
     const double ratio = a->measured / a->limit;
     return a->at_least ? ratio >= a->asked : ratio <= a->asked;
@@ -219,13 +219,13 @@ static void print_laps(const struct bench_table *t)
     printf("\n");
 }
 
-void bench_floor_print(const struct floor *f)
+void bench_targets_print(const struct targets *f)
 {
-    printf("  speed floor: " SCENE " at 0.5 mm spacing, one thread; gains against the probes' own\n"
+    printf("  targets: " SCENE " at 0.5 mm spacing, one thread; gains against the probes' own\n"
            "    %-42s %10s %10s %8s %8s\n",
            "", "measured", "limit", "ratio", "asked");
     for (int k = 0; k < f->figures; k++) {
-        const struct floor_figure *a = &f->figure[k];
+        const struct target_figure *a = &f->figure[k];
         char beside[32] = ""; /* memory has no limit to stand beside */
         if (a->limit != 1)
             snprintf(beside, sizeof beside, "%10.3f %8.3f", a->limit * a->factor, a->measured / a->limit);
@@ -236,11 +236,11 @@ void bench_floor_print(const struct floor *f)
     if (f->laps.cells) print_laps(&f->laps);
 }
 
-void bench_floor_table(const struct floor *f, struct bench_table *t)
+void bench_targets_table(const struct targets *f, struct bench_table *t)
 {
-    bench_table_make(t, "floor", "figure,measured,limit,ratio,asked,met");
+    bench_table_make(t, "targets", "figure,measured,limit,ratio,asked,met");
     for (int k = 0; k < f->figures; k++) {
-        const struct floor_figure *a = &f->figure[k];
+        const struct target_figure *a = &f->figure[k];
         const double number[] = {a->measured, a->limit, a->measured / a->limit, a->asked, met(a)};
         char name[NAME_MAX_LENGTH];
         snprintf(name, sizeof name, "%s", a->name);

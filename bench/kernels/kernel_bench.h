@@ -55,7 +55,7 @@ struct kernel_bench {
     struct job *job;
     int jobs;
     struct limits limits;
-    struct floor floor;
+    struct targets targets;
 };
 
 static inline bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }

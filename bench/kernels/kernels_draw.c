@@ -65,9 +65,9 @@ static status kernels_draw_write_tables(const struct kernel_bench *b)
 {
     struct bench_table table[4];
     fill_tables(b, &table[0], &table[1]);
-    bench_floor_table(&b->floor, &table[2]);
-    table[3] = b->floor.laps;
-    status s = bench_write("kernels", table, b->floor.laps.cells ? 4 : 3);
+    bench_targets_table(&b->targets, &table[2]);
+    table[3] = b->targets.laps;
+    status s = bench_write("kernels", table, b->targets.laps.cells ? 4 : 3);
     for (int k = 0; k < 3; k++) bench_table_free(&table[k]);
     return s;
 }
@@ -120,13 +120,13 @@ static void kernels_draw_set_panel(FILE *to, double left, double right, double b
 }
 
 /* Measured figures as shares of their targets. */
-static void draw_floor(FILE *to, const struct floor *f)
+static void draw_speed_targets(FILE *to, const struct targets *f)
 {
     if (!f->figures) return;
     const double most = 4; /* longer bars are cut; their figure tells */
-    fputs("$floor << EOD\n", to);
+    fputs("$targets << EOD\n", to);
     for (int k = 0; k < f->figures; k++) {
-        const struct floor_figure *a = &f->figure[k];
+        const struct target_figure *a = &f->figure[k];
         const double ratio = a->measured / a->limit;
         const double shown = a->at_least ? a->asked / ratio : ratio / a->asked;
         fprintf(to, "\"%s\" %.4g %d %.3g\n", a->name, fmin(shown, most), f->figures - k, shown);
@@ -134,10 +134,10 @@ static void draw_floor(FILE *to, const struct floor *f)
     fputs("EOD\n", to);
     kernels_draw_set_panel(to, 0.36, 0.97, 0.05, 0.26);
     fprintf(to,
-            "set title 'speed floor: measured over asked (1 or less is met)'\nset xrange [0:%g]\nset yrange "
+            "set title 'targets: measured over asked (1 or less is met)'\nset xrange [0:%g]\nset yrange "
             "[0.4:%d.6]\nset xtics auto norotate\nset grid noy\n"
             "set arrow 1 from 1, graph 0 to 1, graph 1 nohead dt (6,4) lw 1.4 lc rgb '#3d3d3d'\nset ylabel ''\n"
-            "plot $floor using (0.5*$2):3:(0.5*$2):(0.36):ytic(1) with boxxy fs solid 0.85 lc rgb '%s' notitle, "
+            "plot $targets using (0.5*$2):3:(0.5*$2):(0.36):ytic(1) with boxxy fs solid 0.85 lc rgb '%s' notitle, "
             "'' using (%g):3:(sprintf('%%.2f', $4)) with labels right notitle\n",
             1.12 * most, f->figures, curve_colour[0], 1.11 * most);
 }
@@ -170,7 +170,7 @@ static void kernels_draw_picture(FILE *to, const void *context)
                     d == 1 ? transfer[k] : "");
         fputs("\nset xtics norotate\n", to);
     }
-    draw_floor(to, &b->floor);
+    draw_speed_targets(to, &b->targets);
     fputs("unset multiplot\n", to);
 }
 

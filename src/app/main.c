@@ -25,7 +25,7 @@ static const struct command commands[] = {
     {"check", "SCENE [-s KEY=VALUE]...", "what the scene would cost and whether it is sound", command_check},
     {"plot", "DIR", "pictures of a finished or running run", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
-    {"bench", "[NAME...] [--quick]", "kernels, efficiency, coupling", command_bench},
+    {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling", command_bench},
     {"help", "[KEY|theory|trust]", "every scene key; the equations; what a run promises", command_help},
     {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
 };

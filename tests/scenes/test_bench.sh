@@ -47,7 +47,17 @@ for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; 
 cd ../..
 
 # Three runs of each method at other steps: means and scatter are what the runs say, to the nine digits written.
-"$cleave" bench sensitivity --quick >out || fail "scatter failed"
+# What is printed goes between the marks of the bench in bench/README.md, and nothing else there changes.
+mkdir bench
+{ echo before; echo "<!-- cleave bench sensitivity -->"; echo old; echo "<!-- end of sensitivity -->"; echo after; } >bench/README.md
+cp bench/README.md same
+"$cleave" bench coupling --readme >out 2>err && fail "--readme without marks"
+grep -q "the marks of bench coupling are missing" err && cmp -s bench/README.md same || fail "--readme without marks: $(cat err)"
+"$cleave" bench sensitivity --quick --readme >out 2>err || fail "scatter failed"
+[ "$(sed -n '1p;$p' bench/README.md | tr '\n' ' ')" = "before after " ] || fail "--readme changed what is outside its marks"
+grep -q "^old$" bench/README.md && fail "--readme kept the old figures"
+sed -n '/^```text$/,/^```$/p' bench/README.md | sed '1d;$d' | cmp -s - out || fail "--readme: the block is not what was printed"
+grep -q "^.cleave bench sensitivity --quick., 20[0-9-]*:$" bench/README.md || fail "--readme: command and date"
 cd results/bench
 [ "$(head -1 sensitivity.csv)" = \
     scene,model,method,runs,start,start_scatter,angle_deg,angle_scatter_deg,x,y,z,place_scatter,spacing ] || fail "columns of sensitivity.csv"
