@@ -48,6 +48,18 @@ nm -A -P $objects | awk -v rooms="$rooms" -v build="$build/" "$room_of"'
                   print user[k] " calls " name " of " place[name] } }' | sort >"$found"
 nothing "calls that lead up"
 
+# Members of stored bonds (include/bonds/bond_storage.h): for src/bonds and kernels/pd alone.
+grep -nE "\\b(b|bonds|old)(->|\.)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)\\b" \
+    $(find src -name '*.[ch]' ! -path 'src/bonds/*') | grep -E "(b->|bonds(->|\.)|old->)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)(\[|\)|;|,| )" >"$found"
+nothing "storage of bonds used outside its room"
+
+# Each room says in a public header what it is for.
+for room in $rooms; do
+    [ -d "include/$room" ] || continue
+    grep -q "^/\* Room \`$room\`" include/$room/*.h || echo "include/$room: no header begins with: Room \`$room\`"
+done >"$found"
+nothing "rooms that do not say what they are for"
+
 # ---- size ------------------------------------------------------------------------------------------------------------
 
 width=$(sed -n 's/^ColumnLimit: *//p' .clang-format)

@@ -179,7 +179,7 @@ static double column_bytes(const struct bonds *b)
         for (int64_t column = b->column[g]; column < b->column[g] + b->column_count[g] && !b->stencil[g]; column++) {
             const struct bond_column *c = &b->common[column];
             sum += sizeof *c + (c->alike ? 0 : LANES * sizeof *b->w);
-            if (!c->lattice) sum += LANES * (sizeof *b->inverse_length + (c->first < 0 ? sizeof *b->nbr : 0));
+            if (!c->shell) sum += LANES * (sizeof *b->inverse_length + (c->first < 0 ? sizeof *b->nbr : 0));
         }
     return sum / (double)b->columns;
 }

@@ -1,4 +1,7 @@
-/* Reads scenes. `method: auto` is resolved on the way: the cheapest method of the cost-accuracy table that is
+/* Room `auto`: scenes that leave the choice of the method to the program. It knows the room `scene`; commands, engine
+ * and benches read scenes through it.
+ *
+ * Reads scenes. `method: auto` is resolved on the way: the cheapest method of the cost-accuracy table that is
  * accurate enough stands in the scene as if its user had written it. */
 #ifndef CLEAVE_SCENE_READ
 #define CLEAVE_SCENE_READ

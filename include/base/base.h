@@ -1,4 +1,7 @@
-/* Number types, status, and the conventions every file shares.
+/* Room `base`: numbers, status, memory, threads, archives, warnings. It knows nothing of solids, and everybody may call
+ * it.
+ *
+ * Number types, status, and the conventions every file shares.
  *
  * Units: SI everywhere inside the program (m, kg, s, Pa, J); units of the scene are converted when it is read.
  * Components: arrays of components are `real *x[DIM_MAX]`; only the first `dim` are allocated and used.

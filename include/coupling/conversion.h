@@ -1,4 +1,7 @@
-/* Material point -> peridynamic particle, one compacting pass at the end of the step, and the coupling data that
+/* Room `coupling`: where peridynamic particles and material points meet: conversion, reversion, partial stress,
+ * interface damping, grid-coupled particles. It knows bonds, loads and kernels; the engine calls it.
+ *
+ * Material point -> peridynamic particle, one compacting pass at the end of the step, and the coupling data that
  * follow from the kinds: bond rows and partial stresses. */
 #ifndef CLEAVE_CONVERSION
 #define CLEAVE_CONVERSION

@@ -1,4 +1,7 @@
-/* Particles of both kinds as a structure of arrays, and the one table that describes every array.
+/* Room `data`: what a body is made of: particles, cells, grids, materials, regions, the active set. Structures and what
+ * keeps them whole, no physics. It knows `base`; every other room may call it.
+ *
+ * Particles of both kinds as a structure of arrays, and the one table that describes every array.
  *
  * Layout: entries 0 .. n-1 are the body, sorted row by row (x fastest) so that lattice neighbours are
  * neighbours in memory; entries n .. n_all-1 are mirror images of some of them (struct image), read by bonds,

@@ -1,4 +1,7 @@
-/* The engine owns everything of a run, by value. */
+/* Room `engine`: the run: set-up, step loop, samples, stability checks, checkpoints. It knows every room below it;
+ * commands and benches call it.
+ *
+ * The engine owns everything of a run, by value. */
 #ifndef CLEAVE_ENGINE
 #define CLEAVE_ENGINE
 

@@ -1,4 +1,7 @@
-/* Crack tips, followed from sample to sample.
+/* Room `fracture`: where cracks are, what drives them and how they grow. It knows bonds and particles; probes and the
+ * engine call it.
+ *
+ * Crack tips, followed from sample to sample.
  *
  * A tip starts at the end of a pre-crack inside the body or where the first particle away from every known crack
  * passes damage 0.35. Particles that pass 0.35 and touch (1.5 spacings, reference positions, same body) a

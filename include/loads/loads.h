@@ -1,4 +1,7 @@
-/* Prescribed velocities, forces, walls and mirrors as functions of time; and the account of what they
+/* Room `loads`: boundary conditions on particles, grids and meshes, and the account of what they put in. It knows
+ * `data`, `bonds` and `kernels`, but neither scenes nor the step; mesh, solver and engine call it.
+ *
+ * Prescribed velocities, forces, walls and mirrors as functions of time; and the account of what they
  * put in: impulse and work. */
 #ifndef CLEAVE_LOADS
 #define CLEAVE_LOADS

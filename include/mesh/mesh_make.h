@@ -1,4 +1,7 @@
-/* Makes the mesh of the reference frame (include/data/mesh.h) and follows conversion. */
+/* Room `mesh`: the reference frame of material points: cells, their stiffness, what conversion leaves of them. It knows
+ * bonds and loads; the engine calls it.
+ *
+ * Makes the mesh of the reference frame (include/data/mesh.h) and follows conversion. */
 #ifndef CLEAVE_MESH_MAKE
 #define CLEAVE_MESH_MAKE
 

@@ -1,4 +1,7 @@
-/* What a run leaves in its folder: frames, their indices, history, checkpoints. Only output*.c, checkpoint.c and
+/* Room `output`: the files of a run, written and read back. It knows particles and archives, but nothing of the engine,
+ * which calls it, as do commands and pictures.
+ *
+ * What a run leaves in its folder: frames, their indices, history, checkpoints. Only output*.c, checkpoint.c and
  * particle_list.c use HDF5 (info.c reads its version). Every file but history.csv, which grows, is written aside,
  * synced and renamed: a file that is there is whole. After a failed write of HDF5 all that needs it returns FAILED
  * and lets the first message stand. */

@@ -1,4 +1,6 @@
-/* What the files of `cleave plot` share, and what `cleave compare` shares with them. */
+/* Room `plot`: pictures and comparisons of finished or running runs, from their files alone. Commands call it.
+ *
+ * What the files of `cleave plot` share, and what `cleave compare` shares with them. */
 #ifndef CLEAVE_PLOT
 #define CLEAVE_PLOT
 

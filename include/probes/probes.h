@@ -1,4 +1,7 @@
-/* What a run watches besides its frames: time series, profiles, and the figures scripts rely on. */
+/* Room `probes`: what is measured in a run: time series, profiles, figures, the balance of energy. It reads particles,
+ * bonds, loads and tips and changes none of them; output of the engine calls it.
+ *
+ * What a run watches besides its frames: time series, profiles, and the figures scripts rely on. */
 #ifndef CLEAVE_PROBES
 #define CLEAVE_PROBES
 

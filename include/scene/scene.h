@@ -1,4 +1,7 @@
-/* A scene: everything a run needs, as read and checked, in SI units. Only scene_yaml.c uses libyaml (info.c reads
+/* Room `scene`: what a user asks for, read and checked, and the particles that follow from it. It knows materials,
+ * regions, loads and probes as requests; auto, engine, commands and benches call it.
+ *
+ * A scene: everything a run needs, as read and checked, in SI units. Only scene_yaml.c uses libyaml (info.c reads
  * its version). */
 #ifndef CLEAVE_SCENE
 #define CLEAVE_SCENE

@@ -1,4 +1,7 @@
-/* The sets of kernels in this program (kernels/simd/kernel.h), by the vector instructions that they are
+/* Room `simd`: which set of kernels is in use. It knows `base` and the kernels; the engine, commands and output call
+ * it.
+ *
+ * The sets of kernels in this program (kernels/simd/kernel.h), by the vector instructions that they are
  * compiled for, and the one in use. Before main the widest one that the processor runs is taken, or what CLEAVE_SIMD
  * names. */
 #ifndef CLEAVE_SIMD

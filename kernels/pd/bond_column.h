@@ -9,7 +9,7 @@ enum { COLUMNS_AHEAD = 40 };               /* prefetched this far ahead: about 2
 
 /* What a column's bonds share: nothing; neighbours in a row, with lengths of the lattice; their weight too; all but
  * the weight with other row blocks; all with other row blocks; and that weight is one, as it is inside a body. */
-enum column_kind { COLUMN_FREE, COLUMN_LATTICE, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
+enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
 /* Eight bonds, entries number LANES on of what bonds store. Its kind is a constant wherever it is visited. */
 struct column {
@@ -49,7 +49,7 @@ static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t numb
             for (int64_t k_ = from_; k_ < from_ + columns_; k_++)                                                      \
                 if ((B)->common[k_].intact == 0) continue;                                                             \
                 else if ((B)->common[k_].alike) VISIT(column_stored(B, k_, COLUMN_ALIKE));                             \
-                else if ((B)->common[k_].lattice) VISIT(column_stored(B, k_, COLUMN_LATTICE));                         \
+                else if ((B)->common[k_].shell) VISIT(column_stored(B, k_, COLUMN_SHELL));                         \
                 else VISIT(column_stored(B, k_, COLUMN_FREE));                                                         \
         else if (stencil_->unit)                                                                                       \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
@@ -85,7 +85,7 @@ static ALWAYS_INLINE lanes column_inverse_length(const struct column s)
 {
     if (s.stencil) return lanes_of(s.stencil->inverse_length);
     const struct bond_column *c = &s.b->common[s.number];
-    return s.kind ? lanes_excess(s.b->lattice[c->lattice].inverse, c->excess)
+    return s.kind ? lanes_excess(s.b->shell_length[c->shell].inverse, c->excess)
                   : lanes_load(s.b->inverse_length + s.number * LANES);
 }
 

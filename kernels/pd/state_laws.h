@@ -53,7 +53,7 @@ static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct par
 static ALWAYS_INLINE lanes state_weight(const struct column s, lanes w, lanes inverse_length, const bool square)
 {
     if (s.kind >= COLUMN_WHOLE) return lanes_of(square ? s.stencil->squared : s.stencil->weighted);
-    const struct bond_length *known = &s.b->lattice[s.stencil ? s.stencil->lattice : s.b->common[s.number].lattice];
+    const struct bond_length *known = &s.b->shell_length[s.stencil ? s.stencil->shell : s.b->common[s.number].shell];
     if (s.kind) return w * (square ? known->square : known->length);
     const lanes r = lanes_inverse_root(inverse_length * inverse_length + STATE_TINY);
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));

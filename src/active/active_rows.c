@@ -41,7 +41,7 @@ static void wake(struct bonds *b, const struct particles *p, const struct loads 
 {
     if (b->active.level[row_block] >= level) return;
     b->active.level[row_block] = (uint8_t)level;
-    for (int64_t k = 0; k < b->column_count[row_block] && level > 1; k++) {
+    for (int64_t k = 0; k < bonds_columns(b, row_block) && level > 1; k++) {
         struct column_copy column;
         column_read(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
@@ -54,7 +54,7 @@ static void wake(struct bonds *b, const struct particles *p, const struct loads 
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
 {
-    for (int64_t k = 0; k < b->column_count[row_block]; k++) {
+    for (int64_t k = 0; k < bonds_columns(b, row_block); k++) {
         struct column_copy column;
         column_read(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {

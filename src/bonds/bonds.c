@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <omp.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,7 +39,7 @@ static void rows_complete(uint8_t *wanted, int64_t n)
 /* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` marks those
  * to be searched anew: particles that have become peridynamic and all within their reach. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
-                      const struct lattice *lattice, int room, uint8_t *wanted, uint8_t *fresh)
+                      const struct site_map *map, int room, uint8_t *wanted, uint8_t *fresh)
 {
     const bool last = rows_last(old, p);
     if (!last) memset(fresh, 1, (size_t)p->n);
@@ -51,7 +52,7 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
     for (int64_t i = 0; i < p->n_all; i++) {
         if (p->kind[i] != KIND_PD || (last && was_whole(old, s, p, i))) continue;
         if (i < p->n) wanted[i] = fresh[i] = 1;
-        int n = family_of(lattice, s, p, (int32_t)i, found, room);
+        int n = family_of(map, s, p, (int32_t)i, found, room);
         for (int k = 0; k < n; k++)
             if (found[k] < p->n) wanted[found[k]] = fresh[found[k]] = 1;
     }
@@ -137,9 +138,9 @@ static bool is_regular(const struct rows_pass *pass, struct row_block_room *room
 {
     const struct row_maker *m = &pass->maker;
     const int32_t *particle = pass->b->particle + g * LANES;
-    return m->lattice->at && !pass->b->changed[g] && row_block_rows(pass->b, g) == LANES &&
+    return m->map->at && !pass->b->changed[g] && row_block_rows(pass->b, g) == LANES &&
            particle[LANES - 1] - particle[0] == LANES - 1 &&
-           row_block_regular(m->lattice, m->source, m->p, particle[0], &room->regular);
+           row_block_regular(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
 static void reach_widen(int32_t *reach, int32_t distance)
@@ -197,7 +198,7 @@ static int64_t rows_pass(const struct rows_pass *pass)
 #pragma omp parallel reduction(+ : made) reduction(max : reach)
     {
         struct row_block_room room = {0};
-        row_block_room_make(&room, m->room, m->lattice);
+        row_block_room_make(&room, m->room, m->map);
 #pragma omp for schedule(static)
         for (int64_t g = 0; g < pass->b->row_blocks; g++) {
             if (pass->kept && pass->count) pass->kept[g] = row_block_kept(pass->b, m, g);
@@ -216,9 +217,9 @@ static int64_t rows_pass(const struct rows_pass *pass)
 }
 
 /* Row blocks write all of their columns, padding included, or none: on a lattice most. */
-static void columns_arrays(struct bonds *b, const struct bond_source *s, bool lattice)
+static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
-    void *(*make)(const char *, int64_t, size_t) = lattice ? memory_sparse : memory_bare;
+    void *(*make)(const char *, int64_t, size_t) = sparse ? memory_sparse : memory_bare;
     b->first = make("bonds.first", b->room, sizeof *b->first);
     b->nbr = make("bonds.nbr", b->room * LANES, sizeof *b->nbr);
     b->inverse_length = make("bonds.inverse_length", b->room * LANES, sizeof *b->inverse_length);
@@ -259,10 +260,10 @@ static void columns_place(struct bonds *b, const struct rows_pass *pass)
         b->used += stays ? 0 : b->column_count[g];
         b->columns += b->column_count[g];
     }
-    lattice_lengths(b, pass->maker.source->family.spacing);
+    shell_lengths(b, pass->maker.source->family.spacing);
     if (fit) return;
     b->room = old ? 2 * b->columns : b->columns;
-    columns_arrays(b, pass->maker.source, pass->maker.lattice->at != NULL);
+    columns_arrays(b, pass->maker.source, pass->maker.map->at != NULL);
 }
 
 /* What new rows have taken over is not the old ones' any more. */
@@ -308,22 +309,22 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     memset(b, 0, sizeof *b);
     if (old) b->reach = old->reach;              /* rows that are kept were looked at then */
     b->stencils = stencils_make(old ? old->stencils : NULL);
-    struct lattice *lattice = lattice_keep(old ? old->site_map : NULL, s, p);
+    struct site_map *map = site_map_keep(old ? old->site_map : NULL, s, p);
     int most = bonds_room(s);
     uint8_t *wanted = NEW("bonds.wanted", p->n + LANES, uint8_t); /* particles behind the body are not marked */
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
-    mark_rows(s, p, old, lattice, most, wanted, fresh);
+    mark_rows(s, p, old, map, most, wanted, fresh);
     rows_list(b, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
     state_start(b, s);
 
     bonds_rows_make(
-        b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .lattice = lattice, .room = most});
+        b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
     memory_free(fresh);
     if (old) rows_inherit(b, old);
-    if (p->n_of[KIND_PD] < p->n) b->site_map = lattice;
-    else lattice_leave(lattice);
+    if (p->n_of[KIND_PD] < p->n) b->site_map = map;
+    else site_map_leave(map);
     columns_leave(old, b);
 
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
@@ -335,6 +336,10 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     }
     state_make(b, p, s);
     clamped_make(b, p, s);
+#ifdef CLEAVE_ASSERT
+    const char *fault = bonds_fault(b);
+    if (fault) fprintf(stderr, "bonds_make: %s\n", fault), abort();
+#endif
 }
 
 void bonds_images_follow(struct particles *p, const struct bond_source *s)
@@ -369,12 +374,12 @@ void bonds_free(struct bonds *b)
     memory_free(b->inverse_length);
     memory_free(b->w);
     memory_free(b->common);
-    memory_free(b->lattice);
+    memory_free(b->shell_length);
     memory_free(b->stencil);
     memory_free(b->implicit);
     memory_free(b->changed);
     stencils_free(b->stencils);
-    lattice_leave(b->site_map);
+    site_map_leave(b->site_map);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
     memory_free(b->pair);

@@ -25,7 +25,7 @@ void row_room_free(struct row *row);
 int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room);
 
 /* The same, by the map of sites (NULL: none) where it can tell. */
-int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i,
+int family_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
               int32_t *found, int room);
 
 /* What rows are made of. `fresh`: particles whose neighbours may be others than they were in `old`. */
@@ -35,7 +35,7 @@ struct row_maker {
     const struct particles *p;
     const struct pair_table *pairs;
     const uint8_t *fresh;                /* [n]                                 */
-    const struct lattice *lattice;       /* `at` NULL: particles do not stand on one */
+    const struct site_map *map;       /* `at` NULL: particles do not stand on one */
     int room;                            /* bonds a row may have                */
 };
 
@@ -67,7 +67,7 @@ static inline bool columns_by_offset(int offsets, int longest) { return offsets 
 
 /* Sites of a lattice that all particles and images stand on (bonds_site_map.c). */
 struct stencil_row { int64_t site; int half; };  /* its middle from a site; bonds reach that far either side */
-struct lattice {
+struct site_map {
     int32_t *at;                         /* [sites] particle + 1, 0 without; NULL: no lattice               */
     real low[DIM_MAX], spacing;
     int64_t stride[DIM_MAX];
@@ -77,46 +77,46 @@ struct lattice {
     bool uniform;                        /* exact places, one volume, mass and material: bonds follow from sites */
 };
 /* Of particle i, -1 where it stands on none. */
-int64_t lattice_site_of(const struct lattice *l, const struct particles *p, int64_t i);
+int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i);
 /* False, and nothing to free, where particles do not stand on one. */
-bool lattice_make(struct lattice *l, const struct bond_source *s, const struct particles *p);
-void lattice_free(struct lattice *l);
+bool site_map_make(struct site_map *l, const struct bond_source *s, const struct particles *p);
+void site_map_free(struct site_map *l);
 /* A map that rows hand on to those made anew from them, the one that there is or a new one; and back. */
-struct lattice *lattice_keep(struct lattice *of, const struct bond_source *s, const struct particles *p);
-void lattice_leave(struct lattice *l);
+struct site_map *site_map_keep(struct site_map *of, const struct bond_source *s, const struct particles *p);
+void site_map_leave(struct site_map *l);
 /* family_search by the map; -1: an image is among them, which would come out of order. */
-int lattice_family(const struct lattice *l, const struct particles *p, int32_t i, int32_t *found);
+int site_map_family(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found);
 
 /* Families of eight consecutive particles: lanes `from` to `to` have a neighbour at this index distance; distances
  * ascend. `full`: every lane has one at every distance. `bonds`: bit l is set where lane l has a bond to it, one end
  * of which is peridynamic (row_block_regular). */
-struct lattice_bonds {
+struct regular_bonds {
     int n;
     bool full;
     int32_t *offset;
     uint8_t *from, *to, *bonds;
     struct stencil_cache *stencil_cache;
 };
-void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l);
-void lattice_bonds_free(struct lattice_bonds *to);
+void regular_bonds_make(struct regular_bonds *to, const struct site_map *l);
+void regular_bonds_free(struct regular_bonds *to);
 /* Those of particles i .. i + 7, all of which may be read at each distance. False where they are to be searched. */
-bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to);
+bool regular_bonds(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to);
 /* A thread's memory of such (bonds_stencil_cache.c). */
-struct stencil_cache *stencil_cache_make(const struct lattice *l);
+struct stencil_cache *stencil_cache_make(const struct site_map *l);
 void stencil_cache_free(struct stencil_cache *t);
 /* First particle of eight seen before whose bonds are those of i .. i + 7 to the last bit: lengths, weights and what
  * is summed over them, if none is cut. -1: none, and these are remembered. `around`: of particles, what weights
  * follow from beside them (neighbour_volume), NULL: nothing. */
-int64_t stencil_cache_find_row(const struct lattice_bonds *b, const real *around, int64_t i);
+int64_t stencil_cache_find_row(const struct regular_bonds *b, const real *around, int64_t i);
 /* 1/length and weight of the bonds from particles i .. i + 7 to j .. j + 7, none of them cut. */
-void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
+void regular_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
                    int64_t j, real *inverse, real *w);
 
 /* Can the map of sites tell the bonds of particles i .. i + 7, none of them cut? Then `to` has them. */
-bool row_block_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
-                   struct lattice_bonds *to);
-int row_block_regular_columns(const struct lattice_bonds *bonds);
-int row_block_regular_bonds(const struct lattice_bonds *bonds);
+bool row_block_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p, int64_t i,
+                   struct regular_bonds *to);
+int row_block_regular_columns(const struct regular_bonds *bonds);
+int row_block_regular_bonds(const struct regular_bonds *bonds);
 struct pair_table pairs_make(const struct bond_source *s);
 static inline int row_block_rows(const struct bonds *b, int64_t g)
 {
@@ -125,7 +125,7 @@ static inline int row_block_rows(const struct bonds *b, int64_t g)
 
 /* A thread's room for the eight rows of a row block. */
 struct row_block_room {
-    struct lattice_bonds regular;        /* without a search                   */
+    struct regular_bonds regular;        /* without a search                   */
     int room;                            /* bonds a row may have */
     struct row row[LANES];
     int32_t *offset;                     /* [LANES room] distinct index distances */
@@ -134,7 +134,7 @@ struct row_block_room {
     const struct stencil *likely;        /* that of the row block before           */
     int32_t reach;                       /* farthest index distance so far     */
 };
-void row_block_room_make(struct row_block_room *g, int room, const struct lattice *lattice);
+void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map);
 void row_block_room_free(struct row_block_room *g);
 /* Slots the row block needs, by index distance or simply packed; then fills them, and notes what is known of its
  * rows. */
@@ -146,11 +146,11 @@ void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_
 /* The last of both: the row block follows the stencil that the columns in its room make, or stores them. */
 void row_block_store(struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p);
 
-/* Makes b->lattice. */
-void lattice_lengths(struct bonds *b, real spacing);
+/* Makes b->shell_length. */
+void shell_lengths(struct bonds *b, real spacing);
 /* Which of the lattice's lengths eight bonds have, up to the round-off of positions, which goes to `excess`; 0:
  * none. */
-int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess);
+int shell_of(const struct bonds *b, const real *inverse, int16_t *excess);
 
 /* Patterns (bonds_stencils.c). */
 /* New ones, or those of rows made before. */

@@ -37,10 +37,10 @@ int family_search(const struct bond_source *s, const struct particles *p, int32_
     return kept;
 }
 
-int family_of(const struct lattice *l, const struct bond_source *s, const struct particles *p, int32_t i,
+int family_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
               int32_t *found, int room)
 {
-    const int n = l && l->at && i < p->n ? lattice_family(l, p, i, found) : -1;
+    const int n = l && l->at && i < p->n ? site_map_family(l, p, i, found) : -1;
     return n >= 0 ? n : family_search(s, p, i, found, room);
 }
 
@@ -83,10 +83,10 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
 }
 
 /* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */
-static void row_search(struct row *row, const struct lattice *lattice, const struct bond_source *s,
+static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int room)
 {
-    int n = family_of(lattice, s, p, i, row->nbr, room), kept = 0;
+    int n = family_of(map, s, p, i, row->nbr, room), kept = 0;
     row->family_volume = 0;
     for (int k = 0; k < n; k++) {
         row->family_volume += p->volume0[row->nbr[k]];
@@ -208,7 +208,7 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 void row_find(struct row *row, const struct row_maker *m, int32_t i)
 {
     if (row_lasts(m, i)) row_copy_neighbours(row, m->old, m->old->row_of[i]);
-    else row_search(row, m->lattice, m->source, m->p, i, m->room);
+    else row_search(row, m->map, m->source, m->p, i, m->room);
 }
 
 void row_finish(struct row *row, const struct row_maker *m, int32_t i)

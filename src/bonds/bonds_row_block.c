@@ -131,11 +131,11 @@ static uint8_t peridynamic(const struct particles *p, int64_t i)
     return (uint8_t)bits;
 }
 
-bool row_block_regular(const struct lattice *lattice, const struct bond_source *s, const struct particles *p, int64_t i,
-                   struct lattice_bonds *to)
+bool row_block_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p, int64_t i,
+                   struct regular_bonds *to)
 {
     int bonds[LANES] = {0}, columns = 0, longest = 0;
-    if (!lattice_bonds(lattice, p, i, to)) return false;
+    if (!regular_bonds(map, p, i, to)) return false;
     for (int l = 0; l < LANES; l++)
         if (cracks_near(s, p, i + l)) return false;
     const uint8_t own = peridynamic(p, i);
@@ -153,14 +153,14 @@ bool row_block_regular(const struct lattice *lattice, const struct bond_source *
     return columns_by_offset(columns, longest);
 }
 
-int row_block_regular_columns(const struct lattice_bonds *bonds)
+int row_block_regular_columns(const struct regular_bonds *bonds)
 {
     int columns = 0;
     for (int k = 0; k < bonds->n; k++) columns += bonds->bonds[k] != 0;
     return columns;
 }
 
-int row_block_regular_bonds(const struct lattice_bonds *bonds)
+int row_block_regular_bonds(const struct regular_bonds *bonds)
 {
     int sum = 0;
     for (int k = 0; k < bonds->n; k++) sum += __builtin_popcount(bonds->bonds[k]);
@@ -174,7 +174,7 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
 {
     const struct bond_source *s = m->source;
     column->first = j;
-    lattice_weigh(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
+    regular_weigh(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
     for (int l = 0; l < LANES; l++) {
         column->nbr[l] = j + l;
         if (!(bonds >> l & 1)) column->inverse_length[l] = column->w[l] = 0;
@@ -184,7 +184,7 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
 }
 
 /* True if all eight particles have bonds to all particles within reach, as peridynamic particles have. */
-static bool whole_families(const struct lattice_bonds *bonds)
+static bool whole_families(const struct regular_bonds *bonds)
 {
     unsigned without = 0;
     for (int k = 0; k < bonds->n; k++) without |= bonds->bonds[k] ^ ((2u << bonds->to[k]) - (1u << bonds->from[k]));
@@ -194,7 +194,7 @@ static bool whole_families(const struct lattice_bonds *bonds)
 /* row_block_fill on a lattice. */
 void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m)
 {
-    const struct lattice_bonds *bonds = &room->regular;
+    const struct regular_bonds *bonds = &room->regular;
     const real *volume = m->p->volume0;
     const int32_t i = b->particle[g * LANES];
     real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
@@ -213,12 +213,12 @@ void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_
 }
 
 /* Room for the worst case, of which little is ever touched: none of it is made zero. */
-void row_block_room_make(struct row_block_room *g, int room, const struct lattice *lattice)
+void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map)
 {
     g->room = room;
     for (int l = 0; l < LANES; l++) row_room_make(&g->row[l], room);
     g->offset = BARE("bonds.offset", (int64_t)LANES * room + 1, int32_t);
-    lattice_bonds_make(&g->regular, lattice);
+    regular_bonds_make(&g->regular, map);
     stencil_make(&g->stencil, LANES * room + 1);
     g->column = BARE("bonds.slot_copy", (int64_t)LANES * room + 1, struct column_copy);
 }
@@ -227,7 +227,7 @@ void row_block_room_free(struct row_block_room *g)
 {
     for (int l = 0; l < LANES; l++) row_room_free(&g->row[l]);
     memory_free(g->offset);
-    lattice_bonds_free(&g->regular);
+    regular_bonds_free(&g->regular);
     stencil_free(&g->stencil);
     memory_free(g->column);
 }

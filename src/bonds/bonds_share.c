@@ -13,21 +13,21 @@ static int64_t bits_of(real a)
     return bits;
 }
 
-void lattice_lengths(struct bonds *b, real spacing)
+void shell_lengths(struct bonds *b, real spacing)
 {
-    b->lattice = NEW("bonds.lattice", BOND_LATTICE, struct bond_length);
-    for (int k = 1; k < BOND_LATTICE; k++)
-        b->lattice[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
+    b->shell_length = NEW("bonds.shell_length", BOND_SHELLS, struct bond_length);
+    for (int k = 1; k < BOND_SHELLS; k++)
+        b->shell_length[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
 }
 
-int lattice_length(const struct bonds *b, const real *inverse, int16_t *excess)
+int shell_of(const struct bonds *b, const real *inverse, int16_t *excess)
 {
     int one = 0;
     while (one < LANES - 1 && inverse[one] == 0) one++;
-    const real squares = square(b->lattice[1].inverse / inverse[one]);
-    if (!(squares >= 0.5 && squares < BOND_LATTICE - 0.5)) return 0;
+    const real squares = square(b->shell_length[1].inverse / inverse[one]);
+    if (!(squares >= 0.5 && squares < BOND_SHELLS - 0.5)) return 0;
     const int lattice = (int)(squares + 0.5);
-    const int64_t zero = bits_of(b->lattice[lattice].inverse);
+    const int64_t zero = bits_of(b->shell_length[lattice].inverse);
     int64_t outside = 0;
     for (int l = 0; l < LANES; l++) {
         const int64_t units = inverse[l] == 0 ? 0 : bits_of(fabs(inverse[l])) - zero;
@@ -42,8 +42,8 @@ void bonds_share(const struct bonds *b, int64_t column)
     const real *w = b->w + column * LANES;
     struct bond_column *c = &b->common[column];
     *c = (struct bond_column){.first = b->first[column]};
-    if (c->first >= 0) c->lattice = (uint8_t)lattice_length(b, b->inverse_length + column * LANES, c->excess);
-    c->alike = c->lattice != 0;
+    if (c->first >= 0) c->shell = (uint8_t)shell_of(b, b->inverse_length + column * LANES, c->excess);
+    c->alike = c->shell != 0;
     bool same = w[0] != 0;
     for (int l = 1; l < LANES; l++) same &= w[l] == w[0];
     if (same) {                          /* most columns */

@@ -15,7 +15,7 @@ enum { HALF_MOST = 16 };
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
-int64_t lattice_site_of(const struct lattice *l, const struct particles *p, int64_t i)
+int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i)
 {
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -27,7 +27,7 @@ int64_t lattice_site_of(const struct lattice *l, const struct particles *p, int6
 }
 
 /* Box of all sites, with a margin that the stencil may look into. */
-static int64_t box_sites(struct lattice *l, const struct particles *p)
+static int64_t box_sites(struct site_map *l, const struct particles *p)
 {
     real site_map = 1;
     for (int d = 0; d < p->dim; d++) {
@@ -41,10 +41,10 @@ static int64_t box_sites(struct lattice *l, const struct particles *p)
 }
 
 /* Rows of the lattice within the cutoff, ascending. False if round-off would decide membership. */
-static bool site_offsets_make(struct lattice *l, const struct family *f, int dim)
+static bool site_offsets_make(struct site_map *l, const struct family *f, int dim)
 {
     const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
-    l->row = NEW("lattice.row", (2 * high + 1) * (2 * wide + 1), struct stencil_row);
+    l->row = NEW("site_map.row", (2 * high + 1) * (2 * wide + 1), struct stencil_row);
     for (int c = -high; c <= high; c++)
         for (int b = -wide; b <= wide; b++) {
             int half = -1;
@@ -61,17 +61,17 @@ static bool site_offsets_make(struct lattice *l, const struct family *f, int dim
 }
 
 /* Particles in the order of their sites, one each. */
-static bool sites_fill(struct lattice *l, const struct particles *p)
+static bool sites_fill(struct site_map *l, const struct particles *p)
 {
     bool regular = true;
 #pragma omp parallel for schedule(static) reduction(&& : regular)
     for (int64_t i = 0; i < p->n; i++) {
-        const int64_t site = lattice_site_of(l, p, i);
-        regular = regular && site >= 0 && (i == 0 || lattice_site_of(l, p, i - 1) < site) && p->body[i] == p->body[0];
+        const int64_t site = site_of(l, p, i);
+        regular = regular && site >= 0 && (i == 0 || site_of(l, p, i - 1) < site) && p->body[i] == p->body[0];
         if (site >= 0) l->at[site] = (int32_t)i + 1;
     }
     for (int64_t k = p->n; k < p->n_all && regular; k++) {
-        const int64_t site = lattice_site_of(l, p, k);
+        const int64_t site = site_of(l, p, k);
         regular = site >= 0 && l->at[site] == 0;
         if (regular) l->at[site] = (int32_t)k + 1;
     }
@@ -80,7 +80,7 @@ static bool sites_fill(struct lattice *l, const struct particles *p)
 
 /* Are the places along an axis, measured in its farthest one's unit of the last place, whole multiples of one step?
  * Then neighbours are at exactly the same distances everywhere. */
-static bool axis_exact(const struct lattice *l, const struct particles *p, int d)
+static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
     real low, high;
     particles_extent(p, p->n_all, d, &low, &high);
@@ -98,7 +98,7 @@ static bool axis_exact(const struct lattice *l, const struct particles *p, int d
     return exact;
 }
 
-static bool is_uniform(const struct lattice *l, const struct particles *p)
+static bool is_uniform(const struct site_map *l, const struct particles *p)
 {
     bool same = true;
 #pragma omp parallel for schedule(static) reduction(&& : same)
@@ -109,48 +109,48 @@ static bool is_uniform(const struct lattice *l, const struct particles *p)
     return same;
 }
 
-bool lattice_make(struct lattice *l, const struct bond_source *s, const struct particles *p)
+bool site_map_make(struct site_map *l, const struct bond_source *s, const struct particles *p)
 {
     const struct family *f = &s->family;
-    *l = (struct lattice){.spacing = f->spacing, .reach = (int)floor(f->cutoff / f->spacing)};
+    *l = (struct site_map){.spacing = f->spacing, .reach = (int)floor(f->cutoff / f->spacing)};
     if (p->n < LANES || l->reach > HALF_MOST || l->reach < 1 || s->yield.stretch) return false;
     const int64_t site_map = box_sites(l, p);
     if (site_map > 0 && site_offsets_make(l, f, p->dim)) {
-        l->at = NEW("lattice.at", site_map, int32_t);
+        l->at = NEW("site_map.at", site_map, int32_t);
         if (sites_fill(l, p)) {
             l->uniform = is_uniform(l, p);
             return true;
         }
     }
-    lattice_free(l);
+    site_map_free(l);
     return false;
 }
 
-void lattice_free(struct lattice *l)
+void site_map_free(struct site_map *l)
 {
     memory_free(l->at);
     memory_free(l->row);
-    *l = (struct lattice){0};
+    *l = (struct site_map){0};
 }
 
-struct lattice *lattice_keep(struct lattice *of, const struct bond_source *s, const struct particles *p)
+struct site_map *site_map_keep(struct site_map *of, const struct bond_source *s, const struct particles *p)
 {
-    struct lattice *l = of ? of : NEW("bonds.sites", 1, struct lattice);
-    if (!of) lattice_make(l, s, p);
+    struct site_map *l = of ? of : NEW("bonds.sites", 1, struct site_map);
+    if (!of) site_map_make(l, s, p);
     l->users++;
     return l;
 }
 
-void lattice_leave(struct lattice *l)
+void site_map_leave(struct site_map *l)
 {
     if (!l || --l->users > 0) return;
-    lattice_free(l);
+    site_map_free(l);
     memory_free(l);
 }
 
-int lattice_family(const struct lattice *l, const struct particles *p, int32_t i, int32_t *found)
+int site_map_family(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found)
 {
-    const int32_t *own = l->at + lattice_site_of(l, p, i);
+    const int32_t *own = l->at + site_of(l, p, i);
     int n = 0;
     for (int k = 0; k < l->rows; k++)
         for (int a = -l->row[k].half; a <= l->row[k].half; a++) {
@@ -165,8 +165,8 @@ int lattice_family(const struct lattice *l, const struct particles *p, int32_t i
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
 /* Bonds along one row of the lattice; false if what stands there is not consecutive. */
-static bool row_bonds(const struct lattice *l, const struct particles *p, int64_t site, const struct stencil_row *row,
-                      int64_t i, struct lattice_bonds *to)
+static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
+                      int64_t i, struct regular_bonds *to)
 {
     const int32_t *line = l->at + site + row->site - row->half;
     int first = 0, last = 2 * row->half + LANES - 1;
@@ -185,16 +185,16 @@ static bool row_bonds(const struct lattice *l, const struct particles *p, int64_
     return true;
 }
 
-static bool is_full(const struct lattice_bonds *b)
+static bool is_full(const struct regular_bonds *b)
 {
     unsigned other = 0;
     for (int k = 0; k < b->n; k++) other |= b->from[k] | (b->to[k] ^ (LANES - 1u));
     return other == 0;
 }
 
-bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i, struct lattice_bonds *to)
+bool regular_bonds(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to)
 {
-    const int64_t site = lattice_site_of(l, p, i);
+    const int64_t site = site_of(l, p, i);
     to->n = 0;
     if (l->at[site + LANES - 1] - l->at[site] != LANES - 1) return false;
     for (int k = 0; k < l->rows; k++)
@@ -208,16 +208,16 @@ bool lattice_bonds(const struct lattice *l, const struct particles *p, int64_t i
     return columns_by_offset(to->n, longest);
 }
 
-void lattice_bonds_make(struct lattice_bonds *to, const struct lattice *l)
+void regular_bonds_make(struct regular_bonds *to, const struct site_map *l)
 {
-    to->offset = NEW("lattice.offset", l->most, int32_t);
-    to->from = NEW("lattice.from", l->most, uint8_t);
-    to->to = NEW("lattice.to", l->most, uint8_t);
-    to->bonds = NEW("lattice.bonds", l->most, uint8_t);
+    to->offset = NEW("site_map.offset", l->most, int32_t);
+    to->from = NEW("site_map.from", l->most, uint8_t);
+    to->to = NEW("site_map.to", l->most, uint8_t);
+    to->bonds = NEW("site_map.bonds", l->most, uint8_t);
     to->stencil_cache = stencil_cache_make(l);
 }
 
-void lattice_bonds_free(struct lattice_bonds *to)
+void regular_bonds_free(struct regular_bonds *to)
 {
     memory_free(to->offset);
     memory_free(to->from);
@@ -259,7 +259,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
         for (int l = 0; l < LANES; l++) w[l] *= 2 * f->full / (around[i + l] + around[j + l]);
 }
 
-void lattice_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
+void regular_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
                    int64_t j, real *inverse, real *w)
 {
     switch (p->dim) {

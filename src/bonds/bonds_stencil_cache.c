@@ -8,15 +8,15 @@
 enum { REMEMBERED = 32 };                /* kinds of row blocks in some rows of a block: inside, and at its ends */
 
 struct stencil_cache {
-    const struct lattice *lattice;
+    const struct site_map *map;
     int n, next, last;                   /* remembered; the oldest; the one found last */
-    struct cached { int64_t i; struct lattice_bonds bonds; } cached[REMEMBERED];
+    struct cached { int64_t i; struct regular_bonds bonds; } cached[REMEMBERED];
 };
 
-struct stencil_cache *stencil_cache_make(const struct lattice *l)
+struct stencil_cache *stencil_cache_make(const struct site_map *l)
 {
     struct stencil_cache *t = NEW("bonds.twins", 1, struct stencil_cache);
-    t->lattice = l;
+    t->map = l;
     return t;
 }
 
@@ -30,7 +30,7 @@ void stencil_cache_free(struct stencil_cache *t)
     memory_free(t);
 }
 
-static bool same_sites(const struct lattice_bonds *a, const struct lattice_bonds *b)
+static bool same_sites(const struct regular_bonds *a, const struct regular_bonds *b)
 {
     const size_t n = (size_t)a->n;
     return a->n == b->n && memcmp(a->offset, b->offset, n * sizeof *a->offset) == 0 &&
@@ -39,7 +39,7 @@ static bool same_sites(const struct lattice_bonds *a, const struct lattice_bonds
 
 /* Are the entries of all neighbours of i .. i + 7 those of the neighbours of j .. j + 7? Index distances come in
  * runs. */
-static bool same_around(const real *around, const struct lattice_bonds *b, int64_t i, int64_t j)
+static bool same_around(const real *around, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (memcmp(around + i, around + j, LANES * sizeof *around) != 0) return false;
     for (int k = 0, run; k < b->n; k += run) {
@@ -51,14 +51,14 @@ static bool same_around(const real *around, const struct lattice_bonds *b, int64
     return true;
 }
 
-static void remember(struct stencil_cache *t, const struct lattice_bonds *b, int64_t i)
+static void remember(struct stencil_cache *t, const struct regular_bonds *b, int64_t i)
 {
     struct cached *to = &t->cached[t->next];
     if (t->n <= t->next) {
         t->n++;
-        to->bonds.offset = NEW("bonds.twins", t->lattice->most, int32_t);
-        to->bonds.from = NEW("bonds.twins", t->lattice->most, uint8_t);
-        to->bonds.to = NEW("bonds.twins", t->lattice->most, uint8_t);
+        to->bonds.offset = NEW("bonds.twins", t->map->most, int32_t);
+        to->bonds.from = NEW("bonds.twins", t->map->most, uint8_t);
+        to->bonds.to = NEW("bonds.twins", t->map->most, uint8_t);
     }
     to->i = i, to->bonds.n = b->n;
     memcpy(to->bonds.offset, b->offset, (size_t)b->n * sizeof *b->offset);
@@ -68,10 +68,10 @@ static void remember(struct stencil_cache *t, const struct lattice_bonds *b, int
     t->next = (t->next + 1) % REMEMBERED;
 }
 
-int64_t stencil_cache_find_row(const struct lattice_bonds *b, const real *around, int64_t i)
+int64_t stencil_cache_find_row(const struct regular_bonds *b, const real *around, int64_t i)
 {
     struct stencil_cache *t = b->stencil_cache;
-    if (!t->lattice->uniform) return -1;
+    if (!t->map->uniform) return -1;
     for (int k = 0; k < t->n; k++) {
         const int at = (t->last + k) % t->n;
         const struct cached *other = &t->cached[at];

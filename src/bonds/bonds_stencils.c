@@ -62,7 +62,7 @@ bool stencil_add(struct stencil *to, const struct bonds *b, const struct particl
     int16_t excess[LANES];
     int alone = from->first < 0, alike = 1, bonds = 0;
     *column = (struct stencil_column){.offset = (int32_t)(from->first - i),
-                                      .lattice = (uint8_t)lattice_length(b, inverse, excess)};
+                                      .shell = (uint8_t)shell_of(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
         to->w[to->columns][l] = w[l];
         alone |= (w[l] == 0) != (inverse[l] == 0);       /* cut or broken */
@@ -71,8 +71,8 @@ bool stencil_add(struct stencil *to, const struct bonds *b, const struct particl
         alike &= bonds == 0 || w[l] == column->w;
         column->inverse_length = inverse[l], column->w = w[l], column->intact |= (uint8_t)(1 << l), bonds++;
     }
-    if (alone || bonds == 0 || column->lattice == 0 || !reference_of(p, i, from->first, column)) return false;
-    const struct bond_length *length = &b->lattice[column->lattice];
+    if (alone || bonds == 0 || column->shell == 0 || !reference_of(p, i, from->first, column)) return false;
+    const struct bond_length *length = &b->shell_length[column->shell];
     column->length = 1 / column->inverse_length;
     column->weighted = column->w * length->length, column->squared = column->w * length->square;
     for (int d = 0; d < p->dim; d++) column->w_xi[d] = column->w * column->xi[d];

@@ -11,9 +11,9 @@
 
 /* Volume of the neighbours of particle i. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
-                        const struct lattice *lattice, int64_t i, int32_t *found, int room)
+                        const struct site_map *map, int64_t i, int32_t *found, int room)
 {
-    const int n = family_of(lattice, s, p, (int32_t)i, found, room);
+    const int n = family_of(map, s, p, (int32_t)i, found, room);
     real volume = 0;
     for (int k = 0; k < n; k++) {
         real xi[DIM_MAX];
@@ -24,7 +24,7 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
 }
 
 /* Of particles i .. i + 7 whose bonds the map of sites knows, where all neighbours count as much. */
-static void volumes_near(real *volume, const struct particles *p, const struct lattice_bonds *bonds, real weight,
+static void volumes_near(real *volume, const struct particles *p, const struct regular_bonds *bonds, real weight,
                          int64_t i)
 {
     real sum[LANES] = {0};
@@ -47,30 +47,30 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
 {
     const int most = bonds_room(s);
     struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
-    struct lattice lattice = {0};
+    struct site_map map = {0};
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
     plain.influence = INFLUENCE_ONE;
-    if (family_plain(&plain)) lattice_make(&lattice, s, p);
+    if (family_plain(&plain)) site_map_make(&map, s, p);
 #pragma omp parallel
     {
         int32_t *found = NEW("bonds.found", most, int32_t);
-        struct lattice_bonds bonds;
-        lattice_bonds_make(&bonds, &lattice);
+        struct regular_bonds bonds;
+        regular_bonds_make(&bonds, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
-            if (lattice.at && first + LANES <= p->n && lattice_bonds(&lattice, p, first, &bonds)) {
+            if (map.at && first + LANES <= p->n && regular_bonds(&map, p, first, &bonds)) {
                 const int64_t cached = stencil_cache_find_row(&bonds, NULL, first);
                 if (cached >= 0) memcpy(volume + first, volume + cached, LANES * sizeof *volume);
                 else volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n_all; i++)
-                volume[i] = volume_near(p, s, &plain, &lattice, i, found, most);
+                volume[i] = volume_near(p, s, &plain, &map, i, found, most);
         }
-        lattice_bonds_free(&bonds);
+        regular_bonds_free(&bonds);
         memory_free(found);
     }
-    lattice_free(&lattice);
+    site_map_free(&map);
     whole_volumes(volume, p->n, s->family.full);
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
@@ -142,14 +142,14 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
 }
 
 /* Of a regular row block whose rows are not made. */
-static real row_block_frequency(const struct lattice_bonds *bonds, const struct bond_source *s,
+static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
     struct eight_bounds bounds = {0};
     for (int k = 0; k < bonds->n; k++) {
         real inverse[LANES];
         real w[LANES];
-        lattice_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
+        regular_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
         for (int l = 0; l < LANES; l++) w[l] = l >= bonds->from[k] && l <= bonds->to[k] ? w[l] : 0;
         bounds_add_any(&bounds, p, i, i + bonds->offset[k], inverse, w, stiffness);
     }
@@ -193,19 +193,19 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     struct particles all = *p;
     memset(kind, KIND_PD, (size_t)p->n_all);
     all.kind = kind;
-    struct lattice lattice;
+    struct site_map map;
     const struct row_maker maker = {
-        .source = s, .p = &all, .pairs = &pairs, .lattice = &lattice, .room = bonds_room(s)};
-    lattice_make(&lattice, s, p);
+        .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_room(s)};
+    site_map_make(&map, s, p);
 #pragma omp parallel reduction(max : largest)
     {
         struct row row = {0};
-        struct lattice_bonds regular;
+        struct regular_bonds regular;
         row_room_make(&row, maker.room);
-        lattice_bonds_make(&regular, &lattice);
+        regular_bonds_make(&regular, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
-            if (lattice.at && first + LANES <= p->n && row_block_regular(&lattice, s, &all, first, &regular)) {
+            if (map.at && first + LANES <= p->n && row_block_regular(&map, s, &all, first, &regular)) {
                 /* that of a twin is in `largest` */
                 if (stencil_cache_find_row(&regular, s->neighbour_volume, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
@@ -217,10 +217,10 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
                 largest = real_max(largest, row_stiffness(&row, &all, (int32_t)i, stiffness) / p->mass[i]);
             }
         }
-        lattice_bonds_free(&regular);
+        regular_bonds_free(&regular);
         row_room_free(&row);
     }
-    lattice_free(&lattice);
+    site_map_free(&map);
     memory_free(kind);
     memory_free(pairs.ratio);
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;

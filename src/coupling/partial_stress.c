@@ -277,7 +277,8 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
                           .own = NEW("partial.own", most, bool)};
     for (int64_t k = 0; k < most; k++) {
         const int32_t i = list[k], row = b->row_of[i];
-        if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM && b->made[row / LANES] > 0)
+        if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM &&
+            row_block_bonds(b, row / LANES) > 0)
             r->row[r->rows++] = row;
         if (!(mark[i] & DIRTY)) continue;
         r->own[r->n] = !changed || mark[i] & OWN;

@@ -401,10 +401,10 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
 
 /* Lists the rows near point i by the map of sites. Particles come in their order; images, whose indices are the
  * highest, in any order. */
-static int crossing_rows_by_site(const struct partial_table *t, const struct lattice *l, const struct particles *p,
+static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                             const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
-    const int32_t *own = l->at + lattice_site_of(l, p, i);
+    const int32_t *own = l->at + site_of(l, p, i);
     int n = 0;
     for (int k = 0; k <= t->vectors; k++) {
         const struct near_place *near = &t->near[k];

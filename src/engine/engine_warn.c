@@ -6,14 +6,13 @@
 #include "base/memory.h"
 #include "engine/engine.h"
 
-/* Number of directed bonds cut at the start. */
-static int64_t bonds_pre_cut(const struct bonds *b)
+/* True if pre-cracks have cut a bond. */
+static bool bonds_are_cut(const struct bonds *b)
 {
-    int64_t cut = 0;
-    for (int64_t g = 0; g < b->row_blocks; g++)
-        for (int64_t q = b->column[g] * LANES; q < (b->column[g] + b->column_count[g]) * LANES && !b->stencil[g]; q++)
-            cut += b->inverse_length[q] < 0;
-    return cut;
+    for (int64_t row = 0; row < b->rows; row++)
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+            if (it.bond.inverse_length < 0) return true;
+    return false;
 }
 
 static const char *const coupling_name[] = {
@@ -86,7 +85,7 @@ static void warn_of_empty(const struct engine *e, struct warnings *to)
         if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
             warnings_add(to, "boundary %s holds no particle%s", e->scene->boundary[b].name,
                          e->scene->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
-    if (e->source.cracks > 0 && bonds_pre_cut(&e->bonds) == 0)
+    if (e->source.cracks > 0 && !bonds_are_cut(&e->bonds))
         warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
 }
 

@@ -352,8 +352,7 @@ static void images_expose(uint8_t *exposed, const struct particles *p, const str
 /* May a bond in column k of row block g lead to an image? */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
-    const struct stencil *stencil = b->stencil[g];
-    const int64_t first = stencil ? b->particle[g * LANES] + stencil->column[k].offset : b->first[b->column[g] + k];
+    const int64_t first = column_first(b, g, k);
     return first < 0 || first + LANES > p->n;
 }
 
@@ -370,7 +369,7 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     if (mesh->exposed == mesh->exposed_room) {
         const int64_t room = mesh->exposed_room ? 2 * mesh->exposed_room : 256;
         mesh->exposed_list =
-            memory_resize("mesh.see", mesh->exposed_list, mesh->exposed_room, room, sizeof *mesh->exposed_list);
+            memory_resize("mesh.exposed", mesh->exposed_list, mesh->exposed_room, room, sizeof *mesh->exposed_list);
         mesh->exposed_room = room;
     }
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
@@ -379,12 +378,12 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
 {
     if (!mesh->place) return;
-    uint8_t *exposed = NEW("mesh.seen", p->n, uint8_t);
+    uint8_t *exposed = NEW("mesh.exposed_points", p->n, uint8_t);
     for (int64_t g = 0; g < b->row_blocks; g++) {
         const unsigned intact = bonds_intact(b, g);
         struct column_copy column;
         for (int lane = 0; lane < LANES; lane++) exposed[b->particle[g * LANES + lane]] |= intact >> lane & 1;
-        for (int64_t k = 0; k < b->column_count[g] && p->n_all > p->n; k++) {
+        for (int64_t k = 0; k < bonds_columns(b, g) && p->n_all > p->n; k++) {
             if (!meets_images(b, p, g, k)) continue;
             column_read(&column, b, g, k);
             images_expose(exposed, p, l->image, column.nbr);

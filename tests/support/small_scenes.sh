@@ -162,7 +162,7 @@ each_scene()
 instrumented()
 {
     folder=$1 flags=$2; shift 2
-    if ! MAKEFLAGS= CFLAGS="$flags" CPPFLAGS=-DLEAVE=exit make -j2 BUILD=$folder "$@" >"$work/said" 2>&1; then
+    if ! MAKEFLAGS= CFLAGS="$flags" CPPFLAGS="-DLEAVE=exit -DCLEAVE_ASSERT" make -j2 BUILD=$folder "$@" >"$work/said" 2>&1; then
         fail "no build in $folder: $(cat "$work/said")"
         finish
     fi

@@ -197,11 +197,43 @@ static void test_same_bits(void **state)
             assert_true(a.value[0] > 0);                                   /* some bonds have broken, */
             assert_true(count_folded(&implicit.bonds) > 0);                /* and not all row blocks have been opened */
             assert_true(weighed || count_units(&implicit.bonds) > 0);
+            assert_null(bonds_fault(&implicit.bonds)), assert_null(bonds_fault(&open.bonds));
             assert_int_equal(a.n, b.n);
             assert_memory_equal(a.value, b.value, (size_t)a.n * sizeof *a.value);
             memory_free(a.value), memory_free(b.value);
             cloud_free(&implicit), cloud_free(&open);
         }
+}
+
+/* Each invariant of bond_storage.h is missed where it does not hold. */
+static void test_fault(void **state)
+{
+    (void)state;
+    struct cloud c;
+    exact_cloud(&c, 2, SURFACE_NONE, NULL);
+    struct bonds *b = &c.bonds;
+    assert_null(bonds_fault(b));
+    const int64_t q = bond_to_write(b, b->row_blocks / 2, 3, 4), column = q / LANES;
+    assert_null(bonds_fault(b));                 /* written, it still follows its stencil */
+    bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
+    assert_null(bonds_fault(b));
+    b->inverse_length[q] *= -1;
+    assert_string_equal(bonds_fault(b), "a bond with weight is broken or padding");
+    b->inverse_length[q] *= -1;
+    b->common[column].intact ^= 1;
+    assert_string_equal(bonds_fault(b), "intact is not what the weights say");
+    b->common[column].intact ^= 1;
+    b->nbr[q]++;
+    assert_string_equal(bonds_fault(b), "neighbours are not consecutive");
+    b->nbr[q]--;
+    b->common[column].first++;
+    assert_string_equal(bonds_fault(b), "first is not what a column shares");
+    b->common[column].first--;
+    b->reach = 0;
+    assert_string_equal(bonds_fault(b), "a bond leads farther than reach");
+    b->row_of[b->particle[9]] = 3;
+    assert_string_equal(bonds_fault(b), "row_of does not lead back to the row of a particle");
+    cloud_free(&c);
 }
 
 /* A bond that changes takes its row block out of the stencil, and no other. */
@@ -324,7 +356,7 @@ int main(void)
         cmocka_unit_test(test_what_is_stored),
         cmocka_unit_test(test_twins),
         cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_who_leaves),
+        cmocka_unit_test(test_fault), cmocka_unit_test(test_who_leaves),
         cmocka_unit_test(test_who_stays_out),
         cmocka_unit_test(test_beside_points),
     };

@@ -226,7 +226,7 @@ static void check_partials(const char *text)
         convert(&e.coupling.conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.coupling.partial, NULL, 0) > 0);
     assert_non_null(e.bonds.site_map);
     bonds_make(&searched, NULL, &e.part, &e.source);
-    struct lattice *sites = searched.site_map;
+    struct site_map *sites = searched.site_map;
     searched.site_map = NULL;
     partial_stress_make(&again, &e.part, &searched, &e.source, NULL, 0);
     searched.site_map = sites;

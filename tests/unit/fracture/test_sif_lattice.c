@@ -155,7 +155,7 @@ static void gradients_fall_back(void **state)
 /* ---- the integral from particles --------------------------------------------------------------------------------- */
 
 /* An even lattice of spacing 1 round the tip at (shift), displaced by the exact field of a crack at an angle. */
-struct lattice {
+struct site_map {
     struct patch patch;
     struct sif_tip tip;
     real corner[2][DIM_MAX];
@@ -170,7 +170,7 @@ static void rotate(const struct sif_tip *tip, const real local[2], real global[2
     global[1] = tip->along[1] * local[0] + tip->along[0] * local[1];
 }
 
-static void lattice_field(struct lattice *l, const real K[MODES])
+static void lattice_field(struct site_map *l, const real K[MODES])
 {
     struct particles *p = &l->patch.p;
     for (int64_t i = 0; i < p->n; i++) {
@@ -194,7 +194,7 @@ static void lattice_field(struct lattice *l, const real K[MODES])
     }
 }
 
-static void lattice_make(struct lattice *l, int edge, real degrees, const real shift[2], real speed)
+static void site_map_make(struct site_map *l, int edge, real degrees, const real shift[2], real speed)
 {
     memset(l, 0, sizeof *l);
     patch_make(&l->patch, edge, 0, 1);
@@ -211,13 +211,13 @@ static void lattice_make(struct lattice *l, int edge, real degrees, const real s
     l->rule.reach = 1.5, l->rule.sight = (struct sight){.crack = &l->crack, .cracks = 1};
 }
 
-static void lattice_free(struct lattice *l)
+static void site_map_free(struct site_map *l)
 {
     for (int d = 0; d < 2; d++) memory_free(l->v[d]), memory_free(l->a[d]);
     patch_free(&l->patch);
 }
 
-static struct sif lattice_sif(const struct lattice *l, real inner, real outer)
+static struct sif lattice_sif(const struct site_map *l, real inner, real outer)
 {
     const struct contour c = {inner, outer};
     const bool moves = l->tip.speed > 0;
@@ -236,7 +236,7 @@ static real sif_error(const struct sif *s, const real K[MODES])
 }
 
 /* The midpoint sum with exact gradients: what is left is quadrature. */
-static real exact_gradient_error(const struct lattice *l, real outer, enum crack_mode mode)
+static real exact_gradient_error(const struct site_map *l, real outer, enum crack_mode mode)
 {
     const struct contour c = {0.5 * outer, outer};
     const struct particles *p = &l->patch.p;
@@ -261,8 +261,8 @@ static void lattice_sums_of_exact_gradients(void **state)
     const real shift[][2] = {{0, 0}, {0.499, 0}, {0, 0.3}, {0.5, 0.3}, {0.2, 0.4}}, degrees[] = {0, 30, 45};
     const real outer[] = {10, 20, 40}, cubic[] = {0.0035, 0.0005, 0.0005}, quintic[] = {0.0007, 0.00007, 0.00002};
     for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
-        struct lattice l;
-        lattice_make(&l, 90, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
+        struct site_map l;
+        site_map_make(&l, 90, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
         for (int mode = 0; mode < MODES; mode++)
             for (int k = 0; k < 3; k++) {
                 l.tip.weight = SIF_QUINTIC;
@@ -271,7 +271,7 @@ static void lattice_sums_of_exact_gradients(void **state)
                 assert_near(exact_gradient_error(&l, outer[k], mode), 0,
                             cubic[k] * (n < COUNT_OF(degrees) ? 1 : k == 1 ? 2.4 : 1.7));
             }
-        lattice_free(&l);
+        site_map_free(&l);
     }
 }
 
@@ -285,8 +285,8 @@ static void lattice_sums_of_fitted_gradients(void **state)
     const real allowed[] = {0.0025, 0.00025, 0.00005};       /* gradients err by 1/r^2, and quadrature by more */
     real worst[2][3] = {{0}};
     for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
-        struct lattice l;
-        lattice_make(&l, 96, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
+        struct site_map l;
+        site_map_make(&l, 96, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
         for (size_t k = 0; k < COUNT_OF(Ks); k++) {
             lattice_field(&l, Ks[k]);
             for (int method = 0; method < 2; method++)
@@ -297,7 +297,7 @@ static void lattice_sums_of_fitted_gradients(void **state)
                     assert_near(s.J * l.tip.medium.modulus, 1, 2 * allowed[o]);
                 }
         }
-        lattice_free(&l);
+        site_map_free(&l);
     }
     for (int method = 0; method < 2; method++) {
         print_message("%s: %.4f %% at 10, %.4f %% at 20, %.4f %% at 40 spacings\n", method ? "PDDO" : "MLS",
@@ -310,10 +310,10 @@ static void lattice_sums_of_fitted_gradients(void **state)
 static void particle_stresses_are_turned(void **state)
 {
     (void)state;
-    struct lattice l;
+    struct site_map l;
     real *stress[3];
     const real K[MODES] = {0.8, 0.6};
-    lattice_make(&l, 48, 30, (const real[]){0, 0}, 0);
+    site_map_make(&l, 48, 30, (const real[]){0, 0}, 0);
     lattice_field(&l, K);
     const struct sif hooke = lattice_sif(&l, 10, 20);
     for (int c = 0; c < 3; c++) stress[c] = NEW("test.stress", l.patch.p.n, real);
@@ -334,7 +334,7 @@ static void particle_stresses_are_turned(void **state)
     assert_close(own.J, hooke.J, 1e-12);
     for (int c = 0; c < 3; c++) memory_free(stress[c]);
     gradient_stencil_free(&s);
-    lattice_free(&l);
+    site_map_free(&l);
 }
 
 /* A steadily moving crack, with inertia: K comes back, and J E* = A_I K_I^2 + A_II K_II^2. The core is left out, as the
@@ -344,8 +344,8 @@ static void lattice_sums_of_a_moving_crack(void **state)
     (void)state;
     const real speed[] = {500, 1000, 2000}, K[MODES] = {0.8, -0.6}, degrees[] = {0, 30};
     for (size_t n = 0; n < COUNT_OF(speed) * 2; n++) {
-        struct lattice l;
-        lattice_make(&l, 96, degrees[n % 2], (const real[]){0.2, 0.4}, speed[n / 2]);
+        struct site_map l;
+        site_map_make(&l, 96, degrees[n % 2], (const real[]){0.2, 0.4}, speed[n / 2]);
         l.tip.core = 5;
         lattice_field(&l, K);
         const struct sif s = lattice_sif(&l, 10, 20), large = lattice_sif(&l, 20, 40);
@@ -357,7 +357,7 @@ static void lattice_sums_of_a_moving_crack(void **state)
         assert_near(sif_error(&s, K), 0, 0.0007);
         assert_near(sif_error(&large, K), 0, 0.0004);
         assert_near(large.J * l.tip.medium.modulus, J, 0.001);
-        lattice_free(&l);
+        site_map_free(&l);
     }
 }
 
@@ -370,15 +370,15 @@ static void a_core_does_not_see_single_particles(void **state)
     enum { PLACES = 8 };
     real low = INFINITY, high = -INFINITY;
     for (int place = 0; place < PLACES; place++) {
-        struct lattice l;
-        lattice_make(&l, 96, 0, (const real[]){(real)place / PLACES, 0.4}, 1000);
+        struct site_map l;
+        site_map_make(&l, 96, 0, (const real[]){(real)place / PLACES, 0.4}, 1000);
         l.tip.core = 5;
         lattice_field(&l, (const real[MODES]){1, 0});
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < l.patch.p.n; i++) l.a[d][i] *= 20;
         const real K = lattice_sif(&l, 10, 20).K[MODE_I];
         low = real_min(low, K), high = real_max(high, K);
-        lattice_free(&l);
+        site_map_free(&l);
     }
     print_message("wrong acceleration: K_I from %.4f to %.4f\n", low, high);
     assert_true(high - low < 0.001);

@@ -175,7 +175,7 @@ static void test_bond_momentum(void **state)
 /* ---- what columns have in common --------------------------------------------------------------------------------- */
 
 /* A lattice of one material, displaced; some bonds broken by load, one faded. */
-static void lattice_make(struct cloud *c, int dim, bool state)
+static void site_map_make(struct cloud *c, int dim, bool state)
 {
     uint64_t seed = 5;
     cloud_make(c, &(struct cloud_plan){.space = space_of[dim],
@@ -202,11 +202,11 @@ static real *forces_by_kind(struct cloud *c, bond_force_fn *force, bool kinds[3]
     real *f = NEW("test.forces", 3 * all, real);
     assert_true(force(&c->bonds, &c->p, &c->source.limit, NULL) > 0);
     for (int64_t column = 0; column < c->bonds.columns; column++)
-        kinds[c->bonds.common[column].alike ? 2 : c->bonds.common[column].lattice ? 1 : 0] = true;
+        kinds[c->bonds.common[column].alike ? 2 : c->bonds.common[column].shell ? 1 : 0] = true;
     for (int pass = 0; pass < 3; pass++) {
         for (int64_t column = 0; column < c->bonds.columns && pass > 0; column++) {
             c->bonds.common[column].alike = 0;
-            if (pass == 2) c->bonds.common[column].lattice = 0;
+            if (pass == 2) c->bonds.common[column].shell = 0;
         }
         assert_int_equal(force(&c->bonds, &c->p, &c->source.limit, NULL), 0);
         for (int d = 0; d < c->p.dim; d++)
@@ -227,7 +227,7 @@ static void test_column_kinds(void **unused)
             const bool state = model >= PD_OSPD;
             struct cloud c;
             if (model == PD_BOND_PLASTIC || (dim == 1 && state)) continue;
-            lattice_make(&c, dim, state);
+            site_map_make(&c, dim, state);
             const size_t bytes = (size_t)(dim * c.p.n) * sizeof(real);
             real *f = forces_by_kind(&c, state ? state_force_table[dim][model] : bond_force_table[dim][model], kinds);
             assert_memory_equal(f, f + dim * c.p.n, bytes);

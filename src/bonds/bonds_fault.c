@@ -1,0 +1,68 @@
+/* The invariants of stored bonds (bond_storage.h), checked one by one. */
+#include <stdio.h>
+
+#include "bonds_parts.h"
+
+/* Rows and particles: each row has its own, ascending, and row_of leads back. */
+static const char *rows_fault(const struct bonds *b)
+{
+    for (int64_t row = 0; row < b->rows; row++) {
+        if (row > 0 && b->particle[row] <= b->particle[row - 1]) return "rows do not ascend by particle";
+        if (b->row_of[b->particle[row]] != row) return "row_of does not lead back to the row of a particle";
+    }
+    for (int64_t row = b->rows; row < b->row_blocks * LANES; row++)
+        if (b->rows > 0 && b->particle[row] != b->particle[b->rows - 1]) return "padding rows do not repeat the last";
+    return NULL;
+}
+
+/* A row block that stores nothing of its own. */
+static const char *implicit_fault(const struct bonds *b, int64_t g)
+{
+    if (!b->stencil[g]) return "an implicit row block follows no stencil";
+    if (b->stencil[g]->columns != b->column_count[g]) return "a row block has other columns than its stencil";
+    for (int l = 0; l < LANES && b->broken; l++)
+        if (b->broken[g * LANES + l] > 0) return "an implicit row block has a broken bond";
+    return NULL;
+}
+
+/* A stored column against what its bonds share. */
+static const char *column_fault(const struct bonds *b, int64_t column)
+{
+    const struct bond_column *common = &b->common[column];
+    if (common->first != b->first[column]) return "first is not what a column shares";
+    for (int l = 0; l < LANES; l++) {
+        const int64_t q = column * LANES + l;
+        const bool there = b->inverse_length[q] != 0, intact = b->w[q] != 0;
+        if (intact && !(b->inverse_length[q] > 0)) return "a bond with weight is broken or padding";
+        if (intact != (common->intact >> l & 1)) return "intact is not what the weights say";
+        if (there && b->first[column] >= 0 && b->nbr[q] != b->first[column] + l)
+            return "neighbours are not consecutive";
+    }
+    return NULL;
+}
+
+/* Intact bonds of a row lead no farther than `reach` row blocks. */
+static const char *reach_fault(const struct bonds *b, int64_t row)
+{
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        const int64_t to = b->row_of[it.bond.nbr];
+        const int64_t away = to < 0 ? 0 : to / LANES - row / LANES;
+        if (it.bond.w != 0 && (away > b->reach || -away > b->reach)) return "a bond leads farther than reach";
+    }
+    return NULL;
+}
+
+const char *bonds_fault(const struct bonds *b)
+{
+    const char *fault = rows_fault(b);
+    for (int64_t g = 0; g < b->row_blocks && !fault; g++) {
+        if (b->implicit[g]) {
+            fault = implicit_fault(b, g);
+            continue;
+        }
+        for (int64_t k = b->column[g]; k < b->column[g] + b->column_count[g] && !fault; k++)
+            if (!b->stencil[g]) fault = column_fault(b, k);
+    }
+    for (int64_t row = 0; row < b->rows && !fault; row++) fault = reach_fault(b, row);
+    return fault;
+}
