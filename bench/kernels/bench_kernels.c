@@ -171,7 +171,7 @@ static void time_all(struct kernel_bench *b, int repetitions)
 
 /* ---- bytes ------------------------------------------------------------------------------------------------------- */
 
-/* Bytes of a slot as the kernels read it (bond_column.h), in the mean; patterns stay in cache. */
+/* Mean bytes of a column as the kernels read it (bond_column.h); stencils stay in cache. */
 static double column_bytes(const struct bonds *b)
 {
     double sum = 0;

@@ -57,7 +57,8 @@ static void zero(char *bytes, size_t length, bool fresh)
 
 /* Large blocks all begin at the same place of a page, and a cache has room for eight or twelve lines of one place:
  * loops that read twenty arrays side by side would push out their own. So each array begins some lines further on
- * than the last. */
+ * than the last. Measured on two cores against all at one place: material points of the current frame take 6 % less
+ * time in the plane (160,000) and 16 % less in space (512,000); bonds the same. */
 static size_t offset(size_t length)
 {
     static unsigned arrays;

@@ -96,8 +96,8 @@ static void rows_list(struct bonds *b, const struct particles *p, const uint8_t 
 static void rows_arrays(struct bonds *b)
 {
     int64_t padded = b->row_blocks * LANES;
-    b->column = NEW("bonds.slot", b->row_blocks, int64_t);
-    b->column_count = NEW("bonds.slot_count", b->row_blocks, int32_t);
+    b->column = NEW("bonds.column", b->row_blocks, int64_t);
+    b->column_count = NEW("bonds.column_count", b->row_blocks, int32_t);
     b->made = NEW("bonds.made", b->row_blocks, int32_t);
     b->aligned = NEW("bonds.aligned", b->row_blocks, uint8_t);
     b->whole = NEW("bonds.whole", padded, uint8_t);
@@ -107,7 +107,7 @@ static void rows_arrays(struct bonds *b)
     b->fracture_energy = NEW("bonds.fracture_energy", padded, real);
     b->plastic_work = NEW("bonds.plastic_work", padded, real);
     b->broken = NEW("bonds.broken", padded, int32_t);
-    b->stencil = NEW("bonds.pattern", b->row_blocks, const struct stencil *);
+    b->stencil = NEW("bonds.stencil", b->row_blocks, const struct stencil *);
     b->implicit = NEW("bonds.folded", b->row_blocks, uint8_t);
     b->changed = NEW("bonds.changed", b->row_blocks, uint8_t);
     active_set_make(&b->active, b->row_blocks);

@@ -136,7 +136,7 @@ struct row_block_room {
 };
 void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map);
 void row_block_room_free(struct row_block_room *g);
-/* Slots the row block needs, by index distance or simply packed; then fills them, and notes what is known of its
+/* Columns the row block needs, by index distance or simply packed; then fills them, and notes what is known of its
  * rows. */
 int row_block_columns(struct row_block_room *g, const int32_t *particle, int rows, bool *by_offset);
 void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int rows, bool by_offset,

@@ -30,7 +30,7 @@ static int row_block_offsets(struct row_block_room *g, const int32_t *particle, 
     return n;
 }
 
-/* Slots the row block needs; `by_offset` tells whether a column holds one index distance (a lattice) or the rows are
+/* Columns the row block needs; `by_offset` tells whether a column holds one index distance (a lattice) or the rows are
  * simply packed (an irregular cloud, where distances differ and columns by distance would be mostly padding). */
 int row_block_columns(struct row_block_room *g, const int32_t *particle, int rows, bool *by_offset)
 {
@@ -220,7 +220,7 @@ void row_block_room_make(struct row_block_room *g, int room, const struct site_m
     g->offset = BARE("bonds.offset", (int64_t)LANES * room + 1, int32_t);
     regular_bonds_make(&g->regular, map);
     stencil_make(&g->stencil, LANES * room + 1);
-    g->column = BARE("bonds.slot_copy", (int64_t)LANES * room + 1, struct column_copy);
+    g->column = BARE("bonds.column_copy", (int64_t)LANES * room + 1, struct column_copy);
 }
 
 void row_block_room_free(struct row_block_room *g)

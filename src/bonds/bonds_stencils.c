@@ -14,7 +14,7 @@ struct stencils {
 
 struct stencils *stencils_make(struct stencils *of)
 {
-    struct stencils *p = of ? of : NEW("bonds.patterns", 1, struct stencils);
+    struct stencils *p = of ? of : NEW("bonds.stencils", 1, struct stencils);
     p->users++;
     return p;
 }
@@ -29,8 +29,8 @@ void stencils_free(struct stencils *p)
 void stencil_make(struct stencil *p, int columns)
 {
     *p = (struct stencil){0};
-    p->column = BARE("bonds.pattern_slot", columns, struct stencil_column);
-    p->w = (real (*)[LANES])BARE("bonds.pattern_w", (int64_t)columns * LANES, real);
+    p->column = BARE("bonds.stencil_column", columns, struct stencil_column);
+    p->w = (real (*)[LANES])BARE("bonds.stencil_w", (int64_t)columns * LANES, real);
 }
 
 void stencil_free(struct stencil *p)

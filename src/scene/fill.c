@@ -6,7 +6,7 @@
  * continue the lattice of the first solid. A body whose first solid is unbounded takes the lattice of the first body.
  *
  * Centre and spacing are rounded so that every coordinate is an exact floating-point number. Distances between
- * neighbours are then exactly equal throughout the body (struct pattern), and quantities computed from distances do not
+ * neighbours are then exactly equal throughout the body (struct stencil), and quantities computed from distances do not
  * depend on the position in the body. */
 #include <math.h>
 #include <string.h>

@@ -209,9 +209,9 @@ const struct key keys[] = {
         "stress "
         "stays low (coupling partial stress or handshake, elastic materials)"),
     KEY("conversion.hold_time", KEY_REAL, UNIT_NONE, AT(scene, conversion.hold_time), BETWEEN(1, 1e6), "5",
-        "reversion: how long the stress must have been low, in horizon over wave speed"),
+        "reversion: how long the stress must have been low, in horizon over wave speed; longer: fewer reversions"),
     KEY("conversion.low_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.low_stress), INSIDE(0, 0.9), "0.5",
-        "reversion: what low stress is, as a share of the one that converts"),
+        "reversion: what low stress is, as a share of the one that converts; lower: fewer reversions"),
 
     KEY("cracks", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "cracks there at the start"),
     KEY("cracks.from", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "one end of a segment (plane)"),

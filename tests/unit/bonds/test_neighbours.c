@@ -257,7 +257,7 @@ static void test_rows(void **state)
     }
 }
 
-/* Slots of a row block, wherever each stores them. */
+/* Columns of a row block, wherever each stores them. */
 static void check_row_block_like_new(const struct bonds *b, int64_t column, const struct bonds *new, int64_t of,
                                      int64_t columns)
 {
