@@ -22,7 +22,7 @@ enum {
 struct run {
     double seconds[REPETITIONS];
     double stepping[REPETITIONS]; /* of them without samples: the step's own work */
-    /* of them without conversion: what kernels alone take, as if rows and cut cells came for nothing */
+    /* of them without conversion: what kernels alone take, as if rows and partial cells came for nothing */
     double steady[REPETITIONS];
     struct crack_ends ends;
     double time[SAMPLES + 1], share[SAMPLES + 1];
@@ -140,7 +140,7 @@ static void efficiency_print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
-    printf("  %-30s %-6s %-6s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s\n", "", "model", "levers",
+    printf("  %-30s %-6s %-10s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s\n", "", "model", "levers",
            "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips", "angles",
            "starts", "PD share");
 }
@@ -149,7 +149,7 @@ static void print_way(const struct result *x, int way)
 {
     char paper[16] = "-", title[48];
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
-    printf("  %-30s %-6s %-6s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7.3f %7s %5.2f mm",
+    printf("  %-30s %-6s %-10s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7.3f %7s %5.2f mm",
            efficiency_title(x->scene, title, sizeof title), x->scene->model, efficiency_way[way].levers,
            (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way], x->t_r_stepping[way],
            x->t_r_bound[way], paper, 1e3 * x->tip_distance[way]);
@@ -179,7 +179,8 @@ static void print_marks(const struct efficiency *all)
         }
     printf(
         "  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples;\n"
-        "  bound: if rows, partial stress and cut cells of a conversion came for nothing, what kernels alone allow\n");
+        "  bound: if rows, partial stress and partial cells of a conversion came for nothing, what kernels alone "
+        "allow\n");
 }
 
 /* Rows of one adaptive run in the tables of figures, shares and runs. */

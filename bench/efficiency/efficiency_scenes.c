@@ -33,8 +33,8 @@ const struct way efficiency_way[WAYS] = {
     {"pd", "-", "current", "true", "false", NULL},
     {"adaptive", "none", "current", "false", "false", "#b0b0b0"},
     {"adaptive", "frame", "reference", "false", "false", "#2a6fbb"},
-    {"adaptive", "rest", "current", "true", "false", NULL},
-    {"adaptive", "return", "current", "false", "true", NULL},
+    {"adaptive", "active_set", "current", "true", "false", NULL},
+    {"adaptive", "reversion", "current", "false", "true", NULL},
     {"adaptive", "all", "reference", "true", "true", "#d1603d"},
 };
 

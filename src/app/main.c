@@ -30,6 +30,15 @@ static const struct command commands[] = {
     {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
 };
 
+/* `cleave COMMAND --help`. */
+static status usage_of(const struct command *c)
+{
+    printf("cleave %s%s%s\n  %s\n", c->name, *c->words ? " " : "", c->words, c->meaning);
+    return OK;
+}
+
+static bool wants_help(const char *word) { return !strcmp(word, "--help") || !strcmp(word, "-h"); }
+
 static status usage(status result)
 {
     FILE *to = result == OK ? stdout : stderr;
@@ -53,10 +62,11 @@ static status call(int argc, char **argv)
     if (argc < 2) return usage(REFUSED);
     output_start();
     TRY(simd_start());
-    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) return usage(OK);
+    if (wants_help(argv[1])) return usage(OK);
     if (!strcmp(argv[1], "--version")) argv[1] = "info";
     for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)
-        if (!strcmp(argv[1], c->name)) return c->call(argc - 1, argv + 1);
+        if (!strcmp(argv[1], c->name))
+            return argc == 3 && wants_help(argv[2]) ? usage_of(c) : c->call(argc - 1, argv + 1);
     return status_set(REFUSED, "unknown command %s; cleave --help lists them", argv[1]);
 }
 

@@ -386,8 +386,8 @@ static void write_probes(struct writer *w)
     const struct scene *s = w->scene;
     if (s->probes) fputs("probes:\n", w->out);
     for (int k = 0; k < s->probes; k++) {
-        char group[32] = "probes.";
-        strcat(group, probe_names[s->probe[k].kind]);
+        char group[32];
+        snprintf(group, sizeof group, "probes.%s", probe_names[s->probe[k].kind]);
         fprintf(w->out, "  - %s:\n", probe_names[s->probe[k].kind]);
         w->indent = 6;
         write_group(w, group, &s->probe[k]);

@@ -300,7 +300,7 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
 {
     const struct node *map;
     struct node form, short_form;
-    char group[32] = "probes.";
+    char group[32];
     TRY(kind_of_probe(r, n, &p->kind, &map));
     if (p->kind == PROBE_EXACT && map && map->kind == NODE_SCALAR) {     /* `exact: step bar` */
         form = short_form = *map;
@@ -310,7 +310,7 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
     }
     p->amplitude = p->period = p->wavelength = p->origin = NAN;
     p->inner = p->outer = p->core = p->experiment = NAN;
-    strcat(group, probe_names[p->kind]);
+    snprintf(group, sizeof group, "probes.%s", probe_names[p->kind]);
     strcpy(p->name, probe_names[p->kind]);
     TRY(read_group(r, map ? map : n, map, group, p));
     if (p->kind == PROBE_LINE && memcmp(p->from, p->to, sizeof p->from) == 0)

@@ -2,6 +2,7 @@
 #include "scene_internal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -34,8 +35,8 @@ static status check_solid(struct reader *r, const struct node *n, const struct s
 /* Reads the keys of a solid of this kind. REFUSED if the space does not have it, or for an infinite solid of a body. */
 static status read_shape(struct reader *r, const struct node *n, const struct solid_word *word, struct solid *s)
 {
-    char group[32] = "solid.";
-    strcat(group, word->name);
+    char group[32];
+    snprintf(group, sizeof group, "solid.%s", word->name);
     s->kind = word->kind;
     if (word->dim && word->dim != r->dim)
         return fault(r, n, "not in space %s; %s is expected", space_names[r->scene->space],

@@ -159,7 +159,9 @@ static status fault_unknown(const struct reader *r, const struct node *n, const 
     if (nearest && edit_distance(leaf, n->key) <= most) return fault(r, n, "unknown key; the nearest is %s", leaf);
     for (int k = 0; k < keys_count; k++)
         if (keys[k].type != KEY_GROUP && strcmp(key_leaf(&keys[k]), n->key) == 0)
-            return fault(r, n, "does not belong here; it is the key %s", keys[k].path);
+            return strchr(keys[k].path, '.')
+                       ? fault(r, n, "does not belong here; it is the key %s", keys[k].path)
+                       : fault(r, n, "does not belong here; %s stands alone, at the left margin", n->key);
     return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
 }
 

@@ -185,6 +185,14 @@ for test in $(grep -o '\(test\|long\)_[a-z_]*\.\(sh\|c\)' "$work/promises" | sor
     holds "$test is explained in tests/README.md" grep -q "${test%.*}" tests/README.md
 done
 
+# ---- help of a command ----------------------------------------------------------------------------------------------
+
+for command in run check plot compare bench help info; do
+    "$cleave" $command --help >"$work/out" 2>"$work/err"
+    is "$command --help: exit status" $? 0
+    is "$command --help: first words" "$(head -n 1 "$work/out" | cut -d ' ' -f 1-2)" "cleave $command"
+done
+
 # frames that changed places, a history of another run, warnings of a run that is over
 cp -r "$work/whole" "$work/swapped"
 mv "$work/swapped/frames/000001.hdf" "$work/frame"

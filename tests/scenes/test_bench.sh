@@ -33,7 +33,7 @@ cd results/bench
     fail "columns of efficiency.csv"
 [ "$(wc -l <efficiency.csv)" -eq 6 ] || fail "one scene gives a line for each lever, of bonds where time is short"
 awk -F, 'NR > 1 { exit $2 != "bond" }' efficiency.csv || fail "the model"
-[ "$(awk -F, 'NR > 1 { printf "%s ", $9 }' efficiency.csv)" = "none frame rest return all " ] || fail "the levers"
+[ "$(awk -F, 'NR > 1 { printf "%s ", $9 }' efficiency.csv)" = "none frame active_set reversion all " ] || fail "the levers"
 [ "$(head -1 efficiency_runs.csv)" = \
     scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg,t_r_stepping,t_r_bound ] ||
     fail "columns of efficiency_runs.csv"

@@ -107,6 +107,8 @@ static const struct { const char *piece, *instead, *message;
     {"method: adaptive", "coupling: glue",
      "5:1: coupling: glue is unknown; partial stress, handshake, pm, pg, pmg or pgg is expected"},
     {"method: adaptive", "horizon: 3", "5:1: horizon: does not belong here; it is the key particles.horizon"},
+    {"surface: none", "model: bond",
+     "19:3: model: does not belong here; model stands alone, at the left margin"},
     {"method: adaptive", "section: 1", "5:1: section: space plane stress has no section; leave it out"},
     {"method: adaptive", "body: {ball: {centre: [0, 0], radius: 1}}",
      "11:1: bodies: given beside body; keep one of the two"},
