@@ -60,7 +60,7 @@ $(BUILD)/cost_accuracy_text.h: src/auto/cost_accuracy.csv Makefile
 	@awk '{gsub(/"/, "\\\""); printf "\"%s\\n\"\n", $$0}' $< > $@
 $(BUILD)/src/auto/cost_accuracy.o: $(BUILD)/cost_accuracy_text.h
 
-# One rule a set: build/kernels/bond_force.avx2.o from kernels/pd/bond_force.c.
+# One rule a set: build/kernels/pd/bond_force.avx2.o from kernels/pd/bond_force.c.
 define SET
 $(BUILD)/%.$(1).o: %.c Makefile
 	@mkdir -p $$(@D)

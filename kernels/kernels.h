@@ -1,6 +1,6 @@
-/* The contract of the hot loops: what each reads, writes and costs. Every kernel has one body, many
- * instances (variants.h), and a plain twin in tests/support/reference.h. Kernels cannot fail and know no files, scenes,
- * memory or clocks. */
+/* The contract of the hot loops: what each reads, writes and costs. Every kernel has one body and many instances
+ * (variants.h). Bond kernels have a plain reference in tests/support/reference.h, those of grid and mesh in their
+ * tests. Kernels cannot fail and use no files, scenes, memory or clocks. */
 #ifndef CLEAVE_KERNELS_KERNELS
 #define CLEAVE_KERNELS_KERNELS
 
@@ -23,27 +23,27 @@ enum pd_model {
 
 /* Constants of a material for the stress update, and its conversion trigger. */
 struct elastic {
-    real c11, c12, shear;                /* [Pa]                                                     */
+    real c11, c12, shear;                /* [Pa] */
     real trigger;                        /* sigma_1 that marks a point for conversion; INFINITY [Pa] */
-    real yield, hardening;               /* sigma_y, 0: never yields; H (plastic.h)             [Pa] */
-    real poisson;                        /* of plane strain, where the material yields           [1] */
+    real yield, hardening;               /* sigma_y, 0: never yields; H (plastic.h) [Pa] */
+    real poisson;                        /* of plane strain, where the material yields [1] */
     enum space space;
 };
 
 /* Partial stress (src/coupling/partial_stress.c): the share of its stress that a material point leaves to the
  * crossing bonds: sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. A point at the end of
- * state-based bonds gives P Q local besides, P Q what its bonds tell it (particles.end_pull) over its volume. */
+ * state-based bonds gives P Q local besides, where P Q is particles.end_pull over its volume. */
 struct partial_stress {
-    int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does   */
-    real *matrix;                        /* [entries][symmetric^2], row major                         */
-    /* [entries][symmetric] mean strain by strain of what its own bonds do not see, 0 of points without bonds; NULL:
-     * bonds know nothing of families [1] */
+    int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does */
+    real *matrix;                        /* [entries][symmetric^2], row major */
+    /* [entries][symmetric] mean strain, by strain, of the part of the family without own bonds, 0 of points
+     * without bonds; NULL: bond-based [1] */
     real *local;
-    bool gives_all;                      /* hand-shake: M and local are 0                             */
+    bool gives_all;                      /* hand-shake: M and local are 0 */
     int64_t entries, room;
-    int32_t *touched;                   /* particles whose entry was made anew; the reader sets touches = 0           */
+    int32_t *touched;                    /* particles whose entry was made anew; the reader sets touches = 0 */
     int64_t touches, touched_room;
-    struct partial_table *table;         /* src/coupling/partial_table.c                                       */
+    struct partial_table *table;         /* src/coupling/partial_table.c */
 };
 
 /* Is point i an end of state-based bonds? Others leave stress to bonds that only cross their cell. */
@@ -60,44 +60,44 @@ static inline bool partial_end(const struct partial_stress *partial, int64_t i, 
 struct transfer_data {
     const struct transfer_order *order;
     const struct partial_stress *partial;
-    const struct elastic *elastic;       /* by material                                               */
-    real half_width;                     /* l_p of uGIMP: half the particle's reference edge  [m]     */
-    real dt;                             /* [s]                                                       */
-    real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
-    bool momentum_only;                           /* carried peridynamic particles: no stress to give, none to update */
-    const uint8_t *bonded;               /* [n] not 0: bonds meet this material point; NULL: they meet none  */
+    const struct elastic *elastic;       /* by material */
+    real half_width;                     /* l_p of uGIMP: half the particle's reference edge [m] */
+    real dt;                             /* [s] */
+    real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start) [s] */
+    bool momentum_only;                  /* grid-coupled peridynamic particles: no stress to give or update */
+    const uint8_t *bonded;               /* [n] not 0: bonds meet this material point; NULL: they meet none */
 };
 
 /* How peridynamic particles move in a step. */
 struct pd_motion {
-    real dt;                             /* [s]                                                       */
-    real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start)  [s]     */
-    real fastest; /* a particle that is faster, or whose speed is not finite, has diverged [m/s] */
-    const uint8_t *loaded;               /* [n] not 0: waits for the loads; NULL: no particle does    */
-    bool diverged;                           /* a particle has diverged                                */
+    real dt;                             /* [s] */
+    real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start) [s] */
+    real fastest;                        /* a faster particle, or one without finite speed, has diverged [m/s] */
+    const uint8_t *loaded;               /* [n] not 0: is moved after the loads; NULL: none */
+    bool diverged;                       /* a particle has diverged */
 };
 
 /* Force of all intact bonds on the particle of every active row (active_set.h; overwrites f there), then breaks
  * bonds that are stretched beyond their limit. A bond acts with half its force in the step in which it breaks: a
  * leap-frog kick stands half before and half after that instant, so the energy of breaking is second order in the
  * time step (first order with the whole force or none). Sets FLAG_LOST_BOND (and FLAG_CRACKED where neither end is
- * driven), damage, broken counts and fracture energy. Reads 4 bytes per bond from memory on a lattice, 12 where
- * weights differ, 16 or 24 elsewhere (bond_column.h); positions come from cache. Returns the directed bonds broken.
+ * driven), damage, broken counts and fracture energy. What it reads per bond depends on the kind of the
+ * column (bonds/bond_storage.h); positions come from cache. Returns the directed bonds broken.
  * With `motion` active peridynamic particles that the grid does not move and that are not `loaded` move in the same
  * sweep (sweep.h). */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
 
-/* The same by the sweep of a model, where some bonds lead to images in clamped planes (bonds.h), whose sources and
- * rows have to be `loaded`: what such bonds do to their images is brought back to the sources (clamp_force.c). The
+/* The same by the sweep of a model, where some bonds lead to images in clamped planes (bond_storage.h), whose sources
+ * and rows have to be `loaded`: what such bonds do to their images is brought back to the sources (clamp_force.c). The
  * only way to forces of bonds. */
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
 
 /* Dilatation, spring and rotation of the families, into b->state: the first half of a state-based force. To be
- * called before bonds of new rows break (bond_break_asks). Material points at the end of bonds receive the reaction
- * on their cells (particles.end_pull, end_moment). */
+ * called before bonds of new rows break (bond_break_needs_states). Material points at the end of bonds receive the
+ * reaction on their cells (particles.end_pull, end_moment). */
 typedef void state_precompute_fn(struct bonds *b, struct particles *p);
 
 /* The rule of breaking, applied to one row block, or to all: bonds made for particles that were material points
@@ -106,9 +106,10 @@ typedef void state_precompute_fn(struct bonds *b, struct particles *p);
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds * b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 KERNEL(int64_t, bond_break_all, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
-/* Might it break a bond of a material point whose energy is in what families know? Peridynamic rows tell theirs by
- * themselves. */
-KERNEL(bool, bond_break_asks, (const struct bonds *b, const struct particles *p, const struct bond_limit *limit));
+/* True if bond_break_all may break a bond of a material point with a state-based model: its energy needs the states of
+ * families first. */
+KERNEL(bool, bond_break_needs_states,
+       (const struct bonds *b, const struct particles *p, const struct bond_limit *limit));
 
 /* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as
  * fracture: a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the
@@ -126,7 +127,7 @@ typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
  * blocks [J]. 0 where no bond yields. */
 KERNEL(real, bond_plastic_work, (const struct bonds *b));
 
-/* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; for output. */
+/* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; when: particles.stress. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
 /* v += dt_velocity f/m, x += dt v of those of the n listed particles that are peridynamic and that the grid does not
@@ -226,7 +227,7 @@ KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
 /* Elastic energy of the cells, with their part in that of the families of points at the ends of bonds [J]. */
 KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
-/* What cells tell the points at the ends of state-based bonds: particles.end_strain, end_rotation. */
+/* Sets particles.end_strain and end_rotation, of points at the ends of state-based bonds, from their cells. */
 KERNEL(void, mesh_ends_update, (const struct mesh *mesh, struct particles *p, bool finite));
 
 #endif

@@ -32,12 +32,12 @@ enum {
 };
 
 struct accuracy_method {
-    const char *name;            /* as printed                                               */
+    const char *name;                    /* as printed */
     enum accuracy_family family;
-    bool quick;                  /* also with --quick                                        */
-    const char *colour;          /* of its points and their type, as gnuplot has them        */
+    bool quick;                          /* also with --quick */
+    const char *colour;                  /* of its points and their type, as gnuplot has them */
     int mark;
-    struct scene_override set[ACCURACY_SETTINGS];        /* key NULL: no more                */
+    struct scene_override set[ACCURACY_SETTINGS]; /* key NULL: no more */
 };
 extern const struct accuracy_method accuracy_method[];
 extern const int accuracy_methods;
@@ -57,43 +57,43 @@ struct accuracy_problem;
 struct accuracy_point {
     const struct accuracy_problem *problem;
     const struct accuracy_method *method;
-    int at;                      /* its case                                                 */
-    int resolution;              /* as the problem counts                                    */
-    double horizon;              /* [spacings]; 0: it has no bonds                           */
-    double step;                 /* time.safety: share of the critical step                  */
+    int at;                              /* its case */
+    int resolution;                      /* as the problem counts */
+    double horizon;                      /* [spacings]; 0: it has no bonds */
+    double step;                         /* time.safety: share of the critical step */
 };
 
 /* The scene of a point: a file or a text, and overrides. Those of the method, the horizon and the step are added. */
 struct accuracy_scene {
-    char path[64];               /* "": the text                                             */
+    char path[64];                       /* "": the text */
     char text[4096];
     struct bench_overrides set;
 };
 
 struct accuracy_problem {
     const char *name, *title;
-    const char *error;           /* what the error is, in words                              */
-    const char *part[ACCURACY_PARTS];            /* what it is split into; NULL: nothing     */
-    bool draws_parts;            /* they have panels, of the worst of all cases              */
-    const char *cases[ACCURACY_CASES];           /* a table has a panel for each; NULL ends  */
-    const char *counts;          /* what its resolutions count                               */
-    int families;                /* that apply                                               */
-    int dim;                     /* of its space: how work grows with resolution             */
-    int resolution[ACCURACY_RESOLUTIONS];        /* ascending; 0 ends                        */
-    int quick_resolutions;       /* the first few                                            */
+    const char *error;                   /* what the error is, in words */
+    const char *part[ACCURACY_PARTS];    /* what it is split into; NULL: nothing */
+    bool draws_parts;                    /* they have panels, of the worst of all cases */
+    const char *cases[ACCURACY_CASES];   /* a table has a panel for each; NULL ends */
+    const char *counts;                  /* what its resolutions count */
+    int families;                        /* that apply */
+    int dim;                             /* of its space: how work grows with resolution */
+    int resolution[ACCURACY_RESOLUTIONS]; /* ascending; 0 ends */
+    int quick_resolutions;               /* the first few */
     /* of pure peridynamics beside 3.015: the first at every resolution, others at one; 0 ends */
     double horizon[ACCURACY_VARIATIONS];
-    double step[ACCURACY_VARIATIONS];            /* beside 0.8, at that one; 0 ends          */
-    bool steps;                  /* the first of them at every resolution, and with --quick   */
-    int varied;                  /* 1 + its place; 0: the second                             */
-    const char *remark[ACCURACY_REMARKS];        /* for the page: what stands out and why    */
-    int samples;                 /* its tips are looked at so often; 0: once                 */
-    double seconds, quick_seconds;               /* it takes about, until measured           */
+    double step[ACCURACY_VARIATIONS];    /* beside 0.8, at that one; 0 ends */
+    bool steps;                          /* the first of them at every resolution, and with --quick */
+    int varied;                          /* 1 + its place; 0: the second */
+    const char *remark[ACCURACY_REMARKS]; /* for the page: what stands out and why */
+    int samples;                         /* its tips are looked at so often; 0: once */
+    double seconds, quick_seconds;       /* it takes about, until measured */
     void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
-    status (*run)(const struct accuracy_point *p, struct engine *e);     /* NULL: engine_run */
+    status (*run)(const struct accuracy_point *p, struct engine *e); /* NULL: engine_run */
     /* Relative error and its parts, of a run that reached its end. */
     status (*measure)(const struct accuracy_point *p, struct engine *e, double *error, double *part);
-    bool (*applies)(const struct accuracy_point *p);     /* NULL: every point of the families */
+    bool (*applies)(const struct accuracy_point *p); /* NULL: every point of the families */
 };
 extern const struct accuracy_problem *const accuracy_problem[];
 extern const int accuracy_problems;
@@ -121,19 +121,19 @@ double accuracy_figure(const struct engine *e, const char *probe, const char *qu
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
 struct accuracy_result {
-    bool known;                  /* measured, now or before                                  */
+    bool known;                          /* measured, now or before */
     bool stable;
-    double error, part[ACCURACY_PARTS];          /* [1]; NAN: none                           */
-    double seconds[2];           /* in the loop on one thread and on two, least of some runs */
+    double error, part[ACCURACY_PARTS];  /* [1]; NAN: none */
+    double seconds[2];                   /* in the loop on one thread and on two, least of some runs */
     double particles, steps;
-    char settings[20];           /* of scene and machine, as a number                        */
+    char settings[20];                   /* of scene and machine, as a number */
 };
 
 /* A point of the whole table and what is known of it. */
 struct accuracy_entry {
     struct accuracy_point point;
     struct accuracy_result result;
-    bool quick;                  /* belongs to the short table, too                          */
+    bool quick;                          /* belongs to the short table, too */
 };
 
 /* accuracy_plan.c: every point of the whole table, and the scene that it is. */

@@ -20,11 +20,11 @@ struct bench_cell {
 };
 
 struct bench_table {
-    const char *name;   /* "" for the main table of a bench                          */
-    const char *header; /* names of the columns, separated by commas                 */
+    const char *name;                    /* "" for the main table of a bench */
+    const char *header;                  /* names of the columns, separated by commas */
     int columns;
     int64_t cells, room;
-    struct bench_cell *cell; /* row by row                                                */
+    struct bench_cell *cell;             /* row by row */
 };
 
 void bench_table_make(struct bench_table *t, const char *name, const char *header);
@@ -83,8 +83,8 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
 bool bench_scene_exists(const char *path);
 /* A scene run as a process of its own (`cleave run`); what it leaves lies in `folder` until bench_child_free. */
 struct bench_child {
-    int process;     /* 0: none that runs */
-    char folder[64]; /* "": none          */
+    int process;                         /* 0: none that runs */
+    char folder[64];                     /* "": none */
 };
 status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
                          int threads);
@@ -107,7 +107,7 @@ static inline double bench_random(uint64_t *seed)
 struct bench_block {
     const char *name;
     int dim;
-    const char *method, *frame; /* of the scene */
+    const char *method, *frame;          /* of the scene */
 };
 enum { BENCH_BLOCKS = 10 };
 extern const struct bench_block bench_blocks[BENCH_BLOCKS];
@@ -131,7 +131,7 @@ enum { SPEED_TARGETS_MAX = 8 };
 struct targets {
     int figures;
     struct target_figure
-        figure[SPEED_TARGETS_MAX]; /* ratio = measured / limit <= target, or >= target; SI x factor: as printed */
+        figure[SPEED_TARGETS_MAX];       /* ratio = measured / limit <= target, or >= target; SI x factor: as printed */
     struct bench_table laps;
 };
 /* Peak memory: before anything large is allocated, since a child process inherits its parent's high-water mark. */

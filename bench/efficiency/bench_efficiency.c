@@ -74,7 +74,7 @@ static status efficiency_run_once(struct result *x, int way, int repetition)
     struct run *r = &x->run[way];
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
     r->seconds[repetition] = e.report.loop_seconds;
-    r->stepping[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_WATCH];
+    r->stepping[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_SAMPLE];
     r->steady[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_CONVERT];
     x->particles = e.part.n, x->steps = e.clock.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);

@@ -149,24 +149,24 @@ static void job_time(struct job *j, struct ground *g)
 
 static void time_all(struct kernel_bench *b, int repetitions)
 {
-    struct stencil_probe *cell_stencil[DIM_MAX + 1];
-    struct triad_probe *triad = triad_probe_make();
-    struct point_probe *points = point_probe_make();
+    struct microbench_lattice *cell_stencil[DIM_MAX + 1];
+    struct microbench_triad *triad = microbench_triad_make();
+    struct microbench_points *points = microbench_points_make();
     b->limits = (struct limits){.cell_stencil = {INFINITY, INFINITY, INFINITY, INFINITY}, .points = INFINITY};
-    for (int d = 1; d <= DIM_MAX; d++) cell_stencil[d] = stencil_probe_make(d);
+    for (int d = 1; d <= DIM_MAX; d++) cell_stencil[d] = microbench_lattice_make(d);
     for (int r = 0; r < repetitions; r++) {
         for (int k = 0; k < 3; k++) {
             for (int d = 1; d <= DIM_MAX; d++)
-                b->limits.cell_stencil[d] = fmin(b->limits.cell_stencil[d], stencil_probe_run(cell_stencil[d]));
-            b->limits.points = fmin(b->limits.points, point_probe_run(points));
+                b->limits.cell_stencil[d] = fmin(b->limits.cell_stencil[d], microbench_lattice_run(cell_stencil[d]));
+            b->limits.points = fmin(b->limits.points, microbench_points_run(points));
         }
-        b->limits.triad = fmax(b->limits.triad, triad_probe_run(triad));
+        b->limits.triad = fmax(b->limits.triad, microbench_triad_run(triad));
         for (int k = 0; k < b->jobs; k++) job_time(&b->job[k], &b->ground[b->job[k].dim]);
         for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].mpm.grid);
     }
-    for (int d = 1; d <= DIM_MAX; d++) stencil_probe_free(cell_stencil[d]);
-    triad_probe_free(triad);
-    point_probe_free(points);
+    for (int d = 1; d <= DIM_MAX; d++) microbench_lattice_free(cell_stencil[d]);
+    microbench_triad_free(triad);
+    microbench_points_free(points);
 }
 
 /* ---- bytes ------------------------------------------------------------------------------------------------------- */

@@ -87,29 +87,30 @@ static status targets_time_way(struct targets_bench *b, int which)
     return ran;
 }
 
-static void time_probes(struct targets_bench *b, struct stencil_probe *cell_stencil, struct point_probe *points)
+static void time_probes(struct targets_bench *b, struct microbench_lattice *cell_stencil,
+                        struct microbench_points *points)
 {
     for (int threads = 1; threads <= b->threads; threads++) {
         team_make(threads);
         for (int k = 0; k < 20; k++) {
-            b->cell_stencil[threads - 1] = fmin(b->cell_stencil[threads - 1], stencil_probe_run(cell_stencil));
-            b->points[threads - 1] = fmin(b->points[threads - 1], point_probe_run(points));
+            b->cell_stencil[threads - 1] = fmin(b->cell_stencil[threads - 1], microbench_lattice_run(cell_stencil));
+            b->points[threads - 1] = fmin(b->points[threads - 1], microbench_points_run(points));
         }
     }
 }
 
 static status time_everything(struct targets_bench *b, int repetitions)
 {
-    struct stencil_probe *cell_stencil = stencil_probe_make(2);
-    struct point_probe *points = point_probe_make();
+    struct microbench_lattice *cell_stencil = microbench_lattice_make(2);
+    struct microbench_points *points = microbench_points_make();
     status s = OK;
     for (int r = 0; r < repetitions && s == OK; r++)
         for (int w = 0; w < WAYS && s == OK; w++) {
             time_probes(b, cell_stencil, points);
             s = targets_time_way(b, w);
         }
-    stencil_probe_free(cell_stencil);
-    point_probe_free(points);
+    microbench_lattice_free(cell_stencil);
+    microbench_points_free(points);
     team_make(1);
     return s;
 }

@@ -79,9 +79,9 @@ static void time_memory(struct threads_bench *b)
 {
     for (int t = 0; t < b->teams; t++) {
         team_make(b->team[t]);
-        struct triad_probe *probe = triad_probe_make();
-        for (int k = 0; k < 5; k++) b->triad[t] = fmax(b->triad[t], triad_probe_run(probe));
-        triad_probe_free(probe);
+        struct microbench_triad *probe = microbench_triad_make();
+        for (int k = 0; k < 5; k++) b->triad[t] = fmax(b->triad[t], microbench_triad_run(probe));
+        microbench_triad_free(probe);
     }
     printf("  %-28s", "memory (triad)");
     for (int t = 0; t < b->teams; t++)

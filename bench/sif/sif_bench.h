@@ -25,7 +25,7 @@ double sif_bench_figure(const char *folder, const char *key);
 /* A target. */
 struct sif_bench_target {
     char name[96];
-    double measured, asked; /* [1]: at most */
+    double measured, asked;              /* [1]: at most */
 };
 enum { TARGETS_MAX = 32 };
 struct sif_bench_targets {
@@ -39,11 +39,11 @@ void sif_bench_ask(struct sif_bench_targets *t, double measured, double asked, c
 
 enum { EDGE_RINGS = 3 };
 struct edge_row {
-    int model;  /* edge_model */
-    int side;   /* particles  */
+    int model;                           /* edge_model */
+    int side;                            /* particles */
     bool relaxed;
     double K, spread, steps, seconds, peak; /* [Pa m^0.5] [1] [1] [s] [bytes] */
-    double ring[EDGE_RINGS]; /* K_I on 30, 50, 70 spacings */
+    double ring[EDGE_RINGS];             /* K_I on 30, 50, 70 spacings */
 };
 enum { EDGE_ROWS_MAX = 32 };
 struct edge_table {

@@ -19,25 +19,25 @@ extern const char *const drift_group_name[LASTING_GROUP];
 /* A body, started at random unless `moves`. */
 struct drift_case {
     enum drift_group group;
-    const char *name;                    /* NULL: what drift_label makes of the rest                              */
+    const char *name;                    /* NULL: what drift_label makes of the rest */
     struct stability_case c;
-    bool moves;                          /* the scene's own initial state or load moves it                          */
-    bool converts;                       /* what counts is that nothing converts                                    */
+    bool moves;                          /* the scene's own initial state or load moves it */
+    bool converts;                       /* what counts is that nothing converts */
 };
 
 /* Energies are what the energy balance has less the work of loads, over the energy at the start, or, where loads
  * gave it, over the largest. */
 struct lasting {
-    bool keeps;                /* energy is to be kept, not only never to be exceeded: no points in the current frame */
-    bool free;                           /* nothing holds it: angular momentum is to be kept                        */
-    int64_t particles, steps, stopped;   /* stopped: the step in which the alarm came, 0: never                     */
-    double end, largest, least;          /* energy - energy at the start [1]                                        */
-    double loudest;                      /* largest energy with velocities after the step [1]                       */
+    bool keeps; /* energy is to be kept, not only never to be exceeded: no points in the current frame */
+    bool free;                           /* nothing holds it: angular momentum is to be kept */
+    int64_t particles, steps, stopped;   /* stopped: the step in which the alarm came, 0: never */
+    double end, largest, least;          /* energy - energy at the start [1] */
+    double loudest;                      /* largest energy with velocities after the step [1] */
     double rate;                         /* growth of energy per step, fitted to its logarithm over the second half */
     double turn; /* largest change of angular momentum over sum m |x| |v| of the start [1]; NAN: not measured */
-    double converted;                    /* share that became peridynamic                                           */
-    bool inverted;                       /* it had a negative energy: of points turned inside out                   */
-    char why[NAME_MAX_LENGTH];           /* of a stop or a refusal                                                  */
+    double converted;                    /* share that became peridynamic */
+    bool inverted;                       /* it had a negative energy: of points turned inside out */
+    char why[NAME_MAX_LENGTH];           /* of a stop or a refusal */
     bool refused;
 };
 

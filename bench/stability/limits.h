@@ -14,14 +14,14 @@ struct limits_figure { const char *quantity; double threshold; };
  * one is above its threshold: then `cure` says what to do, and is NULL otherwise. */
 struct limits_row {
     const char *method, *remedy;
-    const char *set[FAILING_SET];        /* keys of the scene and their values, NULL at the end      */
-    double given;                        /* what else the scene hangs on                             */
+    const char *set[FAILING_SET];        /* keys of the scene and their values, NULL at the end */
+    double given;                        /* what else the scene hangs on */
     struct { double low, high; } known[FAILING_FIGURES];
 };
 
 struct limits_scene {
-    const char *name, *given;            /* how to print what a row gives; NULL: the method says it  */
-    struct limits_figure figure[FAILING_FIGURES];  /* quantity NULL: no more                        */
+    const char *name, *given;            /* how to print what a row gives; NULL: the method says it */
+    struct limits_figure figure[FAILING_FIGURES]; /* quantity NULL: no more */
     const struct limits_row *row;
     int rows;
     status (*measure)(const struct limits_row *r, double *to);

@@ -10,15 +10,15 @@ extern const char *const stability_group_name[STABILITY_GROUP];
 /* A free block of one method: what its scene says; NULL or 0: the scene's default. */
 struct stability_case {
     enum stability_group group;
-    const char *note;        /* what is particular about it                                             */
+    const char *note;                    /* what is particular about it */
     int dim;
-    const char *space;       /* NULL: line, plane stress, solid by dim                                  */
+    const char *space;                   /* NULL: line, plane stress, solid by dim */
     const char *method, *model, *coupling, *shape, *transfer, *frame, *surface, *weights, *normalisation, *calibration;
-    double cell;             /* points per cell and direction                                           */
-    double offset;           /* of the nodes against the lattice's lower border                 [cells] */
-    int offsets;             /* how many are tried between 0 and 1, 0: `offset` alone                   */
+    double cell;                         /* points per cell and direction */
+    double offset;                       /* of the nodes against the lattice's lower border [cells] */
+    int offsets;                         /* how many are tried between 0 and 1, 0: `offset` alone */
     double horizon, poisson, irregularity;
-    double heavier;          /* density of the other half over that of the first; 0: one material       */
+    double heavier;                      /* density of the other half over that of the first; 0: one material */
     enum stability_region { HALF, ISLANDS, SPOTS, STRIP, SQUARE, DISC, CORNER, NOTCH } region;
                              /* peridynamic (adaptive): one half; all but scattered balls; these balls; the middle
                               * half; of each axis the middle half; a ball; the lower half of each axis; three
@@ -37,20 +37,20 @@ struct stability_case {
     /* nothing; a plane of symmetry at x = 0, at y = 0, both; the same clamped; a clamp at x
      * = 0 and a symmetry at y = 0; two rows of the far end in x held; moved along x for a
      * while, then held */
-    const char *strain, *constants;  /* of the reference frame                                           */
-    int edge;                /* particles along it; 0: few                                              */
-    const char *text;        /* another scene than this block, at rest: the rest is not looked at; NULL: none */
-    double quoted_low, quoted_high; /* limit of the design sheets in the case's unit, 0: none           */
+    const char *strain, *constants;      /* of the reference frame */
+    int edge;                            /* particles along it; 0: few */
+    const char *text; /* another scene than this block, at rest: the rest is not looked at; NULL: none */
+    double quoted_low, quoted_high;      /* limit of the design sheets in the case's unit, 0: none */
 };
 
 /* What came of it; steps in seconds. */
 struct stability_limits {
-    double automatic, critical;              /* step that Cleave takes, and the one it calls critical     */
-    double observed, offset;                 /* limit of growth, the least over the offsets, and where    */
-    double largest;                          /* over the offsets                                          */
-    double gershgorin, silling;              /* bounds of bonds: block-Gershgorin; Silling & Askari 2005  */
-    double unit;                             /* D/c of peridynamics and coupled bodies, h/c of points     */
-    enum { RUN_NONE, RUN_STAYS, RUN_GROWS } automatic_run, below, above; /* real runs at these steps      */
+    double automatic, critical;          /* step that Cleave takes, and the one it calls critical */
+    double observed, offset;             /* limit of growth, the least over the offsets, and where */
+    double largest;                      /* over the offsets */
+    double gershgorin, silling;          /* bounds of bonds: block-Gershgorin; Silling & Askari 2005 */
+    double unit;                         /* D/c of peridynamics and coupled bodies, h/c of points */
+    enum { RUN_NONE, RUN_STAYS, RUN_GROWS } automatic_run, below, above; /* real runs at these steps */
 };
 
 /* Finds them; `steps` of a growth run, `long_steps` of the three real runs (0: none). REFUSED with the reason where the

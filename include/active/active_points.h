@@ -14,13 +14,13 @@
 #include "data/transfer_order.h"
 
 struct active_points {
-    bool over;                           /* all cells are active, for the rest of the run            */
+    bool over;                           /* all cells are active, for the rest of the run */
     int64_t nodes;
-    uint8_t *busy, *near;                /* [nodes] cells by their lowest node                       */
+    uint8_t *active_cell, *near;         /* [nodes] by the lowest node of the cell; near: reached next */
     struct transfer_order active;
 };
 
-enum { ACTIVE_POINTS_STEPS = 4 };                 /* steps from look to look */
+enum { ACTIVE_POINTS_STEPS = 4 };                 /* steps between searches */
 
 /* The order of the active points, a part of `all`; `all` itself where all are active. `now`: the order used until
  * now. Walls of `grid` are those of the previous step. */

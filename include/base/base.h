@@ -24,8 +24,8 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
-/* A vector of entries of the vectors a and b, by their numbers: those of b count on from those of a. MASK: the type
- * of vectors of as many whole numbers. */
+/* Shuffle of the entries of vectors a and b of n entries; indices from n on refer to b. MASK: the integer vector type
+ * of n entries. */
 #ifdef __clang__
 #define VECTOR_PICK(MASK, a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else

@@ -1,4 +1,4 @@
-/* The largest eigenvalue of a symmetric operator, which is known by what it does to vectors. */
+/* The largest eigenvalue of a symmetric operator, which is given by its product with vectors. */
 #ifndef CLEAVE_EIGENVALUE
 #define CLEAVE_EIGENVALUE
 

@@ -1,7 +1,7 @@
 /* How bonds are stored. Only src/bonds and kernels/pd use the members of these structures (tests/house.sh); all other
  * files read bonds through the iterator of bonds.h.
  *
- * Rows exist only for peridynamic particles (whole family) and hand-shake material points (their peridynamic
+ * Rows exist only for peridynamic particles (whole family) and bonded material points (their peridynamic
  * neighbours), in ascending particle order: memory and time follow the crack, not the body. Eight consecutive rows
  * form a row block; a row block stores its bonds column by column, lane l of a column being a bond of row l. Shorter
  * rows are padded. Kinds of columns (enum column_kind of kernels/pd/bond_column.h), and what a hot loop reads of each:
@@ -55,13 +55,12 @@ struct clamped {
     real *inverse_length, *w;            /* [n] as stored; before the last sweep [1/m], [1] */
     bool stale;                          /* weights have changed since then */
     real *reaction[DIM_MAX];             /* [n] on the image, of the energy that the row counts [N] */
-    int64_t held;                        /* particles at the ends of such bonds, and of those that pull at each: */
+    int64_t held; /* particles at the ends of such bonds, and for each the ends that pull at it: */
     int32_t *particle;                   /* [held] ascending */
     int64_t *first;                      /* [held + 1] */
     struct clamp_end *end;
 };
 
-enum { ROTATION_NUMBERS = ROTATION };                /* numbers that hold a rotation */
 
 /* State of families; only state-based models have it. Material points with rows then have
  * particles.end_*. */
@@ -73,7 +72,7 @@ struct state {
     real *pressure, *spring;             /* [n_all] P and g [N/m^2], [N/m] */
     /* [n_all] rotation R and g (kernels/pd/rotation.h); only models with rotations: g (R - 1), row major, in the
      * plane [N/m]; sqrt(2 g) times the quaternion of R, its scalar last, in space [(N/m)^1/2] */
-    real *rotation[ROTATION_NUMBERS];
+    real *rotation[ROTATION];
     struct state_image *image;           /* [n_all - n] */
 };
 
@@ -86,12 +85,12 @@ struct bond_length { real inverse, length, square; };  /* [1/m], [m], [m^2] */
 struct bond_column {
     int16_t excess[LANES];               /* |inverse_length| over the shell's, in units of the last place: positions
                                             are rounded; the sum is exact */
-    real w;                              /* of its intact bonds, where they are alike [1] */
+    real w;                              /* of its intact bonds if alike [1] */
     int32_t first;                       /* as below */
     uint8_t intact;                      /* bit l: the bond of lane l is intact */
     uint8_t shell;                       /* k: consecutive neighbours, lengths those of shell_length[k] up to the
-                                            round-off of positions; 0: not so */
-    uint8_t alike;                       /* so, and the intact bonds weigh the same */
+                                            round-off of positions; 0: other lengths, or not consecutive */
+    uint8_t alike;                       /* 1: shell > 0, and intact bonds have one weight */
     uint8_t unused;                      /* two of them in a cache line */
 };
 
@@ -118,7 +117,7 @@ struct stencil {
     real (*w)[LANES];                    /* [columns] of the lanes, 0: no bond [1] */
 };
 struct stencils;                         /* all of them (bonds_stencils.c) */
-struct site_map;                         /* sites of a lattice and who is there (bonds_site_map.c) */
+struct site_map;                         /* particle at each site of a lattice (bonds_site_map.c) */
 
 struct bonds {
     int64_t rows, row_blocks, columns;
@@ -135,7 +134,7 @@ struct bonds {
     int32_t *first;                      /* [columns] neighbour of lane 0 where the eight are consecutive, else -1 */
     int32_t *nbr;                        /* [columns 8] neighbour */
     real *inverse_length;                /* [columns 8] 1/|X_j - X_i|; negative: broken, so that its stretch is below
-                                            -1 and never looks like breaking; 0: padding [1/m] */
+                                            -1 and never exceeds a limit; 0: padding [1/m] */
     real *w;                             /* [columns 8] symmetric weight: beta x surface x V_i V_j c_ij over
                                             stiffness; 0: broken, cut or padding [1] */
     struct bond_column *common;          /* [columns] */

@@ -34,17 +34,17 @@ static inline real spring_bound_of(const struct spring_bound *s, int dim)
 /* Does one of the cracks cut the line between two particles (reference positions)? */
 bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
 
-/* No particle has more within the cutoff (cells_most); reference positions do not move, so once is enough. */
+/* Upper bound of the neighbours of a particle (cells_most). Reference positions do not move: computed once. */
 int bonds_room(const struct bond_source *s);
 
 /* V_i^H = sum V_j beta of every particle, uncracked [m^3], n_all entries. */
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
 
-/* Makes the rows of all peridynamic and hand-shake particles. With `old` (rows made before, whose columns are
- * invalid afterwards) broken bonds stay broken and counts are carried over. Bonds cut by a crack have w = 0 and
+/* Makes the rows of all peridynamic particles and bonded material points. With `old` (rows made before, whose columns
+ * are invalid afterwards) broken bonds stay broken and counts are carried over. Bonds cut by a crack have w = 0 and
  * count as damage. Sets the damage of all peridynamic particles. */
 void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s);
-/* Images become what they are images of. */
+/* Images take the kind of their sources. */
 void bonds_images_follow(struct particles *p, const struct bond_source *s);
 /* Makes lists of particles and rows after particles changed their kind. Particles that have lost their row have no
  * bond force. */
@@ -59,7 +59,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 /* The same where all are peridynamic and no bond has been broken, from the rows that there are. */
 real bonds_critical_step_made(const struct bonds *b, const struct particles *p);
 
-/* What load has broken; rows made anew have all other state. */
+/* Archives what load has broken; all else is made anew. */
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
 
 /* Q of what a row has left, bond by bond: a difference would leave round-off for the last of them [m^2]. */

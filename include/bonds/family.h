@@ -21,21 +21,21 @@ struct family {
     enum surface_rule surface;
     enum shell_rule shells;
     enum influence influence;
-    real spacing;                        /* [m]                                                      */
-    real horizon;                        /* delta [m]                                                */
-    real cutoff;                         /* farthest neighbour, with its relative tolerance [m]      */
-    real section;                        /* A (1D) [m^2], thickness (2D) [m], 1 (3D)                 */
-    real cell_volume;                    /* of a lattice particle: spacing^dim section [m^3]         */
-    real full;                           /* sum V_j beta of a full family [m^3]                      */
+    real spacing;                        /* [m] */
+    real horizon;                        /* delta [m] */
+    real cutoff;                         /* farthest neighbour, with its relative tolerance [m] */
+    real section;                        /* A (1D) [m^2], thickness (2D) [m], 1 (3D) */
+    real cell_volume;                    /* of a lattice particle: spacing^dim section [m^3] */
+    real full;                           /* sum V_j beta of a full family [m^3] */
     real weighted;                       /* sum omega beta r^2 of a full family, weights as stored [m^2] */
-    real shell_weight[2];                /* along the axes; along the diagonals (shells: isotropic)  */
+    real shell_weight[2];                /* along the axes; along the diagonals (shells: isotropic) */
 };
 
 /* When bonds break: critical stretch by pair of materials, [materials^2]; INFINITY: never. */
 struct bond_limit {
     const real *critical_stretch;
     int materials;
-    bool whole_force;                    /* in the step in which a bond breaks; else half of it                */
+    bool whole_force;                    /* a breaking bond acts with its whole force in that step, else half */
 };
 
 /* No bond breaks: one row of stretches for all pairs of materials. */
@@ -59,17 +59,17 @@ static inline struct state_modulus state_modulus_of(const struct material *m, en
 /* Everything that bonds_make needs besides particles. */
 struct bond_source {
     struct family family;
-    const struct cells *cells;           /* reference search, edge >= cutoff                          */
+    const struct cells *cells;           /* reference search, edge >= cutoff */
     const struct material *material;
     int materials;
     struct bond_limit limit;
     struct bond_yield yield;
-    const struct state_modulus *modulus; /* of state-based models, else NULL                          */
-    bool local, rotates;                   /* normalisation by what a family has; model with rotations  */
-    const int *mirror_axis;              /* [loads] axis of a plane of symmetry, -1: clamped          */
+    const struct state_modulus *modulus; /* of state-based models, else NULL */
+    bool local, rotates;                 /* normalisation by what a family has; model with rotations */
+    const int *mirror_axis;              /* [loads] axis of a plane of symmetry, -1: clamped */
     const struct crack *crack;
     int cracks;
-    const struct image *image;           /* of loads                                                  */
+    const struct image *image;           /* of loads */
     int room;                            /* most neighbours of a particle (bonds_room); 0: counted when needed */
     const real *neighbour_volume;        /* [n_all] V_i^H = sum V_j beta, for the surface correction; NULL without */
 };

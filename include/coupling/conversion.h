@@ -21,14 +21,14 @@ enum coupling {
 enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
 
 struct conversion_rule {
-    unsigned criteria;                   /* sum of CONVERT_ON_*                                       */
-    real stress;                         /* sigma_max [Pa]; NAN: E s_c                                */
-    real alpha;                          /* share of it that triggers                                 */
+    unsigned criteria;                   /* sum of CONVERT_ON_* */
+    real stress;                         /* sigma_max [Pa]; NAN: E s_c */
+    real alpha;                          /* share of it that triggers */
     bool block;                          /* the triggered particle takes its horizon neighbours along */
     real tips;                           /* peridynamic from the start round ends of pre-cracks [horizons] */
-    bool reverts;                        /* particles revert to material points (reversion.h)            */
-    real hold_time;                          /* after a stress that was low for so long [horizon/c]       */
-    real low_stress;                           /* low: share of the stress that converts                    */
+    bool reverts;                        /* particles revert to material points (reversion.h) */
+    real hold_time;                      /* after a stress that was low for so long [horizon/c] */
+    real low_stress;                     /* low: share of the stress that converts */
 };
 
 /* True if a criterion marked a particle for conversion in this step. */
@@ -36,13 +36,13 @@ bool convert_due(const struct particles *p);
 
 /* What conversion has done so far. */
 struct conversion {
-    real first_time;                     /* [s], NAN before                                           */
-    real first_place[DIM_MAX];           /* reference position of the first triggered particle [m]    */
-    int64_t start, converted, events;    /* peridynamic particles at t = 0; converted since; passes   */
-    int64_t peak_bonds;                  /* directed bonds stored, most at any time                   */
-    int64_t peak;                        /* peridynamic particles, most at any time                   */
-    int64_t reverted, reversions;           /* particles that became material points again; passes       */
-    real reversion_energy;                  /* all energy less that before, of these passes [J]          */
+    real first_time;                     /* [s], NAN before */
+    real first_place[DIM_MAX];           /* reference position of the first triggered particle [m] */
+    int64_t start, converted, events;    /* peridynamic particles at t = 0; converted since; passes */
+    int64_t peak_bonds;                  /* directed bonds stored, most at any time */
+    int64_t peak;                        /* peridynamic particles, most at any time */
+    int64_t reverted, reversions;        /* particles that became material points again; passes */
+    real reversion_energy;               /* all energy less that before, of these passes [J] */
 };
 
 /* Updates particles whose motion is stored on the nodes of a mesh (mesh.h), before bonds to them are made. The list
@@ -76,12 +76,12 @@ void convert_region(struct region *to, const struct region *given, const struct 
  * `changed`: particles converted since the last call, only their surroundings are made anew; NULL: everything. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
-/* What points on the grid tell the state-based bonds whose ends they are, by their stress: particles.end_strain. */
+/* Sets particles.end_strain of points on the grid at the ends of state-based bonds, from their stress. */
 void partial_ends_update(const struct partial_stress *partial, struct particles *p, const struct material *material);
 void partial_stress_free(struct partial_stress *partial);
 status conversion_archive(struct conversion *c, struct archive *a);
 
-/* What particles know of their families at the places of now; of bonds that know but themselves there is nothing. */
+/* States of families at the present positions; nothing for bond-based models. */
 static inline void states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);

@@ -1,6 +1,6 @@
 /* The couplings of Zeng et al. 2021, in which the grid also moves peridynamic particles: those in the cells
- * at the interface (PM, PG), or all of them (PMG, PGG: one unified grid). Carried particles give mass, momentum and
- * the force of their bonds to the nodes and take velocity and position from them, but give no stress: their bonds
+ * at the interface (PM, PG), or all of them (PMG, PGG: one unified grid). Grid-coupled particles give mass, momentum
+ * and the force of their bonds to the nodes and take velocity and position from them, but give no stress: their bonds
  * are their stress. */
 #ifndef CLEAVE_GRID_COUPLED
 #define CLEAVE_GRID_COUPLED
@@ -10,8 +10,8 @@
 #include "data/transfer_order.h"
 
 struct grid_coupled {
-    struct transfer_order order;         /* of the carried particles                                  */
-    int32_t *list;                       /* [room] their numbers, ascending                           */
+    struct transfer_order order;         /* of the grid-coupled particles */
+    int32_t *list;                       /* [room] their numbers, ascending */
     uint8_t *occupied;                   /* [cells_room] cells of the grid that hold a material point */
     int64_t n, room, cells_room;
 };

@@ -3,7 +3,7 @@
  *
  * A wave that crosses from material points to bonds leaves motion behind that FLIP keeps for ever: points of a cell at
  * the edge moving against each other, or a light node at the edge swinging, since forces on single points are not
- * smooth in space. Measured in a bar, that is most of what a short pulse loses to the interface. The cure is
+ * smooth in space. Measured in a bar, that is most of what a short pulse loses to the interface. The remedy is
  * fourth-order viscosity on the interface zone alone:
  *
  *     d_i = s sum_j ((v_j - v_i) . e_ij) e_ij                  for i in the zone, j its nearest neighbours
@@ -19,13 +19,13 @@
 #include "data/particles.h"
 
 struct interface_zone {
-    int64_t n, points;                 /* particles in it or next to it; the points of the interface zone stand first */
-    int32_t *particle;                   /* [n]                                                                       */
-    int64_t *start;                      /* [n + 1] neighbours of member k: neighbour[start[k] .. start[k+1]-1]       */
-    int32_t *neighbour;                  /* members, as places in `particle`                                          */
-    real *difference;                    /* [points dim] d                                                      [m/s] */
-    real *change;                        /* [n dim] of momentum                                              [kg m/s] */
-    real scale;                          /* s: the largest eigenvalue of B is 4 or less                         [1]   */
+    int64_t n, points; /* particles in it or next to it; the points of the interface zone stand first */
+    int32_t *particle;                   /* [n] */
+    int64_t *start;                      /* [n + 1] neighbours of member k: neighbour[start[k] .. start[k+1]-1] */
+    int32_t *neighbour;                  /* members, as places in `particle` */
+    real *difference;                    /* [points dim] d [m/s] */
+    real *change;                        /* [n dim] of momentum [kg m/s] */
+    real scale;                          /* s: the largest eigenvalue of B is 4 or less [1] */
 };
 
 /* The points within the cutoff and one spacing of a peridynamic particle of their body, and their neighbours within one

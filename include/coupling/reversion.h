@@ -4,22 +4,22 @@
 
 #include "conversion.h"
 
-/* What decides on a return. */
+/* The rule of reversion. */
 struct reversion_rule {
     const struct bond_source *source;
-    const struct elastic *elastic;       /* [materials] with the stress that converts                 */
-    const struct region *kept;           /* stays peridynamic; NULL: nothing                          */
-    real low_stress;                           /* share of that stress below which its stress is low       */
-    real hold_time;                          /* how long it must have been [s]                            */
+    const struct elastic *elastic;       /* [materials] with the stress that converts */
+    const struct region *kept;           /* stays peridynamic; NULL: nothing */
+    real low_stress;                     /* share of that stress below which its stress is low */
+    real hold_time;                      /* how long it must have been [s] */
 };
 
-/* Looks at every peridynamic particle, whose stress (struct particles) is that of now; the caller does so at even
- * steps. Returns how many may become material points, and the ascending list of them, which the caller frees. A
+/* Checks every peridynamic particle, by its present stress (engine_stress before), at intervals of the caller. Returns
+ * how many may become material points, and the ascending list of them, which the caller frees. A
  * particle may if
  *     it and all peridynamic particles of its family have had a low stress for the hold time, outside `kept`;
  *     no bond of it or of a particle within two horizons was ever cut, by load or by a pre-crack;
  *     it lies in a ball of one horizon that holds, then, material points only.
- * So what stays is made of whole families, as conversion makes them, and what returns is no thinner. */
+ * So what stays is made of whole families, as conversion makes them, and what reverts is no thinner. */
 int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                          int32_t **list);
 

@@ -7,23 +7,23 @@
 
 struct grid {
     int dim;
-    real h;                              /* node distance                                  [m]      */
-    real anchor[DIM_MAX];                /* position of node 0                             [m]      */
-    int64_t first[DIM_MAX];              /* lowest node of the box, counted from the anchor         */
-    int64_t count[DIM_MAX], n;           /* nodes per direction, in all                             */
-    int64_t stride[DIM_MAX];             /* of the node index; stride[0] = 1                        */
-    real *mass;                          /* nodal mass                                     [kg]     */
+    real h;                              /* node distance [m] */
+    real anchor[DIM_MAX];                /* position of node 0 [m] */
+    int64_t first[DIM_MAX];              /* lowest node of the box, counted from the anchor */
+    int64_t count[DIM_MAX], n;           /* nodes per direction, in all */
+    int64_t stride[DIM_MAX];             /* of the node index; stride[0] = 1 */
+    real *mass;                          /* nodal mass [kg] */
     real *momentum[DIM_MAX];             /* nodal momentum; after grid_remapped the velocity
                                             of the second map                        [kg m/s], [m/s] */
     real *force[DIM_MAX];                /* nodal force; after grid_move the change of velocity [N], [m/s] */
-    real *velocity[DIM_MAX];             /* nodal velocity at the end of the step          [m/s]    */
+    real *velocity[DIM_MAX];             /* nodal velocity at the end of the step [m/s] */
     int64_t walls, walls_room;
-    struct wall *wall;                   /* prescribed velocities of this step, in order            */
+    struct wall *wall;                   /* prescribed velocities of this step, in order */
     int64_t mirror_nodes, mirror_nodes_room;
-    struct mirror_node *mirror_node;                   /* nodes beyond planes of symmetry, for this box           */
+    struct mirror_node *mirror_node;     /* nodes beyond planes of symmetry, for this box */
     real light_mass;                     /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
-    struct follower *follower;           /* [n] those of this step, ascending                       */
+    struct follower *follower;           /* [n] those of this step, ascending */
     uint8_t *held;                       /* [n] not 0: a wall holds it; 0 but while followers are found */
 };
 
@@ -34,19 +34,19 @@ struct follower { int32_t node, leader, behind; };
 /* A node beyond a plane of symmetry: it moves as the mirror image of a node on the body's side, which takes what points
  * give to either. */
 struct mirror_node {
-    int32_t node, image;                 /* beyond the plane; on the body's side                   */
-    int8_t sign[DIM_MAX];                /* -1: this component turns round                         */
-    uint8_t load;                        /* whose plane it is                                      */
-    real mass, taken[DIM_MAX];           /* of the node itself in this step       [kg], [N s]      */
-    real image_mass, image_inverse;      /* of the image alone (frame reference)  [kg], [1/kg]     */
-    real reaction[DIM_MAX];              /* impulse of the plane on the body in this step [N s]    */
+    int32_t node, image;                 /* beyond the plane; on the body's side */
+    int8_t sign[DIM_MAX];                /* -1: this component turns round */
+    uint8_t load;                        /* whose plane it is */
+    real mass, taken[DIM_MAX];           /* of the node itself in this step [kg], [N s] */
+    real image_mass, image_inverse;      /* of the image alone (frame reference) [kg], [1/kg] */
+    real reaction[DIM_MAX];              /* impulse of the plane on the body in this step [N s] */
 };
 
 /* One held component of one node; its force is replaced by what the prescribed motion needs. */
 struct wall {
     int32_t node;
-    int16_t component, load;             /* load: the boundary condition that constrains it         */
-    real velocity, change;               /* in this step; since the step before            [m/s]    */
+    int16_t component, load;             /* load: the boundary condition that constrains it */
+    real velocity, change;               /* in this step; since the step before [m/s] */
     real reaction;                       /* impulse of this step, without that of the prescribed change [N s] */
 };
 
@@ -69,8 +69,8 @@ void grid_idle(struct grid *g);
  * reach across, above 1e-3 bodies that turn gain more than 1e-3 in four turns. */
 #define GRID_MASS_LIGHT 1e-5
 
-/* In equilibrium the balance of a node that a point's edge has just reached decides that point's whole stress, which is
- * then none: nodes below this share take no part there, and lose no more of a load. */
+/* Static solutions leave out nodes below this share of mass: an edge of a point that has just reached a node would
+ * otherwise make the balance of that node set the stress of the point to zero. At most this share of a load is lost. */
 #define GRID_MASS_STATIC 1e-3
 
 /* Place of node k of the box in direction d [m]. */

@@ -27,9 +27,9 @@ enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 1
 
 /* Whole cells side by side. */
 struct mesh_run {
-    int32_t cell, cells;                 /* first of them; how many                                   */
+    int32_t cell, cells;                 /* first of them; how many */
     uint8_t material;
-    bool stressed;                       /* a point of it may have passed the trigger                 */
+    bool stressed;                       /* a point of it may have passed the trigger */
 };
 
 /* Points of a cell whose motion is needed in every step, by place. */
@@ -39,42 +39,42 @@ struct mesh_exposed { int32_t cell; uint8_t places; };
 struct mesh_end { int32_t point, lane; };
 
 struct mesh {
-    struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused      */
-    int64_t points;                      /* particles in the mesh; 0: there is no mesh                */
-    int32_t corner[CORNERS_MAX];         /* node distance of a cell's corners                         */
-    real *displacement[DIM_MAX];         /* of the nodes                                    [m]       */
-    real *inverse_mass;                  /* of the nodes; 0 where there is no mass          [1/kg]    */
+    struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused */
+    int64_t points;                      /* particles in the mesh; 0: there is no mesh */
+    int32_t corner[CORNERS_MAX];         /* node distance of a cell's corners */
+    real *displacement[DIM_MAX];         /* of the nodes [m] */
+    real *inverse_mass;                  /* of the nodes; 0 where there is no mass [1/kg] */
     int32_t *point;                      /* [grid.n << dim] particle of a place of a cell, -1 without */
-    uint8_t *kind;                       /* [grid.n] of cells: empty, whole or partial                    */
-    int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh        */
-    real volume;                         /* of a point in the reference frame               [m^3]     */
+    uint8_t *kind;                       /* [grid.n] of cells: empty, whole or partial */
+    int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh */
+    real volume;                         /* of a point in the reference frame [m^3] */
 
-    int64_t rows;                        /* of nodes along x                                          */
+    int64_t rows;                        /* of nodes along x */
     int32_t *span;                       /* [rows][2] first node of a row that has mass, and behind the last */
-    int64_t bands, *band;               /* layers of cells in bands: runs of band b: run[band[b]] .. run[band[b+1]-1] */
+    int64_t bands, *band; /* layers of cells in bands: runs of band b: run[band[b]] .. run[band[b+1]-1] */
     int64_t runs, runs_room;
     struct mesh_run *run;
     int64_t partial_cells, partial_room;
     int32_t *partial_cell; /* [partial_cells, filled up to whole groups of LANES] partial cells, ascending */
-    uint8_t *partial_material;               /* [as partial_cell] of their points, the one that converts first     */
-    bool *partial_stressed;                  /* [as partial_cell] as of a run                                      */
-    real *stiffness;                     /* [groups][modes (modes + 1)/2][LANES] half of it, by modes
-                                          * (mesh_partial.h), of all the cell's volume            [Pa]    */
+    uint8_t *partial_material;           /* [as partial_cell] of their points, the one that converts first */
+    bool *partial_stressed;              /* [as partial_cell] as of a run */
+    real *stiffness;                     /* [groups][modes (modes + 1)/2][LANES] 1/2 V K in the modal
+                                            * basis, lower triangle (mesh_partial.h) [Pa] */
     /* [groups + 1] points at the end of state-based bonds in the cells of a group: end[ends[group]] ..
      * end[ends[group + 1] - 1]; NULL: there are none */
     int32_t *ends;
     struct mesh_end *end;
-    real *end_share;                   /* [ends][modes] what a cell's modes add to a point's particles.end_strain [1] */
-    int32_t *alike;                      /* [groups] one of the same stiffness to the last bit, still in the cache */
-    real *partial_force;                     /* [groups][corners dim][LANES]                      [N]     */
+    real *end_share; /* [ends][modes] what a cell's modes add to a point's particles.end_strain [1] */
+    int32_t *alike;                      /* [groups] an earlier group with bitwise equal stiffness */
+    real *partial_force;                 /* [groups][corners dim][LANES] [N] */
     int64_t exposed, exposed_room;
-    struct mesh_exposed *exposed_list;               /* [seen] by ascending cell                                  */
-    struct active_set active;                    /* of blocks of nodes                                        */
-    int64_t segments;                    /* blocks in a row of nodes                                  */
-    real rounding;                       /* displacements lose what its last bit does not hold [m]    */
+    struct mesh_exposed *exposed_list;   /* [exposed] by ascending cell */
+    struct active_set active;            /* of blocks of nodes */
+    int64_t segments;                    /* blocks in a row of nodes */
+    real rounding;                       /* displacements are rounded to multiples of it [m] */
 };
 
-/* Modes that a cell's energy hangs on: of its mean strain, and what bends it. */
+/* Modes of a cell that store energy: its mean strain, and its bending. */
 static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }
 static inline int mesh_modes(int dim) { return symmetric_count(dim) + mesh_bends(dim); }
 

@@ -31,50 +31,50 @@ enum particle_flag {
 };
 
 struct particles {
-    int64_t n, n_all;                    /* body; body and images                                */
+    int64_t n, n_all;                    /* body; body and images */
     int dim;
     const struct material *plane_strain; /* the materials of a body in plane strain, borrowed; in other spaces NULL */
-    int64_t n_of[KINDS];                 /* of the body                                          */
-    int64_t n_grid_coupled;                   /* peridynamic particles that the grid moves            */
-    int32_t *list[KINDS];                /* their indices, ascending; rebuilt by particles_list  */
-    int64_t n_free;                      /* material points on the grid, not of the mesh         */
-    int32_t *list_free;                  /* theirs                                               */
-                                         /* ---- every array below has n_all (+ LANES) entries - */
-    real *X[DIM_MAX];                    /* reference position                      [m]          */
-    real *x[DIM_MAX];                    /* position                                [m]          */
-    real *v[DIM_MAX];                    /* velocity, half a step behind x          [m/s]        */
-    real *f[DIM_MAX];                    /* bond and applied force                  [N]          */
-    real *mass;                          /*                                         [kg]         */
-    real *volume0, *volume;              /* reference and current volume            [m^3]        */
+    int64_t n_of[KINDS];                 /* of the body */
+    int64_t n_grid_coupled;              /* peridynamic particles that the grid moves */
+    int32_t *list[KINDS];                /* their indices, ascending; rebuilt by particles_list */
+    int64_t n_free;                      /* material points on the grid, not of the mesh */
+    int32_t *list_free;                  /* theirs */
+    /* every array below has n_all (+ LANES) entries */
+    real *X[DIM_MAX];                    /* reference position [m] */
+    real *x[DIM_MAX];                    /* position [m] */
+    real *v[DIM_MAX];                    /* velocity, half a step behind x [m/s] */
+    real *f[DIM_MAX];                    /* bond and applied force [N] */
+    real *mass;                          /* [kg] */
+    real *volume0, *volume;              /* reference and current volume [m^3] */
     /* Cauchy stress [Pa]. Of points on the grid: written by g2p in every step. Of points of a mesh: by
      * engine_mesh_sync, of peridynamic particles: by engine_stress, both for frames (engine_sync) and for samples
      * and reversion that read it, and stale in between. */
     real *stress[SYM_MAX];
     real *gradient[DIM_MAX * DIM_MAX];   /* velocity gradient dv_a/dx_b at [a dim + b], only APIC [1/s] */
-    real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP              [1]          */
+    real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP [1] */
     real *plastic_strain;                /* accumulated, equivalent; only where a material yields [1] */
-    real *out_of_plane;                  /* sigma_zz - nu (sigma_xx + sigma_yy), only plane strain with it [Pa] */
+    real *out_of_plane;                  /* sigma_zz - nu (sigma_xx + sigma_yy), only with WITH_OUT_OF_PLANE [Pa] */
     /* material points at the end of state-based bonds: what their cells add to the mean strain S of their family,
      * and ... [1] */
     real *end_strain;
     /* ... their rotation R: in the plane cos - 1 and sin, in space its quaternion, the scalar last; only models with
      * rotations [1] */
     real *end_rotation[ROTATION];
-    /* what bonds tell them in turn: derivative of their family's energy by end_strain, and ... [J] */
+    /* the reaction of bonds on them: derivative of their family's energy by end_strain, and ... [J] */
     real *end_pull;
     real *end_moment[DIM_MAX];           /* ... moment of their bonds about them, in axes that turn with them [N m] */
-    real *low_since;          /* peridynamic: since when its stress is low, infinite: it is not; only with return [s] */
-    real *damage;                        /* share of broken bonds, 0..1             [1]          */
-    uint8_t *kind, *material, *body, *flag;  /* enum kind; indices; enum particle_flag           */
-    uint8_t *reversions;                    /* how often it became a material point again; only with return [1] */
-    int32_t *id;                         /* order in which the scene made them                   */
+    real *low_since; /* peridynamic: since when its stress is low, infinite: it is not; only with WITH_REVERSION [s] */
+    real *damage;                        /* share of broken bonds, 0..1 [1] */
+    uint8_t *kind, *material, *body, *flag; /* enum kind; indices; enum particle_flag */
+    uint8_t *reversions;                 /* times it became a material point again; only with WITH_REVERSION [1] */
+    int32_t *id;                         /* order in which the scene made them */
 };
 
 /* Mirror images: entry n + k of the particles is the image of `source` (which may itself be an image) in the
  * mirror of load `load`. */
 struct image { int32_t source; uint8_t load; };
 
-/* Marks of eight particles in a row, a byte each; eight times the same. */
+/* Eight consecutive bytes as one number; eight equal ones. */
 static inline uint64_t eight_bytes(const uint8_t *from)
 {
     uint64_t eight;
@@ -84,7 +84,7 @@ static inline uint64_t eight_bytes(const uint8_t *from)
 #define EIGHT_TIMES(byte) ((uint64_t)(byte) * 0x0101010101010101)
 static inline bool eight_same(const uint8_t *from) { return eight_bytes(from) == EIGHT_TIMES(from[0]); }
 
-/* So many of n are the eight from `first` on. */
+/* How many of the eight from `first` on are below n. */
 static inline int eight_at(int64_t first, int64_t n) { return n - first < LANES ? (int)(n - first) : LANES; }
 
 /* The particle of the body that an image, or an image of an image, comes from. */
@@ -100,7 +100,7 @@ enum {
     WITH_STRETCH = 2,
     WITH_PLASTIC = 4,
     WITH_OUT_OF_PLANE = 8,
-    WITH_RETURN = 16,
+    WITH_REVERSION = 16,
     WITH_ENDS = 32,
     WITH_ROTATIONS = 64,
     WITH_EVERYTHING = 127
@@ -132,7 +132,7 @@ static inline bool particle_on_grid(const struct particles *p, int64_t i)
 }
 
 /* Stress across the plane, sigma_zz = nu (sigma_xx + sigma_yy) and what flow adds; 0 unless in plane strain [Pa].
- * Bonds have nu = 1/4, as their material is made to have; what they had as points that flowed they keep, and their
+ * Bonds have nu = 1/4, as their material is made to have; plastic sigma_zz from before conversion is kept, and their
  * own yielding adds nothing. Exact for small strain and in the current frame, in the reference frame to a share of
  * the size of the strain. */
 static inline real particle_stress_across(const struct particles *p, int64_t i)

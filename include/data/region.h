@@ -12,10 +12,10 @@ enum solid_kind { SOLID_ALL, SOLID_BOX, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_S
 /* One primitive. A 2D disc is a BALL. Bounds of a box may be infinite. */
 struct solid {
     enum solid_kind kind;
-    bool subtract;                       /* taken away from what the list has built so far         */
-    real from[DIM_MAX], to[DIM_MAX];     /* box corners; ends of a cylinder's axis            [m]  */
-    real centre[DIM_MAX], radius;        /* ball, cylinder (radius)                           [m]  */
-    real point[DIM_MAX], normal[DIM_MAX];/* half-space: (X - point) . normal <= 0                  */
+    bool subtract;                       /* taken away from what the list has built so far */
+    real from[DIM_MAX], to[DIM_MAX];     /* box corners; ends of a cylinder's axis [m] */
+    real centre[DIM_MAX], radius;        /* ball, cylinder (radius) [m] */
+    real point[DIM_MAX], normal[DIM_MAX]; /* half-space: (X - point) . normal <= 0 */
 };
 
 /* Union and difference in the order of the list; an empty list means everywhere. */
@@ -80,11 +80,11 @@ bool crack_near(const struct crack *c, const real *X, real reach, int dim);
  * the width. It moves along `direction` into material at rest and leaves displaced material behind. Its particles
  * move along or across its direction: a longitudinal or a transverse wave. */
 struct wave_pulse {
-    real at[DIM_MAX];                    /* centre                    [m]   */
-    real direction[DIM_MAX];             /* unit vector                     */
-    real width;                          /* four radii r              [m]   */
-    real velocity;                       /* of particles, largest     [m/s] */
-    real polarisation[DIM_MAX];          /* unit vector                     */
+    real at[DIM_MAX];                    /* centre [m] */
+    real direction[DIM_MAX];             /* unit vector */
+    real width;                          /* four radii r [m] */
+    real velocity;                       /* of particles, largest [m/s] */
+    real polarisation[DIM_MAX];          /* unit vector */
     bool transverse;
 };
 

@@ -11,20 +11,20 @@
  * thread. Colours are taken in order and a block by one thread: the same bits on any number of threads. Blocks are
  * counted from the grid's absolute node 0, so that growing the grid keeps them. */
 enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
-/* Entries of the order may be read this far beyond its end: what they hold stands first in line to be fetched. */
+/* The order is padded by this many entries, so that prefetching may read beyond its end. */
 enum { ORDER_AHEAD = 64 };
 
 static ALWAYS_INLINE int64_t block_edge(int d) { return d == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 
 struct transfer_order {
-    int64_t n, room;                     /* particles on the grid; at most without new arrays        */
-    int32_t *particle;                   /* by colour, then block, then cell, then index             */
-    int blocks_of[COLOURS_MAX + 1];      /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1     */
+    int64_t n, room;                     /* particles on the grid; at most without new arrays */
+    int32_t *particle;                   /* by colour, then block, then cell, then index */
+    int blocks_of[COLOURS_MAX + 1];      /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1 */
     int blocks, blocks_room;
     int32_t *block_start;                /* particles of block b: block_start[b] .. block_start[b+1]-1 */
-    int32_t cells, cells_room;           /* that hold particles                                      */
-    int32_t *cell_start;                 /* particles of cell c: cell_start[c] .. cell_start[c+1]-1  */
-    int32_t *block_cell;                 /* cells of block b: block_cell[b] .. block_cell[b+1]-1     */
+    int32_t cells, cells_room;           /* that hold particles */
+    int32_t *cell_start;                 /* particles of cell c: cell_start[c] .. cell_start[c+1]-1 */
+    int32_t *block_cell;                 /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
 };
 
 /* Sorts the `n` listed particles by the grid cell they are in; a function of positions alone. */

@@ -7,11 +7,11 @@
 
 /* A body of bonds as an operator on vectors of n numbers along x, then y, then z. */
 struct bond_body {
-    struct bonds *b;                     /* of the whole body                                        */
+    struct bonds *b;                     /* of the whole body */
     struct particles *p;
     bond_force_fn *force;
-    const struct loads *loads;           /* NULL: no mirror images follow                            */
-    real spacing, *root;                 /* [m]; [n] of the masses [kg^1/2]                          */
+    const struct loads *loads;           /* NULL: no mirror images follow */
+    real spacing, *root;                 /* [m]; [n] of the masses [kg^1/2] */
 };
 
 struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,

@@ -32,29 +32,29 @@
 
 /* Where a run is in time. */
 struct run_clock {
-    real t, dt, dt_critical;             /* [s]                                                       */
-    int64_t step, steps;                 /* done; of the whole run                                    */
+    real t, dt, dt_critical;             /* [s] */
+    int64_t step, steps;                 /* done; of the whole run */
 };
 
 /* Constants by material, and the arrays that `source` of the bonds points to. */
 struct material_tables {
-    struct elastic *elastic;             /* [materials]                                               */
-    struct state_modulus *modulus;       /* [materials] of state-based models, else NULL              */
-    real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials     */
+    struct elastic *elastic;             /* [materials] */
+    struct state_modulus *modulus;       /* [materials] of state-based models, else NULL */
+    real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials */
     real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
-    int *mirror_axis;                    /* [boundaries] -1: clamped                                  */
-    real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only    */
-    real wave_speed;                     /* fastest of the materials [m/s]                            */
+    int *mirror_axis;                    /* [boundaries] -1: clamped */
+    real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only */
+    real wave_speed;                     /* fastest of the materials [m/s] */
 };
 
 /* Material points on the grid of the current frame. */
 struct grid_method {
     struct grid grid;
-    struct transfer_order order;         /* of the material points                                    */
-    struct active_points active;         /* which of them the transfers leave out                     */
+    struct transfer_order order;         /* of the material points */
+    struct active_points active;         /* which of them the transfers leave out */
     struct transfer_data transfer;
-    bool sort_needed;                    /* points moved to other cells or converted                  */
-    real smallest_mass;                  /* of a node that moves [kg]                                 */
+    bool sort_needed;                    /* points moved to other cells or converted */
+    real smallest_mass;                  /* of a node that moves [kg] */
 };
 
 /* Frame of a body, and why where the scene does not say current. */
@@ -62,89 +62,89 @@ struct frame_choice { bool reference; const char *reason; };
 
 /* Bodies in the reference frame: a mesh of cells fixed to the material. */
 struct reference_frame {
-    struct frame_choice *choice;         /* [bodies]                                                  */
+    struct frame_choice *choice;         /* [bodies] */
     struct mesh mesh;
     struct mesh_source source;
-    struct elastic *elastic;             /* [materials] constants of its cells                        */
-    real speed;                          /* largest component of a nodal velocity [m/s]               */
+    struct elastic *elastic;             /* [materials] constants of its cells */
+    real speed;                          /* largest component of a nodal velocity [m/s] */
 };
 
 /* Where peridynamic particles and material points meet, and how one becomes the other. */
 struct coupling_state {
-    enum coupling kind;                  /* of the scene; hand-shake where nothing meets              */
+    enum coupling kind;                  /* of the scene; hand-shake where nothing meets */
     struct grid_coupled grid_coupled;    /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct partial_stress partial;
-    bool uses_partial;                   /* points know what bonds carry: partial stress, ends of state-based bonds */
+    bool uses_partial;                   /* partial stresses and ends of state-based bonds are made */
     uint8_t *bonded;                     /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
     struct interface_zone zone;          /* damped beside peridynamic particles (FLIP, partial stress) */
-    real damping_share;                  /* of the zone in a step; 0: not at all                      */
+    real damping_share;                  /* of the zone in a step; 0: not at all */
     real damped;                         /* energy that this damping, and conversion of moving cells, took [J] */
     struct conversion conversion;
-    struct region start_region;          /* peridynamic from the start; no solid: none                */
+    struct region start_region;          /* peridynamic from the start; no solid: none */
 };
 
 /* Cracks: where their tips are, and those whose growth is prescribed or SIF-controlled. */
 struct fracture_state {
     struct tips tips;
-    struct growth *growth;               /* [scene->growths]                                          */
+    struct growth *growth;               /* [scene->growths] */
 };
 
 /* What stability checks compare (engine_stability.c). */
 struct stability {
     struct rise speed, excess;           /* of the largest speed^2 [m^2/s^2]; of energy from nowhere [J] */
-    real start_speed;                    /* largest at t = 0                                 [m/s]    */
-    real mass;                           /* of the body [kg]                                          */
-    bool diverged;                       /* a peridynamic particle moves faster than waves            */
-    bool lost;                           /* an energy of the last sample is no finite number          */
+    real start_speed;                    /* largest at t = 0 [m/s] */
+    real mass;                           /* of the body [kg] */
+    bool diverged;                       /* a peridynamic particle moves faster than waves */
+    bool lost;                           /* an energy of the last sample is no finite number */
 };
 
 /* Probes and what they compare with. */
 struct probing {
     struct probes probes;
-    struct wave_pulse *pulse;            /* [pulses] of the initial states                            */
+    struct wave_pulse *pulse;            /* [pulses] of the initial states */
     int pulses;
-    struct baseline baseline;            /* for pulse probes, made at the end                         */
+    struct baseline baseline;            /* for pulse probes, made at the end */
     bool has_baseline;
     real residual_step0;                 /* largest nodal force of the first step, for patch probes [N] */
-    real strain_stress;                  /* largest component of the initial stress [Pa]              */
+    real strain_stress;                  /* largest component of the initial stress [Pa] */
 };
 
-/* A sample in the making: it describes t_n, and its parts are taken between the phases of the step from t_n
+/* A sample that is being taken: it describes t_n, and its parts are taken between the phases of the step from t_n
  * (engine_report.h). */
 struct sampling {
     bool due;
-    real kinetic, work, constraint_work; /* [J] before the step                                       */
+    real kinetic, work, constraint_work; /* [J] before the step */
     real *before[DIM_MAX];               /* velocities at its begin, where something is on the grid [m/s] */
-    struct energy energy;                /* of the positions of t_n; kinetic comes last               */
+    struct energy energy;                /* of the positions of t_n; kinetic comes last */
 };
 
 /* What a run leaves and says, and when. */
 struct run_report {
-    struct output *out;                  /* borrowed; NULL: a run without files (tests, benches)      */
+    struct output *out;                  /* borrowed; NULL: a run without files (tests, benches) */
     struct sampling sampling;
-    real *record;                        /* one line of history.csv                                   */
-    status history_status;               /* of the last line written                                  */
+    real *record;                        /* one line of history.csv */
+    status history_status;               /* of the last line written */
     struct laps laps;
-    int64_t particle_steps[KINDS];       /* updates done, by kind                                     */
+    int64_t particle_steps[KINDS];       /* updates done, by kind */
     int64_t bond_visits;
-    real inactive;                       /* inactive share of the body, summed over the steps ...     */
-    struct { real inactive; int64_t step; } sampled;     /* ... and over those before the last sample */
+    real inactive;                       /* inactive share of the body, summed over the steps ... */
+    struct { real inactive; int64_t step; } sampled; /* ... and over those before the last sample */
     double loop_seconds, loop_before;    /* in the loop, without output; by processes before a restart [s] */
-    double began, started, last_progress, last_checkpoint;   /* wall clock: made, first step of this process, ... [s] */
-    double checkpoint_seconds;           /* of the longest checkpoint so far                          */
-    int64_t step_started;                /* first step of this process                                */
-    struct warnings warnings;            /* what engine_warn and the run found                        */
+    double began, started, last_progress, last_checkpoint; /* wall clock: made, first step of this process, ... [s] */
+    double checkpoint_seconds;           /* of the longest checkpoint so far */
+    int64_t step_started;                /* first step of this process */
+    struct warnings warnings;            /* what engine_warn and the run found */
     bool quiet;
-    const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never        */
+    const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never */
 };
 
 struct engine {
-    const struct scene *scene;           /* borrowed                                                  */
+    const struct scene *scene;           /* borrowed */
     struct kernels kernels;
     struct run_clock clock;
     struct particles part;
-    int optional;                        /* WITH_* arrays of the particles                            */
-    struct cells cells;                  /* search over reference positions                           */
+    int optional;                        /* WITH_* arrays of the particles */
+    struct cells cells;                  /* search over reference positions */
     struct material_tables tables;
     struct bond_source source;
     struct bonds bonds;
@@ -152,7 +152,7 @@ struct engine {
     struct reference_frame reference;
     struct coupling_state coupling;
     struct loads loads;
-    struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c)  */
+    struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c) */
     struct solver solver;
     struct fracture_state fracture;
     struct diagnostics diagnostics;
@@ -184,13 +184,13 @@ void engine_stress(struct engine *e);
 /* Positions, velocities and stresses of all particles, up to date for a frame. */
 void engine_sync(struct engine *e);
 void engine_free(struct engine *e);
-/* What material points leave to the bonds of now, and the interface zone beside them. */
+/* Partial stresses for the present bonds, and the interface zone beside them. */
 void engine_partial_make(struct engine *e);
 /* The time step and the number of steps (engine_time.c). */
 status engine_time_make(struct engine *e);
-/* Internal forces of the places of now, of the nodes of a mesh first of all: of bonds into part.f, of bonds and
- * cells into the mesh's nodes (engine_mesh.c). What bonds see of the mesh's points and images is brought up to date.
- * The same parts as in a step, without any motion; bonds beyond their limit break. */
+/* Internal forces at the present positions, of the nodes of a mesh first of all: of bonds into part.f, of bonds and
+ * cells into the mesh's nodes (engine_mesh.c). Points of the mesh to which bonds reach, and images, are brought up to
+ * date. The same parts as in a step, without any motion; bonds beyond their limit break. */
 void engine_forces(struct engine *e);
 /* Of those the part of the mesh: forces of bonds, already in part.f, and of cells on its nodes. */
 void engine_nodes_force(struct engine *e);
@@ -206,7 +206,7 @@ status engine_frames(struct engine *e);
 bool engine_has_mesh(const struct engine *e);
 /* True if `auto` would put this body into the reference frame, did the scene not require the current one. */
 bool engine_frame_allowed(const struct engine *e, int body);
-/* Where the nodes lie, by the frames. */
+/* Sets origin and node distance of the grid, by the frames. */
 void engine_grid_make(struct engine *e);
 status engine_mesh_make(struct engine *e);
 real engine_mesh_critical_step(const struct engine *e);
@@ -215,8 +215,8 @@ void engine_mesh_sync(struct engine *e);
 void engine_mesh_sync_points(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
 void engine_mesh_insert(struct engine *e, const int32_t *list, int64_t n);
-/* Return to material points (engine_reversion.c): whether the scene allows it; before a step, what is due; anew the
- * interface zone of the material points, and which of them have bonds. */
+/* Reversion to material points (engine_reversion.c): refuses scenes that do not allow it; reverts what is due before a
+ * step; remakes the interface zone and the list of material points that have bonds. */
 status engine_reversion_check(const struct scene *s);
 void engine_revert(struct engine *e);
 void engine_interface_make(struct engine *e);
@@ -227,10 +227,10 @@ real engine_inactive_share(const struct engine *e);
 /* Saves or restores the state between two steps (engine_archive.c); says on standard error where a checkpoint was
  * written with other kernels. */
 status engine_archive(void *engine, struct archive *a);
-/* Everything about the scene that is allowed but probably not meant, into e->warnings. Call once, before the first
- * step. */
+/* Everything about the scene that is allowed but probably not meant, into e->report.warnings. Call once, before the
+ * first step. */
 void engine_warn(struct engine *e);
-/* What shows while a run goes on: into e->warnings and, the first time, on standard error. */
+/* A warning of a running run: into e->report.warnings and, the first time, on standard error. */
 void engine_say(struct engine *e, const char *text);
 /* Stability checks (engine_stability.c). `make`: the state at the start. `check`, after every step: FAILED with
  * place, step, cause and remedy where something moves faster than waves; the divergence check alone takes
@@ -239,13 +239,13 @@ void engine_say(struct engine *e, const char *text);
 enum { ENGINE_REMEDY = 640 };
 void engine_stability_check_make(struct engine *e);
 status engine_stability_check(struct engine *e);
-/* After a sample: FAILED where the balance of energies says what places do not. At the end: a warning of
- * what stops no run, but is more than results should be trusted with. */
+/* After a sample: FAILED if energy appears from nowhere. At the end: a warning if the energy balance is off by more
+ * than results should be trusted with. */
 status engine_energy_check(struct engine *e);
 void engine_say_balance(struct engine *e);
 status engine_divergence_check(const struct engine *e, bool peridynamic, bool meshed);
 void engine_remedy(const struct engine *e, const struct rise *rise, real value, char *text, size_t room);
-/* What probes may look at. */
+/* Read-only inputs of probes. */
 struct observed engine_observed(const struct engine *e);
 
 /* summary.json of the run so far; s is its status, `threads` and `wall_seconds` as measured by the caller. */

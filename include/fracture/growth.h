@@ -4,8 +4,8 @@
  *
  *     f_b = (1 - da/damping)^exponent,  0 <= da <= damping,  then 0;   damping = 0: released at once
  *
- * A ruled crack turns by theta_c(K), the direction of the largest hoop stress, away from the direction in whose
- * frame K was taken. That direction is the mean of where the tip headed, over the `smoothing` length of growth:
+ * A SIF-controlled crack turns by theta_c(K), the direction of the largest hoop stress, away from the direction in
+ * whose frame K was taken. That direction is the mean of where the tip headed, over the `smoothing` length of growth:
  *
  *     d(along)/da = (heading - along)/smoothing
  *
@@ -41,16 +41,16 @@
 /* As the scene specifies it. */
 struct growth_rule {
     char name[NAME_MAX_LENGTH];
-    real at[DIM_MAX];                    /* where the tip starts                                    [m]     */
-    real direction[DIM_MAX];             /* unit vector                                                     */
-    real speed;                          /* of the tip; NAN: such that K_eq stays at the toughness  [m/s]   */
-    real fastest;                        /* bound of that; NAN: 0.9 of the Rayleigh speed           [m/s]   */
-    real start;                          /* it does not move before                                 [s]     */
-    real length;                         /* it stops there; INFINITY: never                         [m]     */
-    real damping, exponent;              /* damping NAN: half a horizon                             [m] [1] */
-    real smoothing;                      /* with a probe, NAN: a quarter of a horizon                   [m] */
-    char probe[NAME_MAX_LENGTH];         /* sif probe that rules it; "": nothing does                       */
-    real toughness;                      /* K_Ic: it grows while K_eq is at least this      [Pa m^(1/2)]    */
+    real at[DIM_MAX];                    /* where the tip starts [m] */
+    real direction[DIM_MAX];             /* unit vector */
+    real speed;                          /* of the tip; NAN: such that K_eq stays at the toughness [m/s] */
+    real fastest;                        /* bound of that; NAN: 0.9 of the Rayleigh speed [m/s] */
+    real start;                          /* it does not move before [s] */
+    real length;                         /* it stops there; INFINITY: never [m] */
+    real damping, exponent;              /* damping NAN: half a horizon [m] [1] */
+    real smoothing;                      /* with a probe, NAN: a quarter of a horizon [m] */
+    char probe[NAME_MAX_LENGTH];         /* sif probe that controls it; "": none */
+    real toughness;                      /* K_Ic: it grows while K_eq is at least this [Pa m^(1/2)] */
 };
 
 /* Factors that control a crack, when they were taken, and the direction of the tip in whose frame: the crack turns
@@ -58,8 +58,8 @@ struct growth_rule {
 struct control {
     struct sif factors;
     real along[2];
-    real time;                           /* [s]                                                             */
-    struct crack_medium medium;          /* the body round the tip                                          */
+    real time;                           /* [s] */
+    struct crack_medium medium;          /* the body round the tip */
 };
 
 /* One fading entry of the rows: bond i-j, its weight when whole, one step ago and now, and the crack's length when
@@ -67,14 +67,14 @@ struct control {
 struct fading { int32_t i, j; real whole, before, now; real length; };
 
 struct growth {
-    const struct growth_rule *rule;      /* borrowed                                                        */
-    real place[2], along[2], speed;      /* now; speed 0 while it rests                             [m] [m/s] */
+    const struct growth_rule *rule;      /* borrowed */
+    real place[2], along[2], speed;      /* now; speed 0 while it rests [m] [m/s] */
     real heading[2];                     /* unit vector: where it goes; `along` is the mean of where it came from */
-    real grown;                          /* length so far                                           [m]     */
-    real start_time;                     /* of the first growth; NAN before                         [s]     */
-    real intensity;                      /* K_eq of the factors       ; NAN: none known      [Pa m^(1/2)]    */
-    real target_speed, filtered_speed;                     /* of a crack that follows: its speed; v_filtered [m/s] */
-    real asked;                          /* time of the factors that ruled last                     [s]     */
+    real grown;                          /* length so far [m] */
+    real start_time;                     /* of the first growth; NAN before [s] */
+    real intensity;                      /* K_eq of the factors       ; NAN: none known [Pa m^(1/2)] */
+    real target_speed, filtered_speed;   /* of a crack that follows: its speed; v_filtered [m/s] */
+    real control_time;                   /* time of the factors that controlled last [s] */
     int64_t n, room;
     struct fading *fading;
 };

@@ -19,32 +19,32 @@
 
 /* ---- gradients at particles (sif_gradient.c) --------------------------------------------------------------------- */
 
-/* What hides particles from each other: cracks that cut the line between their reference positions, and bonds that
- * load has broken. */
+/* What makes particles invisible to each other: cracks that cut the line between their reference positions, and bonds
+ * that load has broken. */
 struct sight {
     const struct crack *crack;
     int cracks;
-    const struct bonds *bonds;           /* NULL: without                                             */
+    const struct bonds *bonds;           /* NULL: without */
 };
 
-/* MLS: moving least squares with a complete quadratic, exact for it; where fewer than six particles are seen, or on a
- * line, linear. PDDO: the first-order peridynamic differential operator, weight delta/r, exact for linear fields. */
+/* MLS: moving least squares with a complete quadratic, exact for it; where fewer than six particles are visible, or on
+ * a line, linear. PDDO: the first-order peridynamic differential operator, weight delta/r, exact for linear fields. */
 enum gradient_method { GRADIENT_MLS, GRADIENT_PDDO };
 
 struct gradient_rule {
     enum gradient_method method;
-    real reach;                          /* rho_m; neighbours within twice as much              [m]   */
+    real reach;                          /* rho_m; neighbours within twice as much [m] */
     struct sight sight;
     int diffraction;                     /* l of Organ et al. 1996, 1 or 2: hidden neighbours count as farther,
-                                            round the tip; 0: not at all (visibility)                 */
-    real tip[DIM_MAX];                   /*                                                     [m]   */
+                                            round the tip; 0: not at all (visibility) */
+    real tip[DIM_MAX];                   /*                                                     [m] */
 };
 
 /* df/dX_d at a particle: sum of weight[k][d] (f(particle[k]) - f at the particle itself). */
 struct gradient_stencil {
     int n, room;
     int32_t *particle;
-    real (*weight)[2];                   /* [1/m]                                                     */
+    real (*weight)[2];                   /* [1/m] */
     int order;                           /* of the polynomials it is exact for; 0: too few neighbours, no weights */
 };
 
@@ -65,12 +65,12 @@ enum sif_stress { SIF_HOOKE, SIF_PARTICLE };
 /* A tip and how to integrate round it. */
 struct sif_tip {
     struct crack_medium medium;
-    real place[2], along[2];             /* reference position [m]; unit vector ahead                 */
-    int face;                            /* +-1: side of x_2 to which particles on the crack belong   */
-    int body;                            /* whose particles count; -1: all                            */
-    real speed;                          /* v; 0: at rest                                       [m/s] */
+    real place[2], along[2];             /* reference position [m]; unit vector ahead */
+    int face;                            /* +-1: side of x_2 to which particles on the crack belong */
+    int body;                            /* whose particles count; -1: all */
+    real speed;                          /* v; 0: at rest [m/s] */
     real core;                           /* where the second sum counts by half while the tip moves: not at all within a
-                                            third of it, whole from five thirds on                [m] */
+                                            third of it, whole from five thirds on [m] */
     real thickness;                      /*                                                       [m] */
     enum sif_weight weight;
     enum sif_stress stress;
@@ -78,8 +78,8 @@ struct sif_tip {
 
 /* The motion at one time, by particle (images included); velocity and acceleration NULL: in equilibrium. */
 struct sif_motion {
-    const real *displacement[2], *velocity[2], *acceleration[2];     /* [m] [m/s] [m/s^2] */
-    const real *stress[3];               /* xx yy xy, only SIF_PARTICLE                        [Pa]   */
+    const real *displacement[2], *velocity[2], *acceleration[2]; /* [m] [m/s] [m/s^2] */
+    const real *stress[3];               /* xx yy xy, only SIF_PARTICLE [Pa] */
 };
 
 struct sif { real K[MODES], J; };        /* [Pa m^(1/2)], [J/m^2] */

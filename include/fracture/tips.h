@@ -22,29 +22,29 @@
 enum { TIPS_MAX = 64 };
 
 struct tip {
-    bool from_crack;                     /* starts at the end of a pre-crack                          */
+    bool from_crack;                     /* starts at the end of a pre-crack */
     int body;
-    real origin[DIM_MAX];                /* where it started                                  [m]     */
+    real origin[DIM_MAX];                /* where it started [m] */
     real along[DIM_MAX];                 /* unit direction of the pre-crack there; the x axis without */
     real edge[DIM_MAX];                  /* 3D: half the front's edge, origin -+ edge are its ends; else 0 [m] */
-    real place[DIM_MAX];                 /* where it is now (reference position)              [m]     */
-    real growth;                         /* |place - origin|, 3D: from the front's edge       [m]     */
+    real place[DIM_MAX];                 /* where it is now (reference position) [m] */
+    real growth;                         /* |place - origin|, 3D: from the front's edge [m] */
     real joined;                         /* part of it that came at once, by reaching another crack: no speed [m] */
-    real first_time;                     /* first particle past 0.35; NAN before              [s]     */
-    real start_time, arrest_time;        /* growth passed one spacing; last growth; NAN before [s]    */
+    real first_time;                     /* first particle past 0.35; NAN before [s] */
+    real start_time, arrest_time;        /* growth passed one spacing; last growth; NAN before [s] */
     real speed_max, speed_mean;          /* steepest regression over the window; growth over (arrest - start) [m/s] */
-    int64_t particles;                   /* that belong to it                                         */
+    int64_t particles;                   /* that belong to it */
 };
 
 struct tips {
     int dim, n;
     struct tip tip[TIPS_MAX];
-    real spacing, window;                /* [m], [s]                                                  */
-    int64_t count;                       /* particles                                                 */
+    real spacing, window;                /* [m], [s] */
+    int64_t count;                       /* particles */
     uint8_t *label;                      /* [particles] tip + 1, 0: none, 255: damaged by a pre-crack */
     int64_t samples, room;
     real *time;                          /* [samples] growth of every tip at every sample, for the speeds */
-    real *growth;                        /* [samples][TIPS_MAX], without `joined`                     */
+    real *growth;                        /* [samples][TIPS_MAX], without `joined` */
 };
 
 /* Needs damage of the pre-cracks already on the particles. window [s] of the speed. */

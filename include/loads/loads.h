@@ -14,88 +14,90 @@
 #include "data/region.h"
 
 enum boundary_kind {
-    BOUNDARY_VELOCITY,       /* holds components of the velocity (`fixed` is this with value 0)          */
-    BOUNDARY_TRACTION,       /* surface force on the face that a body shows along an axis [Pa]           */
-    BOUNDARY_BODY_FORCE,     /*                                                            [N/m^3]       */
-    BOUNDARY_MIRROR          /* plane of symmetry (roller) or of antisymmetry (fixed end)                */
+    BOUNDARY_VELOCITY,       /* holds components of the velocity (`fixed` is this with value 0) */
+    BOUNDARY_TRACTION,       /* surface force on the face that a body shows along an axis [Pa] */
+    BOUNDARY_BODY_FORCE,     /* [N/m^3] */
+    BOUNDARY_MIRROR          /* plane of symmetry (roller) or of antisymmetry (fixed end) */
 };
 
 /* Factor on a body force over the reference position: sin(2 pi (X - origin) . direction/wavelength). */
 enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
 struct profile {
     enum profile_kind kind;
-    real wavelength;                     /* [m]                                                       */
-    real origin[DIM_MAX];                /* where it is 0 and rises along `direction`         [m]     */
-    real direction[DIM_MAX];             /* of any length                                     [1]     */
+    real wavelength;                     /* [m] */
+    real origin[DIM_MAX];                /* where it is 0 and rises along `direction` [m] */
+    real direction[DIM_MAX];             /* of any length [1] */
 };
 
 /* One boundary condition, as the scene says it. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
     enum boundary_kind kind;
-    struct region region;                /* of reference positions; empty: everywhere                 */
-    int body;                            /* -1: any                                                   */
-    uint8_t components;                  /* bit d: component d is held (VELOCITY)                     */
-    real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3]                                    */
-    struct time_function time;           /* factor on value                                           */
-    struct profile profile;              /* BODY_FORCE: factor on value                               */
-    int face;                            /* TRACTION: axis of the face's normal                       */
-    int side;                            /* TRACTION: +1 upper face, -1 lower face                    */
+    struct region region;                /* of reference positions; empty: everywhere */
+    int body;                            /* -1: any */
+    uint8_t components;                  /* bit d: component d is held (VELOCITY) */
+    real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3] */
+    struct time_function time;           /* factor on value */
+    struct profile profile;              /* BODY_FORCE: factor on value */
+    int face;                            /* TRACTION: axis of the face's normal */
+    int side;                            /* TRACTION: +1 upper face, -1 lower face */
     real section;                        /* TRACTION: of all bodies, in line [m^2], in the plane [m], 1 in space; 0: a
-                                            particle's area is its volume over the spacing            */
-    int axis;                            /* MIRROR: normal of the plane ...                           */
-    real at;                             /*         ... and where it is                   [m]         */
+                                            particle's area is its volume over the spacing */
+    int axis;                            /* MIRROR: normal of the plane ... */
+    real at;                             /*         ... and where it is [m] */
     bool hold_tangential;                /* MIRROR: displacement odd in all components, not only normal */
 };
 
 /* A boundary condition at work on particles. */
 struct load {
-    const struct boundary *boundary;     /* borrowed from the scene                                   */
+    const struct boundary *boundary;     /* borrowed from the scene */
     int64_t n;
-    int32_t *particle;                   /* ascending                                                 */
+    int32_t *particle;                   /* ascending */
     real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
                                             column's first particle, -1/2 on the next; BODY_FORCE: volume times
-                                            profile [m^3]. Equal ones are one array, of several components or loads  */
-    int leader;                      /* TRACTION, BODY_FORCE: first load of the same particles, which acts for it; -1 */
-    real *before[DIM_MAX];              /* [n] of a leader, components with a value: where they were in this step [m] */
+                                            profile [m^3]. Equal ones are one array, of several components or loads */
+    /* TRACTION, BODY_FORCE: first load on the same particles, which keeps the arrays of both; -1: itself */
+    int leader;
+    /* [n] of a load without leader, components with a value: positions before this step [m] */
+    real *before[DIM_MAX];
     real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
-                                            moves the driven particles themselves             [N]     */
-    real displacement[DIM_MAX];          /* of the driven particles, accumulated              [m]     */
-    int outside;                         /* MIRROR: side of the plane without body, -1 or +1          */
+                                            moves the driven particles themselves [N] */
+    real displacement[DIM_MAX];          /* of the driven particles, accumulated [m] */
+    int outside;                         /* MIRROR: side of the plane without body, -1 or +1 */
 };
 
 /* A component of a node that is held as long as the grid keeps its box. */
 struct held { int32_t node; uint8_t component, load; };
 
 struct constrained_set {
-    int64_t n, room, lasting;            /* the first `lasting` do not depend on the masses of nodes  */
+    int64_t n, room, lasting;            /* the first `lasting` do not depend on the masses of nodes */
     struct held *held;
-    int64_t first[DIM_MAX], count[DIM_MAX];   /* of the box of nodes they were found in                */
+    int64_t first[DIM_MAX], count[DIM_MAX]; /* of the box of nodes they were found in */
 };
 
 struct loads {
     int n;
     struct load *load;
-    uint8_t *loaded;                     /* [n] LOADED, WAITS; NULL: no particle is                   */
+    uint8_t *loaded;                     /* [n] LOADED, MOVES_LATER; NULL: no particle is */
     int64_t listed;
-    int32_t *list;                       /* [listed] those that are not 0, ascending                  */
+    int32_t *list;                       /* [listed] those that are not 0, ascending */
     int64_t images;
     struct image *image;
-    real impulse[DIM_MAX];               /* given by loads and supports since the start       [N s]   */
-    real work;                           /* done by applied forces, up to where particles are [J]     */
-    real constraint_work;                      /* done by supports, up to the velocities, half a step behind [J] */
-    real spacing, reach;                 /* [m]; of bonds                                             */
+    real impulse[DIM_MAX];               /* given by loads and supports since the start [N s] */
+    real work;                           /* done by applied forces, up to where particles are [J] */
+    real constraint_work;                /* done by supports, up to the velocities, half a step behind [J] */
+    real spacing, reach;                 /* [m]; of bonds */
     real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
-                                            loads' moment [1/s^2], 0: none                            */
-    real place_step[DIM_MAX];            /* places across mirrors are multiples of it; 0: as they are [m] */
-    real *share;                         /* scratch: driven mass of the grid's nodes         [kg]     */
+                                            loads' moment [1/s^2], 0: none */
+    real place_step[DIM_MAX];            /* positions across mirrors are rounded to multiples of it; 0: not [m] */
+    real *share;                         /* scratch: driven mass of the grid's nodes [kg] */
     int64_t share_room;
     struct constrained_set held, constrained_mesh; /* nodes in driven regions and on mirrors; driven ones of the mesh */
 };
 
-/* Something else than bonds and the grid may move a particle; it waits for bonds of others, across a clamped plane
- * nearby. */
-enum { LOADED = 1, WAITS = 2 };
+/* LOADED: something else than bonds and the grid may move a particle. MOVES_LATER: bonds across a clamped plane nearby
+ * act on it after the sweep of its own. */
+enum { LOADED = 1, MOVES_LATER = 2 };
 static inline bool is_loaded(const struct loads *l, int64_t i) { return l->loaded && l->loaded[i] & LOADED; }
 /* Is it a mirror that holds motion along its plane, too? Along a line there is none: it is one of symmetry. */
 static inline bool is_clamp(const struct boundary *b, int dim)
@@ -110,7 +112,7 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
 /* The face of a traction (loads_columns.c): of each column of particles along the normal the first that nothing
  * hides bears its area, and that along the face together with the next where `two` are wanted. */
 struct face {
-    real *normal, *along;            /* [particles] area for the component along the normal, and for the others [m^2] */
+    real *normal, *along; /* [particles] area for the component along the normal, and for the others [m^2] */
 };
 void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                real spacing, bool two);
@@ -139,7 +141,7 @@ void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
 /* The part of loads_make that checks mirrors and appends their images. Refuses a mirror that cuts its body. */
 status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional);
 
-/* WAITS of those whose bonds may cross a clamped plane. */
+/* MOVES_LATER of those whose bonds may cross a clamped plane. */
 void loads_mirrors_mark(struct loads *l, const struct particles *p);
 
 /* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. Places of the sources

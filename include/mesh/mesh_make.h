@@ -12,12 +12,12 @@
 #include "data/mesh.h"
 #include "data/particles.h"
 
-/* What partial cells hang on. */
+/* What partial cells depend on. */
 struct mesh_source {
-    const struct elastic *elastic;       /* [materials] of the cells                                  */
-    const struct elastic *isotropic;     /* [materials] those that partial stress rests on            */
+    const struct elastic *elastic;       /* [materials] of the cells */
+    const struct elastic *isotropic;     /* [materials] those that partial stress rests on */
     int materials;
-    const struct partial_stress *partial;/* NULL, or what points leave to bonds                       */
+    const struct partial_stress *partial; /* NULL, or what points leave to bonds */
 };
 
 /* A mesh of all particles with FLAG_MESHED, nodes where the anchor and node distance of `like` put them; nodes take
@@ -25,8 +25,8 @@ struct mesh_source {
  * and direction, all of one volume, or where two bodies would share a node: they would move as one. */
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source);
 void mesh_free(struct mesh *mesh);
-/* Into how many sets all particles fall that would share no node of such a mesh; 0: they do not lie two a cell and
- * direction. */
+/* Number of disconnected pieces of such a mesh, which share no node; 0: particles do not lie two a cell and direction.
+ */
 int64_t mesh_pieces(const struct particles *p, const struct grid *like);
 
 /* Takes particles out that are no material points any more, and makes cells anew where `changed` [n] (NULL:
@@ -34,8 +34,8 @@ int64_t mesh_pieces(const struct particles *p, const struct grid *like);
  * takes its share of momentum along. Returns the energy of motion inside cells that ends with that [J]. */
 real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed,
                  int64_t n);
-/* The same where all points stay and only what bonds carry of their stress has changed; false, and nothing is
- * settled, where other cells are partial than before. */
+/* The same where all points stay and only their share of stress has changed; false, and nothing is changed, if
+ * other cells are partial than before. */
 bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                   const int32_t *changed, int64_t n);
 
@@ -45,7 +45,7 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
  * mesh_follow, with those points among the changed, makes their cells; until then the mesh must not be moved. */
 real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
 
-/* Points that something outside the mesh pulls at or looks at in every step: beside bonds, loaded, or with an image. */
+/* Points that something outside the mesh needs the motion of in every step: beside bonds, loaded, or with an image. */
 void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);
 
 /* Largest stable step by the cells alone: 2/omega of the stiffest single cell, for each set of points it may be left

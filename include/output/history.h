@@ -1,4 +1,4 @@
-/* History.csv read back, of a finished or a running run. */
+/* history.csv read back, of a finished or a running run. */
 #ifndef CLEAVE_HISTORY
 #define CLEAVE_HISTORY
 
@@ -6,9 +6,9 @@
 
 struct history {
     int columns;
-    char **name;                         /* [columns] without the unit                                */
+    char **name;                         /* [columns] without the unit */
     int64_t rows;
-    double *value;                       /* [rows][columns] SI; NAN where the file has none           */
+    double *value;                       /* [rows][columns] SI; NAN where the file has none */
 };
 
 /* Reads folder/history.csv; a last line that is still being written is left out. FAILED: no file, no header, or a

@@ -19,21 +19,21 @@ enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE };    /* what t
 
 struct output {
     struct folder_lock lock;             /* against a second run in the folder; held while `folder` is set */
-    char *folder;                        /* DIR                                                       */
-    int frames, frames_room;             /* frames written                                            */
-    real *frame_time;                    /* [s]                                                       */
+    char *folder;                        /* DIR */
+    int frames, frames_room;             /* frames written */
+    real *frame_time;                    /* [s] */
     int64_t frame_particles;
-    bool frame_yielding;                 /* frames have plastic strain                                */
+    bool frame_yielding;                 /* frames have plastic strain */
     bool compress;
     FILE *history;
-    int64_t history_bytes;               /* length at the last sample                                 */
-    uint64_t history_hash;               /* of those bytes, one by one                                */
+    int64_t history_bytes;               /* length at the last sample */
+    uint64_t history_hash;               /* of those bytes, one by one */
     int columns;
-    bool broken;                         /* HDF5 failed to write: it must not be called again         */
-    struct frame_job *writing;           /* a frame on its way to the disk; NULL: none                */
+    bool broken;                         /* HDF5 failed to write: it must not be called again */
+    struct frame_job *writing;           /* a frame on its way to the disk; NULL: none */
     char *frame_copy;                    /* what it copies; kept for the next one, whose pages are then there */
     int64_t frame_copy_bytes;
-    struct { int32_t *order; char *room; int64_t n; } frame_kept;   /* by id; of a field: the writer's, kept likewise */
+    struct { int32_t *order; char *room; int64_t n; } frame_kept; /* by id; of a field: the writer's, kept likewise */
 };
 
 /* Once per process, before any other HDF5 call: no exit handler, no error stack on the terminal; SIGXFSZ and
@@ -80,7 +80,7 @@ struct frame {
     real t;
     int64_t step;
     float *X[DIM_MAX], *u[DIM_MAX], *v[DIM_MAX], *damage;
-    float *stress[SYM_MAX];              /* as in struct particles; in the plane zz comes last        */
+    float *stress[SYM_MAX];              /* as in struct particles; in the plane zz comes last */
     uint8_t *kind, *material, *body;
     int32_t *id;
 };

@@ -17,7 +17,7 @@ bool path_is_link(const char *path);
 bool path_is_file(const char *path);
 bool path_is_folder(const char *path);
 
-/* FAILED with `cannot write PATH: cause; cure`; `cause` is an errno, 0 if it is not known. */
+/* FAILED with `cannot write PATH: cause; remedy`; `cause` is an errno, 0 if it is not known. */
 status file_fault(const char *path, int cause);
 
 /* Writes `length` bytes as the whole file `path`: aside, sync, rename, sync of the folder. */

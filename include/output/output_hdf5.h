@@ -13,9 +13,9 @@ size_t hdf_size(enum hdf_type type);     /* bytes of one number */
 
 struct hdf {
     hid_t file;
-    bool compress;                       /* gzip for rows                                     */
-    bool failed;                         /* a call failed: make no further one                */
-    int cause;                           /* errno of that call, 0 if not known                */
+    bool compress;                       /* gzip for rows */
+    bool failed;                         /* a call failed: make no further one */
+    int cause;                           /* errno of that call, 0 if not known */
 };
 
 /* Makes PATH anew. No times are stored: the same content gives the same bytes. */

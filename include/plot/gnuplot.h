@@ -10,10 +10,10 @@
 enum picture_format { PICTURE_PNG, PICTURE_SVG };
 
 struct gnuplot {
-    FILE *to;                            /* its standard input                                        */
-    FILE *complaints;                    /* its standard error                                        */
+    FILE *to;                            /* its standard input */
+    FILE *complaints;                    /* its standard error */
     int process;
-    char *aside, *path;                  /* name while it is drawn, name when it is whole             */
+    char *aside, *path;                  /* name while it is drawn, name when it is whole */
 };
 
 /* Colours that people with any colour vision tell apart (Okabe & Ito 2008), as gnuplot writes them. */

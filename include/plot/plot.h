@@ -27,14 +27,14 @@ struct unit unit_for_length(double largest);
 /* One frame as a flat map: all particles in 2D, the layer nearest to the middle of the thinnest direction in 3D. */
 struct cloud {
     int64_t n;
-    float *place[2];                     /* current positions along the two axes of the map   [m]     */
-    float *damage;                       /* [1]                                                       */
+    float *place[2];                     /* current positions along the two axes of the map [m] */
+    float *damage;                       /* [1] */
     uint8_t *kind;
-    int axis[2], normal;                 /* 0..2: x y z; normal -1 in 2D                              */
-    double layer;                        /* where the layer is along the normal               [m]     */
-    double t;                            /* [s]                                                       */
-    double spacing;                      /* [m]                                                       */
-    bool aligned;                        /* neighbours still lie along the axes                       */
+    int axis[2], normal;                 /* 0..2: x y z; normal -1 in 2D */
+    double layer;                        /* where the layer is along the normal [m] */
+    double t;                            /* [s] */
+    double spacing;                      /* [m] */
+    bool aligned;                        /* neighbours still lie along the axes */
 };
 void cloud_make(struct cloud *c, const struct frame *f);
 void cloud_free(struct cloud *c);
@@ -50,7 +50,7 @@ struct colour map_colour(enum map map, enum kind kind, double damage, double top
 /* Rectangle of the map [m], and how its frames are shown. */
 struct view {
     double from[2], to[2];
-    double top;                          /* damage at the upper end of the colours                    */
+    double top;                          /* damage at the upper end of the colours */
 };
 
 /* Paints the particles, each over its own square (or disc where the lattice has turned), the nearest on top, into
@@ -65,7 +65,7 @@ status maps_draw(const char *path, const char *title, enum map map, const struct
 /* What is drawn over time: one row a sample, sent as the gnuplot data block $data. */
 struct series {
     const struct history *h;
-    int time;                            /* column                                                    */
+    int time;                            /* column */
     struct unit second;
 };
 /* Largest |value| of a column; 0 where there is none. */
@@ -78,7 +78,7 @@ void curves_time_axis(FILE *to, const struct series *s);
 
 /* sif.png: stress-intensity factors over time, below how far contours differ; nothing without sif probes. */
 status sif_bench_draw(const char *pictures, const char *title, const struct series *s);
-/* path.png: the ways that tips watched by growth probes have gone, beside the angle of an experiment where the scene
+/* path.png: the paths of tips that growth probes measured, beside the angle of an experiment where the scene
  * tells one; nothing without such probes. */
 status paths_draw(const char *folder, const char *pictures, const char *title, const struct history *h);
 

@@ -10,29 +10,29 @@
 #include "data/particles.h"
 
 struct energy {
-    real kinetic;                        /* 1/2 m v_before . v_after of the velocity update      [J]  */
-    real strain, plastic;                /* of bonds and material points                         [J]  */
-    real fracture;                       /* of bonds broken                                      [J]  */
-    real damped;                         /* taken by the interface damping (interface_zone.h)               [J]  */
+    real kinetic;                        /* 1/2 m v_before . v_after of the velocity update [J] */
+    real strain, plastic;                /* of bonds and material points [J] */
+    real fracture;                       /* of bonds broken [J] */
+    real damped;                         /* taken by the interface damping (interface_zone.h) [J] */
 };
 
 struct energy_balance {
-    real time;                           /* [s]                                                       */
+    real time;                           /* [s] */
     struct energy energy;
-    real external_work;                  /* of loads and supports since the start                [J]  */
-    real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far     [1]  */
-    real momentum[DIM_MAX];              /* [kg m/s]                                                  */
-    real momentum_error;                 /* |p - p_0 - impulse| / largest sum |m v|, most so far [1]  */
+    real external_work;                  /* of loads and supports since the start [J] */
+    real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far [1] */
+    real momentum[DIM_MAX];              /* [kg m/s] */
+    real momentum_error;                 /* |p - p_0 - impulse| / largest sum |m v|, most so far [1] */
 };
 
 struct diagnostics {
     struct energy_balance now;
     real energy_start, energy_scale;     /* [J] */
-    real momentum_start[DIM_MAX], momentum_scale;   /* [kg m/s] */
+    real momentum_start[DIM_MAX], momentum_scale; /* [kg m/s] */
     bool started;
     real break_time;                     /* first bond broken by load, driven particles' aside; NAN before [s] */
     real break_place[DIM_MAX];           /* mean reference position of the particles cut in that step [m] */
-    int64_t bonds_broken;                /* directed, by load                                         */
+    int64_t bonds_broken;                /* directed, by load */
 };
 
 /* Nothing seen yet. Call once, before step 0. */

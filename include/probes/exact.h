@@ -20,14 +20,14 @@ enum exact_form { EXACT_STEP_BAR, EXACT_PLASTIC_BAR, EXACT_PULSE, EXACT_MANUFACT
 
 struct exact {
     enum exact_form form;
-    real left, right;                    /* ends of the bar                                   [m]     */
-    real young, tangent, yield, density; /* E, E_t, sigma_y [Pa]; rho [kg/m^3]                        */
-    int reflection[2];                   /* of stress at the left and right end: +1 fixed, -1 free    */
-    int loaded;                          /* STEP, PLASTIC: the loaded end, -1 left, +1 right          */
-    real load;                           /* STEP, PLASTIC: F                                  [Pa]    */
-    const struct wave_pulse *pulse;      /* PULSE: borrowed                                           */
+    real left, right;                    /* ends of the bar [m] */
+    real young, tangent, yield, density; /* E, E_t, sigma_y [Pa]; rho [kg/m^3] */
+    int reflection[2];                   /* of stress at the left and right end: +1 fixed, -1 free */
+    int loaded;                          /* STEP, PLASTIC: the loaded end, -1 left, +1 right */
+    real load;                           /* STEP, PLASTIC: F [Pa] */
+    const struct wave_pulse *pulse;      /* PULSE: borrowed */
     int pulses;
-    real amplitude, period, wavelength, origin;      /* MANUFACTURED: U [m], T [s], lambda [m], [m]   */
+    real amplitude, period, wavelength, origin; /* MANUFACTURED: U [m], T [s], lambda [m], [m] */
 };
 
 struct exact_values { real displacement, velocity, stress, strain; };    /* [m] [m/s] [Pa] [1] */
@@ -37,9 +37,9 @@ struct exact_values exact_at(const struct exact *e, real X, real t);
 
 /* A jump of the stress that moves along the bar. */
 struct exact_front {
-    real place;                          /* [m]                                                       */
-    int ahead;                           /* side that it has not reached: -1 smaller x, +1 greater x  */
-    real before, behind;                 /* stress on its two sides                           [Pa]    */
+    real place;                          /* [m] */
+    int ahead;                           /* side that it has not reached: -1 smaller x, +1 greater x */
+    real before, behind;                 /* stress on its two sides [Pa] */
 };
 enum { EXACT_FRONTS = 2 };
 

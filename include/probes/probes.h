@@ -1,7 +1,7 @@
 /* Room `probes`: what is measured in a run: time series, profiles, figures, the balance of energy. It reads particles,
  * bonds, loads and tips and changes none of them; output of the engine calls it.
  *
- * What a run watches besides its frames: time series, profiles, and the figures scripts rely on. */
+ * What a run measures besides its frames: time series, profiles, and the figures scripts rely on. */
 #ifndef CLEAVE_PROBES
 #define CLEAVE_PROBES
 
@@ -45,23 +45,23 @@ enum probe_kind {
 
 /* As the scene specifies it. */
 struct probe_request {
-    char name[NAME_MAX_LENGTH];          /* default: its kind                                         */
+    char name[NAME_MAX_LENGTH];          /* default: its kind */
     enum probe_kind kind;
-    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere  */
-    bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface  [m]     */
-    bool has_direction;                  /* SIF                                                       */
+    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere */
+    bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface [m] */
+    bool has_direction;                  /* SIF */
     real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */
-    real from[DIM_MAX], to[DIM_MAX];     /* LINE                                              [m]     */
-    int points;                          /* LINE                                                      */
-    char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition                  */
-    char of[NAME_MAX_LENGTH];            /* GROWTH: name of the crack; "": the first                    */
-    real experiment;                     /* GROWTH: angle in an experiment, for pictures; NAN: none [degree]    */
-    enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]:   */
+    real from[DIM_MAX], to[DIM_MAX];     /* LINE [m] */
+    int points;                          /* LINE */
+    char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition */
+    char of[NAME_MAX_LENGTH];            /* GROWTH: name of the crack; "": the first */
+    real experiment;                     /* GROWTH: angle in an experiment, for pictures; NAN: none [degree] */
+    enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]: */
     real amplitude, period, wavelength, origin;
     struct number_list contours;         /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
-    real inner, outer, core;             /* SIF; NAN or 0: half of outer; 20 spacings; 1.5 horizons   [m]   */
-    real reach;                          /* SIF: rho_m in spacings; 0: 1.5                            [1]   */
-    real speed;                          /* SIF: of a moving tip; NAN: measured                       [m/s] */
+    real inner, outer, core;             /* SIF; NAN or 0: half of outer; 20 spacings; 1.5 horizons [m] */
+    real reach;                          /* SIF: rho_m in spacings; 0: 1.5 [1] */
+    real speed;                          /* SIF: of a moving tip; NAN: measured [m/s] */
     int diffraction;                     /* SIF */
     enum sif_weight weight;
     enum gradient_method gradient;
@@ -73,33 +73,33 @@ struct column { char name[2 * NAME_MAX_LENGTH]; char unit[16]; };
 
 /* The same run on material points alone (engine_baseline), at its end. */
 struct baseline {
-    real *v[DIM_MAX];                    /* [n] velocities                                    [m/s]   */
-    real energy_change;                  /* of all energy since the start                     [1]     */
+    real *v[DIM_MAX];                    /* [n] velocities [m/s] */
+    real energy_change;                  /* of all energy since the start [1] */
 };
 
 /* What probes may look at; borrowed, read only. */
 struct observed {
     const struct particles *part;
-    const struct cells *cells;           /* reference search                                          */
+    const struct cells *cells;           /* reference search */
     const struct bonds *bonds;
     const struct loads *loads;
     const struct grid *grid;
     const struct tips *tips;
     const struct material *material;
     const struct partial_stress *partial;
-    real spacing;                        /* [m]                                                       */
-    real thickness;                      /* section, thickness or 1                                   */
+    real spacing;                        /* [m] */
+    real thickness;                      /* section, thickness or 1 */
     real strain_stress;                  /* largest |component| of the initial stress [Pa], for PATCH */
     real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
-    real t;                              /* [s]                                                       */
+    real t;                              /* [s] */
     real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
-    const struct growth *growth;         /* cracks with prescribed or SIF-controlled growth           */
+    const struct growth *growth;         /* cracks with prescribed or SIF-controlled growth */
     int growths;
-    const struct baseline *baseline;     /* NULL: none                                                */
-    real t_velocity;                     /* when velocities are known, half a step before t   [s]     */
-    const struct wave_pulse *pulse;      /* initial pulses, for EXACT                                 */
+    const struct baseline *baseline;     /* NULL: none */
+    real t_velocity;                     /* when velocities are known, half a step before t [s] */
+    const struct wave_pulse *pulse;      /* initial pulses, for EXACT */
     int pulses;
-    enum space space;                    /* ... and what SIF needs: horizon [m], pre-cracks           */
+    enum space space;                    /* ... and what SIF needs: horizon [m], pre-cracks */
     real horizon;
     const struct crack *crack;
     int cracks;
@@ -109,9 +109,9 @@ struct probe;                            /* probes.c */
 struct probes {
     int n;
     struct probe *probe;
-    int columns;                         /* of all probes together                                    */
+    int columns;                         /* of all probes together */
     struct column *column;
-    real *value;                         /* at the last sample, by column                             */
+    real *value;                         /* at the last sample, by column */
 };
 
 /* Binds requests to particles. Refuses a point outside the body, an unknown boundary name, or a bar that is not that of

@@ -12,10 +12,10 @@
 struct particle_list {
     int64_t n;
     int dim;
-    real *X[DIM_MAX];                    /* [m]                                                       */
-    real *volume;                        /* [m^3], > 0                                                */
-    real *material, *body;               /* whole numbers 0..255; NULL where the file names none      */
-    int64_t *line;                       /* where an entry stands in a CSV; NULL for HDF5             */
+    real *X[DIM_MAX];                    /* [m] */
+    real *volume;                        /* [m^3], > 0 */
+    real *material, *body;               /* whole numbers 0..255; NULL where the file names none */
+    int64_t *line;                       /* where an entry stands in a CSV; NULL for HDF5 */
 };
 
 /* Reads a file by its ending: .csv, or .h5, .hdf5, .hdf. REFUSED names file and line, or file and entry; nothing is

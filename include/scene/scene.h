@@ -17,7 +17,7 @@
 #include "probes/probes.h"
 #include "data/region.h"
 
-/* AUTO and STATIC stand for one of the others, which a scene that was read has. */
+/* METHOD_AUTO, FRAME_AUTO and SOLVER_STATIC are requests: reading a scene resolves them. */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
 enum grid_frame { FRAME_CURRENT, FRAME_REFERENCE, FRAME_AUTO };
 enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
@@ -28,110 +28,110 @@ enum { PLACE_LENGTH = 512 };             /* of how a refusal begins */
 
 struct scene_body {
     char name[NAME_MAX_LENGTH];
-    int material;                        /* index into scene.material                                 */
-    struct region shape;                 /* filled with a lattice ...                                 */
+    int material;                        /* index into scene.material */
+    struct region shape;                 /* filled with a lattice ... */
     char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
-    uint64_t contents;                   /* hash of that file; 0: not read                            */
+    uint64_t contents;                   /* hash of that file; 0: not read */
     char place[PLACE_LENGTH];            /* where the scene names that list, `file:line:column: key: `; "": unknown */
-    real velocity[DIM_MAX];              /* [m/s]                                                     */
-    enum grid_frame frame;   /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
-    const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not                 */
+    real velocity[DIM_MAX];              /* [m/s] */
+    enum grid_frame frame; /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
+    const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not */
 };
 
 /* Initial state of the particles in a region; later entries overwrite earlier ones. */
 struct scene_initial {
     struct region region;
-    int body;                            /* -1: any                                                   */
+    int body;                            /* -1: any */
     bool sets_velocity, sets_strain;
-    real velocity[DIM_MAX];              /* [m/s]                                                     */
-    real velocity_gradient[DIM_MAX * DIM_MAX];     /* v += G (X - centre), row major dim x dim [1/s]  */
-    real displacement_gradient[DIM_MAX * DIM_MAX]; /* x = X + H (X - centre), stress = C : sym H [1]  */
-    real centre[DIM_MAX];                /* [m]                                                       */
-    bool sets_pulse;                     /* a plane longitudinal wave, added to what is there         */
+    real velocity[DIM_MAX];              /* [m/s] */
+    real velocity_gradient[DIM_MAX * DIM_MAX]; /* v += G (X - centre), row major dim x dim [1/s] */
+    real displacement_gradient[DIM_MAX * DIM_MAX]; /* x = X + H (X - centre), stress = C : sym H [1] */
+    real centre[DIM_MAX];                /* [m] */
+    bool sets_pulse;                     /* a plane longitudinal wave, added to what is there */
     struct wave_pulse pulse;
 };
 
 /* What `method: auto` chose, and why: from the table's problem that the scene is like. */
 struct scene_choice {
     bool made;
-    char like[80], feature[40];          /* that problem; what the spacing resolves                   */
-    real size, points;                   /* of the feature [m], in spacings                           */
-    real resolution;                     /* as that problem counts                                    */
-    real accuracy, error;                /* required, expected [1]                                    */
-    real seconds;                        /* of the loop on one thread of the table's machine, about   */
-    char picked[80];                     /* the table's method                                        */
-    real horizon, step;                  /* [spacings], 0 without bonds; share of the critical step   */
+    char like[80], feature[40];          /* that problem; what the spacing resolves */
+    real size, points;                   /* of the feature [m], in spacings */
+    real resolution;                     /* as that problem counts */
+    real accuracy, error;                /* required, expected [1] */
+    real seconds;                        /* of the loop on one thread of the table's machine, about */
+    char picked[80];                     /* the table's method */
+    real horizon, step;                  /* [spacings], 0 without bonds; share of the critical step */
     char second[80];                     /* the next best method and how much longer it takes; "": none */
-    real second_error, second_share;     /* [1], its time over that of the choice                     */
+    real second_error, second_share;     /* [1], its time over that of the choice */
 };
 
 struct scene {
-    char *path;                          /* file it came from, as given on the command line           */
-    char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending        */
+    char *path;                          /* file it came from, as given on the command line */
+    char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending */
     enum space space;
     int dim;
-    real thickness;                      /* 2D [m]; 1 in 3D                                           */
-    real section;                        /* 1D: cross-section A [m^2]; key `section`, default 1       */
-    real duration;                       /* [s]                                                       */
+    real thickness;                      /* 2D [m]; 1 in 3D */
+    real section;                        /* 1D: cross-section A [m^2]; key `section`, default 1 */
+    real duration;                       /* [s] */
     enum method method;
     enum model model;
-    enum solver_kind solver;             /* other than explicit: static equilibrium (solver.h)         */
-    real solver_tolerance;               /* relative residual                                 [1]     */
-    int solver_steps;                    /* at the most                                               */
+    enum solver_kind solver;             /* other than explicit: static equilibrium (solver.h) */
+    real solver_tolerance;               /* relative residual [1] */
+    int solver_steps;                    /* at the most */
 
     int materials;  struct material *material;
     int bodies;     struct scene_body *body;
 
-    bool has_accuracy; real accuracy;    /* required of method auto [1]                               */
+    bool has_accuracy; real accuracy;    /* required of method auto [1] */
     struct scene_choice choice;
 
-    real spacing, horizon, irregularity; /* [m], in spacings, [1]                                     */
+    real spacing, horizon, irregularity; /* [m], in spacings, [1] */
     uint64_t seed;
 
     enum volume_rule volume;
     enum calibration calibration;
-    enum surface_rule surface;           /* resolved: never "auto" here                               */
+    enum surface_rule surface;           /* resolved: never "auto" here */
     enum shell_rule shells;
-    enum influence influence;            /* resolved                                                  */
-    bool bulk;                           /* state-based: normalised as full families are              */
-    bool whole_force;                    /* of a bond in the step in which it breaks                  */
-    bool has_pd_region;  struct region pd_region;      /* peridynamic from the start (adaptive)       */
+    enum influence influence;            /* resolved */
+    bool bulk;                           /* state-based: normalised as full families are */
+    bool whole_force;                    /* of a bond in the step in which it breaks */
+    bool has_pd_region;  struct region pd_region; /* peridynamic from the start (adaptive) */
 
-    real cell;                           /* grid node distance, in spacings                           */
+    real cell;                           /* grid node distance, in spacings */
     enum shape shape;
     enum transfer transfer;
-    bool has_shape, has_transfer;        /* to be written out: the scene says so, or no frame hangs on it */
-    enum grid_frame frame;               /* of the grid, of bodies that do not say theirs             */
-    bool small_strain;                   /* of a mesh in the reference frame                          */
-    bool lattice_constants;              /* its elastic constants are those of the bonds' lattice     */
-    bool has_grid_origin; real grid_origin[DIM_MAX];   /* a node of the grid [m]                      */
+    bool has_shape, has_transfer;        /* to be written out: given, or the choice of frame does not depend on it */
+    enum grid_frame frame;               /* of the grid, of bodies that do not say theirs */
+    bool small_strain;                   /* of a mesh in the reference frame */
+    bool lattice_constants;              /* its elastic constants are those of the bonds' lattice */
+    bool has_grid_origin; real grid_origin[DIM_MAX]; /* a node of the grid [m] */
 
     enum coupling coupling;
-    real interface_damping;                    /* of the interface zone (interface_zone.h), in c/h */
-    bool has_interface_damping;                /* as has_shape                                              */
-    const char *frame_wish;        /* what the scene says that has a meaning in the current frame only; NULL: nothing */
+    real interface_damping;              /* of the interface zone (interface_zone.h), in c/h */
+    bool has_interface_damping;          /* as has_shape */
+    const char *current_frame_key; /* what the scene says that has a meaning in the current frame only; NULL: nothing */
     struct conversion_rule conversion;
 
     int cracks;     struct crack *crack;
-    int growths;    struct growth_rule *growth;        /* cracks with prescribed or SIF-controlled growth */
+    int growths;    struct growth_rule *growth; /* cracks with prescribed or SIF-controlled growth */
     int initials;   struct scene_initial *initial;
     int boundaries; struct boundary *boundary;
     int probes;     struct probe_request *probe;
 
-    real time_step;                      /* [s]; 0: automatic                                         */
-    bool active_set;                     /* what nothing has reached is skipped (active_set.h)                  */
-    real safety;                         /* of the automatic step                                     */
-    int frames;                          /* frames after the one at t = 0                             */
-    bool has_frames;                     /* the scene says how many                                   */
-    struct number_list times;            /* of these frames, ascending [s]; none: evenly spread       */
-    int samples;                         /* samples of history.csv after the one at t = 0             */
+    real time_step;                      /* [s]; 0: automatic */
+    bool active_set;                     /* what nothing has reached is skipped (active_set.h) */
+    real safety;                         /* of the automatic step */
+    int frames;                          /* frames after the one at t = 0 */
+    bool has_frames;                     /* the scene says how many */
+    struct number_list times;            /* of these frames, ascending [s]; none: evenly spread */
+    int samples;                         /* samples of history.csv after the one at t = 0 */
     real wall;                           /* wall clock after which a process ends with a checkpoint; INFINITY [s] */
-    real checkpoint_interval;            /* wall clock between checkpoints [s]                        */
-    bool compress;                       /* gzip the frames                                           */
-    real speed_window;                   /* of the crack tip's speed [s]                              */
+    real checkpoint_interval;            /* wall clock between checkpoints [s] */
+    bool compress;                       /* gzip the frames */
+    real speed_window;                   /* of the crack tip's speed [s] */
 
-    char renamed[400];                   /* keys given by an earlier name; "" : none                  */
-    char *text;                          /* the scene as run: every key, defaults written out, YAML    */
+    char renamed[400];                   /* keys given by an earlier name; "" : none */
+    char *text;                          /* the scene as run: every key, defaults written out, YAML */
 };
 
 struct scene_override { const char *key, *value; };    /* of `-s key=value` */

@@ -23,7 +23,7 @@
 struct mesh_cell {
     /* mode: by set of axes and component [1]; force: derivative of the energy per volume by a bending mode [Pa] */
     lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3];
-    lanes R[3][3], e[3][3], P[3][3];                     /* rotation; strain and stress of the mean gradient        */
+    lanes R[3][3], e[3][3], P[3][3];     /* rotation; strain and stress of the mean gradient */
 };
 
 /* Loops over sets of axes are unrolled, so that their values stay in registers. */

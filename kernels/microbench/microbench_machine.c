@@ -16,7 +16,7 @@
 
 enum { STENCIL_MOST = 128, MARGIN = 3 };
 
-struct stencil_probe {
+struct microbench_lattice {
     int dim;
     int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all; /* particles, index of the first; all: with margins */
     int neighbours;
@@ -26,7 +26,7 @@ struct stencil_probe {
 };
 
 /* Eight particles from index i on. */
-static ALWAYS_INLINE void stencil_row_block(const struct stencil_probe *s, int64_t i, const int dim)
+static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, int64_t i, const int dim)
 {
     const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;
     const lanes x2 = dim > 2 ? lanes_load(s->x[2] + i) : x0;
@@ -51,7 +51,7 @@ static ALWAYS_INLINE void stencil_row_block(const struct stencil_probe *s, int64
 }
 
 #define SWEEP(D)                                                                                                       \
-    static void stencil_sweep_##D##d(struct stencil_probe *s)                                                          \
+    static void stencil_sweep_##D##d(struct microbench_lattice *s)                                                     \
     {                                                                                                                  \
         const int64_t rows = s->count[1] * s->count[2];                                                                \
         _Pragma("omp parallel for schedule(static)") for (int64_t row = 0; row < rows; row++)                          \
@@ -63,10 +63,10 @@ static ALWAYS_INLINE void stencil_row_block(const struct stencil_probe *s, int64
 DIM_VARIANTS(SWEEP)
 
 #define SWEEP_ENTRY(D) [D] = stencil_sweep_##D##d,
-static void (*const stencil_sweep[DIM_MAX + 1])(struct stencil_probe *) = {DIM_VARIANTS(SWEEP_ENTRY)};
+static void (*const stencil_sweep[DIM_MAX + 1])(struct microbench_lattice *) = {DIM_VARIANTS(SWEEP_ENTRY)};
 
 /* Index distances and inverse lengths of all neighbours within 3.015 spacings. */
-static void find_neighbours(struct stencil_probe *s)
+static void find_neighbours(struct microbench_lattice *s)
 {
     const int reach[DIM_MAX] = {MARGIN, s->dim > 1 ? MARGIN : 0, s->dim > 2 ? MARGIN : 0};
     for (int c = -reach[2]; c <= reach[2]; c++)
@@ -80,7 +80,7 @@ static void find_neighbours(struct stencil_probe *s)
 }
 
 /* Lattice positions with a small non-uniform strain, so that no operand has a special value. */
-static void place_lattice(struct stencil_probe *s)
+static void place_lattice(struct microbench_lattice *s)
 {
     for (int64_t i = 0; i < s->all; i++) {
         const int64_t place[DIM_MAX] = {i % s->stride[1], i / s->stride[1] % (s->stride[2] / s->stride[1]),
@@ -89,10 +89,10 @@ static void place_lattice(struct stencil_probe *s)
     }
 }
 
-struct stencil_probe *stencil_probe_make(int dim)
+struct microbench_lattice *microbench_lattice_make(int dim)
 {
     static const int64_t counts[DIM_MAX + 1][DIM_MAX] = {{0}, {80000, 1, 1}, {200, 400, 1}, {40, 40, 50}};
-    struct stencil_probe *s = NEW("bench.stencil", 1, struct stencil_probe);
+    struct microbench_lattice *s = NEW("bench.stencil", 1, struct microbench_lattice);
     s->dim = dim;
     s->n = s->all = 1;
     for (int d = 0; d < DIM_MAX; d++) {
@@ -112,14 +112,14 @@ struct stencil_probe *stencil_probe_make(int dim)
     return s;
 }
 
-double stencil_probe_run(struct stencil_probe *s)
+double microbench_lattice_run(struct microbench_lattice *s)
 {
     double start = team_clock();
     stencil_sweep[s->dim](s);
     return (team_clock() - start) / (double)(s->n * s->neighbours);
 }
 
-void stencil_probe_free(struct stencil_probe *s)
+void microbench_lattice_free(struct microbench_lattice *s)
 {
     for (int d = 0; d < s->dim; d++) {
         memory_free(s->x[d]);
@@ -130,15 +130,15 @@ void stencil_probe_free(struct stencil_probe *s)
 
 /* ---- triad ------------------------------------------------------------------------------------------------------- */
 
-struct triad_probe {
+struct microbench_triad {
     int64_t n;
     real *a, *b, *c;
 };
 
 /* Each array twice the last-level cache, at least 64 MB. */
-struct triad_probe *triad_probe_make(void)
+struct microbench_triad *microbench_triad_make(void)
 {
-    struct triad_probe *t = NEW("bench.triad", 1, struct triad_probe);
+    struct microbench_triad *t = NEW("bench.triad", 1, struct microbench_triad);
     int64_t bytes = 2 * team_machine().cache[3];
     t->n = (bytes > 64000000 ? bytes : 64000000) / (int64_t)sizeof(real);
     t->a = NEW("bench.triad.a", t->n, real);
@@ -147,7 +147,7 @@ struct triad_probe *triad_probe_make(void)
     return t;
 }
 
-double triad_probe_run(struct triad_probe *t)
+double microbench_triad_run(struct microbench_triad *t)
 {
     real *restrict a = t->a;
     const real *restrict b = t->b, *restrict c = t->c;
@@ -158,7 +158,7 @@ double triad_probe_run(struct triad_probe *t)
     return 3.0 * sizeof(real) * (double)t->n / (team_clock() - start);
 }
 
-void triad_probe_free(struct triad_probe *t)
+void microbench_triad_free(struct microbench_triad *t)
 {
     memory_free(t->a);
     memory_free(t->b);

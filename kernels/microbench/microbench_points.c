@@ -12,7 +12,7 @@
 
 enum { CELLS_X = 100, CELLS_Y = 200, CORNERS = 4, NODES_X = CELLS_X + 1, NODES = NODES_X * (CELLS_Y + 1) };
 
-struct point_probe {
+struct microbench_points {
     int64_t n;
     real h, dt, c11, c12, shear;
     int32_t *start; /* points of cell c: start[c] .. start[c+1]-1 */
@@ -25,7 +25,7 @@ struct corner {
     real N[CORNERS], gx[CORNERS], gy[CORNERS];
 };
 
-static ALWAYS_INLINE struct corner corner_make(const struct point_probe *p, int64_t i, int cx, int cy)
+static ALWAYS_INLINE struct corner corner_make(const struct microbench_points *p, int64_t i, int cx, int cy)
 {
     const real inverse = 1 / p->h, r = p->x[i] * inverse - cx, s = p->y[i] * inverse - cy;
     return (struct corner){.N = {(1 - r) * (1 - s), r * (1 - s), (1 - r) * s, r * s},
@@ -41,7 +41,7 @@ static void add_corners(real *field, int cx, int cy, const real *sum)
 }
 
 /* First map of one cell: mass, momentum and force to its nodes. */
-static void cell_scatter(struct point_probe *p, int cx, int cy)
+static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
     real m[CORNERS] = {0}, px[CORNERS] = {0}, py[CORNERS] = {0}, fx[CORNERS] = {0}, fy[CORNERS] = {0};
@@ -62,7 +62,7 @@ static void cell_scatter(struct point_probe *p, int cx, int cy)
 
 /* Second map of one cell: velocities receive the change of the nodal velocities (in fx, fy), and the momentum of the
  * points is mapped back to the nodes. */
-static void cell_remap(struct point_probe *p, int cx, int cy)
+static void cell_remap(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
     real dx[CORNERS], dy[CORNERS], px[CORNERS] = {0}, py[CORNERS] = {0};
@@ -76,7 +76,7 @@ static void cell_remap(struct point_probe *p, int cx, int cy)
     add_corners(p->px, cx, cy, px), add_corners(p->py, cx, cy, py);
 }
 
-static ALWAYS_INLINE void microbench_point_stress(struct point_probe *p, int64_t i, real xx, real yy, real xy,
+static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, int64_t i, real xx, real yy, real xy,
                                                   real spin)
 {
     const real sxx = p->sxx[i], syy = p->syy[i], sxy = p->sxy[i];
@@ -87,7 +87,7 @@ static ALWAYS_INLINE void microbench_point_stress(struct point_probe *p, int64_t
 }
 
 /* Last map of one cell: motion and stress of its points. */
-static void cell_gather(struct point_probe *p, int cx, int cy)
+static void cell_gather(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
     real ux[CORNERS], uy[CORNERS], px[CORNERS], py[CORNERS];
@@ -109,7 +109,7 @@ static void cell_gather(struct point_probe *p, int cx, int cy)
 
 /* One map over all cells: even rows, then odd rows. */
 #define MAP(NAME)                                                                                                      \
-    static void map_##NAME(struct point_probe *p)                                                                      \
+    static void map_##NAME(struct microbench_points *p)                                                                \
     {                                                                                                                  \
         _Pragma("omp parallel") for (int colour = 0; colour < 2; colour++)                                             \
         {                                                                                                              \
@@ -122,13 +122,13 @@ MAP(scatter)
 MAP(remap)
 MAP(gather)
 
-static void nodes_clear(struct point_probe *p)
+static void nodes_clear(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
     for (int I = 0; I < NODES; I++) p->m[I] = p->px[I] = p->py[I] = p->fx[I] = p->fy[I] = 0;
 }
 
-static void nodes_move(struct point_probe *p)
+static void nodes_move(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
     for (int I = 0; I < NODES; I++) {
@@ -139,13 +139,13 @@ static void nodes_move(struct point_probe *p)
     }
 }
 
-static void nodes_remapped(struct point_probe *p)
+static void nodes_remapped(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
     for (int I = 0; I < NODES; I++) p->px[I] /= p->m[I], p->py[I] /= p->m[I];
 }
 
-double point_probe_run(struct point_probe *p)
+double microbench_points_run(struct microbench_points *p)
 {
     double start = team_clock();
     nodes_clear(p);
@@ -158,7 +158,7 @@ double point_probe_run(struct point_probe *p)
 }
 
 /* Steel, spacing 0.5 mm; a weak wave, so that points stay in their cells during the measurement. */
-static void place_points(struct point_probe *p)
+static void place_points(struct microbench_points *p)
 {
     for (int c = 0; c < CELLS_X * CELLS_Y; c++) {
         p->start[c + 1] = p->start[c] + 4;
@@ -173,9 +173,9 @@ static void place_points(struct point_probe *p)
     }
 }
 
-struct point_probe *point_probe_make(void)
+struct microbench_points *microbench_points_make(void)
 {
-    struct point_probe *p = NEW("bench.points", 1, struct point_probe);
+    struct microbench_points *p = NEW("bench.points", 1, struct microbench_points);
     p->n = 4 * CELLS_X * CELLS_Y, p->h = 1e-3, p->dt = 5e-8;
     p->c11 = 214e9, p->c12 = 71e9, p->shear = 71e9;
     p->start = NEW("bench.points.start", CELLS_X * CELLS_Y + 1, int32_t);
@@ -187,7 +187,7 @@ struct point_probe *point_probe_make(void)
     return p;
 }
 
-void point_probe_free(struct point_probe *p)
+void microbench_points_free(struct microbench_points *p)
 {
     real *const arrays[] = {p->x,   p->y, p->vx, p->vy, p->mass, p->volume, p->sxx, p->syy,
                             p->sxy, p->m, p->px, p->py, p->fx,   p->fy,     p->ux,  p->uy};

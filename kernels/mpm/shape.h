@@ -115,7 +115,7 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
 struct cell {
-    int64_t node;                        /* index of the patch's lowest node                            */
+    int64_t node;                        /* index of the patch's lowest node */
     real place[DIM_MAX];                 /* lower corner of the cell, in node distances from the anchor */
 };
 
@@ -159,15 +159,15 @@ static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes
 /* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
 
 struct cell_stencil {
-    int32_t point[POINTS];               /* padded with the last point                                    */
-    row_of_points x[DIM_MAX];            /* position                                                  [m] */
-    row_of_points t[DIM_MAX];            /* place in the cell                                         [1] */
-    row_of_points N[ROW], D[2][ROW];   /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
-    row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D by point, of maps to nodes                    */
+    int32_t point[POINTS];               /* padded with the last point */
+    row_of_points x[DIM_MAX];            /* position [m] */
+    row_of_points t[DIM_MAX];            /* place in the cell [1] */
+    row_of_points N[ROW], D[2][ROW]; /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
+    row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D by point, of maps to nodes */
     /* factors of the rows by direction across: weights [1], slopes [1/m] */
     row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS];
-    int low[DIM_MAX][POINTS];            /* first row that each point touches (three nodes)               */
-    int lowest[DIM_MAX], end[DIM_MAX];   /* first row that any point touches; one past the last           */
+    int low[DIM_MAX][POINTS];            /* first row that each point touches (three nodes) */
+    int lowest[DIM_MAX], end[DIM_MAX];   /* first row that any point touches; one past the last */
 };
 
 /* Weights [1] of the nodes of a row at one point, and slopes in the directions along the row [1/m]. */

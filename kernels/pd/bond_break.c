@@ -7,8 +7,8 @@
 #include "kernels/kernels.h"
 #include "state_laws.h"
 
-#define LIMIT_MARGIN 1e-9        /* vectors look that much below a limit for their round-off; the scalar rule decides */
-#define ROUND_OFF 1e-14                  /* of a squared elongation, where limits are smaller than that margin tells */
+#define LIMIT_MARGIN 1e-9 /* the vector test is this much below a limit, for round-off; the scalar rule decides */
+#define ROUND_OFF 1e-14                  /* of a squared elongation: the margin where limits are close to 0 */
 
 /* Stretch of stored bond q between i and j [1]. */
 static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
@@ -30,14 +30,13 @@ static void set_flag(struct particles *p, int32_t i, int flag)
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* Half the energy of a bond [J]. Of a state-based one it is not to be had: its row loses what state_row_energy
- * tells. */
+/* Half the energy of a bond [J]; bond-based models only. State-based rows lose a difference of state_row_energy. */
 static real half_energy(const struct bonds *b, int64_t q, real stretch)
 {
     return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / fabs(b->inverse_length[q]);
 }
 
-/* A bond without weight is broken for ever; what it held must be booked before. */
+/* Sets the weight of a bond to 0, for ever; its energy must be booked before. */
 static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j)
 {
     b->w[q] = 0;
@@ -57,7 +56,7 @@ static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_
     bond_end(b, p, row, q, i, j);
 }
 
-/* Weights of a row have changed. */
+/* After a change of weights of a row. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && b->whole[row]) b->state.weighted[row] = state_weight_left(b, row);
@@ -153,7 +152,7 @@ int64_t bond_break_row_block(struct bonds *b, struct particles *p, const struct 
 }
 
 /* Padding rows follow the last row, whose kind they have. */
-bool bond_break_asks(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+bool bond_break_needs_states(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     bool asks = false;
     if (!b->state.modulus) return false;

@@ -9,7 +9,7 @@ enum { COLUMNS_AHEAD = 40 };               /* prefetched this far ahead: about 2
 
 /* What a column's bonds share: nothing; neighbours in a row, with lengths of the lattice; their weight too; all but
  * the weight with other row blocks; all with other row blocks; and that weight is one, as it is inside a body: 5 to 7 %
- * less time for forces, energy and stress of bonds in the plane. Drawn in bonds/bond_storage.h. */
+ * less time for forces, energy and stress of bonds in the plane. Table in bonds/bond_storage.h. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
 /* Eight bonds, entries number LANES on of what bonds store. Its kind is a constant wherever it is visited. */
@@ -17,8 +17,8 @@ struct column {
     const struct bonds *b;
     int64_t number;
     int64_t first;                       /* neighbour of lane 0; COLUMN_FREE: maybe < 0 */
-    const struct stencil_column *stencil;  /* of COLUMN_STENCIL and on                    */
-    const real *w;                       /* of COLUMN_STENCIL: of the lanes             */
+    const struct stencil_column *stencil; /* of COLUMN_STENCIL and on */
+    const real *w;                       /* of COLUMN_STENCIL: of the lanes */
     enum column_kind kind;
 };
 
@@ -63,7 +63,7 @@ static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t numb
                 VISIT(column_of(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                                   \
     } while (0)
 
-/* Of the neighbours. */
+/* Values of `from` at the eight neighbours. */
 static ALWAYS_INLINE lanes column_at(const struct column s, const real *from)
 {
     return s.kind ? lanes_load(from + s.first) : lanes_at(from, (int32_t)s.first, s.b->nbr + s.number * LANES);

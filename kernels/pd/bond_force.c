@@ -4,7 +4,7 @@
  *
  * Eight rows at a time, column by column; a row is written by its own lane only, so no second writer exists and the
  * result does not depend on threads. Both ends compute the same stretch from the same numbers with the same
- * operations (a difference and its negative), so both rows break a bond in the same step without talking. */
+ * operations (a difference and its negative), so both rows break a bond in the same step without communication. */
 #include <math.h>
 
 #include "bond_laws.h"

@@ -8,9 +8,9 @@
  *     E(u) = sum of the energies W_i of the body's own rows, images following their sources,
  *     f_i += T_ig,   f_j -= P^T T_ig    for every image g of j in the row of i
  *
- * with T_ig what W_i alone gives. A bond that knows but itself has half its force from either end: half of what the
- * sweep gave i belongs to the row that the image does not have. State-based rows see clamped images that know
- * nothing, so theirs is T_ig. */
+ * with T_ig what W_i alone gives. In a bond-based model half of a bond's force comes from either end: half of
+ * what the sweep gave i belongs to the row that the image does not have. In a state-based model clamped images have no
+ * state, so the sweep gave T_ig. */
 #include "bond_laws.h"
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
@@ -56,14 +56,14 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
     const struct across a = across_of(c, p, k, dim);
     const lanes r = lanes_inverse_root(lanes_choose(a.w > 0.0, a.inverse_length * a.inverse_length, lanes_of(1)));
     const lanes spring = lanes_gather(t->spring, c->from + k);
-    lanes along = r * lanes_gather(t->pressure, c->from + k), rotation[ROTATION_NUMBERS], xi[DIM_MAX],
+    lanes along = r * lanes_gather(t->pressure, c->from + k), rotation[ROTATION], xi[DIM_MAX],
           effective[DIM_MAX];
     if (!rotates) along += r * a.stretch * spring;
     for (int d = 0; d < dim; d++) {
         xi[d] = lanes_gather(p->X[d], c->to + k) - lanes_gather(p->X[d], c->from + k);
         effective[d] = rotates ? spring * (a.y[d] - xi[d]) : lanes_of(0);
     }
-    for (int e = 0; rotates && e < ROTATION_NUMBERS; e++) rotation[e] = lanes_gather(t->rotation[e], c->from + k);
+    for (int e = 0; rotates && e < ROTATION; e++) rotation[e] = lanes_gather(t->rotation[e], c->from + k);
     if (rotates) rotate_back(effective, rotation, xi, dim);
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }

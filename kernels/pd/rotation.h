@@ -20,16 +20,16 @@
 static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
 {
     const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};
-    const lanes size[ROTATION_NUMBERS] = {1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8], 1.0 - R[0] - R[4] + R[8],
+    const lanes size[ROTATION] = {1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8], 1.0 - R[0] - R[4] + R[8],
                               1.0 + R[0] + R[4] + R[8]};
-    const lanes rows[3][ROTATION_NUMBERS] = {{size[0], even[0], even[2], odd[0]},
+    const lanes rows[3][ROTATION] = {{size[0], even[0], even[2], odd[0]},
                                  {even[0], size[1], even[1], odd[1]},
                                  {even[2], even[1], size[2], odd[2]}};
     lanes largest = size[3];
-    for (int c = 0; c < ROTATION_NUMBERS; c++) row[c] = c < 3 ? odd[c] : size[3];
+    for (int c = 0; c < ROTATION; c++) row[c] = c < 3 ? odd[c] : size[3];
     for (int k = 0; k < 3; k++) {
         const lanes_mask larger = size[k] > largest;
-        for (int c = 0; c < ROTATION_NUMBERS; c++) row[c] = lanes_choose(larger, rows[k][c], row[c]);
+        for (int c = 0; c < ROTATION; c++) row[c] = lanes_choose(larger, rows[k][c], row[c]);
         largest = lanes_choose(larger, size[k], largest);
     }
     return largest;
@@ -39,12 +39,12 @@ static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
 static ALWAYS_INLINE void rotation_make(lanes *rotation, const lanes *R, lanes spring, const int dim)
 {
     if (dim == 2) {
-        for (int c = 0; c < ROTATION_NUMBERS; c++) rotation[c] = spring * (R[c] - (c % 3 == 0 ? 1.0 : 0.0));
+        for (int c = 0; c < ROTATION; c++) rotation[c] = spring * (R[c] - (c % 3 == 0 ? 1.0 : 0.0));
         return;
     }
     const lanes size = quaternion_row(R, rotation),
                 scale = spring * lanes_inverse_root(2.0 * spring * size + TURN_TINY);
-    for (int c = 0; c < ROTATION_NUMBERS; c++) rotation[c] *= scale;
+    for (int c = 0; c < ROTATION; c++) rotation[c] *= scale;
 }
 
 /* f less g (R - 1) arm. The matrix in the plane is (a, -c; c, a). */

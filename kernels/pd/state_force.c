@@ -1,5 +1,6 @@
-/* Forces of state-based peridynamics: a sweep over the rows for what particles know of their families, one
- * over their bonds for the forces (state_laws.h). Owner computes in both; the same bits on any number of threads. */
+/* Forces of state-based peridynamics: a sweep over the rows for the states of families (pressure, spring,
+ * rotation), one over their bonds for the forces (state_laws.h). Owner computes in both; the same bits on any number of
+ * threads. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +12,7 @@
 #include "rotation.h"
 #include "kernels/simd/variants.h"
 
-/* ---- first sweep: what a particle knows of its family ------------------------------------------------------------ */
+/* ---- first sweep: states of families ----------------------------------------------------------------------------- */
 
 /* Sums over the families of a row block; `stretch` is the largest [1], `moved` has bits where a particle has left
  * its reference place: an undeformed family has no rotation, to the last bit. */
@@ -61,9 +62,9 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     return f;
 }
 
-struct family_state { lanes pressure, spring, rotation[ROTATION_NUMBERS]; };
+struct family_state { lanes pressure, spring, rotation[ROTATION]; };
 
-/* What the rows of a row block know. */
+/* Stores the states of a row block. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -72,7 +73,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
     struct state *t = &b->state;
     rows_store(t->pressure, row, rows, b->aligned[g], k->pressure, 1);
     rows_store(t->spring, row, rows, b->aligned[g], k->spring, 1);
-    for (int c = 0; state_rotates(model) && c < ROTATION_NUMBERS; c++)
+    for (int c = 0; state_rotates(model) && c < ROTATION; c++)
         rows_store(t->rotation[c], row, rows, b->aligned[g], k->rotation[c], 1);
 }
 
@@ -97,7 +98,7 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
         rotation[1] = -rotation[2];
         return;
     }
-    for (int c = 0; c < ROTATION_NUMBERS; c++)
+    for (int c = 0; c < ROTATION; c++)
         rotation[c] = (c < 3 ? axis : scale) * lanes_at(p->end_rotation[c], own, row);
 }
 
@@ -105,9 +106,9 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)
 {
-    lanes N[DIM_MAX][DIM_MAX], rotation[ROTATION_NUMBERS], turned = lanes_of(0);
+    lanes N[DIM_MAX][DIM_MAX], rotation[ROTATION], turned = lanes_of(0);
     ends_rotate(p, row, own, spring, true, rotation, dim);
-    for (int c = 0; c < ROTATION_NUMBERS; c++) turned += dim == 2 || c < 3 ? rotation[c] * rotation[c] : lanes_of(0);
+    for (int c = 0; c < ROTATION; c++) turned += dim == 2 || c < 3 ? rotation[c] * rotation[c] : lanes_of(0);
     for (int c = 0; c < dim; c++) {              /* less g (R^T - 1) of a column of M, and g times that column */
         lanes less[DIM_MAX], column[DIM_MAX];
         for (int d = 0; d < dim; d++) column[d] = sum->moment[d * dim + c], less[d] = lanes_of(0);
@@ -121,8 +122,8 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     }
 }
 
-/* A material point has a family like all others, of which bonds know a part and its cells the rest: S is the sum of
- * both. */
+/* A material point has a family like all others, measured by its bonds in part and by its cells for the rest: S is the
+ * sum of both. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -134,15 +135,15 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
     const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_of(0));
     rows_store(p->end_pull, row, rows, own >= 0, pull, 1);
     if (!state_rotates(model)) return;
-    lanes rotation[ROTATION_NUMBERS];
+    lanes rotation[ROTATION];
     ends_rotate(p, row, own, k->spring, false, rotation, dim);
-    for (int c = 0; c < ROTATION_NUMBERS; c++) k->rotation[c] = lanes_choose(end, rotation[c], k->rotation[c]);
+    for (int c = 0; c < ROTATION; c++) k->rotation[c] = lanes_choose(end, rotation[c], k->rotation[c]);
     ends_moment(p, row, rows, own, end, sum, k->spring, dim);
 }
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* What a row block's sums tell its particles. */
+/* States of a row block from its sums. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -181,8 +182,8 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     precompute_by_family(b, p, g, &sum, dim, model);
 }
 
-/* Mirror images know what their source knows; a plane of symmetry turns rotations round. What clamped ones would
- * answer is brought back to their source by clamp_force.c, so they know nothing. */
+/* Mirror images take the state of their source; a plane of symmetry reverses rotations. Images in clamped planes have
+ * no state: clamp_force.c brings their reaction back to the source. */
 static void state_of_images(struct bonds *b, const struct particles *p, int dim, bool rotates)
 {
     for (int64_t g = p->n; g < p->n_all; g++) {
@@ -191,7 +192,7 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
         const bool has_state = axis >= 0;
         b->state.pressure[g] = has_state ? b->state.pressure[i] : 0;
         b->state.spring[g] = has_state ? b->state.spring[i] : 0;
-        for (int c = 0; rotates && c < ROTATION_NUMBERS; c++)
+        for (int c = 0; rotates && c < ROTATION; c++)
             b->state.rotation[c][g] = !has_state                             ? 0
                                       : rotation_antisymmetric(c, axis, dim) ? -b->state.rotation[c][i]
                                                                              : b->state.rotation[c][i];
@@ -225,8 +226,8 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         return;
     }
     const lanes along = state_weight(column, w, s.inverse_length, false) * pressure * inverse, weighted = w * spring;
-    lanes rotation[ROTATION_NUMBERS], arm[DIM_MAX], f[DIM_MAX];
-    for (int c = 0; c < ROTATION_NUMBERS; c++)
+    lanes rotation[ROTATION], arm[DIM_MAX], f[DIM_MAX];
+    for (int c = 0; c < ROTATION; c++)
         if (rotation_reads(c, dim)) rotation[c] = column_at(column, t->rotation[c]);
     for (int d = 0; d < dim; d++) {
         arm[d] = column_weighted_reference(column, d, w, s.xi[d]);
@@ -255,8 +256,8 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     if (state_rotates(model)) {
-        lanes rotation[ROTATION_NUMBERS];
-        for (int c = 0; c < ROTATION_NUMBERS; c++) rotation[c] = lanes_at(t->rotation[c], own, row);
+        lanes rotation[ROTATION];
+        for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_at(t->rotation[c], own, row);
         rotate_back(sum.f, rotation, sum.arm, dim);
     }
     for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d], share);
@@ -274,17 +275,16 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
 }
 
 #define INSTANCE(D, M)                                                                                                 \
-    static void state_know_##D##d_##M(struct bonds *b, struct particles *p)                                            \
+    static void state_precompute_##D##d_##M(struct bonds *b, struct particles *p)                                      \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)")                                                                   \
-        for (int64_t k = 0; k < b->active.active; k++)                                                                 \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < b->active.active; k++)                    \
             precompute_row_block(b, p, b->active.list[k], D, PD_##M);                                                  \
         state_of_images(b, p, D, state_rotates(PD_##M));                                                               \
     }                                                                                                                  \
     static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,        \
                                           struct pd_motion *m)                                                         \
     {                                                                                                                  \
-        state_know_##D##d_##M(b, p);                                                                                   \
+        state_precompute_##D##d_##M(b, p);                                                                             \
         SWEEP(b, p, m, D, force_and_break(b, p, limit, row_block, D, PD_##M));                                         \
     }
 STATE_VARIANTS(INSTANCE)
@@ -292,5 +292,5 @@ STATE_VARIANTS(INSTANCE)
 #define ENTRY(D, M) [D][PD_##M] = state_force_##D##d_##M,
 bond_force_fn *const state_force_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(ENTRY)};
 
-#define KNOW(D, M) [D][PD_##M] = state_know_##D##d_##M,
-state_precompute_fn *const state_precompute_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(KNOW)};
+#define PRECOMPUTE(D, M) [D][PD_##M] = state_precompute_##D##d_##M,
+state_precompute_fn *const state_precompute_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIANTS(PRECOMPUTE)};

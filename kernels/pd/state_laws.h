@@ -87,9 +87,9 @@ static inline real state_own_force(const struct bonds *b, const struct particles
     energy = 0.5 * w * along * e;
     for (int d = 0; d < dim; d++) T[d] = w * along * y[d] / length;
     if (!rotates) return energy;
-    lanes effective[DIM_MAX], arm[DIM_MAX], rotation[ROTATION_NUMBERS];          /* eight times the same */
+    lanes effective[DIM_MAX], arm[DIM_MAX], rotation[ROTATION];          /* eight times the same */
     real effective2 = 0;
-    for (int c = 0; c < ROTATION_NUMBERS; c++) rotation[c] = lanes_of(t->rotation[c][i]);
+    for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_of(t->rotation[c][i]);
     for (int d = 0; d < dim; d++) effective[d] = lanes_of(t->spring[i] * (y[d] - xi[d])), arm[d] = lanes_of(xi[d]);
     rotate_back(effective, rotation, arm, dim);
     for (int d = 0; d < dim; d++) T[d] += w * effective[d][0], effective2 += square(effective[d][0]);

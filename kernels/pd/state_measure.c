@@ -13,7 +13,7 @@
 #include "kernels/simd/variants.h"
 
 /* What a row block's own force states rest on. */
-struct own_state { lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION_NUMBERS]; };
+struct own_state { lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION]; };
 
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
                                                    const int dim, const bool rotates)
@@ -23,7 +23,7 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
     struct own_state s;
     s.pressure = lanes_at(t->pressure, own, row), s.spring = lanes_at(t->spring, own, row);
     for (int d = 0; d < dim; d++) s.x[d] = lanes_at(p->x[d], own, row), s.X[d] = lanes_at(p->X[d], own, row);
-    for (int c = 0; rotates && c < ROTATION_NUMBERS; c++) s.rotation[c] = lanes_at(t->rotation[c], own, row);
+    for (int c = 0; rotates && c < ROTATION; c++) s.rotation[c] = lanes_at(t->rotation[c], own, row);
     return s;
 }
 

@@ -18,8 +18,8 @@ enum {
 
 /* A thread's part of the list of row blocks. */
 struct sweep {
-    const int32_t *row_block;                /* active row blocks, ascending                                     */
-    int64_t first, end, all;             /* its part; of all                                                 */
+    const int32_t *row_block;            /* active row blocks, ascending */
+    int64_t first, end, all;             /* its part; of all */
     int64_t early, next;                 /* the first that may move before the others are done; that moves next */
     bool diverged;
 };

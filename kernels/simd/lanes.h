@@ -1,6 +1,6 @@
 /* Eight doubles as one value. Written with the compiler's vector extension, so the same source becomes
  * AVX-512, AVX2 or SSE code. Where AVX-512 has one instruction for what is several elsewhere, it is named, beside a
- * twin for narrower vectors. The twins work with signs and bits: comparisons of eight doubles become eight
+ * version for narrower vectors. Those work with signs and bits: comparisons of eight doubles become eight
  * comparisons there. */
 #ifndef CLEAVE_KERNELS_LANES
 #define CLEAVE_KERNELS_LANES

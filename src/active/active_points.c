@@ -12,11 +12,11 @@ static bool active_points_is_inactive(const struct loads *l, const struct partic
                                       int32_t i, bool has_gradient)
 {
     const int dim = p->dim;
-    bool quiet = !is_loaded(l, i) && (!b->row_of || b->row_of[i] < 0);
-    for (int d = 0; d < dim && quiet; d++) quiet = bits_equal(p->v[d][i], 0) && p->f[d][i] == 0;
-    for (int c = 0; c < dim * (dim + 1) / 2 && quiet; c++) quiet = bits_equal(p->stress[c][i], 0);
-    for (int c = 0; has_gradient && c < dim * dim && quiet; c++) quiet = bits_equal(p->gradient[c][i], 0);
-    return quiet;
+    bool inactive = !is_loaded(l, i) && (!b->row_of || b->row_of[i] < 0);
+    for (int d = 0; d < dim && inactive; d++) inactive = bits_equal(p->v[d][i], 0) && p->f[d][i] == 0;
+    for (int c = 0; c < dim * (dim + 1) / 2 && inactive; c++) inactive = bits_equal(p->stress[c][i], 0);
+    for (int c = 0; has_gradient && c < dim * dim && inactive; c++) inactive = bits_equal(p->gradient[c][i], 0);
+    return inactive;
 }
 
 static int64_t active_points_cell_of(const struct grid *g, const struct particles *p, int32_t i)
@@ -55,28 +55,28 @@ static int64_t active_points_reach_of(const struct grid *g, enum shape shape, en
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Cells that were left out until now are as quiet as they were. */
+/* Cells that were left out until now are still inactive. */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
-    memset(r->busy, 0, (size_t)g->n);
+    memset(r->active_cell, 0, (size_t)g->n);
 #pragma omp parallel for schedule(static)
     for (int32_t c = 0; c < now->cells; c++) {
-        bool quiet = true;
-        for (int32_t k = now->cell_start[c]; k < now->cell_start[c + 1] && quiet; k++)
-            quiet = active_points_is_inactive(l, p, b, now->particle[k], has_gradient);
-        if (!quiet) r->busy[active_points_cell_of(g, p, now->particle[now->cell_start[c]])] = 1;
+        bool inactive = true;
+        for (int32_t k = now->cell_start[c]; k < now->cell_start[c + 1] && inactive; k++)
+            inactive = active_points_is_inactive(l, p, b, now->particle[k], has_gradient);
+        if (!inactive) r->active_cell[active_points_cell_of(g, p, now->particle[now->cell_start[c]])] = 1;
     }
     for (int64_t k = 0; k < g->walls; k++)
-        if (moves(l, g->wall[k].load)) r->busy[g->wall[k].node] = 1;
+        if (moves(l, g->wall[k].load)) r->active_cell[g->wall[k].node] = 1;
 }
 
 static void make_room(struct active_points *r, const struct grid *g)
 {
     if (r->nodes >= g->n) return;
-    memory_free(r->busy), memory_free(r->near);
+    memory_free(r->active_cell), memory_free(r->near);
     r->nodes = g->n;
-    r->busy = NEW("active_set.busy", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
+    r->active_cell = NEW("active_set.active_cell", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
 }
 
 /* The cells of `all` that are marked, in their order. */
@@ -91,7 +91,7 @@ static void active_points_take(struct active_points *r, const struct transfer_or
         a->block_start[block] = (int32_t)a->n, a->block_cell[block] = a->cells;
         for (int32_t c = all->block_cell[block]; c < all->block_cell[block + 1]; c++) {
             const int32_t *list = all->particle + all->cell_start[c], n = all->cell_start[c + 1] - all->cell_start[c];
-            if (!r->busy[active_points_cell_of(g, p, list[0])]) continue;
+            if (!r->active_cell[active_points_cell_of(g, p, list[0])]) continue;
             a->cell_start[a->cells++] = (int32_t)a->n;
             memcpy(a->particle + a->n, list, (size_t)n * sizeof *list);
             a->n += n;
@@ -110,9 +110,9 @@ const struct transfer_order *active_points_update(struct active_points *r, const
     make_room(r, grid);
     active_points_mark(r, now, p, grid, b, l, transfer == TRANSFER_APIC);
     for (int d = 0; d < grid->dim; d++) {
-        uint8_t *from = r->busy;
+        uint8_t *from = r->active_cell;
         widen(grid, from, r->near, d, reach);
-        r->busy = r->near, r->near = from;
+        r->active_cell = r->near, r->near = from;
     }
     active_points_take(r, all, p, grid);
     r->over = r->active.n == all->n;
@@ -122,7 +122,7 @@ const struct transfer_order *active_points_update(struct active_points *r, const
 void active_points_free(struct active_points *r)
 {
     transfer_order_free(&r->active);
-    memory_free(r->busy);
+    memory_free(r->active_cell);
     memory_free(r->near);
     *r = (struct active_points){0};
 }

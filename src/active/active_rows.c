@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* What knows its family by places and tells it to its bonds is felt at two horizons. */
+/* Reach of a motion [levels]: forces of state-based models reach two horizons, of bond-based ones one. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
 static bool has_moved(const struct bonds *b, const struct particles *p, int64_t row_block)
@@ -14,7 +14,7 @@ static bool has_moved(const struct bonds *b, const struct particles *p, int64_t 
     return false;
 }
 
-/* Neither places, velocities nor forces differ from nothing, and nothing but bonds will move its particles. */
+/* Displacements, velocities and forces are zero, and nothing but bonds can move its particles. */
 static bool active_set_is_inactive(const struct bonds *b, const struct particles *p, const struct loads *l,
                                    int64_t row_block)
 {
@@ -37,7 +37,8 @@ static int64_t row_block_of(const struct bonds *b, const struct particles *p, co
 }
 
 /* Gives a row block a level, and its neighbours one less, recursively. */
-static void wake(struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block, int level)
+static void row_block_activate(struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
+                               int level)
 {
     if (b->active.level[row_block] >= level) return;
     b->active.level[row_block] = (uint8_t)level;
@@ -46,7 +47,7 @@ static void wake(struct bonds *b, const struct particles *p, const struct loads 
         column_read(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
             const int64_t next = row_block_of(b, p, l, &column, lane);
-            if (next >= 0) wake(b, p, l, next, level - 1);
+            if (next >= 0) row_block_activate(b, p, l, next, level - 1);
         }
     }
 }
@@ -67,7 +68,7 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
 
 /* Finds levels from scratch. Rows are made anew after every conversion, so row blocks that may be inactive are
  * found, not those that are active. */
-static void settle(struct bonds *b, const struct particles *p, const struct loads *l)
+static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;
 #pragma omp parallel for schedule(static)
@@ -98,7 +99,7 @@ static void active_set_follow(struct bonds *b, const struct particles *p, const 
     r->over = still == 0 && !r->resumed;
     if (moved == 0 && !r->resumed) return;
     for (int64_t k = 0; k < r->active; k++)
-        if (r->moved[r->list[k]]) wake(b, p, l, r->list[k], most);
+        if (r->moved[r->list[k]]) row_block_activate(b, p, l, r->list[k], most);
     active_set_list(r);
     r->resumed = false;
 }
@@ -109,6 +110,6 @@ void active_rows_update(struct bonds *b, const struct particles *p, const struct
         active_set_follow(b, p, l);
         return;
     }
-    settle(b, p, l);
+    row_levels_find(b, p, l);
     active_set_list(&b->active);
 }

@@ -5,10 +5,10 @@
 #include "scene/scene.h"
 
 struct run_arguments {
-    const char *scene, *folder;          /* borrowed from argv; folder NULL: default    */
-    struct scene_override *override;     /* owned; strings point into copies of argv    */
+    const char *scene, *folder;          /* borrowed from argv; folder NULL: default */
+    struct scene_override *override;     /* owned; strings point into copies of argv */
     int overrides;
-    int threads;                         /* 0: automatic                                */
+    int threads;                         /* 0: automatic */
     bool resume, overwrite, quiet;
 };
 

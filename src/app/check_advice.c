@@ -198,7 +198,7 @@ static void advise_frame(const struct engine *e, FILE *out)
         fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
         if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);
         fprintf(out, "; its material points cost a tenth to a thirtieth in frame %s\n",
-                e->scene->frame_wish ? "reference" : "auto");
+                e->scene->current_frame_key ? "reference" : "auto");
     }
 }
 

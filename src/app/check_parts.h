@@ -15,13 +15,13 @@
 enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
 struct cost {
-    double make;                         /* from the scene to step 0; by the caller                               [s] */
+    double make;                         /* from the scene to step 0; by the caller [s] */
     double step; /* a first step, samples included, whole body active; static: an iteration [s] */
-    double output;                       /* frames and checkpoints, on an idle disk [s]                       */
+    double output;                       /* frames and checkpoints, on an idle disk [s] */
     double run;                          /* whole run [s] */
     enum cost_basis basis;
     double coarser, growth;              /* SCALED: factor on the spacing; all steps over first ones [1] */
-    double all_peridynamic;        /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
+    double all_peridynamic;              /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
     double bytes;                        /* peak memory of a run without conversion [byte] */
 };
 

@@ -12,29 +12,29 @@
 
 /* A kind of problem: cases of a problem of the table that share a feature. */
 struct auto_kind {
-    const char *problem, *at;            /* in the table; at NULL: the scene gives the cases                  */
-    const char *title, *feature;         /* in words                                                          */
-    real per_resolution;                 /* spacings in the feature over the table's resolution               */
+    const char *problem, *at;            /* in the table; at NULL: the scene gives the cases */
+    const char *title, *feature;         /* in words */
+    real per_resolution;                 /* spacings in the feature over the table's resolution */
     real travel;                         /* duration x wave speed over feature, in the table's runs; 0: at rest */
     real slow;                           /* at rest: transits of the body in which loads grow (reference frame) */
-    bool smooth;                         /* error is a power of the spacing: lines may be interpolated        */
-    real ring;                           /* radius of the rings of sif probes over the feature; 0: none       */
+    bool smooth;                         /* error is a power of the spacing: lines may be interpolated */
+    real ring;                           /* radius of the rings of sif probes over the feature; 0: none */
     real known;                          /* accuracy of the reference solution: smaller errors have no meaning */
-    unsigned loads;                      /* kinds of boundaries that load it, as bits                         */
+    unsigned loads;                      /* kinds of boundaries that load it, as bits */
 };
 
 /* A scene as a problem of the table. */
 struct auto_match {
     const struct auto_kind *kind;
     int cases;
-    const char *at[3];                   /* cases, of which the worst counts                                  */
-    real feature;                        /* size of the feature [m]                                           */
-    real travel;                         /* as in struct auto_kind                                            */
-    real growth;                         /* factor on the error of the table, by distance and material [1]    */
-    real strain;                         /* largest strain by the loads, about; 0: unknown                    */
-    bool at_rest;                        /* the scene has a static solver                                     */
+    const char *at[3];                   /* cases, of which the worst counts */
+    real feature;                        /* size of the feature [m] */
+    real travel;                         /* as in struct auto_kind */
+    real growth;                         /* factor on the error of the table, by distance and material [1] */
+    real strain;                         /* largest strain by the loads, about; 0: unknown */
+    bool at_rest;                        /* the scene has a static solver */
     bool gap;                            /* its crack may be a gap of the lattice: no bond is cut or probed */
-    bool needs_bonds;                    /* has cracks, breaking bonds or probes of bonds                     */
+    bool needs_bonds;                    /* has cracks, breaking bonds or probes of bonds */
     bool points_only;                    /* the problem has fewer dimensions, where families of bonds differ */
 };
 /* Finds the problem that a scene resembles. REFUSED with the obstacle and the nearest problem, to follow the name of
@@ -49,14 +49,14 @@ real auto_spacing_fit(const struct scene *s, real h, bool even);
 
 /* A point on a line of the table: one of its runs or between two. */
 struct auto_point {
-    const struct cost_point *of;        /* gives method, keys, horizon and step                              */
-    real resolution, error, seconds;     /* as in the table                                                   */
+    const struct cost_point *of;         /* gives method, keys, horizon and step */
+    real resolution, error, seconds;     /* as in the table */
     real particles, steps;
 };
 struct auto_wish {
     const struct auto_match *match;
-    real accuracy;                       /* largest error of a point of the table [1]                         */
-    real resolution;                     /* resolution of the user's spacing; 0: free                         */
+    real accuracy;                       /* largest error of a point of the table [1] */
+    real resolution;                     /* resolution of the user's spacing; 0: free */
     bool (*allows)(const struct cost_point *p, const void *context);
     const void *context;
 };

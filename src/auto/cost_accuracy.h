@@ -12,11 +12,11 @@
 enum { TABLE_WORD = 40, TABLE_KEYS = 160 };
 
 struct cost_point {
-    char problem[TABLE_WORD], at[TABLE_WORD], method[TABLE_WORD];        /* at: its case                            */
-    real resolution;                     /* in the unit of the problem                                              */
-    real horizon;                        /* [spacings]; 0: no bonds                                                 */
-    real step;                           /* share of the critical step                                              */
-    real error, seconds;                 /* [1]; of the step loop on one thread [s]                                 */
+    char problem[TABLE_WORD], at[TABLE_WORD], method[TABLE_WORD]; /* at: its case */
+    real resolution;                     /* in the unit of the problem */
+    real horizon;                        /* [spacings]; 0: no bonds */
+    real step;                           /* share of the critical step */
+    real error, seconds;                 /* [1]; of the step loop on one thread [s] */
     real particles, steps;
     char keys[TABLE_KEYS];
 };

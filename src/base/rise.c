@@ -13,7 +13,7 @@ void rise_note(struct rise *r, int64_t step, real value)
     r->at[r->n++ % RISE_VALUES].value = value;
 }
 
-enum rise_pace rise_pace(const struct rise *r, int64_t step, real value, real *steps)
+enum rise_rate rise_rate(const struct rise *r, int64_t step, real value, real *steps)
 {
     real newer = value, older = 0, least = 0;
     *steps = INFINITY;

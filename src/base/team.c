@@ -276,7 +276,7 @@ double team_clock(void)
 
 const char *const lap_name[LAPS] = {
     [LAP_BONDS] = "bonds",     [LAP_SCATTER] = "scatter", [LAP_GRID] = "grid",     [LAP_GATHER] = "gather",
-    [LAP_CONVERT] = "convert", [LAP_WATCH] = "watch",     [LAP_OUTPUT] = "output",
+    [LAP_CONVERT] = "convert", [LAP_SAMPLE] = "sample",    [LAP_OUTPUT] = "output",
 };
 
 void laps_start(struct laps *l)

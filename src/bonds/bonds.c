@@ -12,14 +12,14 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {never, 0, false};
 
-static bool was_whole(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
+static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_root(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
 /* Rows made before can be taken over if no particle with a whole row has become a material point again. */
-static bool rows_last(const struct bonds *old, const struct particles *p)
+static bool rows_reusable(const struct bonds *old, const struct particles *p)
 {
     if (!old) return false;
     for (int64_t r = 0; r < old->rows; r++)
@@ -41,7 +41,7 @@ static void rows_complete(uint8_t *wanted, int64_t n)
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int room, uint8_t *wanted, uint8_t *fresh)
 {
-    const bool last = rows_last(old, p);
+    const bool last = rows_reusable(old, p);
     if (!last) memset(fresh, 1, (size_t)p->n);
     if (p->n_of[KIND_PD] == p->n && !last) {
         memset(wanted, 1, (size_t)p->n);
@@ -50,7 +50,7 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
     for (int64_t r = 0; last && r < old->rows; r++) wanted[old->particle[r]] = 1;
     int32_t *found = NEW("bonds.found", room, int32_t);
     for (int64_t i = 0; i < p->n_all; i++) {
-        if (p->kind[i] != KIND_PD || (last && was_whole(old, s, p, i))) continue;
+        if (p->kind[i] != KIND_PD || (last && was_whole_row(old, s, p, i))) continue;
         if (i < p->n) wanted[i] = fresh[i] = 1;
         int n = family_of(map, s, p, (int32_t)i, found, room);
         for (int k = 0; k < n; k++)
@@ -108,7 +108,7 @@ static void rows_arrays(struct bonds *b)
     b->plastic_work = NEW("bonds.plastic_work", padded, real);
     b->broken = NEW("bonds.broken", padded, int32_t);
     b->stencil = NEW("bonds.stencil", b->row_blocks, const struct stencil *);
-    b->implicit = NEW("bonds.folded", b->row_blocks, uint8_t);
+    b->implicit = NEW("bonds.implicit", b->row_blocks, uint8_t);
     b->changed = NEW("bonds.changed", b->row_blocks, uint8_t);
     active_set_make(&b->active, b->row_blocks);
 }
@@ -122,7 +122,7 @@ struct rows_pass {
     bool count;                          /* the first pass: columns are counted                     */
 };
 
-/* What has changed a row has changed every row block that it is in. */
+/* True if one of the rows was in a row block that had changed. */
 static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
@@ -148,7 +148,7 @@ static void reach_widen(int32_t *reach, int32_t distance)
     if (abs(distance) > *reach) *reach = abs(distance);
 }
 
-/* How far in the list of particles a row block's rows look; images have no rows. */
+/* How far in the list of particles a row block's rows reach; images have no rows. */
 static void note_reach(const struct rows_pass *pass, struct row_block_room *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -266,7 +266,7 @@ static void columns_place(struct bonds *b, const struct rows_pass *pass)
     columns_arrays(b, pass->maker.source, pass->maker.map->at != NULL);
 }
 
-/* What new rows have taken over is not the old ones' any more. */
+/* Detaches from `old` the arrays that the new rows reuse. */
 static void columns_leave(struct bonds *old, const struct bonds *b)
 {
     if (!old || old->w != b->w) return;

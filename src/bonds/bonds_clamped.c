@@ -79,9 +79,8 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Bonds that know but themselves have in their row the force of both its ends: the half that belongs to the image's
- * row leaves it. Of state-based ones the row has its own half only (clamped images know nothing), but for the source
- * there is nothing yet. */
+/* Bond-based: a row holds the force of both ends of a bond, and the half that belongs to the row of the image leaves
+ * it. State-based: the row holds its own half only (clamped images have no state), and the source nothing yet. */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

@@ -28,18 +28,18 @@ int family_search(const struct bond_source *s, const struct particles *p, int32_
 int family_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
               int32_t *found, int room);
 
-/* What rows are made of. `fresh`: particles whose neighbours may be others than they were in `old`. */
+/* What rows are made of. `fresh`: particles whose neighbours may differ from those in `old`. */
 struct row_maker {
-    const struct bonds *old;             /* NULL: none before                   */
+    const struct bonds *old;             /* NULL: none before */
     const struct bond_source *source;
     const struct particles *p;
     const struct pair_table *pairs;
-    const uint8_t *fresh;                /* [n]                                 */
-    const struct site_map *map;       /* `at` NULL: particles do not stand on one */
-    int room;                            /* bonds a row may have                */
+    const uint8_t *fresh;                /* [n] */
+    const struct site_map *map;          /* `at` NULL: particles do not stand on one */
+    int room;                            /* bonds a row may have */
 };
 
-/* A row that held its whole family before is the same row now; so is one whose neighbours are what they were. */
+/* True if the row of a particle is unchanged: it held its whole family before, or its neighbours are the same. */
 static inline bool row_lasts(const struct row_maker *m, int64_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
@@ -68,12 +68,12 @@ static inline bool columns_by_offset(int offsets, int longest) { return offsets 
 /* Sites of a lattice that all particles and images stand on (bonds_site_map.c). */
 struct stencil_row { int64_t site; int half; };  /* its middle from a site; bonds reach that far either side */
 struct site_map {
-    int32_t *at;                         /* [sites] particle + 1, 0 without; NULL: no lattice               */
+    int32_t *at;                         /* [sites] particle + 1, 0 without; NULL: no lattice */
     real low[DIM_MAX], spacing;
     int64_t stride[DIM_MAX];
     struct stencil_row *row;
-    int reach, rows, most;               /* most bonds that eight particles in a row can have columns for      */
-    int users;                           /* of one that is kept: rows, and rows made anew from them          */
+    int reach, rows, most;               /* most bonds that eight particles in a row can have columns for */
+    int users;                           /* of one that is kept: rows, and rows made anew from them */
     bool uniform;                        /* exact places, one volume, mass and material: bonds follow from sites */
 };
 /* Of particle i, -1 where it stands on none. */
@@ -99,13 +99,13 @@ struct regular_bonds {
 };
 void regular_bonds_make(struct regular_bonds *to, const struct site_map *l);
 void regular_bonds_free(struct regular_bonds *to);
-/* Those of particles i .. i + 7, all of which may be read at each distance. False where they are to be searched. */
+/* The bonds of particles i .. i + 7, if a neighbour exists at each distance; else false: they are to be searched. */
 bool regular_bonds(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to);
 /* A thread's memory of such (bonds_stencil_cache.c). */
 struct stencil_cache *stencil_cache_make(const struct site_map *l);
 void stencil_cache_free(struct stencil_cache *t);
-/* First particle of eight seen before whose bonds are those of i .. i + 7 to the last bit: lengths, weights and what
- * is summed over them, if none is cut. -1: none, and these are remembered. `around`: of particles, what weights
+/* First particle of an earlier row block with bitwise equal bonds to those of i .. i + 7: lengths, weights and their
+ * sums, if none is cut. -1: none, and this row block is stored. `around`: of particles, what weights
  * follow from beside them (neighbour_volume), NULL: nothing. */
 int64_t stencil_cache_find_row(const struct regular_bonds *b, const real *around, int64_t i);
 /* 1/length and weight of the bonds from particles i .. i + 7 to j .. j + 7, none of them cut. */
@@ -125,14 +125,14 @@ static inline int row_block_rows(const struct bonds *b, int64_t g)
 
 /* A thread's room for the eight rows of a row block. */
 struct row_block_room {
-    struct regular_bonds regular;        /* without a search                   */
+    struct regular_bonds regular;        /* without a search */
     int room;                            /* bonds a row may have */
     struct row row[LANES];
     int32_t *offset;                     /* [LANES room] distinct index distances */
-    struct column_copy *column;              /* [LANES room] of a row block            */
-    struct stencil stencil;              /* what they make                     */
-    const struct stencil *likely;        /* that of the row block before           */
-    int32_t reach;                       /* farthest index distance so far     */
+    struct column_copy *column;          /* [LANES room] of a row block */
+    struct stencil stencil;              /* what they make */
+    const struct stencil *likely;        /* that of the row block before */
+    int32_t reach;                       /* farthest index distance so far */
 };
 void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map);
 void row_block_room_free(struct row_block_room *g);
@@ -143,7 +143,7 @@ void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int
                     const struct particles *p);
 /* The same of whole rows on a lattice. */
 void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m);
-/* The last of both: the row block follows the stencil that the columns in its room make, or stores them. */
+/* After either of them: the row block follows the stencil that the columns in its room make, or stores them. */
 void row_block_store(struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p);
 
 /* Makes b->shell_length. */
@@ -152,8 +152,7 @@ void shell_lengths(struct bonds *b, real spacing);
  * none. */
 int shell_of(const struct bonds *b, const real *inverse, int16_t *excess);
 
-/* Patterns (bonds_stencils.c). */
-/* New ones, or those of rows made before. */
+/* Stencils (bonds_stencils.c): new ones, or those of rows made before. */
 struct stencils *stencils_make(struct stencils *of);
 void stencils_free(struct stencils *p);
 void stencil_make(struct stencil *p, int columns);

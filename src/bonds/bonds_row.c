@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/* Vectors look for bonds above this share of their limit, the scalar rule decides: a margin for their round-off. */
+/* The vector test finds bonds above their limit less this share, for round-off; the scalar rule decides. */
 #define TRIGGER_MARGIN 1e-9
 
 void row_room_make(struct row *row, int room)
@@ -128,7 +128,7 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Vectors look for bonds above this, a margin below their limit. */
+/* Stretch above which the vector test finds a bond: its limit less a margin. */
 real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
 {
     return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * (1 - TRIGGER_MARGIN);

@@ -26,7 +26,7 @@ int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i)
     return site;
 }
 
-/* Box of all sites, with a margin that the stencil may look into. */
+/* Box of all sites, with a margin that the stencil may read. */
 static int64_t box_sites(struct site_map *l, const struct particles *p)
 {
     real site_map = 1;

@@ -57,7 +57,7 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
     b->state.past = NEW("state.past", b->row_blocks, uint8_t);
     b->state.pressure = NEW("state.pressure", room, real);
     b->state.spring = NEW("state.spring", room, real);
-    for (int c = 0; s->rotates && c < ROTATION_NUMBERS; c++) b->state.rotation[c] = NEW("state.turn", room, real);
+    for (int c = 0; s->rotates && c < ROTATION; c++) b->state.rotation[c] = NEW("state.turn", room, real);
     b->state.image = NEW("state.image", p->n_all - p->n, struct state_image);
     for (int64_t k = 0; k < p->n_all - p->n; k++)
         b->state.image[k] = (struct state_image){s->image[k].source, s->mirror_axis[s->image[k].load]};
@@ -70,6 +70,6 @@ void state_free(struct bonds *b)
     memory_free(b->state.past);
     memory_free(b->state.pressure);
     memory_free(b->state.spring);
-    for (int c = 0; c < ROTATION_NUMBERS; c++) memory_free(b->state.rotation[c]);
+    for (int c = 0; c < ROTATION; c++) memory_free(b->state.rotation[c]);
     memory_free(b->state.image);
 }

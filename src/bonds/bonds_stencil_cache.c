@@ -15,7 +15,7 @@ struct stencil_cache {
 
 struct stencil_cache *stencil_cache_make(const struct site_map *l)
 {
-    struct stencil_cache *t = NEW("bonds.twins", 1, struct stencil_cache);
+    struct stencil_cache *t = NEW("bonds.stencil_cache", 1, struct stencil_cache);
     t->map = l;
     return t;
 }
@@ -56,9 +56,9 @@ static void remember(struct stencil_cache *t, const struct regular_bonds *b, int
     struct cached *to = &t->cached[t->next];
     if (t->n <= t->next) {
         t->n++;
-        to->bonds.offset = NEW("bonds.twins", t->map->most, int32_t);
-        to->bonds.from = NEW("bonds.twins", t->map->most, uint8_t);
-        to->bonds.to = NEW("bonds.twins", t->map->most, uint8_t);
+        to->bonds.offset = NEW("bonds.stencil_cache", t->map->most, int32_t);
+        to->bonds.from = NEW("bonds.stencil_cache", t->map->most, uint8_t);
+        to->bonds.to = NEW("bonds.stencil_cache", t->map->most, uint8_t);
     }
     to->i = i, to->bonds.n = b->n;
     memcpy(to->bonds.offset, b->offset, (size_t)b->n * sizeof *b->offset);

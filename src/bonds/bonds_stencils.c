@@ -4,11 +4,11 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-enum { PATTERNS_MOST = 2048, HASHES = 4096 };
+enum { STENCILS_MOST = 2048, HASHES = 4096 };
 
 struct stencils {
     int n, users;                        /* users: rows and rows made anew from them */
-    struct stencil stencil[PATTERNS_MOST];
+    struct stencil stencil[STENCILS_MOST];
     int32_t first[HASHES];               /* of a hash, + 1; 0: none */
 };
 
@@ -110,7 +110,7 @@ static const struct stencil *stencil_store(struct stencils *all, const struct st
     const int hash = hash_of(stencil);
     for (int32_t k = all->first[hash] - 1; k >= 0; k = all->stencil[k].next)
         if (stencils_equal(&all->stencil[k], stencil)) return &all->stencil[k];
-    if (all->n == PATTERNS_MOST) return NULL;
+    if (all->n == STENCILS_MOST) return NULL;
     struct stencil *stored = &all->stencil[all->n];
     stencil_make(stored, stencil->columns);
     memcpy(stored->column, stencil->column, (size_t)stencil->columns * sizeof *stored->column);

@@ -169,7 +169,7 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
 static int64_t conversion_rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
 {
     bonds_renew(b, p, source);
-    if (bond_break_asks(b, p, &source->limit)) states_precompute(b, p, source);
+    if (bond_break_needs_states(b, p, &source->limit)) states_precompute(b, p, source);
     return bond_break_all(b, p, &source->limit);
 }
 

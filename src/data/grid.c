@@ -93,7 +93,8 @@ void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node)
 {
     if (g->mirror_nodes == g->mirror_nodes_room) {
         int64_t room = g->mirror_nodes_room ? 2 * g->mirror_nodes_room : 256;
-        g->mirror_node = memory_resize("grid.fold", g->mirror_node, g->mirror_nodes_room, room, sizeof *g->mirror_node);
+        g->mirror_node =
+            memory_resize("grid.mirror_node", g->mirror_node, g->mirror_nodes_room, room, sizeof *g->mirror_node);
         g->mirror_nodes_room = room;
     }
     g->mirror_node[g->mirror_nodes++] = *mirror_node;

@@ -18,7 +18,7 @@ static int if_out_of_plane(int dim, int optional) { return (void)dim, optional &
 static int if_ends(int dim, int optional) { return (void)dim, optional & WITH_ENDS ? 1 : 0; }
 static int if_rotates(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? ROTATION : 2) : 0; }
 static int if_moment(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? 3 : 1) : 0; }
-static int if_return(int dim, int optional) { return (void)dim, optional & WITH_RETURN ? 1 : 0; }
+static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
 #define FIELD(member, type, count, unit, meaning) \
     {#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count}

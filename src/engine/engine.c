@@ -1,5 +1,5 @@
-/* The step loop: one line for each step of the algorithm of Zeng et al. 2022 (section 4, as corrected: MUSL, leap-frog
- * start). The work is done in the kernels, loads.c and conversion.c. */
+/* The step loop: five phases. engine_step, the last function but one, says which step of the algorithm of Zeng et al.
+ * 2022 (section 4, as corrected: MUSL, leap-frog start) is in which phase. */
 #include <math.h>
 #include <string.h>
 
@@ -194,7 +194,7 @@ static status prepare(struct engine *e, struct step *now)
     e->mpm.transfer.bonded = e->coupling.bonded;      /* reversion may have freed it */
     lap(&e->report.laps, LAP_CONVERT);
     engine_sample_begin(e);
-    lap(&e->report.laps, LAP_WATCH);
+    lap(&e->report.laps, LAP_SAMPLE);
     TRY(grid_sort(e));
     now->damps = e->coupling.zone.points > 0 && e->coupling.damping_share > 0;
     if (now->damps) e->coupling.damped += interface_damp_begin(&e->coupling.zone, &e->part, e->coupling.damping_share);
@@ -212,7 +212,7 @@ static void forces(struct engine *e, struct step *now)
     lap(&e->report.laps, LAP_BONDS);
     engine_sample_energy(e);
     now->broken += grow(e);
-    lap(&e->report.laps, LAP_WATCH);
+    lap(&e->report.laps, LAP_SAMPLE);
 }
 
 /* Moves the peridynamic particles that have not moved in the sweep of forces: the loaded ones, or all. */
@@ -261,7 +261,7 @@ static void finish(struct engine *e)
     engine_sample_end(e);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
-    lap(&e->report.laps, LAP_WATCH);
+    lap(&e->report.laps, LAP_SAMPLE);
 }
 
 /* One step of the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog start):

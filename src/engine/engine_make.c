@@ -325,7 +325,7 @@ static int optional_arrays(const struct scene *s)
     for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
         if (material_yields(&s->material[m]))
             optional |= WITH_PLASTIC | (s->space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0);
-    if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_RETURN;
+    if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;
     if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND)
         optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_ROTATIONS : 0);
     return optional;

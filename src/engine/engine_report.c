@@ -156,7 +156,7 @@ status engine_report(struct engine *e)
     e->report.particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
     e->report.bond_visits += e->bonds.n;
     e->report.inactive += engine_inactive_share(e);
-    lap(&e->report.laps, LAP_WATCH);
+    lap(&e->report.laps, LAP_SAMPLE);
     /* before any checkpoint, so that a finished run has nothing left to write */
     if (e->clock.step == e->clock.steps) engine_sample_last(e);
     TRY(e->report.history_status);

@@ -19,7 +19,8 @@ void engine_sample_end(struct engine *e);
 
 /* A sample of a body at rest on which nothing has done work. */
 void engine_sample_rest(struct engine *e);
-/* The last sample, after the last step; all particles are brought up to date for callers that read them. */
+/* The last sample, after the last step. All particles are up to date after it, but for the stress of peridynamic ones
+ * (engine_stress). */
 void engine_sample_last(struct engine *e);
 
 /* Records broken bonds (`broken`: their number in this step) and calls the probes of breaks. */

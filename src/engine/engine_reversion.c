@@ -63,7 +63,7 @@ static real energy_now(struct engine *e)
 }
 
 /* Reverts the listed particles, [n], and records the change of energy. */
-static void give_back(struct engine *e, const int32_t *list, int64_t n)
+static void revert_listed(struct engine *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);
     reversion_apply(&e->coupling.conversion, &e->part, &e->bonds, &e->source,
@@ -90,6 +90,6 @@ void engine_revert(struct engine *e)
                                  .hold_time =
                                      s->conversion.hold_time * e->source.family.horizon / e->tables.wave_speed},
         &e->part, &e->bonds, e->clock.t, &list);
-    if (n > 0) give_back(e, list, n);
+    if (n > 0) revert_listed(e, list, n);
     memory_free(list);
 }

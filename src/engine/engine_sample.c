@@ -182,7 +182,7 @@ void engine_sample_energy(struct engine *e)
 }
 
 /* True if a boundary drives particles at a speed, so that velocities jump in the first step. */
-static bool sets_out(const struct scene *s)
+static bool velocity_jumps(const struct scene *s)
 {
     bool drives = false;
     for (int b = 0; b < s->boundaries; b++)
@@ -196,7 +196,7 @@ static bool sets_out(const struct scene *s)
  * and for points beside driven ones. */
 static real start_excess(const struct engine *e)
 {
-    const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !sets_out(e->scene));
+    const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !velocity_jumps(e->scene));
     return kept ? 2 * kick_now(e) : 0;
 }
 
@@ -263,7 +263,7 @@ void engine_sample_last(struct engine *e)
 {
     real held = 0;
     states_precompute(&e->bonds, &e->part, &e->source);
-    engine_mesh_sync(e);                         /* callers may read the particles from here on */
+    engine_mesh_sync(e);                         /* positions, velocities and stresses of points of the mesh */
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, &e->reference);

@@ -5,7 +5,7 @@
 
 #include "engine/engine.h"
 
-#define OWING 0.5                   /* least share of a motion by loads that explain it: speeds double at free faces */
+#define LOAD_SHARE_LEAST 0.5 /* least share of a motion by loads that explain it: speeds double at free faces */
 #define LARGE_STRAIN 0.1                 /* initial strain; its stresses are a tenth of the modulus */
 #define ENERGY_STEPS 50                  /* steps before the energy check begins */
 #define ENERGY_DOUBTFUL 0.05      /* share lost or gained that is warned of: ten times that of scenes in inputs/ */
@@ -19,7 +19,7 @@ enum { MOMENTS = 256 };                  /* samples of a function of time */
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
 /* Largest speed, or component of the velocity of a mesh's node [m/s]. */
-static real engine_stability_fastest(const struct particles *p, const struct reference_frame *reference)
+static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
     const real moving = real_max(diagnostics_fastest(p, p->list[KIND_PD], p->n_of[KIND_PD]),
                                  diagnostics_fastest(p, p->list_free, p->n_free));
@@ -66,12 +66,12 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     return mean * (clock->t - from) * sqrt(fast2);
 }
 
-/* True if initial energy and work of loads are at least OWING times the kinetic energy. */
-static bool motion_is_paid(const struct engine *e)
+/* True if initial energy and work of loads are at least LOAD_SHARE_LEAST times the kinetic energy. */
+static bool loads_explain_motion(const struct engine *e)
 {
     const real kinetic = diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh);
     const real given = e->diagnostics.energy_start + e->loads.work + e->loads.constraint_work;
-    return !isfinite(kinetic) || given >= OWING * kinetic;
+    return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
 
 /* Largest entry of the displacement gradients of the initial states. */
@@ -86,25 +86,26 @@ static real engine_stability_start_strain(const struct scene *s)
 
 /* Writes to `text` which load or initial state explains the motion; false if none does. steps: of the last tenfold
  * rise. */
-static bool blame_loads(const struct engine *e, real steps, char *text, size_t room)
+static bool load_explanation(const struct engine *e, real steps, char *text, size_t room)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3"}, *const word[] = {"velocity", "traction", "body force"};
     const real window =
         real_min((real)e->clock.step, isfinite(steps) ? real_max(ceil(steps), RISE_STRIDE) : (real)e->clock.step);
     const struct load *worst = NULL;
-    real speed = OWING * e->tables.wave_speed;
-    if (!motion_is_paid(e)) return false;
+    real speed = LOAD_SHARE_LEAST * e->tables.wave_speed;
+    if (!loads_explain_motion(e)) return false;
     if (e->stability.start_speed >= speed) {
-        snprintf(text, room,
-                 "no time step cures that: the scene starts with %.3g m/s, %.3g times the wave speed; see whether the "
-                 "velocities of "
-                 "its bodies and of `initial` are meant, and in which unit",
-                 e->stability.start_speed, e->stability.start_speed / e->tables.wave_speed);
+        snprintf(
+            text, room,
+            "no smaller time step helps: the scene starts with %.3g m/s, %.3g times the wave speed; see whether the "
+            "velocities of "
+            "its bodies and of `initial` are meant, and in which unit",
+            e->stability.start_speed, e->stability.start_speed / e->tables.wave_speed);
         return true;
     }
     if (engine_stability_start_strain(e->scene) >= LARGE_STRAIN) {
         snprintf(text, room,
-                 "no time step cures that: the scene starts strained by %.3g, and what that frees throws the body "
+                 "no smaller time step helps: the scene starts strained by %.3g, and what that frees throws the body "
                  "apart; see "
                  "whether the displacement gradients of `initial` are meant, 0.001 is a strain of 0.1 %%",
                  engine_stability_start_strain(e->scene));
@@ -119,12 +120,13 @@ static bool blame_loads(const struct engine *e, real steps, char *text, size_t r
     const real value = sqrt(dot(b->value, b->value, e->part.dim));
     char within[40] = "";
     if (b->kind != BOUNDARY_VELOCITY) snprintf(within, sizeof within, " in %.0f step%s", window, window > 1 ? "s" : "");
-    snprintf(text, room,
-             "no time step cures that: boundary %s, a %s of %.3g %s, %s its particles %.3g m/s%s, %.3g times the wave "
-             "speed, and loads "
-             "have done %.3g J of work; see whether its value is meant, and in which unit",
-             b->name, word[b->kind], value, unit[b->kind], b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed,
-             within, speed / e->tables.wave_speed, e->loads.work + e->loads.constraint_work);
+    snprintf(
+        text, room,
+        "no smaller time step helps: boundary %s, a %s of %.3g %s, %s its particles %.3g m/s%s, %.3g times the wave "
+        "speed, and loads "
+        "have done %.3g J of work; see whether its value is meant, and in which unit",
+        b->name, word[b->kind], value, unit[b->kind], b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within,
+        speed / e->tables.wave_speed, e->loads.work + e->loads.constraint_work);
     return true;
 }
 
@@ -170,14 +172,14 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
 {
     real steps;
     char others[256];
-    const enum rise_pace target_speed = rise_pace(rise, e->clock.step, value, &steps);
-    if (blame_loads(e, steps, text, room)) return;
-    if (target_speed == RISE_FAST || e->clock.dt > e->clock.dt_critical || e->scene->solver != SOLVER_EXPLICIT) {
+    const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
+    if (load_explanation(e, steps, text, room)) return;
+    if (rate == RISE_FAST || e->clock.dt > e->clock.dt_critical || e->scene->solver != SOLVER_EXPLICIT) {
         say_step(e->scene, &e->clock, text, room);
         return;
     }
     say_others(e->scene, &e->reference, &e->coupling, others, sizeof others);
-    if (target_speed == RISE_UNSURE) {
+    if (rate == RISE_UNSURE) {
         const int used = say_step(e->scene, &e->clock, text, room);
         snprintf(text + used, room - (size_t)used, "; if it is no better then, something gains energy: try %s", others);
         return;
@@ -185,7 +187,7 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
     snprintf(text, room,
              "it took %s%.0f steps to grow tenfold, and what a time step too long makes grow takes less than %d: a "
              "smaller one (now "
-             "%.2f of the critical %.3g s) need not cure it; something here gains energy: try %s, and report the scene",
+             "%.2f of the critical %.3g s) need not help; something here gains energy: try %s, and report the scene",
              isfinite(steps) ? "" : "more than ", isfinite(steps) ? steps : (real)RISE_STEPS, RISE_STEPS,
              e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
 }
@@ -198,7 +200,7 @@ status engine_divergence_check(const struct engine *e, bool peridynamic, bool me
     const status s =
         diagnostics_divergence(&e->part, peridynamic, meshed, e->tables.wave_speed, e->clock.step, e->clock.t);
     if (s == OK) return OK;
-    const real speed = engine_stability_fastest(&e->part, &e->reference), limit = e->tables.wave_speed;
+    const real speed = fastest_now(&e->part, &e->reference), limit = e->tables.wave_speed;
     engine_remedy(e, &e->stability.speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
                   sizeof remedy);
     return status_set(s, "%s; %s", status_message(), remedy);
@@ -213,7 +215,7 @@ static status inversion_check(const struct run_clock *clock, const struct partic
     const int64_t i = mesh_inverted(&reference->mesh, p);
     if (i == p->n) return OK;
     return status_set(FAILED,
-                      "folded at step %lld, t = %.3g s: at particle %d, from (%.6g, %.6g, %.6g) m, the mesh of the "
+                      "inverted at step %lld, t = %.3g s: at particle %d, from (%.6g, %.6g, %.6g) m, the mesh of the "
                       "reference frame is squeezed "
                       "through itself; choose mpm.frame: current, whose points keep their order on the grid, or see "
                       "whether loads and "
@@ -230,7 +232,7 @@ status engine_stability_check(struct engine *e)
     TRY(engine_divergence_check(e, e->stability.diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, &e->reference));
     if (e->clock.step % RISE_STRIDE == 0)
-        rise_note(&e->stability.speed, e->clock.step, square(engine_stability_fastest(&e->part, &e->reference)));
+        rise_note(&e->stability.speed, e->clock.step, square(fastest_now(&e->part, &e->reference)));
     return OK;
 }
 

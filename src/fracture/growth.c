@@ -39,7 +39,7 @@ static void target_speed_find(struct growth *g, const struct control *control, r
         const real filtered_speed = crack_speed_factor(m, SPEED_EXACT, g->filtered_speed);
         wanted = crack_speed_of_factor(m, filtered_speed * g->rule->toughness / g->intensity, most);
     }
-    g->target_speed += (wanted - g->target_speed) * -expm1(-(control->time - g->asked) / (SMOOTHING * settling));
+    g->target_speed += (wanted - g->target_speed) * -expm1(-(control->time - g->control_time) / (SMOOTHING * settling));
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
@@ -53,8 +53,8 @@ static void target_speed_update(struct growth *g, const struct control *control,
     }
     const real settling = horizon / control->medium.rayleigh;
     g->filtered_speed += (g->speed - g->filtered_speed) * -expm1(-dt / settling);
-    if (t >= g->rule->start && control->time > g->asked) target_speed_find(g, control, settling);
-    g->asked = control->time;
+    if (t >= g->rule->start && control->time > g->control_time) target_speed_find(g, control, settling);
+    g->control_time = control->time;
 }
 
 /* ---- growth and direction ---------------------------------------------------------------------------------------- */
@@ -247,7 +247,8 @@ status growth_archive(struct growth *g, int which, struct archive *a)
 {
     char name[64];
     struct {
-        real place[2], along[2], heading[2], speed, grown, start_time, intensity, target_speed, filtered_speed, asked;
+        real place[2], along[2], heading[2], speed, grown, start_time, intensity, target_speed, filtered_speed,
+            control_time;
         int64_t n;
     } s = {{g->place[0], g->place[1]},
            {g->along[0], g->along[1]},
@@ -258,14 +259,14 @@ status growth_archive(struct growth *g, int which, struct archive *a)
            g->intensity,
            g->target_speed,
            g->filtered_speed,
-           g->asked,
+           g->control_time,
            g->n};
     snprintf(name, sizeof name, "growth/%d", which);
     ARCHIVE_VALUE(a, name, s);
     for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->heading[d] = s.heading[d];
     g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
     g->intensity = s.intensity, g->target_speed = s.target_speed, g->filtered_speed = s.filtered_speed,
-    g->asked = s.asked;
+    g->control_time = s.control_time;
     if (!a->saving) {
         memory_free(g->fading);
         g->n = g->room = s.n;

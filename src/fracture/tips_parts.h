@@ -9,7 +9,7 @@ enum { TIP_BEFORE = 255 };               /* label of particles damaged by a pre-
 struct tip_search {
     const struct particles *p;
     const struct cells *c;
-    int32_t *found;                      /* indices of the last search, body and images               */
+    int32_t *found;                      /* indices of the last search, body and images */
     int room;
 };
 

@@ -10,7 +10,8 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Lists the particles that are loaded (LOADED) or have to wait for reactions of bonds across clamped planes (WAITS). */
+/* Lists the particles that are loaded (LOADED) or have to wait for reactions of bonds across clamped planes
+ * (MOVES_LATER). */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;

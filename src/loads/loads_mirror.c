@@ -148,6 +148,6 @@ void loads_mirrors_mark(struct loads *l, const struct particles *p)
         const struct boundary *clamp = l->load[b].boundary;
         for (int64_t i = 0; i < p->n && is_clamp(clamp, p->dim); i++)
             if ((clamp->body < 0 || p->body[i] == clamp->body) && fabs(p->X[clamp->axis][i] - clamp->at) <= l->reach)
-                l->loaded[i] |= WAITS;
+                l->loaded[i] |= MOVES_LATER;
     }
 }

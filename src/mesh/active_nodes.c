@@ -79,7 +79,7 @@ void active_nodes_all(struct mesh *mesh)
 }
 
 /* Finds the levels of all blocks anew. */
-static void mesh_settle(struct mesh *mesh, const struct loads *l)
+static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;
 #pragma omp parallel for schedule(static)
@@ -98,7 +98,7 @@ void active_nodes_update(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;
     if (!r->is_current) {
-        mesh_settle(mesh, l);
+        mesh_find_levels(mesh, l);
         return;
     }
     bool moved = false;

@@ -13,11 +13,11 @@ struct nodes { int64_t n; int32_t *at; };
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
                        int64_t n)
 {
-    uint8_t *mark = NEW("adopt.mark", mesh->grid.n, uint8_t);
+    uint8_t *mark = NEW("mesh_insert.mark", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < n; k++)
         for (int c = 0; c < 1 << p->dim; c++) mark[(mesh_place_of(mesh, p, list[k]) >> p->dim) + mesh->corner[c]] = 1;
     for (int64_t I = 0; I < mesh->grid.n; I++) t->n += mark[I];
-    t->at = NEW("adopt.node", t->n, int32_t);
+    t->at = NEW("mesh_insert.node", t->n, int32_t);
     t->n = 0;
     for (int64_t I = 0; I < mesh->grid.n; I++)
         if (mark[I]) t->at[t->n++] = (int32_t)I;
@@ -89,12 +89,12 @@ real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, in
     for (int64_t k = 0; k < n; k++)
         for (int d = 0; d < p->dim; d++) energy += 0.5 * p->mass[list[k]] * square(p->v[d][list[k]]);
     energy += kinetic_of(mesh, &t);
-    uint8_t *light = NEW("adopt.light", mesh->grid.n, uint8_t);
+    uint8_t *light = NEW("mesh_insert.light", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < t.n; k++) light[t.at[k]] = mesh->grid.mass[t.at[k]] == 0;
     points_enter(mesh, p, &t, list, n);
     energy -= kinetic_of(mesh, &t);
     for (int d = 0; d < p->dim; d++) {
-        u[d] = NEW("adopt.u", p->n, real);
+        u[d] = NEW("mesh_insert.u", p->n, real);
         for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
     }
     mesh_insert_nodes_start(mesh, p, light, list, n);

@@ -184,7 +184,7 @@ real diagnostics_strain_of(const struct particles *p, const struct material *m, 
     for (int64_t k = 0; k < n; k++)
         if (p->material[list[k]] >= materials) materials = p->material[list[k]] + 1;
     struct strain_sum s = {.p = p, .m = m, .partial = partial, .list = list};
-    s.compliance = memory_new("watch.compliance", materials, sizeof *s.compliance);
+    s.compliance = memory_new("diagnostics.compliance", materials, sizeof *s.compliance);
     for (int k = 0; k < materials; k++) material_compliance(&m[k], p->dim, s.compliance[k]);
     real sum = team_sum(n, strain_term, &s);
     memory_free(s.compliance);

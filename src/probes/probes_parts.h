@@ -7,36 +7,36 @@
 enum { RIGID_FIGURES = 5 };
 /* RIGID: values at the start, and the figures: the angle accumulated so far, the largest |.| of all other figures. */
 struct rigid_memory {
-    real spin, spin_scale, kinetic;      /* angular momentum, sum of |m r x v| [kg m^2/s]; [J]        */
-    real angle;                          /* [rad]                                                     */
+    real spin, spin_scale, kinetic;      /* angular momentum, sum of |m r x v| [kg m^2/s]; [J] */
+    real angle;                          /* [rad] */
     real most[RIGID_FIGURES];
 };
 
 /* State of a probe that does not follow from the state of the run. It has no padding: it goes to checkpoints byte by
  * byte. */
 struct probe_memory {
-    real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before  [s]      */
-    real place[DIM_MAX];                 /* BREAK: mean place of the cut; SPALL: [0] the plane [m]    */
-    real incident;                       /* PULSE: largest speed at the start                [m/s]    */
-    real force_max, force_square;        /* REACTION: largest |F|; sum of F^2                [N], [N^2] */
-    int64_t steps;                       /* REACTION: in that sum                                     */
-    int64_t body;                        /* SPALL: the bar that broke                                 */
-    real trail[2][2];                    /* SIF: earlier places of the tip, for its direction    [m]  */
-    real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample      */
-    real along[2];                       /* SIF: direction of the tip at the last sample              */
-    real time;                           /* SIF: of the factors                                [s]    */
-    struct rigid_memory rigid;           /* RIGID                                                     */
+    real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before [s] */
+    real place[DIM_MAX];                 /* BREAK: mean place of the cut; SPALL: [0] the plane [m] */
+    real incident;                       /* PULSE: largest speed at the start [m/s] */
+    real force_max, force_square;        /* REACTION: largest |F|; sum of F^2 [N], [N^2] */
+    int64_t steps;                       /* REACTION: in that sum */
+    int64_t body;                        /* SPALL: the bar that broke */
+    real trail[2][2];                    /* SIF: earlier places of the tip, for its direction [m] */
+    real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample */
+    real along[2];                       /* SIF: direction of the tip at the last sample */
+    real time;                           /* SIF: of the factors [s] */
+    struct rigid_memory rigid;           /* RIGID */
 };
 
 struct probe {
-    struct probe_request request;        /* its region is borrowed from the scene                     */
-    int first, columns;                  /* index of its first column in the history; their number    */
+    struct probe_request request;        /* its region is borrowed from the scene */
+    int first, columns;                  /* index of its first column in the history; their number */
     int64_t n;
     int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
     struct probe_memory memory;
-    struct bar *bar;                     /* EXACT: probes_bar.c                                       */
-    struct sif_tracked *sif;               /* SIF: probes_sif.c                                         */
-    int growth;                          /* GROWTH: which of the run                                  */
+    struct bar *bar;                     /* EXACT: probes_bar.c */
+    struct sif_tracked *sif;             /* SIF: probes_sif.c */
+    int growth;                          /* GROWTH: which of the run */
 };
 
 /* ---- readings of a single particle: POINT and LINE --------------------------------------------------------------- */
@@ -105,8 +105,8 @@ struct bar {
     struct exact exact;
     int64_t n;
     int32_t *order, *rank;               /* particles from left to right; place of a particle among them */
-    real *displacement, *velocity;       /* [n] by rank, from bar_measure                          [m], [m/s] */
-    real *flux, *strain;                 /* [n] the stress by bond flux [Pa]; du/dx [1]               */
+    real *displacement, *velocity;       /* [n] by rank, from bar_measure [m], [m/s] */
+    real *flux, *strain;                 /* [n] the stress by bond flux [Pa]; du/dx [1] */
 };
 
 /* Finds the bar, its ends and its load; refuses what the closed form does not describe. */

@@ -81,10 +81,11 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     for (int k = 0; k < o->growths; k++) {
         const struct growth_rule *g = o->growth[k].rule;
         if (strcmp(g->probe, r->name) == 0 && k != w->growth)
-            return status_set(REFUSED,
-                              "probe \"%s\": it rules %s but watches the tip at (%.6g, %.6g) m; at: [%.6g m, %.6g m] "
-                              "is expected",
-                              r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
+            return status_set(
+                REFUSED,
+                "probe \"%s\": it controls %s but measures the tip at (%.6g, %.6g) m; at: [%.6g m, %.6g m] "
+                "is expected",
+                r->name, g->name, w->tip.place[0], w->tip.place[1], g->at[0], g->at[1]);
     }
     return OK;
 }

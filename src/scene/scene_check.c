@@ -113,7 +113,7 @@ const char *scene_frame_not_default(const struct scene *s, int body)
 
 /* Why the keys of the scene require the current frame: the name of one that has no meaning in the reference frame.
  * NULL: none. */
-static const char *frame_wish(const struct scene *s)
+static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene says mpm.shape, which frame reference knows nothing of";
     if (s->has_transfer) return "the scene says mpm.transfer, which frame reference knows nothing of";
@@ -128,12 +128,12 @@ static const char *frame_wish(const struct scene *s)
 void resolve_frames(struct scene *s)
 {
     bool open = false;
-    s->frame_wish = frame_wish(s);
+    s->current_frame_key = current_frame_key(s);
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
         if (body->frame == FRAME_AUTO && s->method != METHOD_PD) {
             body->frame_reason = scene_frame_not_default(s, b);
-            if (!body->frame_reason) body->frame_reason = s->frame_wish;
+            if (!body->frame_reason) body->frame_reason = s->current_frame_key;
             if (body->frame_reason) body->frame = FRAME_CURRENT;
         }
         open |= body->frame == FRAME_AUTO;
@@ -199,7 +199,7 @@ status check_solver(struct reader *r, const struct node *root)
                          shown(r, solver), s->material[m].name);
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
-            return fault(r, solver, "%s has no steps for probe %s to watch; explicit is expected", shown(r, solver),
+            return fault(r, solver, "%s has no steps for probe %s to measure; explicit is expected", shown(r, solver),
                          s->probe[k].name);
     return OK;
 }

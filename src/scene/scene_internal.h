@@ -10,25 +10,25 @@ enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
 struct node {
     enum node_kind kind;
-    int line, column;                    /* of the key, or of an item without a key; from 1           */
-    int origin;                          /* number of the override it came from; -1: the file         */
-    int n;                               /* entries of a list or map                                  */
-    char *key;                           /* NULL: the root or an item of a list                       */
-    char *text;                          /* of a scalar, without quotes; else ""                      */
+    int line, column;                    /* of the key, or of an item without a key; from 1 */
+    int origin;                          /* number of the override it came from; -1: the file */
+    int n;                               /* entries of a list or map */
+    char *key;                           /* NULL: the root or an item of a list */
+    char *text;                          /* of a scalar, without quotes; else "" */
     struct node *parent, *first, *last, *next;
 };
 
 struct arena_block;
 
 struct reader {
-    const char *name;                    /* of the file, for messages                                 */
+    const char *name;                    /* of the file, for messages */
     const struct scene_override *override;
     int overrides;
-    struct scene *scene;                 /* being filled                                              */
+    struct scene *scene;                 /* being filled */
     int dim;
-    bool bounded;                        /* solids being read belong to a body: no infinite bounds    */
-    bool files;                          /* check that particle lists exist                           */
-    struct arena_block *arena;           /* nodes and texts of this reading                           */
+    bool bounded;                        /* solids being read belong to a body: no infinite bounds */
+    bool files;                          /* check that particle lists exist */
+    struct arena_block *arena;           /* nodes and texts of this reading */
 };
 
 /* Memory that lasts until arena_free, zeroed. */
@@ -86,15 +86,15 @@ struct key {
     const char *path;
     enum key_type type;
     enum unit unit;
-    size_t place, size;                  /* 1 + offset in its group's struct and bytes; 0: no place   */
+    size_t place, size;                  /* 1 + offset in its group's struct and bytes; 0: no place */
     struct range range;
     const char *fallback;                /* as text; "required"; "-": none; "(..)": explained, set by code */
     const char *help;
     const char *words;                   /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; HAND: form */
-    const char *low;                     /* complaint about a value below the range                   */
-    size_t has;                          /* 1 + offset of the bool that is set if the key is given    */
-    real word_value;                     /* REAL: value of the word                                   */
-    bool infinite;                       /* inf is allowed                                            */
+    const char *low;                     /* complaint about a value below the range */
+    size_t has;                          /* 1 + offset of the bool that is set if the key is given */
+    real word_value;                     /* REAL: value of the word */
+    bool infinite;                       /* inf is allowed */
     bool of_process;                     /* limits a process, not what it computes: no part of the echo */
 };
 extern const struct key keys[];

@@ -239,7 +239,8 @@ const struct key keys[] = {
     KEY("growth.exponent", KEY_REAL, UNIT_NONE, AT(growth_rule, exponent), ABOVE(0), "4",
         "fades as (1 - growth/damping)^exponent"),
     KEY("growth.probe", KEY_NAME, UNIT_NONE, AT(growth_rule, probe), ANY, "(none)",
-        "name of the sif probe that rules it: grows while K_eq is at least toughness, towards the largest hoop stress"),
+        "name of the sif probe that controls it: grows while K_eq is at least toughness, towards the largest hoop "
+        "stress"),
     KEY("growth.toughness", KEY_REAL, UNIT_TOUGHNESS, AT(growth_rule, toughness), FROM(0), "0 Pa m^0.5",
         "K_Ic (with probe)"),
     KEY("growth.smoothing", KEY_REAL, UNIT_LENGTH, AT(growth_rule, smoothing), FROM(0), "quarter",
@@ -347,7 +348,7 @@ const struct key keys[] = {
     KEY("output.compress", KEY_FLAG, UNIT_NONE, AT(scene, compress), ANY, "false", "gzip the frames (slow)"),
 
     KEY("probes", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
-        "what is watched: kinds, or mappings kind: {keys}"),
+        "what is measured: kinds, or mappings kind: {keys}"),
     KEY("probes.tip", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "a crack tip: the longest, or the one nearest to at"),
     KEY("probes.tip.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(tip)", "name in the results"),
     KEY("probes.tip.at", KEY_POINT, UNIT_LENGTH, AT(probe_request, at), ANY, "(the longest)", "near where it starts",

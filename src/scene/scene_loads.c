@@ -244,7 +244,7 @@ static status check_probe_boundary(struct reader *r, const struct node *n, const
     const struct scene *s = r->scene;
     int nearest = 0;
     if (p->kind != PROBE_REACTION) return OK;
-    if (s->boundaries == 0) return fault(r, n, "there is no boundary condition to watch; boundary is expected");
+    if (s->boundaries == 0) return fault(r, n, "there is no boundary condition to measure; boundary is expected");
     for (int k = 0; k < s->boundaries; k++) {
         if (strcmp(s->boundary[k].name, p->boundary) == 0) return OK;
         if (edit_distance(s->boundary[k].name, p->boundary) < edit_distance(s->boundary[nearest].name, p->boundary))

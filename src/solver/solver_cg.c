@@ -88,7 +88,7 @@ static void solver_cg_start(struct solver *s, const struct static_body *body)
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < s->n; i++) s->u.of[d][i] = p->x[d][i] - p->X[d][i] + s->driven.of[d][i];
     s->strain_ratio = s->u_ratio = 1 / body->spacing;
-    s->least = INFINITY;
+    s->best = INFINITY;
     true_residual(s, body);
     restart(s, p);
 }
@@ -131,15 +131,15 @@ static status check(struct solver *s, const struct static_body *body, int64_t st
     *done = s->residual <= body->tolerance;
     if (*done) solver_cg_place(s, body);
     if (*done || s->residual * s->scale <= 2 * by_recurrence) return OK;
-    s->stalls = s->residual < 0.5 * s->least ? 0 : s->stalls + 1;
-    s->least = real_min(s->least, s->residual);
+    s->stalls = s->residual < 0.5 * s->best ? 0 : s->stalls + 1;
+    s->best = real_min(s->best, s->residual);
     restart(s, body->part);
     if (s->stalls < STALLS_MOST) return OK;
     return status_set(FAILED,
                       "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
                       "wanted; choose a larger solver_tolerance (below 1e-8 it is round-off), or see whether "
                       "moments of the loads are balanced",
-                      (long long)step, s->least, body->tolerance);
+                      (long long)step, s->best, body->tolerance);
 }
 
 status cg_step(struct solver *s, const struct static_body *body, int64_t step, bool *done)

@@ -222,14 +222,14 @@ status solver_archive(struct solver *s, struct archive *a)
     ARCHIVE_VALUE(a, "solver/residual", s->residual);
     ARCHIVE_VALUE(a, "solver/scale", s->scale);
     ARCHIVE_VALUE(a, "solver/first", s->first);
-    ARCHIVE_VALUE(a, "solver/way", s->way);
+    ARCHIVE_VALUE(a, "solver/way", s->farthest);
     ARCHIVE_VALUE(a, "solver/damping", s->damping);
     ARCHIVE_VALUE(a, "solver/past_limit", s->past_limit);
     if (!s->u.of[0]) return OK;
     ARCHIVE_VALUE(a, "solver/rz", s->rz);
     ARCHIVE_VALUE(a, "solver/strain_ratio", s->strain_ratio);
     ARCHIVE_VALUE(a, "solver/u_ratio", s->u_ratio);
-    ARCHIVE_VALUE(a, "solver/least", s->least);
+    ARCHIVE_VALUE(a, "solver/least", s->best);
     ARCHIVE_VALUE(a, "solver/stalls", s->stalls);
     TRY(field_archive(&s->u, a, "u", s));
     TRY(field_archive(&s->r, a, "r", s));

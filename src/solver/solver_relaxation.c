@@ -70,9 +70,9 @@ status relaxation_step(struct solver *s, const struct static_body *body, int64_t
     loads_static_hold(body->loads, p);
     team_sums(p->n, 3, damping_block, &(struct relaxing){s, p}, sum);
     /* small forces alone also occur in a body that swings through its equilibrium */
-    s->way = real_max(s->way, sqrt(sum[1]));
+    s->farthest = real_max(s->farthest, sqrt(sum[1]));
     *done = step >= s->ramp && s->residual <= body->tolerance &&
-            (s->residual == 0 || sqrt(sum[2]) <= 10 * body->tolerance * s->way);
+            (s->residual == 0 || sqrt(sum[2]) <= 10 * body->tolerance * s->farthest);
     if (!*done) particles_move(s, p, step, step > 0 ? damping(sum) : 0);
     return OK;
 }

@@ -77,7 +77,7 @@ static void test_bar(void **state)
     struct conversion conversion = {0};
     int32_t *list;
     setting_make(&s, &(struct cloud_plan){
-                         .space = SPACE_LINE, .count = {60}, .horizon = 3, .optional = WITH_RETURN | WITH_GRADIENT});
+                         .space = SPACE_LINE, .count = {60}, .horizon = 3, .optional = WITH_REVERSION | WITH_GRADIENT});
     struct particles *p = &s.c.p, before;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = i >= 20 && i < 40 ? KIND_PD : KIND_MPM, p->v[0][i] = (real)(i % 7);
     cloud_bonds(&s.c);
@@ -90,7 +90,7 @@ static void test_bar(void **state)
                particle = 0.5 * s.c.material[0].young * square(STRAIN) * p->volume0[0];
     assert_near(energy / particle, 60, 1e-3);
     assert_int_equal(choose(&s, &list), 20);
-    cloud_copy(&before, p, WITH_RETURN | WITH_GRADIENT);
+    cloud_copy(&before, p, WITH_REVERSION | WITH_GRADIENT);
     reversion_apply(&conversion, p, &s.c.bonds, &s.c.source, &partial, list, 20);
     assert_near((energy_of(&s, &partial) - energy) / particle, 0, 1e-3);
     assert_memory_equal(p->x[0], before.x[0], (size_t)p->n * sizeof(real));
@@ -126,8 +126,8 @@ static void test_wave(void **state)
         struct partial_stress partial = {0};
         struct conversion conversion = {0};
         int32_t *list;
-        setting_make(&s,
-                     &(struct cloud_plan){.space = SPACE_LINE, .count = {160}, .horizon = 3, .optional = WITH_RETURN});
+        setting_make(
+            &s, &(struct cloud_plan){.space = SPACE_LINE, .count = {160}, .horizon = 3, .optional = WITH_REVERSION});
         struct particles *p = &s.c.p;
         const real width = row[k].width * CLOUD_SPACING;
         cloud_bonds(&s.c);
@@ -151,8 +151,8 @@ static void test_surfaces(void **state)
     static const real strain[DIM_MAX][DIM_MAX] = {
         {STRAIN, 0.5 * STRAIN, 0}, {-0.2 * STRAIN, -0.3 * STRAIN, 0}, {0, 0.4 * STRAIN, 0}};
     static const struct cloud_plan plans[] = {
-        {.space = SPACE_PLANE_STRESS, .count = {13, 11}, .horizon = 3.015, .optional = WITH_RETURN},
-        {.space = SPACE_SOLID, .count = {8, 7, 9}, .horizon = 3.015, .optional = WITH_RETURN | WITH_STRETCH}};
+        {.space = SPACE_PLANE_STRESS, .count = {13, 11}, .horizon = 3.015, .optional = WITH_REVERSION},
+        {.space = SPACE_SOLID, .count = {8, 7, 9}, .horizon = 3.015, .optional = WITH_REVERSION | WITH_STRETCH}};
     for (unsigned k = 0; k < COUNT_OF(plans); k++) {
         struct setting s;
         struct conversion conversion = {0};
@@ -201,7 +201,7 @@ static void test_who_stays(void **state)
         int32_t *list;
         setting_make(&s,
                      &(struct cloud_plan){
-                         .space = SPACE_PLANE_STRESS, .count = {33, 29}, .horizon = 3.015, .optional = WITH_RETURN});
+                         .space = SPACE_PLANE_STRESS, .count = {33, 29}, .horizon = 3.015, .optional = WITH_REVERSION});
         struct particles *p = &s.c.p;
         const int64_t one = 14 * 33 + 15;
         cloud_bonds(&s.c);
@@ -236,7 +236,8 @@ static void test_dwell_and_gap(void **state)
     (void)state;
     struct setting s;
     int32_t *list;
-    setting_make(&s, &(struct cloud_plan){.space = SPACE_LINE, .count = {60}, .horizon = 3, .optional = WITH_RETURN});
+    setting_make(&s,
+                 &(struct cloud_plan){.space = SPACE_LINE, .count = {60}, .horizon = 3, .optional = WITH_REVERSION});
     struct particles *p = &s.c.p;
     cloud_bonds(&s.c);
     setting_never(&s);
@@ -273,7 +274,7 @@ static void test_mesh(void **state)
     (void)state;
     struct setting s;
     struct mesh mesh;
-    const int optional = WITH_RETURN, dim = 2;
+    const int optional = WITH_REVERSION, dim = 2;
     setting_make(
         &s, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {16, 12}, .horizon = 3, .optional = optional});
     struct particles *p = &s.c.p;

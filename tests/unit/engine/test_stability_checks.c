@@ -24,7 +24,7 @@ static struct rise rising(real tenfold, int64_t stride)
 static void pace_of_exponentials(void **state)
 {
     (void)state;
-    static const struct { real tenfold; int64_t stride; enum rise_pace target_speed;
+    static const struct { real tenfold; int64_t stride; enum rise_rate target_speed;
     } at[] = {
         {5, 64, RISE_FAST},     {60, 64, RISE_FAST},   {95, 64, RISE_FAST},
         {95, 700, RISE_FAST},   {150, 64, RISE_SLOW},  {1000, 64, RISE_SLOW},
@@ -33,14 +33,14 @@ static void pace_of_exponentials(void **state)
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         const struct rise r = rising(at[k].tenfold, at[k].stride);
         real steps;
-        assert_int_equal(rise_pace(&r, 20000, 1, &steps), at[k].target_speed);
+        assert_int_equal(rise_rate(&r, 20000, 1, &steps), at[k].target_speed);
         /* values 16 steps apart, 64 of them: just so */
         if (at[k].stride == 1) assert_true(steps > 990 && steps < 1010);
         else assert_near(steps, at[k].tenfold, 1e-6 * at[k].tenfold);                    /* between values: round-off */
     }
     const struct rise endless = rising(1e5, 64);             /* more than 64 x 64 steps ago */
     real steps;
-    assert_int_equal(rise_pace(&endless, 20000, 1, &steps), RISE_SLOW);
+    assert_int_equal(rise_rate(&endless, 20000, 1, &steps), RISE_SLOW);
     assert_true(isinf(steps));
 }
 
@@ -49,22 +49,22 @@ static void pace_of_few_values(void **state)
     (void)state;
     real steps;
     struct rise r = {0};
-    assert_int_equal(rise_pace(&r, 10, 1, &steps), RISE_UNSURE);
+    assert_int_equal(rise_rate(&r, 10, 1, &steps), RISE_UNSURE);
     rise_note(&r, 0, 0);
-    assert_int_equal(rise_pace(&r, 10, 1, &steps), RISE_FAST);           /* out of nothing */
-    assert_int_equal(rise_pace(&r, 20000, 1, &steps), RISE_UNSURE);      /* some time in 20000 steps */
+    assert_int_equal(rise_rate(&r, 10, 1, &steps), RISE_FAST);           /* out of nothing */
+    assert_int_equal(rise_rate(&r, 20000, 1, &steps), RISE_UNSURE);      /* some time in 20000 steps */
     rise_note(&r, 640, -1e-3);
-    assert_int_equal(rise_pace(&r, 1280, 1, &steps), RISE_FAST);
+    assert_int_equal(rise_rate(&r, 1280, 1, &steps), RISE_FAST);
     rise_note(&r, 650, 0.5);                             /* too close to the last: left out */
     assert_int_equal(r.n, 2);
     rise_note(&r, 1280, 1e-3);                           /* a background, or slow growth: one cannot tell */
-    assert_int_equal(rise_pace(&r, 1920, 1, &steps), RISE_UNSURE);
+    assert_int_equal(rise_rate(&r, 1920, 1, &steps), RISE_UNSURE);
     rise_note(&r, 1920, 0.06);
-    assert_int_equal(rise_pace(&r, 2560, 1, &steps), RISE_SLOW);
+    assert_int_equal(rise_rate(&r, 2560, 1, &steps), RISE_SLOW);
 }
 
 /* Squares of the velocity of x'' = -4 x + damping x' under leap-frog steps dt, whose limit is 1, from 1e-8 to 1. */
-static enum rise_pace pace_of_oscillator(real dt, real damping)
+static enum rise_rate pace_of_oscillator(real dt, real damping)
 {
     struct rise r = {0};
     real x = 1e-4, v = 0, steps, most = 0;
@@ -73,7 +73,7 @@ static enum rise_pace pace_of_oscillator(real dt, real damping)
         v += dt * (damping * v - 4 * x);
         x += dt * v;
         most = real_max(most, square(v));
-        if (square(v) > 1) return rise_pace(&r, step, square(v), &steps);
+        if (square(v) > 1) return rise_rate(&r, step, square(v), &steps);
         if (step % RISE_STRIDE == 0) rise_note(&r, step, most), most = 0;
     }
     fail_msg("dt = %g does not grow", dt);
