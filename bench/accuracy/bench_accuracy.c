@@ -124,8 +124,8 @@ static void print_point(const struct accuracy_entry *entry, const struct progres
     snprintf(what, sizeof what, r->stable ? "%9.3g %%" : "   unstable", 100 * r->error);
     const int left = (int)seconds_left(g, quick);
     if (isfinite(r->seconds[1])) snprintf(two, sizeof two, "%9.3g s", r->seconds[1]);
-    printf("  %-8s %-10s %-34s %s %9.3g s %11s   left %d:%02d\n", entry->point.problem->name,
-           entry->point.problem->cases[entry->point.at], label, what, r->seconds[0], two, left / 60, left % 60);
+    fprintf(stderr, "  %-8s %-10s %-34s %s %9.3g s %11s   left %d:%02d\n", entry->point.problem->name,
+            entry->point.problem->cases[entry->point.at], label, what, r->seconds[0], two, left / 60, left % 60);
     fflush(stdout);
 }
 

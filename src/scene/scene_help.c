@@ -122,6 +122,8 @@ status scene_help(FILE *out, const char *key)
     char path[128] = "", facts[384];
     int found = 0;
     if (key) path_of_table(key, path, sizeof path);
+    const char *now = path_now(path);
+    if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += is_below(&keys[k], path);
     if (found == 0) return help_unknown(path);
     if (!key) fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"

@@ -46,6 +46,8 @@ status tree_override(struct reader *r, struct node *root);
  * scene keeps a note of them. REFUSED where both names are given. */
 status tree_rename(struct reader *r, struct node *root);
 const char *path_renamed(struct reader *r, const char *path);
+/* The present name of a key of an earlier version; NULL: it is none. */
+const char *path_now(const char *path);
 /* Applies one more override, as from the command line. An empty value removes the key; REFUSED if it is not there. */
 status tree_set(struct reader *r, struct node *root, const char *key, const char *value);
 /* The node at a path of keys without lists; NULL: the scene does not give it. */

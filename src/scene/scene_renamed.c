@@ -24,6 +24,13 @@ static void renamed_note(struct scene *s, int k)
     snprintf(s->renamed + used, sizeof s->renamed - used, "%s%s", used ? ", " : "", pair);
 }
 
+const char *path_now(const char *path)
+{
+    for (int k = 0; k < (int)COUNT_OF(renamed); k++)
+        if (!strcmp(path, renamed[k].old)) return renamed[k].now;
+    return NULL;
+}
+
 const char *path_renamed(struct reader *r, const char *path)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
