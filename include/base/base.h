@@ -48,6 +48,10 @@ typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
  * hidden variable, as errno is the C library's. */
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *status_message(void);
+/* Where a scene asks for something, as a message begins: `file:line:column: key: `. "": unknown. */
+enum { PLACE_LENGTH = 512 };
+/* Puts `place` in front of the message of a refusal that has none yet; returns `s`. */
+status status_at(const char *place, status s);
 
 /* Makes text from outside (names of files, columns, scenes) harmless to a terminal: `?` in place of every control
  * character. */

@@ -32,6 +32,7 @@ struct profile {
 /* One boundary condition, as the scene says it. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
+    char place[PLACE_LENGTH];            /* in the scene */
     enum boundary_kind kind;
     struct region region;                /* of reference positions; empty: everywhere */
     int body;                            /* -1: any */

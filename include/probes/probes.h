@@ -46,6 +46,7 @@ enum probe_kind {
 /* As the scene specifies it. */
 struct probe_request {
     char name[NAME_MAX_LENGTH];          /* default: its kind */
+    char place[PLACE_LENGTH];            /* in the scene */
     enum probe_kind kind;
     struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere */
     bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface [m] */

@@ -24,15 +24,13 @@ enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
 enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
 
-enum { PLACE_LENGTH = 512 };             /* of how a refusal begins */
-
 struct scene_body {
     char name[NAME_MAX_LENGTH];
     int material;                        /* index into scene.material */
     struct region shape;                 /* filled with a lattice ... */
     char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
     uint64_t contents;                   /* hash of that file; 0: not read */
-    char place[PLACE_LENGTH];            /* where the scene names that list, `file:line:column: key: `; "": unknown */
+    char place[PLACE_LENGTH];            /* in the scene, of its list if it has one */
     real velocity[DIM_MAX];              /* [m/s] */
     enum grid_frame frame; /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
     const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not */
@@ -40,6 +38,7 @@ struct scene_body {
 
 /* Initial state of the particles in a region; later entries overwrite earlier ones. */
 struct scene_initial {
+    char place[PLACE_LENGTH];            /* in the scene */
     struct region region;
     int body;                            /* -1: any */
     bool sets_velocity, sets_strain;

@@ -22,7 +22,7 @@ struct command { const char *name, *words, *meaning; status (*call)(int argc, ch
 
 static const struct command commands[] = {
     {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]", "runs a scene", command_run},
-    {"check", "SCENE [-s KEY=VALUE]... [-t THREADS]", "what the scene would cost and whether it is sound", command_check},
+    {"check", "SCENE [-s KEY=VALUE]... [-t THREADS]", "what a scene would cost and whether it is sound", command_check},
     {"plot", "DIR [--frames all|last|N]", "pictures of a finished or running run", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling", command_bench},

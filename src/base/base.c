@@ -9,6 +9,7 @@ enum { MESSAGE_LENGTH = 1024 };
 
 /* As errno: each thread has its own, so that a worker's fault never mixes with another's. */
 static _Thread_local char message[MESSAGE_LENGTH];
+static _Thread_local bool placed;        /* by status_at */
 
 status status_set(status s, const char *format, ...)
 {
@@ -19,6 +20,15 @@ status status_set(status s, const char *format, ...)
     va_end(arguments);
     text_harmless(text);
     snprintf(message, sizeof message, "%s", text);
+    placed = false;
+    return s;
+}
+
+status status_at(const char *place, status s)
+{
+    if (s != REFUSED || placed || !*place) return s;
+    status_set(s, "%s%s", place, message);
+    placed = true;
     return s;
 }
 

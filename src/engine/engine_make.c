@@ -308,14 +308,12 @@ static void make_pulses(const struct scene *s, struct probing *probing)
         if (s->initial[k].sets_pulse) probing->pulse[probing->pulses++] = s->initial[k].pulse;
 }
 
-/* Puts the scene file in front of a refusal that has no line, since it was found after the reading; fill_particles
- * names the file itself. */
+/* Puts the scene file in front of a refusal that has no place in it. */
 static status named(const struct scene *s, status made)
 {
-    if (made != REFUSED) return made;
-    char why[512];
-    snprintf(why, sizeof why, "%s", status_message());
-    return status_set(REFUSED, "%s: %s", s->path, why);
+    char place[PLACE_LENGTH];
+    snprintf(place, sizeof place, "%.500s: ", s->path);
+    return status_at(place, made);
 }
 
 /* Optional arrays of the particles that the scene calls for. */

@@ -212,7 +212,7 @@ void engine_warn(struct engine *e)
 {
     struct warnings *to = &e->report.warnings;
     if (e->scene->renamed[0])
-        warnings_add(to, "%s; the old name works in this version, with the same meaning", e->scene->renamed);
+        warnings_add(to, "%s; earlier names work in this version, with the same meaning", e->scene->renamed);
     warn_of_method(e, to);
     warn_of_materials(e->scene, &e->tables, to);
     warn_of_solver(e, to);

@@ -113,15 +113,17 @@ static status mirrors_apart(const struct boundary *b, int n, real reach, real sp
             if (b[k].body >= 0 && b[m].body >= 0 && b[k].body != b[m].body) continue;
             const real apart = fabs(b[k].at - b[m].at);
             if (apart <= 1e-6 * spacing)
-                return status_set(REFUSED,
-                                  "boundary %s: its mirror stands where that of %s does; one of them is enough",
-                                  b[k].name, b[m].name);
+                return status_at(b[k].place,
+                                 status_set(REFUSED,
+                                            "boundary %s: its mirror stands where that of %s does; one is enough",
+                                            b[k].name, b[m].name));
             if (apart + spacing <= reach)
-                return status_set(
-                    REFUSED,
-                    "boundary %s: the mirror is %.6g m from that of %s; bonds that reach %.6g m want them "
-                    "farther apart than %.6g m",
-                    b[k].name, apart, b[m].name, reach, reach - spacing);
+                return status_at(
+                    b[k].place,
+                    status_set(REFUSED,
+                               "boundary %s: the mirror is %.6g m from that of %s; bonds that reach %.6g m want them "
+                               "farther apart than %.6g m",
+                               b[k].name, apart, b[m].name, reach, reach - spacing));
         }
     return OK;
 }
@@ -133,7 +135,7 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int 
     for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, reach, d);
     for (int b = 0; b < l->n; b++) {
         if (boundary[b].kind != BOUNDARY_MIRROR) continue;
-        TRY(mirror_checked(&boundary[b], p, l->spacing));
+        TRY(status_at(boundary[b].place, mirror_checked(&boundary[b], p, l->spacing)));
         l->load[b].outside = mirror_outside(&boundary[b], p);
         mirror_make(l, b, p, reach, optional);
     }

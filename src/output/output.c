@@ -137,6 +137,12 @@ static void difference_text(const char *a, const char *b, char *text, size_t roo
     a += strspn(a, " "), b += strspn(b, " ");
     enum { SHOWN = 200 };
     const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n");
+    size_t own;
+    const int path = (int)(line_meaning(b, &own) - b);
+    if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0) {
+        snprintf(text, room, "line %d, %.*s: this list has changed since", line, path, b);
+        return;
+    }
     snprintf(text, room, "line %d was `%.*s` and is `%.*s`", line, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN,
              b);
 }
@@ -193,19 +199,18 @@ static bool has_advanced(const char *folder)
 static status mode_check(const char *folder, enum output_mode mode)
 {
     char ended[NAME_MAX_LENGTH] = "interrupted";
-    const bool there = has_run(folder);
+    const bool there = has_run(folder), resumes = checkpoint_exists(folder) || !has_advanced(folder);
     if (path_is_file(path_join(folder, "summary.json").text))
         (void)summary_string(folder, "status", ended, sizeof ended);
     if (mode == OUTPUT_FIRST && there)
         return status_set(REFUSED,
-                          "%s holds %s run of this scene; go on with --resume, replace it with --overwrite, or choose "
-                          "another -o",
-                          folder,
+                          "%s holds %s run of this scene; %sreplace it with --overwrite, or choose another -o", folder,
                           !strcmp(ended, "done")     ? "a finished"
                           : !strcmp(ended, "failed") ? "a failed"
-                                                     : "an interrupted");
+                                                     : "an interrupted",
+                          resumes ? "go on with --resume, " : "its checkpoints are gone; ");
     if (mode != OUTPUT_RESUME || checkpoint_exists(folder)) return OK;
-    if (has_advanced(folder))
+    if (!resumes)
         return status_set(
             REFUSED,
             "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or choose "

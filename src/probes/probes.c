@@ -202,7 +202,7 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
         q->request = request[k];
         q->memory = (struct probe_memory){.first_time = NAN, .place = {NAN, NAN, NAN}, .body = -1,
                                           .factors = {NAN, NAN, NAN, NAN}};
-        status fault = probe_bind(q, o);
+        status fault = status_at(q->request.place, probe_bind(q, o));
         if (fault != OK) {
             probes_free(s);
             return fault;

@@ -19,9 +19,6 @@
 
 /* Closer particles are refused as one particle given twice [spacings]. */
 static const real too_close = 1e-3;
-/* Largest distance from the origin at which doubles resolve strains [spacings]: a coordinate is rounded by 1e-9 of a
- * spacing there, which is 1e-5 of a strain of 1e-4. At ten thousand times this distance stresses are 3 % off. */
-static const real too_far = 1e7;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 };
 
@@ -43,8 +40,8 @@ static void draft_free(struct draft *d)
 
 static status draft_refuse(const struct draft *d, int body, const char *why)
 {
-    const char *path = d->scene->path != NULL ? d->scene->path : d->scene->name;
-    return status_set(REFUSED, "%s: body %s: %s", path, d->scene->body[body].name, why);
+    const struct scene_body *b = &d->scene->body[body];
+    return status_at(b->place, status_set(REFUSED, "body %s: %s", b->name, why));
 }
 
 static void draft_grow(struct draft *d)
@@ -142,7 +139,7 @@ static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM
         real first = floor((from[a] - x->centre) / s->spacing + x->half_count - 0.5);
         real last = ceil((to[a] - x->centre) / s->spacing + x->half_count - 0.5);
         places *= real_max(0, last - first + 1);
-        if (!(places < 64.0 * PARTICLES_MAX && -first < too_far && last < too_far))
+        if (!(places < 64.0 * PARTICLES_MAX && -first < FILL_FARTHEST && last < FILL_FARTHEST))
             return draft_refuse(d, body, "too large for the spacing");
         x->first = (int64_t)first, x->last = (int64_t)last;
         axis_round(x);
@@ -227,9 +224,12 @@ static status fill_list(struct draft *d, int body)
 static status draft_make(struct draft *d)
 {
     for (int body = 0; body < d->scene->bodies; body++) {
+        const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
-        TRY(d->scene->body[body].file != NULL ? fill_list(d, body) : fill_lattice(d, body));
-        if (d->n == before) return draft_refuse(d, body, "holds no particle; is it thinner than the spacing?");
+        TRY(listed ? fill_list(d, body) : fill_lattice(d, body));
+        if (d->n == before)
+            return draft_refuse(d, body, listed ? "its list holds no particle of it"
+                                                : "holds no particle; is it thinner than the spacing?");
     }
     return OK;
 }
@@ -270,12 +270,12 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
     }
 }
 
-/* REFUSED if a particle is farther than too_far from the origin or its mass is not a positive finite number. */
+/* REFUSED if a particle is farther than FILL_FARTHEST from the origin or its mass is not a positive finite number. */
 static status check_values(const struct particles *p, const struct draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         bool good = isfinite(p->mass[i]) && p->mass[i] > 0 && isfinite(spacing);
-        for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= too_far * spacing;
+        for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= FILL_FARTHEST * spacing;
         if (!good)
             return draft_refuse(d, p->body[i],
                                 "a particle lies beyond 1e7 spacings from the origin, where doubles no longer "
@@ -285,27 +285,14 @@ static status check_values(const struct particles *p, const struct draft *d, rea
     return OK;
 }
 
-/* REFUSED if mpm.origin is farther than too_far from 0. */
-static status check_origin(const struct scene *s)
-{
-    for (int a = 0; a < s->dim && s->has_grid_origin; a++)
-        if (!(fabs(s->grid_origin[a]) <= too_far * s->spacing))
-            return status_set(
-                REFUSED,
-                "%s: mpm.origin: %.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a "
-                "place near the body is expected",
-                s->path != NULL ? s->path : s->name, s->grid_origin[a]);
-    return OK;
-}
-
-/* REFUSED if the initial state moves a particle farther than too_far, makes its volume negative or 0, or makes a
+/* REFUSED if the initial state moves a particle farther than FILL_FARTHEST, makes its volume negative or 0, or makes a
  * velocity or stress that is not finite. */
 static status check_start(const struct particles *p, const struct draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
         real sum = p->volume[i];
         bool good = p->volume[i] > 0;
-        for (int a = 0; a < p->dim; a++) good = good && fabs(p->x[a][i]) <= too_far * spacing;
+        for (int a = 0; a < p->dim; a++) good = good && fabs(p->x[a][i]) <= FILL_FARTHEST * spacing;
         for (int a = 0; a < p->dim; a++) sum += p->v[a][i];
         for (int k = 0; k < symmetric_count(p->dim); k++) sum += p->stress[k][i];
         if (!good || !isfinite(sum))
@@ -339,9 +326,13 @@ static status check_distances(const struct particles *p, const struct draft *d, 
     }
     cells_free(&cells);
     if (first == p->n) return OK;
-    return status_set(REFUSED, "%s: bodies %s and %s have particles in one place: (%.6g, %.6g, %.6g) m",
-                      d->scene->path != NULL ? d->scene->path : d->scene->name, d->scene->body[p->body[first]].name,
-                      d->scene->body[p->body[other]].name, X[0], X[1], X[2]);
+    const struct scene_body *one = &d->scene->body[p->body[first]], *two = &d->scene->body[p->body[other]];
+    const char *place = (one > two ? one : two)->place;
+    if (one == two)
+        return status_at(place, status_set(REFUSED, "body %s has two particles in one place: (%.6g, %.6g, %.6g) m",
+                                           one->name, X[0], X[1], X[2]));
+    return status_at(place, status_set(REFUSED, "bodies %s and %s have particles in one place: (%.6g, %.6g, %.6g) m",
+                                       one->name, two->name, X[0], X[1], X[2]));
 }
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
@@ -415,8 +406,9 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
         inverted |= !(stretch > 0);
     }
     if (growth > 0 && !inverted) return OK;
-    return status_set(REFUSED, "%s: an initial displacement gradient turns the body inside out",
-                      s->path != NULL ? s->path : s->name);
+    return status_at(
+        initial->place,
+        status_set(REFUSED, "its displacement gradient turns the body inside out; strains near 1e-3 are usual"));
 }
 
 /* Applies the initial states that hold for particle i, in the order of the scene. tolerance [m]: of regions. */
@@ -441,7 +433,6 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     take_draft(p, d, optional);
     TRY(check_values(p, d, spacing));
-    TRY(check_origin(s));
     TRY(fill_check_lists(p, s));
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, ON_SURFACE * spacing);

@@ -3,6 +3,7 @@
 
 #include <hdf5.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -100,6 +101,27 @@ static status csv_line(struct csv *c, bool *more)
     return OK;
 }
 
+/* REFUSED with `file:line:column: ` of a field of the current line. */
+static status csv_fault(const struct csv *c, const char *field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+static status csv_fault(const struct csv *c, const char *field, const char *format, ...)
+{
+    char what[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    return status_set(REFUSED, "%s:%lld:%d: %s", c->path, (long long)c->line, (int)(field - c->text) + 1, what);
+}
+
+/* What a header that is no list of names between commas is likely to be, as the end of a sentence. */
+static const char *header_guess(const char *name)
+{
+    if (strchr(name, '\r')) return "; its lines end in carriage returns alone, line feeds are expected";
+    if (strpbrk(name, ";\t\"'")) return "; names without quotes, with commas between them, are expected";
+    return "";
+}
+
 /* Appends a column named in the header. REFUSED if the name is unknown or given twice. */
 static status csv_column(struct csv *c, const char *name, int dim)
 {
@@ -107,12 +129,13 @@ static status csv_column(struct csv *c, const char *name, int dim)
         if (strcmp(name, column_name[k]) != 0 || (k < DIM_MAX && k >= dim)) continue;
         for (int used = 0; used < c->columns; used++)
             if (c->column[used] == k)
-                return status_set(REFUSED, "%s:%lld: column %s is named twice", c->path, (long long)c->line, name);
+                return csv_fault(c, name, "column %s is named twice", name);
         c->column[c->columns++] = k;
         return OK;
     }
-    return status_set(REFUSED, "%s:%lld: unknown column '%.40s'; in %dD a list has %s, volume, material, body", c->path,
-                      (long long)c->line, name, dim, dim == 1 ? "x" : dim == 2 ? "x, y" : "x, y, z");
+    return csv_fault(c, name, "unknown column '%.*s'; in %dD a list has %s, volume, material, body%s",
+                     (int)strcspn(name, "\r") < 40 ? (int)strcspn(name, "\r") : 40, name, dim,
+                     dim == 1 ? "x" : dim == 2 ? "x, y" : "x, y, z", header_guess(name));
 }
 
 /* Reads the header. REFUSED if a required column is missing. */
@@ -127,7 +150,7 @@ static status csv_header(struct csv *c, int dim)
         bool found = !column_needed(k, dim);
         for (int used = 0; used < c->columns; used++) found = found || c->column[used] == k;
         if (!found)
-            return status_set(REFUSED, "%s:%lld: column %s is missing", c->path, (long long)c->line, column_name[k]);
+            return csv_fault(c, c->text, "column %s is missing", column_name[k]);
     }
     return OK;
 }
@@ -151,22 +174,22 @@ static status csv_grow(struct csv *c, struct particle_list *l)
 static status csv_entry(struct csv *c, struct particle_list *l)
 {
     char *rest = c->text;
-    long long line = c->line;
     for (int k = 0; k < c->columns; k++) {
         char *field = next_field(&rest), *end;
         if (field == NULL)
-            return status_set(REFUSED, "%s:%lld: %d values; the header names %d columns", c->path, line, k, c->columns);
+            return csv_fault(c, c->text, "%d values; the header names %d columns", k, c->columns);
         real value = strtod(field, &end);
         const char *name = column_name[c->column[k]];
-        if (end == field || *end != '\0')
-            return status_set(REFUSED, "%s:%lld: %s: '%.40s' is not a number", c->path, line, name, field);
+        if (end == field || *end != '\0' || strpbrk(field, "xX"))
+            return csv_fault(c, field, "%s: '%.40s' is not a number", name, field);
         const char *fault = value_fault(c->column[k], value);
-        if (fault != NULL) return status_set(REFUSED, "%s:%lld: %s: %.40s %s", c->path, line, name, field, fault);
+        if (fault != NULL) return csv_fault(c, field, "%s: %.40s %s", name, field, fault);
         (*column_array(l, c->column[k]))[l->n] = value;
     }
     if (rest != NULL)
-        return status_set(REFUSED, "%s:%lld: more values than the %d columns of the header", c->path, line, c->columns);
-    l->line[l->n++] = line;
+        return csv_fault(c, rest, "more values than the %d columns of the header; numbers have a point, not a comma",
+                         c->columns);
+    l->line[l->n++] = c->line;
     return OK;
 }
 

@@ -1,4 +1,5 @@
 /* Conditions on several keys of a scene together, and defaults that depend on other keys. */
+#include "scene/fill.h"
 #include "scene_internal.h"
 
 #include <math.h>
@@ -48,6 +49,18 @@ static status check_steps(struct reader *r, const struct node *root)
     const struct node *step = scene_check_below(root, "time", "step");
     if (!step || s->time_step == 0 || s->duration / s->time_step <= 1e12) return OK;
     return fault(r, step, "%s would take %.1e steps; 1e12 is the most", shown(r, step), s->duration / s->time_step);
+}
+
+/* REFUSED if mpm.origin is farther from 0 than particles may be. */
+static status check_origin(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    for (int a = 0; a < s->dim && s->has_grid_origin && s->spacing > 0; a++)
+        if (!(fabs(s->grid_origin[a]) <= FILL_FARTHEST * s->spacing))
+            return fault(r, scene_check_below(root, "mpm", "origin"),
+                         "%.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a place near "
+                         "the body is expected", s->grid_origin[a]);
+    return OK;
 }
 
 /* REFUSED for APIC with linear shape functions. */
@@ -208,6 +221,7 @@ status check_scene(struct reader *r, const struct node *root)
 {
     resolve_defaults(r, root);
     TRY(check_measure(r, root));
+    TRY(check_origin(r, root));
     TRY(check_transfer(r, root));
     TRY(check_model(r, root));
     TRY(check_accuracy(r, root));

@@ -203,6 +203,7 @@ status read_boundaries(struct reader *r, const struct node *root)
     for (int k = 0; k < s->boundaries; k++, n = n->next) {
         struct boundary *b = &s->boundary[k];
         b->body = -1;
+        fault_place(r, n, b->place, sizeof b->place);
         snprintf(b->name, sizeof b->name, "boundary%d", k);
         TRY(read_boundary(r, n, b));
         for (int j = 0; j < k; j++)
@@ -308,6 +309,7 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
         short_form.kind = NODE_MAP, short_form.n = 1, short_form.first = short_form.last = &form;
         map = &short_form;
     }
+    fault_place(r, n, p->place, sizeof p->place);
     p->amplitude = p->period = p->wavelength = p->origin = NAN;
     p->inner = p->outer = p->core = p->experiment = NAN;
     snprintf(group, sizeof group, "probes.%s", probe_names[p->kind]);

@@ -143,6 +143,7 @@ static status scene_parts_read_body(struct reader *r, const struct node *n, stru
 {
     const struct node *shape = node_find(n, "shape"), *file = node_find(n, "particles");
     snprintf(b->name, sizeof b->name, "body%d", number);
+    fault_place(r, n, b->place, sizeof b->place);
     b->material = -1;
     r->bounded = true;
     TRY(read_group(r, n, n, "bodies", b));
@@ -171,6 +172,7 @@ status read_bodies(struct reader *r, const struct node *root)
     s->body = NEW("bodies", s->bodies, struct scene_body);
     if (one) {
         strcpy(s->body->name, "body");
+        fault_place(r, one, s->body->place, sizeof s->body->place);
         s->body->frame = s->frame;
         r->bounded = true;
         TRY(read_region(r, one, &s->body->shape));
@@ -220,6 +222,7 @@ static status read_pulse(struct reader *r, const struct node *n, struct scene_in
 static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)
 {
     initial->body = -1;
+    fault_place(r, n, initial->place, sizeof initial->place);
     TRY(read_group(r, n, n, "initial", initial));
     TRY(read_pulse(r, node_find(n, "pulse"), initial));
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;

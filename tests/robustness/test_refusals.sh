@@ -163,18 +163,21 @@ done <<'END'
 20|---^name: second|20:1|second document
 END
 
-# What only the particles tell: no line to point at, but one sentence, and no folder made for nothing.
+# What only the particles tell: the place of what asks for it, one sentence, and no folder made for nothing.
 while IFS='|' read -r line text start words; do
     replace "$line" "$text"
     "$cleave" run bad.yaml >out 2>err
     ended "$text" $? "$start" "$words"
 done <<'END'
-16|    traction: [1, 0]^    face: x-|bad.yaml: probe|has no reaction
-20|probes: [{point: {at: [1, 1]}}]|bad.yaml: probe|outside the bodies
-20|probes: [{energy: {region: {box: {from: [1, 1], to: [2, 2]}}}}]|bad.yaml: probe|no particle
-20|probes: [sif]|bad.yaml: probe|leaves the body
-14|boundary:^  - {name: push, body_force: [0, 1], region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml: boundary push|no particle
-8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml: body body|holds no particle
+16|    traction: [1, 0]^    face: x-|bad.yaml:21:44: probes[2]: probe|has no reaction
+20|probes: [{point: {at: [1, 1]}}]|bad.yaml:20:10: probes[0]: probe|outside the bodies
+20|probes: [{energy: {region: {box: {from: [1, 1], to: [2, 2]}}}}]|bad.yaml:20:10: probes[0]: probe|no particle
+20|probes: [sif]|bad.yaml:20:10: probes[0]: probe|leaves the body
+14|boundary:^  - {name: push, body_force: [0, 1], region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml:15:5: boundary[0]: boundary push|no particle
+14|boundary:^  - {mirror: {axis: x, at: 5 mm}}|bad.yaml:15:5: boundary[0]: boundary boundary0|cuts the body
+14|boundary:^  - {mirror: {axis: x, at: 0}}^  - {mirror: {axis: x, at: 0}}|bad.yaml:16:5: boundary[1]: boundary boundary1|one is enough
+14|initial: [{displacement_gradient: [-2, 0, 0, 0]}]^boundary:|bad.yaml:14:11: initial[0]: |inside out
+8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml:7:1: body: body body|holds no particle
 END
 
 # ---- files that are no scenes ----------------------------------------------------------------------------------------
@@ -252,13 +255,20 @@ list "nan" "kept/grains.csv:2:" "" <<'END'
 x,y,volume
 nan,0.5e-3,1e-8
 END
-list "two in one place" "bad.yaml" "one place" <<'END'
+list "two in one place" "bad.yaml:7:25: particles: " "has two particles in one place" <<'END'
 x,y,volume
 0.5e-3,0.5e-3,1e-8
 0.5e-3,0.5e-3,1e-8
 END
-list "no particle" "" "" <<'END'
+list "no particle" "bad.yaml:7:25: particles: " "its list holds no particle" <<'END'
 x,y,volume
+END
+list "semicolons" "kept/grains.csv:1:1: " "commas between them" <<'END'
+x;y;volume
+END
+list "decimal commas" "kept/grains.csv:2:7: " "a point, not a comma" <<'END'
+x,y,volume
+0,5,1,5,1
 END
 
 # ---- the command line ----------------------------------------------------------------------------------------------------

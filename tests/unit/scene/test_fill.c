@@ -278,7 +278,7 @@ static void bad_bodies_are_refused(void **state)
     struct setting s;
     struct particles p;
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 0.2});          /* 0.4 of a spacing thick */
-    assert_refused(fill_particles(&p, &s.scene, 0), "folder/test.yaml: body plate: holds no particle");
+    assert_refused(fill_particles(&p, &s.scene, 0), "body plate: holds no particle");
     s.solid[0][0].to[1] = 1e300;
     assert_refused(fill_particles(&p, &s.scene, 0), "body plate: too large for the spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8;             /* 1.6e17 places */
