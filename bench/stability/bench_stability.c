@@ -19,24 +19,27 @@ static bool outside(const struct stability_row *r)
     return !(share >= STABILITY_LEAST && share <= STABILITY_MOST);
 }
 
+/* Cases that hold are progress, on standard error; stability.csv has all. */
 static void stability_print_row(const struct stability_row *r)
 {
     static const char *const run[] = {"", "stays", "grows"};
     const struct stability_limits *l = &r->l;
+    FILE *to = r->refusal[0] || !outside(r) ? stderr : stdout;
     if (r->refusal[0]) {
-        printf("  %-66s refused: %s\n", r->label, r->refusal);
+        fprintf(to, "  %-66s refused: %s\n", r->label, r->refusal);
         return;
     }
-    printf("  %-66s %7.3f %7.3f %7.2f%s", r->label, l->observed / l->unit, l->critical / l->unit,
-           l->automatic / l->observed, outside(r) ? " !" : "  ");
-    if (l->largest > 1.02 * l->observed) printf("  to %.3f by place", l->largest / l->unit);
-    if (r->c.quoted_low > 0) printf("  sheet %.3g", r->c.quoted_low);
-    if (r->c.quoted_high > 0) printf(" - %.3g", r->c.quoted_high);
-    if (isfinite(l->silling)) printf("  bounds %.2f %.2f of it", l->silling / l->observed, l->gershgorin / l->observed);
+    fprintf(to, "  %-66s %7.3f %7.3f %7.2f%s", r->label, l->observed / l->unit, l->critical / l->unit,
+            l->automatic / l->observed, outside(r) ? " !" : "  ");
+    if (l->largest > 1.02 * l->observed) fprintf(to, "  to %.3f by place", l->largest / l->unit);
+    if (r->c.quoted_low > 0) fprintf(to, "  sheet %.3g", r->c.quoted_low);
+    if (r->c.quoted_high > 0) fprintf(to, " - %.3g", r->c.quoted_high);
+    if (isfinite(l->silling))
+        fprintf(to, "  bounds %.2f %.2f of it", l->silling / l->observed, l->gershgorin / l->observed);
     if (l->below != RUN_NONE)
-        printf("  runs: automatic %s, below %s, above %s", run[l->automatic_run], run[l->below], run[l->above]);
-    putchar('\n');
-    fflush(stdout);
+        fprintf(to, "  runs: automatic %s, below %s, above %s", run[l->automatic_run], run[l->below], run[l->above]);
+    putc('\n', to);
+    fflush(to);
 }
 
 static status stability_measure(void *context, const struct stability_case *c)
@@ -123,7 +126,7 @@ status bench_stability(bool quick)
     struct measuring m = {map, quick ? 300 : 1500, quick ? 0 : 10000};
     struct bench_table t[3] = {0};
     map->n = 0;
-    printf("stability: growth of the largest mode in %d steps%s\n", m.steps,
+    printf("stability: growth of the largest mode in %d steps%s; of each group, the cases that do not hold\n", m.steps,
            quick ? "" : ", runs of 1e4 steps beside the limit");
     bench_print_machine(1);
     bench_table_make(

@@ -39,19 +39,21 @@ static void energy_drift_put(struct bench_table *t, const struct drift_case *l, 
     bench_text(t, r->why[0] ? r->why : "-");
 }
 
+/* Cases that hold are progress, on standard error; the table has all. */
 static void print(const struct drift_case *l, const struct lasting *r, const char *label)
 {
+    FILE *to = r->refused || drift_holds(l, r) ? stderr : stdout;
     if (r->refused) {
-        printf("  %-66s refused: %s\n", label, r->why);
+        fprintf(to, "  %-66s refused: %s\n", label, r->why);
         return;
     }
-    printf("  %-66s %9.1e %9.1e %9.1e %9.1e %s", label, r->end, r->largest, r->least, r->rate,
-           drift_holds(l, r) ? " " : "!");
-    if (isfinite(r->turn)) printf("  turn %.0e", r->turn);
-    if (l->converts) printf("  converted %.3g", r->converted);
-    if (r->stopped > 0) printf("  stopped at %lld", (long long)r->stopped);
-    putchar('\n');
-    fflush(stdout);
+    fprintf(to, "  %-66s %9.1e %9.1e %9.1e %9.1e %s", label, r->end, r->largest, r->least, r->rate,
+            drift_holds(l, r) ? " " : "!");
+    if (isfinite(r->turn)) fprintf(to, "  turn %.0e", r->turn);
+    if (l->converts) fprintf(to, "  converted %.3g", r->converted);
+    if (r->stopped > 0) fprintf(to, "  stopped at %lld", (long long)r->stopped);
+    putc('\n', to);
+    fflush(to);
 }
 
 static status energy_drift_measure(void *context, const struct drift_case *l)

@@ -287,6 +287,20 @@ static bool swings(const struct run_clock *clock, const struct energy *energy)
     return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
 }
 
+/* FAILED with step, time and the fastest particle of "a body " and `what`. */
+static status unstable(const struct engine *e, const char *what, const char *remedy)
+{
+    const struct particles *p = &e->part;
+    const int64_t i = fastest_particle(p);
+    char place[96];
+    int used = 0;
+    for (int d = 0; d < p->dim; d++)
+        used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
+    return status_set(FAILED,
+                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body %s; %s",
+                      (long long)e->clock.step, e->clock.t, (int)p->id[i], place, what, remedy);
+}
+
 /* For unstable runs without a particle that is too fast for diagnostics_divergence: a body that breaks all its bonds,
  * or one that swings. A body at rest, whose energy is round-off, is left out. */
 status engine_energy_check(struct engine *e)
@@ -297,31 +311,21 @@ status engine_energy_check(struct engine *e)
             "step %lld, t = %.4g s: an energy is no finite number, though all places are; see whether material, "
             "supports and initial state are meant (`cleave check`)",
             (long long)e->clock.step, e->clock.t);
-    const struct particles *p = &e->part;
     const struct diagnostics *w = &e->diagnostics;
     const real excess = w->now.balance_error * w->energy_scale + energy_released(w);
     const bool last = e->clock.step == e->clock.steps && e->scene->solver == SOLVER_EXPLICIT;
+    char what[96], remedy[ENGINE_REMEDY];
     if (!e->report.sampling.due && !last) return OK;
     rise_note(&e->stability.excess, e->clock.step, excess);
     if (is_round_off(e)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
-        char advice[ENGINE_REMEDY];
-        say_step(e->scene, &e->clock, advice, sizeof advice);
-        return status_set(FAILED, "unstable at step %lld, t = %.3g s: velocities change sign in every step; %s",
-                          (long long)e->clock.step, e->clock.t, advice);
+        say_step(e->scene, &e->clock, remedy, sizeof remedy);
+        return unstable(e, "whose velocities change sign in every step", remedy);
     }
     if (!gains(&e->clock, w)) return OK;
-    int64_t i = fastest_particle(p);
-    char place[96], remedy[ENGINE_REMEDY];
-    int used = 0;
+    snprintf(what, sizeof what, "with %.0f %% of its energy from nowhere", 100 * excess / w->energy_scale);
     engine_remedy(e, &e->stability.excess, excess, remedy, sizeof remedy);
-    for (int d = 0; d < p->dim; d++)
-        used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
-    return status_set(
-        FAILED,
-        "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body with %.0f %% of "
-        "its energy from nowhere; %s",
-        (long long)e->clock.step, e->clock.t, (int)p->id[i], place, 100 * excess / w->energy_scale, remedy);
+    return unstable(e, what, remedy);
 }
 
 /* Says that breaking bonds released more than they had held. */
