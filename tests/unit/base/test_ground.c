@@ -32,6 +32,18 @@ static void status_keeps_its_message(void **state)
     memory_free(text);
 }
 
+static void refusals_have_one_place(void **state)
+{
+    (void)state;
+    assert_refused(status_at("x.yaml:3:1: ", status_set(REFUSED, "no particle")), "x.yaml:3:1: no particle");
+    assert_refused(status_at("x.yaml: ", REFUSED), "x.yaml:3:1: no particle");     /* the first place stays */
+    assert_int_equal(strncmp(status_message(), "x.yaml:3:1: ", 12), 0);
+    status_at("x.yaml: ", status_set(FAILED, "disk full"));
+    assert_string_equal(status_message(), "disk full");                          /* a failure has none */
+    status_at("", status_set(REFUSED, "no particle"));
+    assert_string_equal(status_message(), "no particle");
+}
+
 static void check_zero(void)
 {
     const int64_t count[] = {0, 1, 63, 8192, 300001, 250000, 100000, 20000};
@@ -399,6 +411,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(status_keeps_its_message),
+        cmocka_unit_test(refusals_have_one_place),
         cmocka_unit_test(out_of_memory_says_so),
         cmocka_unit_test(memory_is_aligned_and_zero),
         cmocka_unit_test(memory_resize_keeps_what_fits),
