@@ -85,7 +85,7 @@ const struct drift_case drift_named[] = {
     NAMED("strip, mospd nu 1/4, current", PLATE("mospd", "current", "partial stress", "1/4")),
     NAMED("square, bonds, current flip", SQUARE_TURNED("flip", "gimp", "partial stress", "")),
     NAMED("square, bonds, current flip, hand-shake", SQUARE_TURNED("flip", "gimp", "handshake", "")),
-    NAMED("square, bonds, current flip, no rim damping",
+    NAMED("square, bonds, current flip, no interface damping",
           SQUARE_TURNED("flip", "gimp", "partial stress\ninterface_damping: 0", "")),
     NAMED("square, bonds, current apic", SQUARE_TURNED("apic", "gimp", "partial stress", "")),
     NAMED("clamped beam, bonds", BEAM("pd", "bond", "1/3", "particles: {spacing: 0.5 mm}\n")),

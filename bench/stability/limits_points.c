@@ -139,7 +139,7 @@ static status null_mode(const struct limits_row *r, double *to)
 /* After `given` steps; what APIC leaves is at the ends. */
 static const struct limits_row null_modes[] = {
     {.method = "flip", .set = {"mpm.transfer", "flip"}, .given = 1000, .known = {{0.99, 1.0001}},
-     .remedy = "apic; rim damping at bonds"},
+     .remedy = "apic; interface damping at bonds"},
     {.method = "apic", .set = {"mpm.transfer", "apic"}, .given = 1, .known = {{0, 0.01}}},
 };
 const struct limits_scene limits_null_mode = {"null mode +-v",

@@ -33,7 +33,7 @@ static status stability_scenes_take(struct bench_table *t, const struct limits_s
         bench_text(t, holds ? "-" : r->remedy ? r->remedy : "none yet");
         printf(" %10.3g%s", figure[k], holds ? "  " : " !");
     }
-    printf("%s%s\n", r->remedy ? "  cure: " : "", r->remedy ? r->remedy : "");
+    printf("%s%s\n", r->remedy ? "  remedy: " : "", r->remedy ? r->remedy : "");
     fflush(stdout);
     return OK;
 }
