@@ -99,6 +99,7 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
 
 status command_run(int argc, char **argv)
 {
+    listen_to_signals();                     /* before the scene, whose reading may take seconds */
     struct run_arguments a;
     TRY(arguments_read(&a, argc, argv,
                        "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
@@ -107,7 +108,6 @@ status command_run(int argc, char **argv)
     struct engine e = {0};
     struct output out = {0};
     status result = scene_read(&s, a.scene, a.override, a.overrides);
-    listen_to_signals();
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
     engine_free(&e);
     output_close(&out);

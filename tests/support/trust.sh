@@ -74,7 +74,8 @@ await()
 hearing="env --default-signal=INT"
 $hearing true 2>/dev/null || hearing=
 
-# interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that gets the signal when history.csv has that many lines; $result: its status.
+# interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that gets the signal when history.csv has that many lines, one of them its own (a
+# run that goes on finds lines there before it can hear anything); $result: its status.
 # A busy machine lets it come to its end before anyone looks: it is held while its lines are counted, and begun again from where
 # it was if all of them were there, but for the last, before which nobody listens any more. A run that had more to do and did
 # not heed the signal shows a status of 0.
@@ -84,6 +85,8 @@ interrupt()
     [ "$signal" != INT ] || [ -n "$hearing" ] || signal=TERM
     rm -rf "$work/before"
     [ ! -e "$to" ] || cp -r "$to" "$work/before"
+    there=$(cat "$to/history.csv" 2>/dev/null | wc -l)
+    [ "$there" -lt "$length" ] || length=$((there + 1))
     while [ $tries -lt 10 ]; do
         tries=$((tries + 1))
         $hearing "$cleave" run -q -o "$to" -t 2 "$@" 2>"$work/err" &
