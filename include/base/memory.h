@@ -29,8 +29,10 @@ void memory_reuse(bool reuse);
 /* High-water mark of the process as the operating system knows it [byte]. */
 int64_t memory_peak(void);
 
-/* What limits of the process (ulimit) and of its control groups leave it [byte]; INT64_MAX: they do not. */
-int64_t memory_limit(void);
+/* What limits of the process (ulimit) and of its control groups leave it [byte], and the tightest of them; INT64_MAX:
+ * there is none. */
+struct memory_limit { int64_t bytes; const char *limit; };
+struct memory_limit memory_limit(void);
 
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
 #define BARE(label, count, type) ((type *)memory_bare(label, count, sizeof(type)))

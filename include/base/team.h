@@ -16,6 +16,7 @@ struct machine {
  * OMP_PLACES; the calling thread goes to the first core and keeps the mask. Returns the number in use. */
 int team_make(int threads);
 struct machine team_machine(void);
+const char *team_memory_limit(void);   /* what sets team_memory: "memory of the machine", "ulimit -v", ... */
 int64_t team_memory(void);  /* of the machine, or what limits leave of it [byte]; read by team_make */
 
 /* Wall clock [s]. */

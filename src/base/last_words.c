@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 static const char out_of_memory[] =
@@ -58,8 +59,19 @@ static bool memory_is_tight(void)
     return false;
 }
 
+static bool stack_is_tight(void)
+{
+    enum { ENOUGH = 1 << 20 };
+    struct rlimit l;
+    return getrlimit(RLIMIT_STACK, &l) == 0 && l.rlim_cur < ENOUGH;
+}
+
 static void on_crash(int number)
 {
+    if (stack_is_tight()) {
+        say("out of stack: its limit is below 1 MB; ulimit -s 8192 is the usual one\n");
+        _exit(FAILED);
+    }
     if (memory_is_tight()) say_and_leave();
     if (reading[0]) say_damaged_and_leave();
     signal(number, SIG_DFL);                 /* the fault comes again, and ends the process as it should */

@@ -66,15 +66,18 @@ static int64_t left_of(int resource, long long taken)
     return left > 1 ? left : 1;
 }
 
-int64_t memory_limit(void)
+static struct memory_limit tighter(struct memory_limit a, struct memory_limit b) { return b.bytes < a.bytes ? b : a; }
+
+struct memory_limit memory_limit(void)
 {
     FILE *f = fopen("/proc/self/statm", "r");
     long long size = 0, data = 0;
     if (f && fscanf(f, "%lld %*d %*d %*d %*d %lld", &size, &data) != 2) size = data = 0;
     if (f) fclose(f);
-    int64_t limit = least(groups_limit(), left_of(RLIMIT_DATA, data));
+    struct memory_limit limit = {groups_limit(), "limit of a control group"};
+    limit = tighter(limit, (struct memory_limit){left_of(RLIMIT_DATA, data), "ulimit -d"});
 #ifdef RLIMIT_AS
-    limit = least(limit, left_of(RLIMIT_AS, size));
+    limit = tighter(limit, (struct memory_limit){left_of(RLIMIT_AS, size), "ulimit -v"});
 #endif
     return limit;
 }

@@ -24,17 +24,18 @@ struct place {
     hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
 };
 
-/* The machine's memory, or what this process may take of it [byte], found once: the search takes some 6 ms, a
+/* The machine's memory, or what this process may take of it, found once: the search takes some 6 ms, a
  * hundred steps of a small scene. In a container hwloc may not see it, in a virtual machine only what it began with:
  * the system supplies the rest. */
-static int64_t memory;
+static struct memory_limit memory;
 
 static void note_memory(hwloc_topology_t topology)
 {
     const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;
     const int64_t told = (int64_t)sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
-    const int64_t all = seen > told ? seen : told, limit = memory_limit();
-    memory = limit < all ? limit : all;
+    const int64_t all = seen > told ? seen : told;
+    const struct memory_limit limit = memory_limit();
+    memory = limit.bytes < all ? limit : (struct memory_limit){all, "memory of the machine"};
 }
 
 /* The k-th physical core of the mask; NULL past the last. */
@@ -115,7 +116,7 @@ struct machine team_machine(void)
     struct place place;
     const bool known = place_make(&place);
     snprintf(m.model, sizeof m.model, "unknown processor");
-    m.memory = memory;
+    m.memory = memory.bytes;
     if (!known) return m;
     m.cores = core_count(&place);
     m.threads_allowed = hwloc_bitmap_weight(place.mask);
@@ -127,7 +128,13 @@ struct machine team_machine(void)
     return m;
 }
 
-int64_t team_memory(void) { return memory > 0 ? memory : team_machine().memory; }
+int64_t team_memory(void) { return memory.bytes > 0 ? memory.bytes : team_machine().memory; }
+
+const char *team_memory_limit(void)
+{
+    (void)team_memory();
+    return memory.limit;
+}
 
 /* ---- the team ---------------------------------------------------------------------------------------------------- */
 

@@ -256,9 +256,9 @@ static status make_affordable(const struct engine *e)
     if (memory <= 0 || bytes <= memory) return OK;
     return status_set(
         REFUSED,
-        "about %.2g particles would need some %.2g GB, and %.2g can be had (memory of the machine, or a limit set by "
-        "ulimit or a control group); choose a larger particles.spacing",
-        particles_now(e->scene, &e->part, &longest), bytes * 1e-9, memory * 1e-9);
+        "about %.2g particles would need some %.2g GB, and %.2g can be had (%s); choose a larger particles.spacing",
+        particles_now(e->scene, &e->part, &longest), bytes * 1e-9, memory * 1e-9,
+        team_memory_limit());
 }
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */

@@ -41,6 +41,20 @@ static bool is_frame(const char *name, const char *end)
     return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
 }
 
+/* True for the name of a picture of `cleave plot`, NAME.png or NAME_123456.png, followed by `end`. */
+static bool is_picture(const char *name, const char *end)
+{
+    static const char *const drawn[] = {"damage", "kind", "last", "profiles", "crack", "energy", "sif", "path"};
+    for (size_t k = 0; k < COUNT_OF(drawn); k++) {
+        const size_t length = strlen(drawn[k]);
+        if (strncmp(name, drawn[k], length) != 0) continue;
+        const char *rest = name + length;
+        if (*rest == '_') rest += 1 + strspn(rest + 1, "0123456789");
+        if (strncmp(rest, ".png", 4) == 0 && strcmp(rest + 4, end) == 0) return true;
+    }
+    return false;
+}
+
 /* Makes one folder unless it exists. REFUSED if a file has this name. */
 static status folder_make_one(const char *path)
 {
@@ -62,13 +76,13 @@ static status folder_make(const char *path)
     return folder_make_one(part.text);
 }
 
-/* Removes frames with `end` after their names. */
-static void frames_remove(const char *folder, const char *end)
+/* Removes the files of a folder that `chosen` names, with `end` after their names. */
+static void files_remove(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end)
 {
-    DIR *d = opendir(folder);
+    DIR *d = path_is_link(folder) ? NULL : opendir(folder);
     if (!d) return;
     for (struct dirent *e; (e = readdir(d));)
-        if (is_frame(e->d_name, end)) unlink(path_join(folder, e->d_name).text);
+        if (chosen(e->d_name, end)) unlink(path_join(folder, e->d_name).text);
     closedir(d);
 }
 
@@ -223,14 +237,16 @@ static status mode_check(const char *folder, enum output_mode mode)
 static void run_remove(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_join(folder, made[k]).text);
-    frames_remove(path_join(folder, "frames").text, "");
+    files_remove(path_join(folder, "frames").text, is_frame, "");
+    files_remove(path_join(folder, "pictures").text, is_picture, "");
 }
 
 static void temporary_remove(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k]).text).text);
     unlink(path_aside(path_join(folder, "scene.yaml").text).text);
-    frames_remove(path_join(folder, "frames").text, ".tmp");
+    files_remove(path_join(folder, "frames").text, is_frame, ".tmp");
+    files_remove(path_join(folder, "pictures").text, is_picture, ".tmp");
 }
 
 static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)

@@ -190,9 +190,10 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
         return refuse_list(
             c,
             "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need some %.2g "
-            "GB, and %.2g can be had; those of the list are %.4g m apart: a particles.spacing like that "
+            "GB, and %.2g can be had (%s); those of the list are %.4g m apart: a particles.spacing like that "
             "is expected",
-            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9, v->apart);
+            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9,
+            team_memory_limit(), v->apart);
     return OK;
 }
 

@@ -56,8 +56,8 @@ static status list_affordable(const char *path, int64_t n)
 {
     const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
     if (team_memory() <= 0 || bytes <= (real)team_memory()) return OK;
-    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had", path, (real)n,
-                      1e-9 * bytes, 1e-9 * (real)team_memory());
+    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had (%s)", path, (real)n,
+                      1e-9 * bytes, 1e-9 * (real)team_memory(), team_memory_limit());
 }
 
 /* ---- CSV --------------------------------------------------------------------------------------------------------- */

@@ -93,6 +93,8 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
         return fault(r, n, "%s is no list of axes; all or a list such as [x, y] is expected", shown(r, n));
     for (const struct node *c = n->first; c; c = c->next) {
         TRY(read_axis(r, c, c->text, &axis));
+        if (b->components >> axis & 1)
+            return fault(r, c, "%s stands there twice; each axis is expected once", shown(r, c));
         b->components |= (uint8_t)(1 << axis);
     }
     return OK;

@@ -31,5 +31,5 @@ for threads in 1 2; do
 done
 (ulimit -v 1500000; exec "$cleave" run -q -o "$work/large" $solid -s method=pd -s particles.spacing=0.3mm) 2>"$work/err"
 is "a scene beyond the limit: exit status" $? 2
-holds "a scene beyond the limit: $(cat "$work/err")" grep -q 'GB, and 1.[0-9] can be had' "$work/err"
+holds "a scene beyond the limit: $(cat "$work/err")" grep -q 'GB, and 1.[0-9] can be had (ulimit -v)' "$work/err"
 finish

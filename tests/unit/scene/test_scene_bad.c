@@ -167,6 +167,7 @@ static const struct { const char *piece, *instead, *message;
      "28:5: velocity: 22 m/s does not fit space plane stress; a list of 2 is expected, as [22 m/s, free]"},
     {"velocity: [22 m/s, free]", "fixed: [x, z]",
      "28:16: fixed[1]: z is no axis of space plane stress; x or y is expected"},
+    {"velocity: [22 m/s, free]", "fixed: [x, x]", "28:16: fixed[1]: x stands there twice; each axis is expected once"},
     {"velocity: [22 m/s, free]\n", "velocity: [22 m/s, free]\n    fixed: all\n",
      "29:5: fixed: given beside velocity; two conditions are two items of the list"},
     {"    velocity: [22 m/s, free]\n", "",
