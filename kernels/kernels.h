@@ -78,11 +78,11 @@ struct pd_motion {
 };
 
 /* Force of all intact bonds on the particle of every active row (active_set.h; overwrites f there), then breaks
- * bonds that are stretched beyond their limit. A bond acts with half its force in the step in which it breaks: a
- * leap-frog kick stands half before and half after that instant, so the energy of breaking is second order in the
- * time step (first order with the whole force or none). Sets FLAG_LOST_BOND (and FLAG_CRACKED where neither end is
- * driven), damage, broken counts and fracture energy. What it reads per bond depends on the kind of the
- * column (bonds/bond_storage.h); positions come from cache. Returns the directed bonds broken.
+ * bonds that are stretched beyond their limit. A bond acts until the moment within the step at which it passes its
+ * limit (pd/bond_last.h), so that where a crack goes and what it costs are of second order in the time step. Sets
+ * FLAG_LOST_BOND (and FLAG_CRACKED where neither end is driven), damage, broken counts and fracture energy. What it
+ * reads per bond depends on the kind of the column (bonds/bond_storage.h); positions come from cache, velocities of
+ * bonds that break. Returns the directed bonds broken.
  * With `motion` active peridynamic particles that the grid does not move and that are not `loaded` move in the same
  * sweep (sweep.h). */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
@@ -96,29 +96,23 @@ KERNEL(int64_t, bond_forces,
         struct pd_motion *motion));
 
 /* Dilatation, spring and rotation of the families, into b->state: the first half of a state-based force. To be
- * called before bonds of new rows break (bond_break_needs_states). Material points at the end of bonds receive the
+ * called where states are read without a sweep of forces. Material points at the end of bonds receive the
  * reaction on their cells (particles.end_pull, end_moment). */
 typedef void state_precompute_fn(struct bonds *b, struct particles *p);
 
-/* The rule of breaking, applied to one row block, or to all: bonds made for particles that were material points
- * until then may be past their limit at once. Exact and slow: called where a bond may break. Returns directed bonds
- * broken. */
+/* The rule of breaking, applied to one row block that has its forces. Exact and slow: called where a bond may break.
+ * Returns directed bonds broken. */
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds * b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
-KERNEL(int64_t, bond_break_all, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
-/* True if bond_break_all may break a bond of a material point with a state-based model: its energy needs the states of
- * families first. */
-KERNEL(bool, bond_break_needs_states,
-       (const struct bonds *b, const struct particles *p, const struct bond_limit *limit));
 
 /* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as
  * fracture: a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the
  * next positions. The other entry of the bond has to fade alike. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Elastic energy of a row of a state-based model by its present weights and places, whatever the last sweep left
- * [J]. */
-KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row));
+/* Elastic energy of a row of a state-based model by its present weights and places, `ago` before the present [s],
+ * whatever the last sweep left [J]. */
+KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row, real ago));
 
 /* Half the elastic energy of every row's intact bonds, added up in fixed blocks [J]. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);

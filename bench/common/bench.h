@@ -173,4 +173,7 @@ status bench_efficiency(bool quick);
 /* bench_sensitivity.c: how far the ends of cracks lie apart when nothing but the time step differs. */
 status bench_sensitivity(bool quick);
 
+/* bench_steps.c: start, length, angle and energy of cracks over the time step. */
+status bench_steps(bool quick);
+
 #endif

@@ -64,6 +64,7 @@ struct clamped {
 
 /* State of families; only state-based models have it. Material points with rows then have
  * particles.end_*. */
+enum { STATE_NUMBERS = 2 + ROTATION };   /* P, g, R */
 struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bond-based */
     bool local;                          /* Q of what a family still has, not of a full one */
@@ -73,6 +74,7 @@ struct state {
     /* [n_all] rotation R and g (kernels/pd/rotation.h); only models with rotations: g (R - 1), row major, in the
      * plane [N/m]; sqrt(2 g) times the quaternion of R, its scalar last, in space [(N/m)^1/2] */
     real *rotation[ROTATION];
+    real *before[STATE_NUMBERS];         /* [n_all] the same three in row blocks that are past: before bonds end */
     struct state_image *image;           /* [n_all - n] */
 };
 

@@ -31,11 +31,16 @@ struct family {
     real shell_weight[2];                /* along the axes; along the diagonals (shells: isotropic) */
 };
 
+/* How long the force of a breaking bond acts: until the moment at which the bond passes its limit, found within the
+ * step; or with half, all or nothing of itself in the first step that sees it beyond. */
+enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FORCE_NONE };
+
 /* When bonds break: critical stretch by pair of materials, [materials^2]; INFINITY: never. */
 struct bond_limit {
     const real *critical_stretch;
     int materials;
-    bool whole_force;                    /* a breaking bond acts with its whole force in that step, else half */
+    enum last_force last_force;
+    real dt;                             /* between the positions of two steps [s] */
 };
 
 /* No bond breaks: one row of stretches for all pairs of materials. */

@@ -93,7 +93,7 @@ struct scene {
     enum shell_rule shells;
     enum influence influence;            /* resolved */
     bool bulk;                           /* state-based: normalised as full families are */
-    bool whole_force;                    /* of a bond in the step in which it breaks */
+    enum last_force last_force;          /* of a bond in the step in which it breaks */
     bool has_pd_region;  struct region pd_region; /* peridynamic from the start (adaptive) */
 
     real cell;                           /* grid node distance, in spacings */

@@ -4,19 +4,13 @@
 
 #include "bond_laws.h"
 #include "bond_column.h"
+#include "bond_last.h"
 #include "kernels/kernels.h"
+#include "state_last.h"
 #include "state_laws.h"
 
 #define LIMIT_MARGIN 1e-9 /* the vector test is this much below a limit, for round-off; the scalar rule decides */
 #define ROUND_OFF 1e-14                  /* of a squared elongation: the margin where limits are close to 0 */
-
-/* Stretch of stored bond q between i and j [1]. */
-static real bond_stretch(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, int32_t j)
-{
-    real distance2 = 0;
-    for (int d = 0; d < p->dim; d++) distance2 += square(p->x[d][j] - p->x[d][i]);
-    return sqrt(distance2) * fabs(b->inverse_length[q]) - 1;
-}
 
 /* Flags are set by the owner of a row and read by its neighbours' owners at the same time; the bit they read does not
  * change, the atomics only say so. */
@@ -48,32 +42,53 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
     if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
 }
 
-static void bond_break(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j, real stretch)
-{
-    if (!b->state.modulus) b->fracture_energy[row] += half_energy(b, q, stretch);
-    const struct bond bond = {q, j, b->inverse_length[q], b->w[q]};
-    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_of(b, &bond);
-    bond_end(b, p, row, q, i, j);
-}
-
 /* After a change of weights of a row. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && b->whole[row]) b->state.weighted[row] = state_weight_left(b, row);
 }
 
+/* ---- the last force ---------------------------------------------------------------------------------------------- */
+
+/* Leaves in the force on i the share of a bond that ends, in place of what the sweep has given it. */
+static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
+{
+    real given[DIM_MAX], f[DIM_MAX];
+    pair_force(b, p, bond, i, true, given);
+    pair_force(b, p, bond, i, false, f);
+    for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
+}
+
+/* Ends bond q of a row and books its energy. */
+static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
+{
+    const int32_t i = b->particle[row], j = b->nbr[q];
+    const struct bond_last last = bond_last_stored(b, p, limit, q, i, j);
+    const struct bond bond = {q, j, b->inverse_length[q], b->w[q]};
+    const bool state = b->state.modulus != NULL;
+    last_force(b, p, &bond, i, last.share);
+    b->fracture_energy[row] += state ? state_row_energy(b, p, row, last.ago)
+                                     : half_energy(b, q, stretch_ago(p, b->inverse_length[q], i, j, last.ago));
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_of(b, &bond);
+    bond_end(b, p, row, q, i, j);
+    row_changed(b, row);
+    if (state) b->fracture_energy[row] -= state_row_energy(b, p, row, last.ago);
+}
+
+/* ---- rows -------------------------------------------------------------------------------------------------------- */
+
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
     const bool state = b->state.modulus != NULL;
-    const real stretch = bond_stretch(b, p, q, i, j);
-    const real before = state ? state_row_energy(b, p, row) : half_energy(b, q, stretch);
+    const real stretch = stretch_ago(p, b->inverse_length[q], i, j, 0);
+    const real before = state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch);
     if (w > 0) b->w[q] = w;
     else if (b->inverse_length[q] > 0) bond_end(b, p, row, q, i, j);
     else b->w[q] = 0;
     bonds_changed(b, row, q);
     row_changed(b, row);
-    b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row) : half_energy(b, q, stretch)));
+    b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch)));
 }
 
 /* The rule of breaking on one row. */
@@ -81,20 +96,14 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
 {
     const int32_t i = b->particle[row];
     int64_t broken = 0;
-    real before = 0;
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
         const int64_t q = bond_to_write(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
-        const real stretch = bond_stretch(b, p, q, i, j);
-        if (!(stretch > limit->critical_stretch[p->material[i] * limit->materials + p->material[j]])) continue;
-        if (b->state.modulus && broken == 0) before = state_row_energy(b, p, row);
-        bond_break(b, p, row, q, i, j, stretch);
+        if (!(stretch_ago(p, b->inverse_length[q], i, j, 0) > stretch_limit(p, limit, i, j))) continue;
+        bond_break(b, p, limit, row, q);
         broken++;
     }
-    if (broken == 0 || !b->state.modulus) return broken;
-    row_changed(b, row);
-    b->fracture_energy[row] += before - state_row_energy(b, p, row);
     return broken;
 }
 
@@ -148,27 +157,5 @@ int64_t bond_break_row_block(struct bonds *b, struct particles *p, const struct 
     int64_t broken = 0;
     for (int l = 0; l < LANES && row_block * LANES + l < b->rows && lanes_any(past); l++)
         if (past[l]) broken += break_row(b, p, limit, row_block * LANES + l);
-    return broken;
-}
-
-/* Padding rows follow the last row, whose kind they have. */
-bool bond_break_needs_states(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
-{
-    bool asks = false;
-    if (!b->state.modulus) return false;
-#pragma omp parallel for schedule(static) reduction(|| : asks)
-    for (int64_t g = 0; g < b->row_blocks; g++) {
-        if (asks || row_block_whole(b, g)) continue;
-        const lanes_mask past = rows_due(b, p, limit, g);
-        for (int l = 0; l < LANES; l++) asks = asks || (past[l] && p->kind[b->particle[g * LANES + l]] == KIND_MPM);
-    }
-    return asks;
-}
-
-int64_t bond_break_all(struct bonds *b, struct particles *p, const struct bond_limit *limit)
-{
-    int64_t broken = 0;
-#pragma omp parallel for schedule(static) reduction(+ : broken)
-    for (int64_t g = 0; g < b->row_blocks; g++) broken += bond_break_row_block(b, p, limit, g);
     return broken;
 }

@@ -121,11 +121,11 @@ static ALWAYS_INLINE lanes column_largest(const struct column s, lanes a, lanes 
                                                            : lanes_max_kept(column_intact(s), a, other);
 }
 
-/* Rows of a row block: f = new share + f (1 - share) */
-static ALWAYS_INLINE void rows_store(real *f, const int32_t *row, int rows, bool aligned, lanes value, real share)
+/* Values of a row block's particles. */
+static ALWAYS_INLINE void rows_store(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {
-    if (aligned && share == 1) lanes_store(f + row[0], value);
-    else for (int l = 0; l < rows; l++) f[row[l]] = share * value[l] + (share == 1 ? 0 : (1 - share) * f[row[l]]);
+    if (aligned) lanes_store(to + row[0], value);
+    else for (int l = 0; l < rows; l++) to[row[l]] = value[l];
 }
 
 #endif

@@ -40,9 +40,9 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Force of one row block, mixed into what f holds by `share`; returns whether a bond may have passed its limit. */
-static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const real share,
-                                           const int dim, const enum pd_model model)
+/* Force of one row block; returns whether a bond may have passed its limit. */
+static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
+                                               const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     const bool aligned = b->aligned[g];
@@ -54,9 +54,9 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    rows_store(p->f[0], row, rows, aligned, sum.f0 * b->stiffness, share);
-    if (dim > 1) rows_store(p->f[1], row, rows, aligned, sum.f1 * b->stiffness, share);
-    if (dim > 2) rows_store(p->f[2], row, rows, aligned, sum.f2 * b->stiffness, share);
+    rows_store(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
+    if (dim > 1) rows_store(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
+    if (dim > 2) rows_store(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
     return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
 }
 
@@ -64,10 +64,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {
-    if (!bond_force_row_block(b, p, g, 1, dim, model)) return 0;
-    const int64_t broken = bond_break_row_block(b, p, limit, g);
-    if (broken > 0 && !limit->whole_force) bond_force_row_block(b, p, g, 0.5, dim, model);
-    return broken;
+    return bond_force_row_block(b, p, g, dim, model) ? bond_break_row_block(b, p, limit, g) : 0;
 }
 
 #define INSTANCE(D, M)                                                                                                 \

@@ -65,6 +65,16 @@ static inline real bond_force_of(const struct bonds *b, const struct particles *
     return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_of(b, p, bond, i);
 }
 
+/* The same on i as a vector [N]. */
+static inline void bond_pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i,
+                                   real *f)
+{
+    real distance2 = 0;
+    for (int d = 0; d < p->dim; d++) f[d] = p->x[d][bond->nbr] - p->x[d][i], distance2 += square(f[d]);
+    const real force = bond_force_of(b, p, bond, i) / sqrt(distance2);
+    for (int d = 0; d < p->dim; d++) f[d] *= force;
+}
+
 /* Its elastic energy [J]. */
 static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {

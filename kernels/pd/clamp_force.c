@@ -11,9 +11,11 @@
  * with T_ig what W_i alone gives. In a bond-based model half of a bond's force comes from either end: half of
  * what the sweep gave i belongs to the row that the image does not have. In a state-based model clamped images have no
  * state, so the sweep gave T_ig. */
+#include "bond_last.h"
 #include "bond_laws.h"
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
+#include "state_last.h"
 #include "state_laws.h"
 
 enum { MANY = 4096 };                    /* bonds from which on a team pays */
@@ -86,12 +88,25 @@ static void clamp_force_give(const struct clamped *c, struct particles *p, int64
     }
 }
 
-/* Weights of now; a bond that the sweep broke acts as it does there: with half its force, or with all of it
- * (bond_force_fn). */
-static void weights_follow(struct bonds *b, real of_broken)
+static void weights_follow(struct bonds *b)
 {
     struct clamped *c = &b->clamped;
-    for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]] == 0 ? of_broken * c->w[k] : b->w[c->entry[k]];
+    for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]];
+}
+
+/* Of bonds that the sweep broke: by the share of their force, and the states, with which they act there
+ * (bond_last.h). Weights of before the sweep tell which these are. */
+static void reactions_last(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+{
+    const struct clamped *c = &b->clamped;
+    for (int64_t k = 0; k < c->n; k++) {
+        const struct bond bond = {c->entry[k], c->to[k], c->inverse_length[k], c->w[k]};
+        if (bond.w == 0 || b->w[bond.entry] > 0) continue;
+        const real share = bond_last_stored(b, p, limit, bond.entry, c->from[k], bond.nbr).share;
+        real f[DIM_MAX];
+        pair_force(b, p, &bond, c->from[k], false, f);
+        for (int d = 0; d < p->dim; d++) c->reaction[d][k] = -share * (b->state.modulus ? 1 : 0.5) * f[d];
+    }
 }
 
 int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
@@ -100,13 +115,13 @@ int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, 
     struct clamped *c = &b->clamped;
     if (c->n == 0) return sweep(b, p, limit, motion);
     assert(p->dim > 1 && (!motion || motion->loaded));
-    if (c->stale) weights_follow(b, 0);
+    if (c->stale) weights_follow(b);
     c->stale = false;
     const int64_t broken = sweep(b, p, limit, motion);       /* stale, if one of these bonds is among them */
-    if (c->stale) weights_follow(b, limit->whole_force ? 1 : 0.5);
     TEAM_LOOP(c->n > MANY, for (int64_t k = 0; k < c->n; k += LANES)
         if (p->dim == 2) clamp_force_reactions(b, p, k, 2);
         else clamp_force_reactions(b, p, k, 3););
+    if (c->stale) reactions_last(b, p, limit);
     TEAM_LOOP(c->n > MANY, for (int64_t h = 0; h < c->held; h++) clamp_force_give(c, p, h););
     return broken;
 }

@@ -7,6 +7,7 @@
 #include "kernels/kernels.h"
 #include "polar.h"
 #include "polar_lanes.h"
+#include "state_last.h"
 #include "state_laws.h"
 #include "sweep.h"
 #include "rotation.h"
@@ -71,10 +72,10 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
     const int32_t *row = b->particle + g * LANES;
     const int rows = eight_at(g * LANES, b->rows);
     struct state *t = &b->state;
-    rows_store(t->pressure, row, rows, b->aligned[g], k->pressure, 1);
-    rows_store(t->spring, row, rows, b->aligned[g], k->spring, 1);
+    rows_store(t->pressure, row, rows, b->aligned[g], k->pressure);
+    rows_store(t->spring, row, rows, b->aligned[g], k->spring);
     for (int c = 0; state_rotates(model) && c < ROTATION; c++)
-        rows_store(t->rotation[c], row, rows, b->aligned[g], k->rotation[c], 1);
+        rows_store(t->rotation[c], row, rows, b->aligned[g], k->rotation[c]);
 }
 
 /* ---- material points at the end of bonds ------------------------------------------------------------------------- */
@@ -118,7 +119,7 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0));  /* of nothing there is none, to the last bit */
     for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        rows_store(p->end_moment[c], row, rows, own >= 0, lanes_choose(any, N[j][i] - N[i][j], lanes_of(0)), 1);
+        rows_store(p->end_moment[c], row, rows, own >= 0, lanes_choose(any, N[j][i] - N[i][j], lanes_of(0)));
     }
 }
 
@@ -133,7 +134,7 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
     const int rows = eight_at(g * LANES, b->rows);
     k->pressure += f->A * f->share * lanes_choose(end, lanes_at(p->end_strain, own, row), lanes_of(0));
     const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_of(0));
-    rows_store(p->end_pull, row, rows, own >= 0, pull, 1);
+    rows_store(p->end_pull, row, rows, own >= 0, pull);
     if (!state_rotates(model)) return;
     lanes rotation[ROTATION];
     ends_rotate(p, row, own, k->spring, false, rotation, dim);
@@ -162,8 +163,8 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
 }
 
 /* Rows of one row block. */
-static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                               const enum pd_model model)
+static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                                               int64_t g, const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
@@ -180,6 +181,7 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
 #undef VISIT
     b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
     precompute_by_family(b, p, g, &sum, dim, model);
+    if (b->state.past[g]) state_last(b, p, limit, g);
 }
 
 /* Mirror images take the state of their source; a plane of symmetry reverses rotations. Images in clamped planes have
@@ -238,9 +240,9 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
     for (int d = 0; d < dim; d++) sum->f[d] += f[d];     /* one addition a column: the chain is as short as can be */
 }
 
-/* Force of one row block, mixed into what f holds by `share`. */
-static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const real share,
-                                      const int dim, const enum pd_model model)
+/* Force of one row block. */
+static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
+                                          const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     const int32_t own = b->aligned[g] ? row[0] : -1;
@@ -260,31 +262,33 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
         for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_at(t->rotation[c], own, row);
         rotate_back(sum.f, rotation, sum.arm, dim);
     }
-    for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d], share);
+    for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
 /* Force of one row block and the breaking of its bonds; returns how many broke. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {
-    force_row_block(b, p, g, 1, dim, model);
+    force_row_block(b, p, g, dim, model);
     if (!b->state.past[g]) return 0;
-    const int64_t broken = bond_break_row_block(b, p, limit, g);
-    if (broken > 0 && !limit->whole_force) force_row_block(b, p, g, 0.5, dim, model);
-    return broken;
+    return bond_break_row_block(b, p, limit, g);
 }
 
 #define INSTANCE(D, M)                                                                                                 \
-    static void state_precompute_##D##d_##M(struct bonds *b, struct particles *p)                                      \
+    static void families_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit)              \
     {                                                                                                                  \
         _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < b->active.active; k++)                    \
-            precompute_row_block(b, p, b->active.list[k], D, PD_##M);                                                  \
+            precompute_row_block(b, p, limit, b->active.list[k], D, PD_##M);                                           \
         state_of_images(b, p, D, state_rotates(PD_##M));                                                               \
+    }                                                                                                                  \
+    static void state_precompute_##D##d_##M(struct bonds *b, struct particles *p)                                      \
+    {                                                                                                                  \
+        families_##D##d_##M(b, p, &bond_limit_never);                                                                  \
     }                                                                                                                  \
     static int64_t state_force_##D##d_##M(struct bonds *b, struct particles *p, const struct bond_limit *limit,        \
                                           struct pd_motion *m)                                                         \
     {                                                                                                                  \
-        state_precompute_##D##d_##M(b, p);                                                                             \
+        families_##D##d_##M(b, p, limit);                                                                              \
         SWEEP(b, p, m, D, force_and_break(b, p, limit, row_block, D, PD_##M));                                         \
     }
 STATE_VARIANTS(INSTANCE)

@@ -70,30 +70,4 @@ static ALWAYS_INLINE lanes state_length(const struct column s, lanes inverse_len
 /* e/|Y| = 1 - |xi|/|Y|, rounded as a stretch is (bond_column.h). */
 #define SHARE_OF(LENGTH, INVERSE) (9.0 - ((LENGTH) * (INVERSE) + 8.0))
 
-/* Entry q of the row of particle i: its own force state times both volumes [N]; returns the bond's energy on this side
- * [J]. */
-static inline real state_own_force(const struct bonds *b, const struct particles *p, int64_t q, int32_t i, real *T,
-                                   real *xi, const int dim, const bool rotates)
-{
-    const struct state *t = &b->state;
-    const int32_t j = b->nbr[q];
-    real y[DIM_MAX], y2 = 0, r = fabs(1 / b->inverse_length[q]), energy;
-    for (int d = 0; d < dim; d++) {
-        y[d] = p->x[d][j] - p->x[d][i], xi[d] = p->X[d][j] - p->X[d][i];
-        y2 += square(y[d]);
-    }
-    const real length = sqrt(y2), e = r * STRETCH_OF(length, fabs(b->inverse_length[q])), w = b->w[q];
-    real along = r * t->pressure[i] + (rotates ? 0 : e * t->spring[i]);
-    energy = 0.5 * w * along * e;
-    for (int d = 0; d < dim; d++) T[d] = w * along * y[d] / length;
-    if (!rotates) return energy;
-    lanes effective[DIM_MAX], arm[DIM_MAX], rotation[ROTATION];          /* eight times the same */
-    real effective2 = 0;
-    for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_of(t->rotation[c][i]);
-    for (int d = 0; d < dim; d++) effective[d] = lanes_of(t->spring[i] * (y[d] - xi[d])), arm[d] = lanes_of(xi[d]);
-    rotate_back(effective, rotation, arm, dim);
-    for (int d = 0; d < dim; d++) T[d] += w * effective[d][0], effective2 += square(effective[d][0]);
-    return energy + 0.5 * w * effective2 / t->spring[i];
-}
-
 #endif

@@ -5,6 +5,7 @@
  *                       places y, not xi: the stress turns with the body */
 #include <math.h>
 
+#include "bond_last.h"
 #include "kernels/kernels.h"
 #include "polar.h"
 #include "kernels/mpm/stress.h"
@@ -136,7 +137,7 @@ static void end_rotation(const struct particles *p, int32_t i, real *R)
 }
 
 /* w |Y - R xi|^2 over a row, with the rotation from its present weights, or that of a point's cell [m^2]. */
-static real row_effective(const struct bonds *b, const struct particles *p, int64_t row)
+static real row_effective(const struct bonds *b, const struct particles *p, int64_t row, real ago)
 {
     const int32_t i = b->particle[row];
     const int dim = p->dim;
@@ -147,7 +148,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
             const real w = it.bond.w;
             if (w == 0) continue;
             for (int d = 0; d < dim; d++) {
-                real effective = p->x[d][j] - p->x[d][i];
+                real effective = apart_ago(p, i, j, d, ago);
                 for (int c = 0; c < dim && pass == 0; c++)
                     M[d * dim + c] += w * effective * (p->X[c][j] - p->X[c][i]);
                 for (int c = 0; c < dim && pass == 1; c++) effective -= R[d * dim + c] * (p->X[c][j] - p->X[c][i]);
@@ -160,7 +161,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
     return sum;
 }
 
-real state_row_energy(const struct bonds *b, const struct particles *p, int64_t row)
+real state_row_energy(const struct bonds *b, const struct particles *p, int64_t row, real ago)
 {
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
@@ -169,13 +170,13 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
         const real w = it.bond.w, r = fabs(1 / it.bond.inverse_length);
         real y2 = 0;
         if (w == 0) continue;
-        for (int d = 0; d < p->dim; d++) y2 += square(p->x[d][it.bond.nbr] - p->x[d][i]);
+        for (int d = 0; d < p->dim; d++) y2 += square(apart_ago(p, i, it.bond.nbr, d, ago));
         const real e = sqrt(y2) - r;
         Q += w * r * r, S += w * r * e, e2 += w * e * e;
     }
     if (!b->state.local || !b->whole[row]) Q = b->state.weighted[row];
     if (!(Q > 0)) return 0;
-    if (b->state.rotation[0]) e2 = row_effective(b, p, row);
+    if (b->state.rotation[0]) e2 = row_effective(b, p, row, ago);
     const real mean = S / Q + (p->kind[i] == KIND_PD ? 0 : p->end_strain[i]);
     return 0.5 * p->volume0[i] * (m->A * square(mean) + m->B * e2 / Q);
 }

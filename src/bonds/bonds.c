@@ -10,7 +10,7 @@
 #include "base/memory.h"
 
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
-const struct bond_limit bond_limit_never = {never, 0, false};
+const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {

@@ -58,6 +58,7 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
     b->state.pressure = NEW("state.pressure", room, real);
     b->state.spring = NEW("state.spring", room, real);
     for (int c = 0; s->rotates && c < ROTATION; c++) b->state.rotation[c] = NEW("state.turn", room, real);
+    for (int c = 0; c < (s->rotates ? STATE_NUMBERS : 2); c++) b->state.before[c] = NEW("state.before", room, real);
     b->state.image = NEW("state.image", p->n_all - p->n, struct state_image);
     for (int64_t k = 0; k < p->n_all - p->n; k++)
         b->state.image[k] = (struct state_image){s->image[k].source, s->mirror_axis[s->image[k].load]};
@@ -71,5 +72,6 @@ void state_free(struct bonds *b)
     memory_free(b->state.pressure);
     memory_free(b->state.spring);
     for (int c = 0; c < ROTATION; c++) memory_free(b->state.rotation[c]);
+    for (int c = 0; c < STATE_NUMBERS; c++) memory_free(b->state.before[c]);
     memory_free(b->state.image);
 }

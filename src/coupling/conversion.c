@@ -144,16 +144,15 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
     list_add(l, i);
 }
 
-/* Updates position and velocity of all particles within the cutoff of those just converted, changed[had] and on, since
- * bonds to them are made next. Each particle is listed once: threads that share the list then write different
- * particles. */
+/* Updates position and velocity of all particles within the cutoff of those just converted, since bonds to them are
+ * made next. Each particle is listed once: threads that share the list then write different particles. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
-                    const struct index_list *changed, int64_t had)
+                      const struct index_list *changed)
 {
     struct index_list exposed = {0};
     struct near near = {0};
     if (!sync) return;
-    for (int64_t k = had; k < changed->n; k++) {
+    for (int64_t k = 0; k < changed->n; k++) {
         family_find(&near, source, p, changed->at[k]);
         list_once(&exposed, p, changed->at[k]);
         for (int m = 0; m < near.n; m++) list_once(&exposed, p, image_root(p, source->image, near.at[m]));
@@ -164,28 +163,18 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
     memory_free(exposed.at);
 }
 
-/* Makes the rows of bonds anew; bonds that are past their limit when made break at once. Returns directed bonds
- * broken. */
-static int64_t conversion_rebuild(struct particles *p, struct bonds *b, const struct bond_source *source)
-{
-    bonds_renew(b, p, source);
-    if (bond_break_needs_states(b, p, &source->limit)) states_precompute(b, p, source);
-    return bond_break_all(b, p, &source->limit);
-}
-
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
                 const struct bond_source *source, struct partial_stress *partial,
                 const struct conversion_sync *sync, real t)
 {
     if (!convert_due(p)) return 0;
     struct index_list changed = {0}, touched = {0};
-    int64_t had;
-    do {                                 /* a bond that breaks when made converts its other end in the same step */
-        had = changed.n;
-        list_stiffened(&touched, source, p, b);
-        convert_marked(c, rule, p, source, &changed, t);
-        sync_near(sync, p, source, &changed, had);
-    } while (changed.n > had && conversion_rebuild(p, b, source) > 0);
+    list_stiffened(&touched, source, p, b);
+    convert_marked(c, rule, p, source, &changed, t);
+    if (changed.n > 0) {
+        sync_near(sync, p, source, &changed);
+        bonds_renew(b, p, source);
+    }
     for (int64_t k = 0; k < changed.n; k++) list_add(&touched, changed.at[k]);
     if (partial && touched.n > 0) partial_stress_make(partial, p, b, source, touched.at, touched.n);
     if (changed.n > 0) {

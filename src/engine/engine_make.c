@@ -16,7 +16,7 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
         for (int b = 0; b < s->materials; b++)
             tables->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
-    source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->whole_force};
+    source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->last_force, 0};
     if (s->solver != SOLVER_EXPLICIT) source->limit = bond_limit_never;    /* no bond breaks in a static solution */
 }
 

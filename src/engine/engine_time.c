@@ -147,5 +147,6 @@ status engine_time_make(struct engine *e)
     const real dt = s->time_step > 0 ? s->time_step : s->safety * e->clock.dt_critical;
     if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e->scene, &e->clock, dt));
     else e->clock.steps = s->solver_steps, e->clock.dt = dt;
+    e->source.limit.dt = e->clock.dt;
     return OK;
 }

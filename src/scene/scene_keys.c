@@ -146,10 +146,10 @@ const struct key keys[] = {
     KEY("pd.normalisation", KEY_CHOICE, UNIT_NONE, AT(scene, bulk), ANY,
         "(bulk with mospd and irregularity 0, else local)",
         "ospd and mospd: constants from the family a particle has, or from a full one", .words = "local|bulk"),
-    KEY("pd.last_force", KEY_CHOICE, UNIT_NONE, AT(scene, whole_force), ANY, "half",
-        "of a bond in the step in which it breaks: half balances energy to second order in the step, whole is what "
-        "other programs do",
-        .words = "half|whole"),
+    KEY("pd.last_force", KEY_CHOICE, UNIT_NONE, AT(scene, last_force), ANY, "moment",
+        "of a bond that breaks: it acts until the moment, within a step, at which its stretch is critical; or with "
+        "half, all (as in other programs) or none of itself in the first step beyond",
+        .words = "moment|half|whole|none"),
     KEY("pd.region", KEY_REGION, UNIT_NONE, AT(scene, pd_region), ANY, NONE,
         "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
 

@@ -121,7 +121,7 @@ static inline void cloud_source(struct cloud *c)
     s->cells = &c->cells;
     s->material = c->material;
     s->materials = CLOUD_MATERIALS;
-    s->limit = (struct bond_limit){c->limit, CLOUD_MATERIALS, false};
+    s->limit = (struct bond_limit){c->limit, CLOUD_MATERIALS, LAST_FORCE_HALF, 0};
     s->yield = (struct bond_yield){c->yield, c->hardening, CLOUD_MATERIALS};
     if (s->family.surface != SURFACE_VOLUME) return;
     c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);

@@ -52,6 +52,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
     if (model >= PD_OSPD)
         b->c.source.modulus = b->modulus, b->c.source.rotates = model == PD_MOSPD, b->c.source.local = true;
     cloud_bonds(&b->c);
+    b->c.source.limit.last_force = LAST_FORCE_MOMENT, b->c.source.limit.dt = 2e-6;    /* velocities are read, too */
     if (way & ASLEEP) put_to_sleep(&b->c.bonds, p, model);
 }
 

@@ -347,9 +347,9 @@ static void test_reflection(void **state)
     "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "initial: [{velocity: [50, 20]}]\n"
 
-/* A body that tears itself off its clamp: bonds break at their images only, with half their reaction in that step,
- * so what breaking leaves of the balance falls with the square of the step (on the average: each step breaks other
- * bonds). */
+/* A body that tears itself off its clamp: bonds break at their images only, which act as long as they do, with a share
+ * of their reaction in that step. What breaking leaves of the balance at the end: 6e-5 to 4.3e-4 measured with half the
+ * critical step, 1.5e-5 to 7e-5 with an eighth; with half of all last forces 5e-3 and up to 4.5e-4. */
 static void test_torn(void **state)
 {
     (void)state;
@@ -360,13 +360,14 @@ static void test_torn(void **state)
             struct body a;
             int64_t broken = 0;
             body_make(&a, TORN, (const char *const[]){model[k], fine ? "time.safety=0.125" : "time.safety=0.5", NULL});
-            error[fine] = run(&a.e);
+            run(&a.e);                   /* on the way bonds that break in a sampled step have one side of it only */
+            error[fine] = fabs(a.e.diagnostics.now.balance_error);
             for (int64_t q = 0; q < a.e.bonds.clamped.n; q++) broken += a.e.bonds.w[a.e.bonds.clamped.entry[q]] == 0;
             assert_true(broken > a.e.bonds.clamped.n / 2);
             body_free(&a);
         }
         printf("%s: energy balance of tearing %.3g, with a quarter of the step %.3g\n", model[k], error[0], error[1]);
-        assert_true(error[0] < 0.04 && error[1] < 0.15 * error[0]);
+        assert_true(error[0] < 1e-3 && error[1] < 1e-4);
     }
 }
 

@@ -1,0 +1,134 @@
+/* Families in the step in which they lose bonds. Bonds that end act with the states of the whole families, as long as
+ * they are there (bond_last.h). Forces of the other bonds rest on the same families: for them pressure, spring and
+ * rotation act in the last kick with the share of the bonds that end, and with the rest as they are without them. */
+#ifndef CLEAVE_KERNELS_STATE_LAST
+#define CLEAVE_KERNELS_STATE_LAST
+
+#include "bond_last.h"
+#include "bond_laws.h"
+#include "kernels/kernels.h"
+#include "polar.h"
+#include "rotation.h"
+
+/* What a row keeps: sum w r e, sum w r^2, sum w Y (x) xi; and the mean share of those that end. */
+struct family_left { real extension, weighted, moment[DIM_MAX * DIM_MAX], share; int64_t ended; };
+
+static inline struct family_left family_left_of(const struct bonds *b, const struct particles *p,
+                                                const struct bond_limit *limit, int64_t row)
+{
+    const int32_t i = b->particle[row];
+    struct family_left left = {0};
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        const int32_t j = it.bond.nbr;
+        const real w = it.bond.w, inverse = it.bond.inverse_length;
+        if (w == 0) continue;
+        const real stretch = stretch_ago(p, inverse, i, j, 0);
+        if (stretch > stretch_limit(p, limit, i, j)) {
+            left.share += bond_last_of(p, limit, inverse, 0, i, j).share;
+            left.ended++;
+            continue;
+        }
+        left.extension += w * stretch / square(inverse), left.weighted += w / square(inverse);
+        for (int d = 0; d < p->dim; d++)
+            for (int c = 0; c < p->dim; c++)
+                left.moment[d * p->dim + c] += w * (p->x[d][j] - p->x[d][i]) * (p->X[c][j] - p->X[c][i]);
+    }
+    if (left.ended > 0) left.share /= (real)left.ended;
+    return left;
+}
+
+static inline void state_mix(real *value, real left, real share) { *value = share * *value + (1 - share) * left; }
+
+/* Mixes the rotation of a particle with that of what its family keeps. */
+static inline void rotation_mix(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
+{
+    real R[DIM_MAX * DIM_MAX], along = 0;
+    lanes eight[DIM_MAX * DIM_MAX] = {{0}}, kept[ROTATION];             /* eight times the same */
+    polar_rotation(left->moment, R, dim);
+    for (int c = 0; c < dim * dim; c++) eight[c] = lanes_of(R[c]);
+    rotation_make(kept, eight, lanes_of(spring), dim);
+    for (int c = 0; c < ROTATION; c++) along += t->rotation[c][i] * kept[c][0];
+    const real sign = dim == 3 && along < 0 ? -1 : 1;                   /* a quaternion and its negative are one */
+    for (int c = 0; c < ROTATION; c++) state_mix(&t->rotation[c][i], sign * kept[c][0], left->share);
+}
+
+/* A row that the first sweep found to have bonds beyond their limit. Material points at the end of bonds keep their
+ * state: their cells have a part in it. */
+static inline void state_mix_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                 int64_t row)
+{
+    const int32_t i = b->particle[row];
+    const struct state_modulus *m = &b->state.modulus[p->material[i]];
+    if (p->kind[i] != KIND_PD) return;
+    const struct family_left left = family_left_of(b, p, limit, row);
+    if (left.ended == 0) return;
+    const real Q = b->state.local && b->whole[row] ? left.weighted : b->state.weighted[row];
+    const real inverse = Q > 0 ? 1 / Q : 0, share = p->volume0[i] * inverse, spring = m->B * share;
+    state_mix(&b->state.pressure[i], m->A * left.extension * inverse * share, left.share);
+    if (b->state.rotation[0]) rotation_mix(&b->state, i, &left, spring, p->dim);
+    state_mix(&b->state.spring[i], spring, left.share);
+}
+
+/* A row block with bonds beyond their limit: keeps the states of whole families, and mixes those that other bonds
+ * read. */
+static inline void state_last(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                              int64_t row_block)
+{
+    struct state *t = &b->state;
+    for (int64_t row = row_block * LANES; row < row_block * LANES + LANES && row < b->rows; row++) {
+        const int32_t i = b->particle[row];
+        t->before[0][i] = t->pressure[i], t->before[1][i] = t->spring[i];
+        for (int c = 0; c < ROTATION && t->rotation[c]; c++) t->before[2 + c][i] = t->rotation[c][i];
+        if (limit->last_force == LAST_FORCE_MOMENT) state_mix_row(b, p, limit, row);
+    }
+}
+
+/* ---- force of a bond that ends ----------------------------------------------------------------------------------- */
+
+/* State c of the family of particle i before it lost bonds; of an image what its source's bonds read. */
+static inline real state_before(const struct bonds *b, const struct particles *p, int c, int32_t i)
+{
+    const struct state *t = &b->state;
+    const int64_t row = i < p->n ? b->row_of[i] : -1;
+    if (row >= 0 && t->past[row / LANES]) return t->before[c][i];
+    return c == 0 ? t->pressure[i] : c == 1 ? t->spring[i] : t->rotation[c - 2][i];
+}
+
+/* Force of a bond between i and j on i [N] by the states of both ends, `now` or as they were before bonds ended. */
+static inline void state_pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
+                                    int32_t i, bool now, real *f, const int dim)
+{
+    const struct state *t = &b->state;
+    const int32_t j = bond->nbr, at[2] = {i, j};
+    const bool rotates = t->rotation[0];
+    const real r = fabs(1 / bond->inverse_length);
+    real y[DIM_MAX], xi[DIM_MAX], y2 = 0, pressure = 0, spring = 0;
+    lanes turned[DIM_MAX], arm[DIM_MAX];                                 /* eight times the same */
+    for (int d = 0; d < dim; d++) {
+        y[d] = p->x[d][j] - p->x[d][i], xi[d] = p->X[d][j] - p->X[d][i];
+        y2 += square(y[d]);
+        turned[d] = lanes_of(0), arm[d] = lanes_of(xi[d]);
+    }
+    for (int end = 0; end < 2; end++) {
+        lanes rotation[ROTATION];
+        pressure += now ? t->pressure[at[end]] : state_before(b, p, 0, at[end]);
+        spring += now ? t->spring[at[end]] : state_before(b, p, 1, at[end]);
+        for (int c = 0; rotates && c < ROTATION; c++)
+            rotation[c] = lanes_of(now ? t->rotation[c][at[end]] : state_before(b, p, 2 + c, at[end]));
+        if (rotates) rotate_back(turned, rotation, arm, dim);
+    }
+    const real length = sqrt(y2), along = r * pressure + (rotates ? 0 : (length - r) * spring);
+    for (int d = 0; d < dim; d++)
+        f[d] = bond->w * (along * y[d] / length + (rotates ? spring * (y[d] - xi[d]) + turned[d][0] : 0));
+}
+
+/* The same by any model. */
+static inline void pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i,
+                              bool now, real *f)
+{
+    if (!b->state.modulus) bond_pair_force(b, p, bond, i, f);
+    else if (p->dim == 2) state_pair_force(b, p, bond, i, now, f, 2);
+    else state_pair_force(b, p, bond, i, now, f, 3);
+}
+
+#endif
