@@ -104,7 +104,7 @@ const struct accuracy_problem accuracy_cracks = {
         {"The tip is known to no better than a cell: in the reference frame, linear cells of two spacings, K_I "
          "of a gap is 4.6, 2.2 and 1.5 % high at 32, 64 and 100 particles.",
          "mospd: 0.8, 0.2 % of K_I at 32 and 64 particles, but K_II of the inclined crack 7.5 and 4.6 % high; a "
-         "horizon of 1.5 with local families cures that (2.9 and 1.4 %).",
+         "horizon of 1.5 with local families remedies that (2.9 and 1.4 %).",
          "Bodies coupled by partial stress or hand-shake in the current frame were not at rest after 8,000 steps of "
          "relaxation with 64 and 100 particles round the edge crack: shown as unstable. pgg holds the crack together."},
     .seconds = 500,

@@ -162,7 +162,7 @@ status bench_scale(bool quick);
 status bench_peers(bool quick);
 
 /* bench_stability.c: the critical time step observed beside the predicted one, for every method; scenes in which
- * methods fail, with their thresholds and cures. */
+ * methods fail, with their thresholds and remedies. */
 status bench_stability(bool quick);
 /* Of its long map alone: all of it (`lasting`), or, on the screen only, the cases in whose name this is. */
 status bench_stability_of(const char *only, bool quick);

@@ -77,7 +77,7 @@ static status measure_places(struct bar_table *t, bool quick)
     return OK;
 }
 
-/* One point in a cell, and APIC; the rim is damped with FLIP only. */
+/* One point in a cell, and APIC; the interface is damped with FLIP only. */
 static status measure_variants(struct bar_table *t, bool quick)
 {
     static const struct { int cell; const char *transfer; } variant[] = {{1, "flip"}, {2, "apic"}, {1, "apic"}};

@@ -150,7 +150,7 @@ static status group_measure(struct plane_table *t, int interface, double width, 
     status s = plain_make(&plain, &strip, row);
     for (int way = 0; way <= WAY_HANDSHAKE; way++)
         for (int w = 0; w < WEIGHTS && s == OK; w++) {
-            if (way == WAY_UNDAMPED && !flip) continue; /* the rim is damped with FLIP only */
+            if (way == WAY_UNDAMPED && !flip) continue; /* the interface is damped with FLIP only */
             row.way = way, row.weights = weights[w];
             s = row_measure(&row, &strip, &plain);
             assert(t->n < PLANE_ROWS_MAX);

@@ -1,4 +1,4 @@
-/* Scenes in which methods fail, each with its threshold and what cures it: one table for the bench that
+/* Scenes in which methods fail, each with its threshold and the remedy: one table for the bench that
  * draws it and the tests that hold it (design sheet of the material point method, 1.2, 1.3, 2, 4g). */
 #ifndef CLEAVE_BENCH_LIMITS
 #define CLEAVE_BENCH_LIMITS
@@ -11,7 +11,7 @@ enum { FAILING_FIGURES = 3, FAILING_SET = 11 };
 struct limits_figure { const char *quantity; double threshold; };
 
 /* A method in a scene. `known`: where its figures lie, from the sheet, a closed form or as measured. It fails where
- * one is above its threshold: then `cure` says what to do, and is NULL otherwise. */
+ * one is above its threshold: then `remedy` says what to do, and is NULL otherwise. */
 struct limits_row {
     const char *method, *remedy;
     const char *set[FAILING_SET];        /* keys of the scene and their values, NULL at the end */

@@ -53,7 +53,7 @@ static status spin(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* The sheet: FLIP 110 MPa, 1.5 and 1.4 % at 10 m/s, 1 GPa, 3.8 and 5 % at 100 m/s, GIMP no cure; APIC 0.1 MPa, 1e-6
+/* The sheet: FLIP 110 MPa, 1.5 and 1.4 % at 10 m/s, 1 GPa, 3.8 and 5 % at 100 m/s, GIMP no remedy; APIC 0.1 MPa, 1e-6
  * and 2e-5; 10 MPa, 3e-5 and 0.25 %; bonds 1e-15 and 2e-4. In the reference frame the body grows with its
  * centrifugal stress. */
 #define POINTS(shape, transfer) .set = {"method", "mpm", "mpm.shape", shape, "mpm.transfer", transfer}

@@ -1,4 +1,4 @@
-/* Steps beyond the limit must be caught, with place, step and cure. */
+/* Steps beyond the limit must be caught, with place, step and remedy. */
 #include <math.h>
 #include <string.h>
 

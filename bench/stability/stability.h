@@ -60,7 +60,7 @@ status stability_observe(const struct stability_case *c, int steps, int long_ste
  * steps of dt [s]? 0: the automatic step. */
 struct stability_shake { double speed, drift; int steps; };
 status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays);
-/* Steps until a run at so many times the observed limit was stopped with place, step and cure; infinite if it went
+/* Steps until a run at so many times the observed limit was stopped with place, step and remedy; infinite if it went
  * on for 1000 or said less (limits_time_step.c). */
 status stability_caught(const struct stability_case *c, double times, double *step);
 /* Text of the case's scene: its own, or that of its block (stability_scene.c). */

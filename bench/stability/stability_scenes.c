@@ -1,5 +1,5 @@
 /* The second half of `cleave bench stability`: scenes in which methods fail, what they show beside their
- * thresholds, and what cures them. */
+ * thresholds, and the remedies. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,10 +11,10 @@
 /* ---- measuring --------------------------------------------------------------------------------------------------- */
 
 /* Columns of the table, in the order of its header. */
-enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, CURE, COLUMNS };
-static const char header[] = "scene,method,quantity,threshold,measured,verdict,cure";
+enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, REMEDY, COLUMNS };
+static const char header[] = "scene,method,quantity,threshold,measured,verdict,remedy";
 
-/* A line for each figure: what a method fails at has the cure, what it holds has none. */
+/* A line for each figure: what a method fails at has the remedy, what it holds has none. */
 static status stability_scenes_take(struct bench_table *t, const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];
@@ -105,7 +105,7 @@ static void stability_scenes_put_label(FILE *to, const char *text, double x, int
     fprintf(to, " at screen %g, first %d %s\n", x, -line, style);
 }
 
-/* What fails: method, figure, cure. */
+/* What fails: method, figure, remedy. */
 static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int line)
 {
     char text[256];
@@ -115,7 +115,7 @@ static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int li
     snprintf(text, sizeof text, "%.3g, at most %.3g", stability_scenes_number_of(t, r, MEASURED),
              stability_scenes_number_of(t, r, THRESHOLD));
     stability_scenes_put_label(to, text, 0.60, line, "left textcolor rgb '#333333'");
-    stability_scenes_put_label(to, stability_scenes_text_of(t, r, CURE), 0.745, line, "left textcolor rgb '#1b6b3a'");
+    stability_scenes_put_label(to, stability_scenes_text_of(t, r, REMEDY), 0.745, line, "left textcolor rgb '#1b6b3a'");
 }
 
 /* How many figures of the scene hold, on its line. */
@@ -155,7 +155,7 @@ static void stability_scenes_picture(FILE *to, const void *table)
     put_points(to, t);
     fprintf(
         to,
-        "set title 'scenes in which methods fail: figures over their thresholds, and what cures them'\n"
+        "set title 'scenes in which methods fail: figures over their thresholds, and the remedies'\n"
         "set lmargin at screen 0.345\nset rmargin at screen 0.59\nset tmargin at screen %g\nset bmargin at screen %g\n"
         "set logscale x\nset xrange [%g:%g]\nset yrange [%g:0.8]\nunset ytics\nset format x '1e%%T'\n"
         "set xtics (\"0\" %g, \"0.001\" 0.001, \"0.01\" 0.01, "

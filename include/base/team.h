@@ -16,8 +16,8 @@ struct machine {
  * OMP_PLACES; the calling thread goes to the first core and keeps the mask. Returns the number in use. */
 int team_make(int threads);
 struct machine team_machine(void);
-const char *team_memory_limit(void);   /* what sets team_memory: "memory of the machine", "ulimit -v", ... */
-int64_t team_memory(void);  /* of the machine, or what limits leave of it [byte]; read by team_make */
+int64_t team_memory(void);             /* of the machine, or what limits leave of it [byte]; read by team_make */
+const char *team_memory_limit(void);   /* what sets it: "memory of the machine", "ulimit -v", ... */
 
 /* Wall clock [s]. */
 double team_clock(void);

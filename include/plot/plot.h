@@ -77,13 +77,13 @@ void curves_title(FILE *to, const char *title, const char *what);
 void curves_time_axis(FILE *to, const struct series *s);
 
 /* sif.png: stress-intensity factors over time, below how far contours differ; nothing without sif probes. */
-status sif_bench_draw(const char *pictures, const char *title, const struct series *s);
+status sif_bench_draw(const char *folder, const char *title, const struct series *s);
 /* path.png: the paths of tips that growth probes measured, beside the angle of an experiment where the scene
  * tells one; nothing without such probes. */
-status paths_draw(const char *folder, const char *pictures, const char *title, const struct history *h);
+status paths_draw(const char *folder, const char *title, const struct history *h);
 
-/* history.csv: crack.png, energy.png, sif.png and path.png in `pictures`. */
-status curves_draw(const char *folder, const char *pictures, const char *title);
+/* history.csv: crack.png, energy.png, sif.png and path.png (output/pictures.h). */
+status curves_draw(const char *folder, const char *title);
 
 /* One-dimensional frames: velocity, stress, damage along the bar. */
 status profiles_draw(const char *path, const char *title, const struct frame *frame, int frames);

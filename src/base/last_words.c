@@ -16,6 +16,8 @@ static const char out_of_memory[] =
     "out of memory: a library could not go on; results up to the last checkpoint are whole: go on with --resume where "
     "there is more memory, or with fewer threads (-t), or choose a larger particles.spacing\n";
 
+static const char out_of_stack[] = "out of stack: its limit is below 1 MB; ulimit -s 8192 is the usual one\n";
+
 /* The file that HDF5 reads, harmless to a terminal; "": none. */
 static char reading[512];
 
@@ -35,9 +37,9 @@ static void say(const char *text)
     }
 }
 
-static _Noreturn void say_and_leave(void)
+static _Noreturn void say_and_leave(const char *text)
 {
-    say(out_of_memory);
+    say(text);
     _exit(FAILED);
 }
 
@@ -45,8 +47,7 @@ static _Noreturn void say_damaged_and_leave(void)
 {
     say("cannot read ");
     say(reading);
-    say(": the HDF5 library crashed over it; it is damaged, or not what it seems\n");
-    _exit(FAILED);
+    say_and_leave(": the HDF5 library crashed over it; it is damaged, or not what it seems\n");
 }
 
 /* Is so little left that an array of a library may not have found room? */
@@ -68,11 +69,8 @@ static bool stack_is_tight(void)
 
 static void on_crash(int number)
 {
-    if (stack_is_tight()) {
-        say("out of stack: its limit is below 1 MB; ulimit -s 8192 is the usual one\n");
-        _exit(FAILED);
-    }
-    if (memory_is_tight()) say_and_leave();
+    if (stack_is_tight()) say_and_leave(out_of_stack);
+    if (memory_is_tight()) say_and_leave(out_of_memory);
     if (reading[0]) say_damaged_and_leave();
     signal(number, SIG_DFL);                 /* the fault comes again, and ends the process as it should */
 }
@@ -82,7 +80,7 @@ static void on_crash(int number)
 static void on_library_exit(int result, void *unused)
 {
     (void)unused;
-    if ((result & 0xFF) == 0xFF) say_and_leave();
+    if ((result & 0xFF) == 0xFF) say_and_leave(out_of_memory);
 }
 #endif
 

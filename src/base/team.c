@@ -133,7 +133,7 @@ int64_t team_memory(void) { return memory.bytes > 0 ? memory.bytes : team_machin
 const char *team_memory_limit(void)
 {
     (void)team_memory();
-    return memory.limit;
+    return memory.name;
 }
 
 /* ---- the team ---------------------------------------------------------------------------------------------------- */

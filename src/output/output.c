@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "output/output_files.h"
+#include "output/pictures.h"
 #include "output/summary_read.h"
 
 void output_start(void)
@@ -39,20 +40,6 @@ static bool is_frame(const char *name, const char *end)
 {
     const size_t digits = strspn(name, "0123456789");
     return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
-}
-
-/* True for the name of a picture of `cleave plot`, NAME.png or NAME_123456.png, followed by `end`. */
-static bool is_picture(const char *name, const char *end)
-{
-    static const char *const drawn[] = {"damage", "kind", "last", "profiles", "crack", "energy", "sif", "path"};
-    for (size_t k = 0; k < COUNT_OF(drawn); k++) {
-        const size_t length = strlen(drawn[k]);
-        if (strncmp(name, drawn[k], length) != 0) continue;
-        const char *rest = name + length;
-        if (*rest == '_') rest += 1 + strspn(rest + 1, "0123456789");
-        if (strncmp(rest, ".png", 4) == 0 && strcmp(rest + 4, end) == 0) return true;
-    }
-    return false;
 }
 
 /* Makes one folder unless it exists. REFUSED if a file has this name. */
@@ -238,15 +225,16 @@ static void run_remove(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_join(folder, made[k]).text);
     files_remove(path_join(folder, "frames").text, is_frame, "");
-    files_remove(path_join(folder, "pictures").text, is_picture, "");
+    files_remove(pictures_folder(folder).text, is_picture, "");
+    files_remove(pictures_folder(folder).text, is_picture, ".tmp");
 }
 
+/* Temporary files of the run itself; those of pictures may be of a `cleave plot` that draws a run to be resumed. */
 static void temporary_remove(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k]).text).text);
     unlink(path_aside(path_join(folder, "scene.yaml").text).text);
     files_remove(path_join(folder, "frames").text, is_frame, ".tmp");
-    files_remove(path_join(folder, "pictures").text, is_picture, ".tmp");
 }
 
 static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "output/output_files.h"
+#include "output/pictures.h"
 #include "plot/plot.h"
 #include "output/summary_read.h"
 
@@ -155,13 +156,11 @@ static struct view view_of(const struct cloud *cloud, int clouds)
     return v;
 }
 
-static status draw_map(const struct request *r, const char *file, enum map map, const struct view *view,
+static status draw_map(const struct request *r, const char *path, enum map map, const struct view *view,
                        const struct cloud *cloud, int clouds)
 {
-    char path[PATH_LENGTH], title[TITLE_LENGTH];
+    char title[TITLE_LENGTH];
     compose_title(title, r->folder, map == MAP_DAMAGE ? "damage" : "method and damage", &cloud[0]);
-    if (snprintf(path, sizeof path, "%s/pictures/%s.png", r->folder, file) >= (int)sizeof path)
-        return status_set(FAILED, "%s: the name is too long", r->folder);
     return maps_draw(path, title, map, view, cloud, clouds);
 }
 
@@ -171,14 +170,12 @@ static status draw_every(const struct request *r, const struct run_frames *frame
     for (int k = 0; k < frames->listed; k++) {
         struct frame f;
         struct cloud c;
-        char file[NAME_MAX_LENGTH];
-        TRY(run_frame(&f, r->folder, frames->list[k].number));
+        const int number = frames->list[k].number;
+        TRY(run_frame(&f, r->folder, number));
         cloud_make(&c, &f);
         frame_free(&f);
-        snprintf(file, sizeof file, "damage_%06d", frames->list[k].number);
-        status s = draw_map(r, file, MAP_DAMAGE, view, &c, 1);
-        snprintf(file, sizeof file, "kind_%06d", frames->list[k].number);
-        if (s == OK) s = draw_map(r, file, MAP_KIND, view, &c, 1);
+        status s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
+        if (s == OK) s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_KIND, number).text, MAP_KIND, view, &c, 1);
         cloud_free(&c);
         TRY(s);
     }
@@ -190,29 +187,26 @@ static status draw_maps(const struct request *r, const struct run_frames *frames
     struct view view = view_of(cloud, frames->shown);
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
         return status_set(FAILED, "%s: the frames hold no particles, or places that are not numbers", r->folder);
-    TRY(draw_map(r, "damage", MAP_DAMAGE, &view, cloud, frames->shown));
-    TRY(draw_map(r, "kind", MAP_KIND, &view, cloud, frames->shown));
-    TRY(draw_map(r, "last", MAP_DAMAGE, &view, cloud + frames->shown - 1, 1));
+    TRY(draw_map(r, picture_path(r->folder, DRAWN_DAMAGE).text, MAP_DAMAGE, &view, cloud, frames->shown));
+    TRY(draw_map(r, picture_path(r->folder, DRAWN_KIND).text, MAP_KIND, &view, cloud, frames->shown));
+    TRY(draw_map(r, picture_path(r->folder, DRAWN_LAST).text, MAP_DAMAGE, &view, &cloud[frames->shown - 1], 1));
     return r->every ? draw_every(r, frames, &view) : OK;
 }
 
 /* Draws the profiles of a bar beside its closed form, without the frame of t = 0. */
 static status plot_draw_bar(const struct request *r, const struct run_frames *frames, const char *probe)
 {
-    char path[PATH_LENGTH], title[TITLE_LENGTH];
+    char title[TITLE_LENGTH];
     const int skipped = frames->shown > 1 && frames->show[0].number == 0;
     compose_title(title, r->folder, "beside the exact solution", NULL);
-    status s = OK;
-    if (snprintf(path, sizeof path, "%s/pictures/profiles.png", r->folder) >= (int)sizeof path)
-        s = status_set(FAILED, "%s: the name is too long", r->folder);
-    if (s == OK) s = bar_draw(path, title, r->folder, probe, frames->show + skipped, frames->shown - skipped);
-    return s;
+    return bar_draw(picture_path(r->folder, DRAWN_PROFILES).text, title, r->folder, probe, frames->show + skipped,
+                    frames->shown - skipped);
 }
 
 /* Draws profiles of a bar: beside its closed form if a probe has one, else of the particles. */
 static status draw_profiles(const struct request *r, const struct run_frames *frames)
 {
-    char path[PATH_LENGTH], title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
+    char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
     if (bar_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
     struct frame *f = NEW("plot.frames", frames->shown, struct frame);
     status s = OK;
@@ -222,9 +216,7 @@ static status draw_profiles(const struct request *r, const struct run_frames *fr
         if (s == OK) read++;
     }
     compose_title(title, r->folder, "profiles", NULL);
-    if (s == OK && snprintf(path, sizeof path, "%s/pictures/profiles.png", r->folder) >= (int)sizeof path)
-        s = status_set(FAILED, "%s: the name is too long", r->folder);
-    if (s == OK) s = profiles_draw(path, title, f, frames->shown);
+    if (s == OK) s = profiles_draw(picture_path(r->folder, DRAWN_PROFILES).text, title, f, frames->shown);
     for (int k = 0; k < read; k++) frame_free(&f[k]);
     memory_free(f);
     return s;
@@ -269,19 +261,21 @@ static status draw_frames(const struct request *r)
 status command_plot(int argc, char **argv)
 {
     struct request r;
-    char pictures[PATH_LENGTH], title[TITLE_LENGTH];
+    char title[TITLE_LENGTH];
     TRY(read_request(&r, argc, argv));
     bool frames = run_holds(r.folder, "frames.hdf.series"), history = run_holds(r.folder, "history.csv");
     if (!frames && !history) return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", r.folder);
-    if (snprintf(pictures, sizeof pictures, "%s/pictures", r.folder) >= (int)sizeof pictures)
+    if (strlen(r.folder) + PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(FAILED, "%s: the name is too long", r.folder);
-    if (path_is_link(pictures))
-        return status_set(REFUSED, "%s is a link: pictures would be made somewhere else; remove it", pictures);
-    if (mkdir(pictures, 0777) != 0 && errno != EEXIST) return status_set(FAILED, "%s: %s", pictures, strerror(errno));
+    const struct path pictures = pictures_folder(r.folder);
+    if (path_is_link(pictures.text))
+        return status_set(REFUSED, "%s is a link: pictures would be made somewhere else; remove it", pictures.text);
+    if (mkdir(pictures.text, 0777) != 0 && errno != EEXIST)
+        return status_set(FAILED, "%s: %s", pictures.text, strerror(errno));
     if (frames) TRY(draw_frames(&r));
     compose_title(title, r.folder, "", NULL);
-    if (history) TRY(curves_draw(r.folder, pictures, title));
-    if (printf("pictures in %s\n", shown_name(pictures).text) < 0 || fflush(stdout) != 0)
+    if (history) TRY(curves_draw(r.folder, title));
+    if (printf("pictures in %s\n", shown_name(pictures.text).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));
     return OK;
 }

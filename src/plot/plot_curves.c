@@ -5,9 +5,10 @@
 
 #include "output/history.h"
 #include "base/memory.h"
+#include "output/pictures.h"
 #include "plot/plot.h"
 
-enum { POINTS_MAX = 4000, PATH_LENGTH = 4096, CURVES_MAX = 8 };
+enum { POINTS_MAX = 4000, CURVES_MAX = 8 };
 
 double curves_largest(const struct history *h, int column)
 {
@@ -177,21 +178,18 @@ static status draw_energy(const char *path, const char *title, const struct seri
     return gnuplot_close(&g);
 }
 
-status curves_draw(const char *folder, const char *pictures, const char *title)
+status curves_draw(const char *folder, const char *title)
 {
     struct history h;
-    char path[PATH_LENGTH];
     TRY(history_read(&h, folder));
     struct series s = {.h = &h, .time = history_column(&h, "time")};
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
         s.second = unit_for(history_at(&h, h.rows - 1, s.time), "s");
-        snprintf(path, sizeof path, "%s/crack.png", pictures);
-        result = draw_crack(path, title, &s);
-        snprintf(path, sizeof path, "%s/energy.png", pictures);
-        if (result == OK) result = draw_energy(path, title, &s);
-        if (result == OK) result = sif_bench_draw(pictures, title, &s);
-        if (result == OK) result = paths_draw(folder, pictures, title, &h);
+        result = draw_crack(picture_path(folder, DRAWN_CRACK).text, title, &s);
+        if (result == OK) result = draw_energy(picture_path(folder, DRAWN_ENERGY).text, title, &s);
+        if (result == OK) result = sif_bench_draw(folder, title, &s);
+        if (result == OK) result = paths_draw(folder, title, &h);
     }
     history_free(&h);
     return result;

@@ -3,10 +3,11 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "output/pictures.h"
 #include "plot/plot.h"
 #include "output/summary_read.h"
 
-enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6, PATH_LENGTH = 4096 };
+enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6 };
 
 /* Names of the probes with a column that ends in `quantity`; returns their number, at most `most`. */
 static int probes_with(const struct history *h, const char *quantity, char name[][NAME_MAX_LENGTH], int most)
@@ -81,16 +82,13 @@ static void plot_spread(FILE *to, const struct series *s, const struct factors *
     putc('\n', to);
 }
 
-status sif_bench_draw(const char *pictures, const char *title, const struct series *s)
+status sif_bench_draw(const char *folder, const char *title, const struct series *s)
 {
     struct factors f;
     struct gnuplot g;
-    char path[PATH_LENGTH];
     find_factors(&f, s->h);
     if (f.n == 0) return OK;
-    if (snprintf(path, sizeof path, "%s/sif.png", pictures) >= (int)sizeof path)
-        return status_set(FAILED, "%s: the name is too long", pictures);
-    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1000, 760));
+    TRY(gnuplot_open(&g, picture_path(folder, DRAWN_SIF).text, PICTURE_PNG, 1000, 760));
     curves_send(g.to, s, f.column, f.factor, 2 * f.n);
     curves_title(g.to, title, "stress-intensity factors");
     curves_time_axis(g.to, s);
@@ -216,17 +214,14 @@ static void plot_ways(FILE *to, const struct way *w, int n, const struct unit *m
                     end[0] / metre->factor, end[1] / metre->factor);
 }
 
-status paths_draw(const char *folder, const char *pictures, const char *title, const struct history *h)
+status paths_draw(const char *folder, const char *title, const struct history *h)
 {
     struct way way[PATHS_SHOWN];
     struct gnuplot g;
-    char path[PATH_LENGTH];
     const int n = find_ways(way, folder, h);
     if (n == 0) return OK;
-    if (snprintf(path, sizeof path, "%s/path.png", pictures) >= (int)sizeof path)
-        return status_set(FAILED, "%s: the name is too long", pictures);
     const struct unit metre = unit_for_length(fmax(fabs(way[0].to[0]), fabs(way[0].to[1])));
-    TRY(gnuplot_open(&g, path, PICTURE_PNG, 940, 760));
+    TRY(gnuplot_open(&g, picture_path(folder, DRAWN_PATH).text, PICTURE_PNG, 940, 760));
     curves_title(g.to, title, "path of the crack");
     for (int k = 0; k < n; k++) send_way(g.to, h, &way[k], k, metre.factor);
     set_square(g.to, way, n, &metre);

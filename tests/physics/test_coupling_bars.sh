@@ -83,7 +83,7 @@ pgg 0
 undamped 0
 END
 
-# Partial stress: 1.5 % at 32 and 0.6 % at 64 are the aims. Damping of the rim is better at every width, and is paid
+# Partial stress: 1.5 % at 32 and 0.6 % at 64 are the aims. Interface damping is better at every width, and is paid
 # with energy of short waves alone.
 between "partial: reflected of 32 spacings" "$(reflected pulse_partial32)" 0 1.5
 between "partial: reflected of 64 spacings" "$(reflected pulse_partial64)" 0 0.6

@@ -1,6 +1,6 @@
 /* The linear step in the current frame is the leap-frog of one energy. FLIP: with forces F = -W u on
  * velocities that the grid hands out, u the displacement, the step is v' = Q v - dt W u, u' = u + dt v' (Q: the
- * rim's damping), which stays bounded if m W is symmetric, W >= 0 and dt^2 W <= 2 (1 + Q): the spectral radius is
+ * interface damping), which stays bounded if m W is symmetric, W >= 0 and dt^2 W <= 2 (1 + Q): the spectral radius is
  * then 1. All are read off the engine's own steps, and a third step is what they predict: nothing but v' moves u. */
 #include <stdarg.h>
 #include <setjmp.h>
@@ -84,7 +84,7 @@ static void add_column(const struct particles *p, real *to, int n, int k, real u
     for (int j = 0; j < n; j++) to[j * n + k] += p->v[j % p->dim][j / p->dim] / unit;
 }
 
-/* After a step with one velocity of one particle, with the rim's damping, velocities are column k of Q; of steps
+/* After a step with one velocity of one particle, with interface damping, velocities are column k of Q; of steps
  * without, what they lose in the second is column k of dt^2 W, and those after the third are kept. Half of each
  * sign's. */
 static void column(struct run *r, const struct places *was, int k, real sign, struct operators *o)

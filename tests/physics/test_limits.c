@@ -25,7 +25,7 @@ static bool row_is_as_known(const struct limits_scene *s, const struct limits_ro
         known = known && good;
     }
     if (limits_holds(s, figure) == !r->remedy) return done == OK && known;
-    print_message("%s: %s\n", label, r->remedy ? "holds, and is said to fail" : "fails without a cure");
+    print_message("%s: %s\n", label, r->remedy ? "holds, and is said to fail" : "fails without a remedy");
     return false;
 }
 

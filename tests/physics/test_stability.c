@@ -92,7 +92,7 @@ static void test_drift(void **state)
 
 /* ---- beyond the limit -------------------------------------------------------------------------------------------- */
 
-/* 1.2 times the limit: stopped within 1000 steps, with place, step and cure. Of APIC with edges on nodes, where its
+/* 1.2 times the limit: stopped within 1000 steps, with place, step and remedy. Of APIC with edges on nodes, where its
  * limit is that of the inside: a little beyond, growth moves the edge to where the limit is another. */
 static void test_caught(void **state)
 {

@@ -107,9 +107,16 @@ holds "its pictures" test -e "$work/|touch PWNED;echo /pictures/energy.png"
 
 # ---- a small stack -----------------------------------------------------------------------------------------------
 
-(ulimit -s 64 2>"$work/err" && exec "$cleave" run -q -o "$work/narrow" $small) 2>"$work/err"
-case $? in 0 | 1) pass ;; *) fail "a stack of 64 kB: a crash without a word" ;; esac
-holds "a stack of 64 kB: said" test ! -s "$work/err" -o "$(grep -c 'ulimit -s' "$work/err")" -eq 1
+if (ulimit -s 64) 2>/dev/null; then
+    (ulimit -s 64 && exec "$cleave" run -q -o "$work/narrow" $small) 2>"$work/err"
+    case $? in
+    0) is "a stack of 64 kB, enough: said" "$(cat "$work/err")" "" ;;
+    1) is "a stack of 64 kB, too small: said" "$(wc -l <"$work/err") $(grep -c 'ulimit -s' "$work/err")" "1 1" ;;
+    *) fail "a stack of 64 kB: a crash without a word: $(cat "$work/err")" ;;
+    esac
+else
+    echo "a small stack: not tested, since ulimit -s cannot be set here"
+fi
 
 # ---- particle lists ----------------------------------------------------------------------------------------------
 
@@ -151,8 +158,12 @@ holds "plots go on" "$cleave" plot "$work/part" --frames all >/dev/null
 holds "a picture of the frame behind the gap" test -e "$work/part/pictures/damage_000004.png"
 calm "$work/whole" $small -s output.frames=6
 for frame in 000000 000002 000006; do holds "frame $frame" cmp "$work/part/frames/$frame.hdf" "$work/whole/frames/$frame.hdf"; done
+# a run that goes on leaves what is being drawn beside it
+touch "$work/part/pictures/damage.png.tmp"
+calm "$work/part" $small -s output.frames=6 --resume
+holds "a picture half drawn" test -e "$work/part/pictures/damage.png.tmp"
 # a run made anew takes the pictures of the old one with it, finished or not, and leaves those of others
-touch "$work/part/pictures/mine.png" "$work/part/pictures/damage.png.tmp" "$work/part/pictures/damage_mine.png"
+touch "$work/part/pictures/mine.png" "$work/part/pictures/damage_mine.png"
 calm "$work/part" $small --overwrite
 is "pictures of the run before" "$(cd "$work/part/pictures" && echo *)" "damage_mine.png mine.png"
 # profiles of probes: those that are lost are named, and those of a longer run go with it

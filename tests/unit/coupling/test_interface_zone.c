@@ -1,4 +1,4 @@
-/* The damping of the rim keeps momentum, angular momentum and rigid motion, only takes energy, stops what
+/* Interface damping keeps momentum, angular momentum and rigid motion, only takes energy, stops what
  * alternates from point to point, and leaves long waves alone. */
 #include "coupling/interface_zone.h"
 
@@ -93,7 +93,7 @@ static void test_rigid(void **state)
     }
 }
 
-/* In a bar d_i = v_(i-1) - 2 v_i + v_(i+1). Where all neighbours are of the rim, k = 1/16 stops what alternates in one
+/* In a bar d_i = v_(i-1) - 2 v_i + v_(i+1). Where all neighbours are in the zone, k = 1/16 stops what alternates in one
  * step, and sin(q i) loses (2 - 2 cos q)^2/16 of itself. */
 static void test_waves(void **state)
 {
@@ -104,7 +104,7 @@ static void test_waves(void **state)
         struct cloud c;
         struct interface_zone r = {0};
         half_make(&c, &r, SPACE_LINE, 0);
-        const int32_t middle = 21;      /* points 20 .. 23 are the rim: the inner ones see whole neighbourhoods of it */
+        const int32_t middle = 21;      /* points 20 .. 23: the zone; the inner ones see whole neighbourhoods */
         const real q = wave_number[k], phase = q < pi ? -q * middle + 0.5 * pi : 0.5 * pi - pi * middle;
         assert_int_equal(r.points, 4);
         for (int64_t i = 0; i < c.p.n; i++) c.p.v[0][i] = sin(q * (real)i + phase);

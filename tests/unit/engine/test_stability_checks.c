@@ -100,8 +100,8 @@ static const char plate[] =
     "body: {box: {from: [0, 0], to: [20 mm, 20 mm]}}\nparticles: {spacing: 1 mm}\n"
     "pd: {region: {box: {from: [5 mm, 5 mm], to: [15 mm, 15 mm]}}}\noutput: {frames: 0, samples: 100}\n";
 
-/* The cure for a value that has grown tenfold in so many steps until step 20000, where nothing loads the plate. */
-static void cure_of(const char *key, const char *value, real tenfold, char *remedy)
+/* The remedy for a value that has grown tenfold in so many steps until step 20000, where nothing loads the plate. */
+static void remedy_of(const char *key, const char *value, real tenfold, char *remedy)
 {
     struct engine e;
     struct scene s;
@@ -119,23 +119,23 @@ static void slow_growth_is_no_matter_of_the_step(void **state)
 {
     (void)state;
     char remedy[ENGINE_REMEDY];
-    cure_of(NULL, NULL, 1000, remedy);
+    remedy_of(NULL, NULL, 1000, remedy);
     assert_null(strstr(remedy, "choose a smaller"));
     assert_non_null(strstr(remedy, "it took 1000 steps to grow tenfold"));
     assert_non_null(strstr(
         remedy, "gains energy: try method: pd, mpm.frame: reference or mpm.transfer: apic, and report the scene"));
-    cure_of("model", "mospd", 1000, remedy);
+    remedy_of("model", "mospd", 1000, remedy);
     assert_non_null(strstr(remedy, "model: bond"));
-    cure_of("coupling", "pgg", 1000, remedy);
+    remedy_of("coupling", "pgg", 1000, remedy);
     assert_non_null(strstr(remedy, "coupling: partial stress"));
-    cure_of("mpm.frame", "reference", 1000, remedy);
+    remedy_of("mpm.frame", "reference", 1000, remedy);
     assert_non_null(strstr(remedy, "try method: pd or mpm.frame: current, and"));
-    cure_of("boundary", "[{mirror: {axis: x, at: 0, tangential: held}}]", 1000, remedy);
+    remedy_of("boundary", "[{mirror: {axis: x, at: 0, tangential: held}}]", 1000, remedy);
     assert_non_null(strstr(remedy, "`fixed` in place of a mirror that holds"));
-    cure_of(NULL, NULL, 20, remedy);
+    remedy_of(NULL, NULL, 20, remedy);
     assert_true(strncmp(remedy, "choose a smaller time.safety (now dt = ", 39) == 0);
     assert_null(strstr(remedy, "gains energy"));
-    cure_of("time.step", "1 us", 1000, remedy);            /* above the critical one: 0.4 us */
+    remedy_of("time.step", "1 us", 1000, remedy);            /* above the critical one: 0.4 us */
     assert_true(strncmp(remedy, "choose a smaller time.step (now dt = ", 37) == 0);
 }
 

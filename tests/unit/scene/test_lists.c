@@ -237,73 +237,75 @@ static void write_grains(const char *name, int dim, const struct grains *g)
     fclose(file);
 }
 
+enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
+
+/* A list in a scene, and what is said of it; NULL: it is taken. */
+static const struct { enum space space; int method; real spacing; struct grains g; const char *says; } told[] = {
+    /* metres meant, millimetres written, and the other way round */
+    {SPACE_PLANE_STRESS,
+     PD,
+     1e-3,
+     {10, 1, 0, 0, 1, 0},
+     "100 % of its particles have no neighbour within 3.015 "
+     "spacings of 0.001 m: those of the list are 1 m apart; a list in m is expected "
+     "(is it in mm?), or a particles.spacing of about 1 m"},
+    {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1, 0}, "no neighbour within 2 spacings of 0.001 m"},
+    {SPACE_PLANE_STRESS,
+     BOTH,
+     1e-3,
+     {20, 1, 0, 0, 1, 0},
+     "about 100 % of its particles have no neighbour within 3.015 spacings"},
+    {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in cm?)"},
+    {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1, 0}, "100 % of its particles"},
+    {SPACE_PLANE_STRESS,
+     PD,
+     1,
+     {10, 1, 0, 0, 1e-3, 0},
+     "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
+     "particles.spacing of about 0.001 m is expected (is it in mm?), or a list in m"},
+    {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart"},
+    {SPACE_SOLID, BOTH, 1, {5, 1, 0, 0, 0.1, 0}, "neighbours of the list are 0.1 m apart"},
+    {SPACE_SOLID,
+     PD,
+     1,
+     {5, 1, 0, 0, 1, 1e9},
+     "volumes of its particles are 1e+09 times the space up to their neighbours, which are 1 m "
+     "apart; volumes in m^3 are expected (are they in mm^3?)"},
+    {SPACE_PLANE_STRESS,
+     MPM,
+     1,
+     {10, 1, 0, 0, 1, 1e-3},
+     "volumes of its particles are 0.001 times the space up to their neighbours, "
+     "which are 1 m apart, times the thickness; volumes in m^3 are expected"},
+    /* what a list may be */
+    {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL}, /* heavy knots of a net */
+    {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1, 0}, NULL},
+    {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3, 0}, NULL}, /* neighbours at the rim of the horizon */
+    {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 3, 0}, "no neighbour within 2 spacings"},
+    {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2, 0}, NULL},        /* a graded body's fine part */
+    {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50, 0}, NULL}, /* grains of two, far apart */
+    {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 0, 1, 50, 0}, NULL},
+    {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50, 0}, NULL}, /* 60 chips beside 40 such grains: 43 % */
+    {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 72, 1, 50, 0}, "56 % of its particles"},
+    {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50, 0}, NULL}, /* seven mass points */
+    {SPACE_LINE, PD, 1, {8, 1, 0, 0, 50, 0}, "100 % of its particles"},
+};
+
 static void units_of_lists_are_told(void **state)
 {
     (void)state;
-    enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
-    static const struct { enum space space; int method; real spacing; struct grains g; const char *says;
-    } c[] = {
-        /* metres meant, millimetres written, and the other way round */
-        {SPACE_PLANE_STRESS,
-         PD,
-         1e-3,
-         {10, 1, 0, 0, 1, 0},
-         "100 % of its particles have no neighbour within 3.015 "
-         "spacings of 0.001 m: those of the list are 1 m apart; a list in m is expected "
-         "(is it in mm?), or a particles.spacing of about 1 m"},
-        {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1, 0}, "no neighbour within 2 spacings of 0.001 m"},
-        {SPACE_PLANE_STRESS,
-         BOTH,
-         1e-3,
-         {20, 1, 0, 0, 1, 0},
-         "about 100 % of its particles have no neighbour within 3.015 spacings"},
-        {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in cm?)"},
-        {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1, 0}, "100 % of its particles"},
-        {SPACE_PLANE_STRESS,
-         PD,
-         1,
-         {10, 1, 0, 0, 1e-3, 0},
-         "neighbours of the list are 0.001 m apart, and the spacing is 1 m; a "
-         "particles.spacing of about 0.001 m is expected (is it in mm?), or a list in m"},
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 1e-3, 0}, "neighbours of the list are 0.001 m apart"},
-        {SPACE_SOLID, BOTH, 1, {5, 1, 0, 0, 0.1, 0}, "neighbours of the list are 0.1 m apart"},
-        {SPACE_SOLID,
-         PD,
-         1,
-         {5, 1, 0, 0, 1, 1e9},
-         "volumes of its particles are 1e+09 times the space up to their neighbours, which are 1 m "
-         "apart; volumes in m^3 are expected (are they in mm^3?)"},
-        {SPACE_PLANE_STRESS,
-         MPM,
-         1,
-         {10, 1, 0, 0, 1, 1e-3},
-         "volumes of its particles are 0.001 times the space up to their neighbours, "
-         "which are 1 m apart, times the thickness; volumes in m^3 are expected"},
-        /* what a list may be */
-        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL}, /* heavy knots of a net */
-        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1, 0}, NULL},
-        {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3, 0}, NULL}, /* neighbours at the rim of the horizon */
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 3, 0}, "no neighbour within 2 spacings"},
-        {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2, 0}, NULL},        /* a graded body's fine part */
-        {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50, 0}, NULL}, /* grains of two, far apart */
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 0, 1, 50, 0}, NULL},
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50, 0}, NULL}, /* 60 chips beside 40 such grains: 43 % */
-        {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 72, 1, 50, 0}, "56 % of its particles"},
-        {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50, 0}, NULL}, /* seven mass points */
-        {SPACE_LINE, PD, 1, {8, 1, 0, 0, 50, 0}, "100 % of its particles"},
-    };
     char name[] = "grains.csv";
-    for (size_t k = 0; k < COUNT_OF(c); k++) {
+    for (size_t k = 0; k < COUNT_OF(told); k++) {
         struct setting s;
         struct particles p;
-        setting_make(&s, c[k].space, (real[]){1, 1, 1});
-        s.scene.method = (enum method)c[k].method, s.scene.spacing = c[k].spacing, s.scene.horizon = 3.015,
+        setting_make(&s, told[k].space, (real[]){1, 1, 1});
+        s.scene.method = (enum method)told[k].method, s.scene.spacing = told[k].spacing, s.scene.horizon = 3.015,
         s.scene.cell = 2;
         s.body[0].file = name;
         snprintf(s.body[0].place, sizeof s.body[0].place, "a.yaml:7:3: particles: ");
-        write_grains(name, s.scene.dim, &c[k].g);
-        if (c[k].says) {
-            assert_refused(fill_particles(&p, &s.scene, 0), c[k].says);
+        write_grains(name, s.scene.dim, &told[k].g);
+        if (told[k].says) {
+            assert_refused(fill_particles(&p, &s.scene, 0), told[k].says);
             assert_null(p.X[0]);
             assert_refused(REFUSED, "a.yaml:7:3: particles: body plate: ");
         } else {

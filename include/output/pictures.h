@@ -1,0 +1,27 @@
+/* Names of the pictures of `cleave plot`, for what draws them and for what removes those of an older run. */
+#ifndef CLEAVE_PICTURES
+#define CLEAVE_PICTURES
+
+#include "output_files.h"
+
+enum picture {
+    DRAWN_DAMAGE,
+    DRAWN_KIND,
+    DRAWN_LAST,
+    DRAWN_PROFILES,
+    DRAWN_CRACK,
+    DRAWN_ENERGY,
+    DRAWN_SIF,
+    DRAWN_PATH,
+    DRAWN_KINDS
+};
+
+/* DIR/pictures, and NAME.png or NAME_000012.png in it, `dir` the folder of a run; empty where `dir` is too long. */
+struct path pictures_folder(const char *dir);
+struct path picture_path(const char *dir, enum picture which);
+struct path picture_path_of_frame(const char *dir, enum picture which, int number);
+
+/* True for the name of a picture, NAME.png or NAME_000012.png, followed by `end`. */
+bool is_picture(const char *name, const char *end);
+
+#endif
