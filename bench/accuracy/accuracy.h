@@ -102,7 +102,7 @@ extern const int accuracy_problems;
 #define ACCURACY_STEP 0.8
 
 extern const struct accuracy_problem accuracy_bar, accuracy_wave, accuracy_square, accuracy_cube, accuracy_hole,
-    accuracy_cracks, accuracy_sudden, accuracy_spall, accuracy_fracture;
+    accuracy_cracks, accuracy_sudden, accuracy_spall, accuracy_fracture, accuracy_beam, accuracy_rod;
 
 /* `cleave bench accuracy=reference`: prints the lines of accuracy_reference.h, finer and finer. */
 status accuracy_reference(bool quick);

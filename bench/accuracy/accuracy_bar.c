@@ -52,8 +52,8 @@ static status accuracy_bar_measure(const struct accuracy_point *p, struct engine
     return OK;
 }
 
-/* A line has one shell of bonds for each distance: isotropic weights change nothing. */
-static bool accuracy_bar_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "isotropic"); }
+/* A line has one shell of bonds for each distance: uniform weights change nothing. */
+static bool accuracy_bar_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "uniform"); }
 
 const struct accuracy_problem accuracy_bar = {
     .name = "bar",

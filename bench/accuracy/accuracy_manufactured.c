@@ -92,7 +92,7 @@ const struct accuracy_problem accuracy_square = {
     .step = {0.4},
     .varied = 3,
     .remark =
-        {"Bonds of uniform weights and ospd stop at 2.7 %, the lattice's anisotropy, and at 27 % with a horizon of "
+        {"Bonds of uniform weights stop at 2.7 %, the lattice's anisotropy, and at 27 % with a horizon of "
          "2.015; with isotropic weights, and mospd, they are of second order and best at the short horizon.",
          "Stress of linear shapes, GIMP and the reference frame is of first order (1.2 % of 192 particles), "
          "velocities are of second (0.02 to 0.03 %)."},
@@ -113,7 +113,7 @@ const struct accuracy_problem accuracy_cube = {
     .step = {0.4},
     .varied = 3,
     .remark =
-        {"Bonds of uniform weights and ospd stop at 7 to 8 %, the lattice's anisotropy (C11 - 5.7 %); with isotropic "
+        {"Bonds of uniform weights stop at 7 to 8 %, the lattice's anisotropy (C11 - 5.7 %); with isotropic "
          "weights, and mospd, they are of second order and best at the short horizon.",
          "vmpd with a horizon of 2.015 is 33 % off: its calibration is that of a continuum."},
     .seconds = 150,

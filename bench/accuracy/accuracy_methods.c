@@ -9,13 +9,13 @@
 #define POINTS(shape, transfer) {{"method", "mpm"}, CURRENT, {"mpm.shape", shape}, {"mpm.transfer", transfer}}
 #define COUPLED(coupling) {{"method", "adaptive"}, CURRENT, {"coupling", coupling}}
 #define REFERENCE {"mpm.frame", "reference"}
-#define ISOTROPIC {"pd.weights", "isotropic"}
+#define UNIFORM {"pd.weights", "uniform"}
 
 /* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled, dark
  * red, violet and teal adaptive. */
 const struct accuracy_method accuracy_method[] = {
     {"pd bond", ACCURACY_BONDS, true, "#0072b2", 7, {{"method", "pd"}}},
-    {"pd bond isotropic", ACCURACY_BONDS, false, "#0072b2", 6, PD(ISOTROPIC)},
+    {"pd bond uniform", ACCURACY_BONDS, false, "#0072b2", 6, PD(UNIFORM)},
     {"pd bond vmpd", ACCURACY_BONDS, false, "#56b4e9", 5, PD({"pd.calibration", "vmpd"}, {"pd.surface", "none"})},
     {"pd ospd", ACCURACY_STATES, true, "#009e73", 9, PD({"model", "ospd"})},
     {"pd mospd", ACCURACY_STATES, true, "#009e73", 8, PD({"model", "mospd"})},
@@ -30,12 +30,12 @@ const struct accuracy_method accuracy_method[] = {
     {"mpm reference small", ACCURACY_REFERENCE, false, "#111111", 6, MPM(REFERENCE, {"mpm.strain", "small"})},
     {"coupled partial stress", ACCURACY_COUPLED, true, "#cc79a7", 7, COUPLED("partial stress")},
     {"coupled reference", ACCURACY_COUPLED, true, "#7b3294", 5, {{"method", "adaptive"}, REFERENCE}},
-    {"coupled reference isotropic",
+    {"coupled reference uniform",
      ACCURACY_COUPLED,
      true,
      "#7b3294",
      4,
-     {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
+     {{"method", "adaptive"}, REFERENCE, UNIFORM}},
     {"coupled handshake", ACCURACY_COUPLED, false, "#cc79a7", 6, COUPLED("handshake")},
     {"coupled pm", ACCURACY_COUPLED, false, "#9970ab", 9, COUPLED("pm")},
     {"coupled pg", ACCURACY_COUPLED, false, "#9970ab", 8, COUPLED("pg")},
@@ -43,12 +43,12 @@ const struct accuracy_method accuracy_method[] = {
     {"coupled pgg", ACCURACY_COUPLED, false, "#9970ab", 10, COUPLED("pgg")},
     {"adaptive partial stress", ACCURACY_ADAPTIVE, true, "#c51b7d", 13, COUPLED("partial stress")},
     {"adaptive reference", ACCURACY_ADAPTIVE, true, "#40004b", 13, {{"method", "adaptive"}, REFERENCE}},
-    {"adaptive reference isotropic",
+    {"adaptive reference uniform",
      ACCURACY_ADAPTIVE,
      true,
      "#40004b",
      12,
-     {{"method", "adaptive"}, REFERENCE, ISOTROPIC}},
+     {{"method", "adaptive"}, REFERENCE, UNIFORM}},
     {"adaptive handshake", ACCURACY_ADAPTIVE, false, "#c51b7d", 12, COUPLED("handshake")},
     {"adaptive pm", ACCURACY_ADAPTIVE, false, "#35978f", 9, COUPLED("pm")},
     {"adaptive pg", ACCURACY_ADAPTIVE, false, "#35978f", 8, COUPLED("pg")},

@@ -8,7 +8,8 @@
 
 const struct accuracy_problem *const accuracy_problem[] = {
     &accuracy_bar,    &accuracy_wave,   &accuracy_square, &accuracy_cube,    &accuracy_hole,
-    &accuracy_cracks, &accuracy_sudden, &accuracy_spall,  &accuracy_fracture};
+    &accuracy_cracks, &accuracy_sudden, &accuracy_spall,  &accuracy_fracture, &accuracy_beam,
+    &accuracy_rod};
 const int accuracy_problems = COUNT_OF(accuracy_problem);
 
 int accuracy_cases(const struct accuracy_problem *problem)

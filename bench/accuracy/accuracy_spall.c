@@ -41,7 +41,7 @@ static status accuracy_spall_measure(const struct accuracy_point *p, struct engi
     return OK;
 }
 
-static bool accuracy_spall_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "isotropic"); }
+static bool accuracy_spall_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "uniform"); }
 
 const struct accuracy_problem accuracy_spall = {
     .name = "spall",

@@ -129,9 +129,8 @@ const struct accuracy_problem accuracy_wave = {
     .horizon = {2.015, 4.015},
     .step = {0.4},
     .remark =
-        {"Bonds of uniform weights and ospd run at their lattice's speeds: P waves along it are 0.5 % fast (a phase of "
-         "1.9 % here), S waves 1.9 % slow (4.4 %); with a horizon of 2.015 6 and 20 %. Isotropic weights, and mospd, "
-         "are of second order.",
+        {"Bonds of uniform weights run at their lattice's speeds: P waves along it are 0.5 % fast (a phase of 1.9 % "
+         "here), S waves 1.9 % slow (4.4 %); with a horizon of 2.015 6 and 20 %. Isotropic ones are of second order.",
          "vmpd is slow by 1.6 % (P, 0 deg) to 9 % (S, 0 deg), whatever the resolution.",
          "FLIP takes velocities to the grid and back in every step, which slows waves by 0.09 (k h)^2 beside the "
          "grid's own 0.04: five times the error of the reference frame, three times that of APIC. B-splines are wider "

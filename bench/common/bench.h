@@ -59,6 +59,9 @@ status bench_readme_end(struct bench_readme *r, const char *name, bool quick, st
 status bench_engine_make(struct engine *e, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int overrides);
 void bench_engine_free(struct engine *e, struct scene *s);
+/* Gives all particles, and the nodes of the reference frame, the velocity field(context, X) [m/s]. */
+typedef void bench_field(const void *context, const real *X, real *v);
+void bench_engine_start(struct engine *e, bench_field *field, const void *context);
 /* Goes on to the end of step `until`; the last step is a sample. Adds up laps over calls. */
 status bench_engine_run(struct engine *e, int64_t until, struct laps *spent);
 /* Texts of overrides, made on the way; `at` points into them only once all are added (bench_overrides_ready). */

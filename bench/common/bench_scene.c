@@ -60,6 +60,23 @@ status bench_engine_run(struct engine *e, int64_t until, struct laps *spent)
     return ran;
 }
 
+void bench_engine_start(struct engine *e, bench_field *field, const void *context)
+{
+    struct grid *g = &e->reference.mesh.grid;
+    real X[DIM_MAX], v[DIM_MAX];
+    for (int64_t i = 0; i < e->part.n; i++) {
+        for (int d = 0; d < e->part.dim; d++) X[d] = e->part.X[d][i];
+        field(context, X, v);
+        for (int d = 0; d < e->part.dim; d++) e->part.v[d][i] = v[d];
+    }
+    for (int64_t I = 0; e->reference.mesh.points > 0 && I < g->n; I++) {
+        if (!(e->reference.mesh.inverse_mass[I] > 0)) continue;
+        for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+        field(context, X, v);
+        for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
+    }
+}
+
 /* ---- figures of a run -------------------------------------------------------------------------------------------- */
 
 void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)

@@ -56,20 +56,3 @@ status limits_make(struct engine *e, struct scene *s, const struct limits_row *r
     for (const char *const *k = r->set; *k; k += 2) bench_override(&o, k[0], "%s", k[1]);
     return bench_engine_make(e, s, "failing", whole, bench_overrides_ready(&o), o.n);
 }
-
-void limits_start(struct engine *e, limits_field *field, const void *context)
-{
-    struct grid *g = &e->reference.mesh.grid;
-    real X[DIM_MAX], v[DIM_MAX];
-    for (int64_t i = 0; i < e->part.n; i++) {
-        for (int d = 0; d < e->part.dim; d++) X[d] = e->part.X[d][i];
-        field(context, X, v);
-        for (int d = 0; d < e->part.dim; d++) e->part.v[d][i] = v[d];
-    }
-    for (int64_t I = 0; e->reference.mesh.points > 0 && I < g->n; I++) {
-        if (!(e->reference.mesh.inverse_mass[I] > 0)) continue;
-        for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
-        field(context, X, v);
-        for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
-    }
-}

@@ -39,8 +39,5 @@ bool limits_holds(const struct limits_scene *s, const double *figure);
 /* The engine of a scene with what the row sets; `text` as printf writes it. Free with bench_engine_free. */
 status limits_make(struct engine *e, struct scene *s, const struct limits_row *r, const char *text, ...)
     __attribute__((format(printf, 4, 5)));
-/* Velocities [m/s] of particles and of the nodes of a mesh by place. */
-typedef void limits_field(const void *context, const real *X, real *v);
-void limits_start(struct engine *e, limits_field *field, const void *context);
 
 #endif

@@ -137,20 +137,20 @@ static status softest(const struct limits_row *r, double *to)
 }
 
 static const struct limits_row soft[] = {
-    {LATTICE("ospd", "1.5"), .known = {{0.02, 0.04}}},
-    {LATTICE("mospd", "1.5"), .known = {{0, 0.01}}},
-    {CLOUD("ospd", "1.5"), .known = {{0.12, 0.2}}, .remedy = "a horizon of 3.015, or mospd"},
-    {CLOUD("mospd", "1.5"), .known = {{0, 0.01}}},
-    {LATTICE("ospd", "3.015"), .known = {{0, 0.01}}},
-    {LATTICE("mospd", "3.015"), .known = {{0.01, 0.02}}},
-    {CLOUD("ospd", "3.015"), .known = {{0.01, 0.03}}},
+    {LATTICE("ospd", "1.5"), .known = {{0.01, 0.03}}},
+    {LATTICE("mospd", "1.5"), .known = {{0.01, 0.03}}},
+    {CLOUD("ospd", "1.5"), .known = {{0.12, 0.22}}, .remedy = "a horizon of 3.015, or mospd"},
+    {CLOUD("mospd", "1.5"), .known = {{0, 0.015}}},
+    {LATTICE("ospd", "3.015"), .known = {{0.01, 0.03}}},
+    {LATTICE("mospd", "3.015"), .known = {{0.03, 0.055}}},
+    {CLOUD("ospd", "3.015"), .known = {{0.02, 0.045}}},
     {CLOUD("mospd", "3.015"), .known = {{0.06, 0.1}}},
     {.method = "mospd, horizon 3.015, local",
      .set = {"model", "mospd", "pd.normalisation", "local"},
      .known = {{0.07, 0.1}}},
     {.method = "ospd, horizon 3.015, bulk",
      .set = {"model", "ospd", "pd.normalisation", "bulk"},
-     .known = {{0.03, 0.06}}},
+     .known = {{0.02, 0.06}}},
 };
 const struct limits_scene limits_softest = {
     "softest mode of a small free body: surfaces", NULL, {{"error of the frequency", 0.1}}, ROWS(soft), softest};

@@ -69,6 +69,7 @@ struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bond-based */
     bool local;                          /* Q of what a family still has, not of a full one */
     real *weighted;                      /* [row blocks 8] Q [m^2] */
+    real share;                          /* V/Q of a full family, where moduli are of that; 0: of each family [m] */
     uint8_t *past;                       /* [row blocks] 1: a bond may have passed its limit in the last sweep */
     real *pressure, *spring;             /* [n_all] P and g [N/m^2], [N/m] */
     /* [n_all] rotation R and g (kernels/pd/rotation.h); only models with rotations: g (R - 1), row major, in the

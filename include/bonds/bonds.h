@@ -65,7 +65,7 @@ status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
 /* Q of what a row has left, bond by bond: a difference would leave round-off for the last of them [m^2]. */
 real state_weight_left(const struct bonds *b, int64_t row);
 /* Q of every row anew, for what is broken now. Nothing without state-based models. */
-void state_weigh(struct bonds *b, const struct particles *p, const struct family *f);
+void state_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s);
 
 /* The first invariant of bond_storage.h that these bonds break, NULL: none. */
 const char *bonds_fault(const struct bonds *b);

@@ -8,7 +8,7 @@
 
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
-enum surface_rule { SURFACE_NONE, SURFACE_VOLUME };
+enum surface_rule { SURFACE_NONE, SURFACE_VOLUME, SURFACE_MOMENTS };
 enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
 /* Influence function omega(r): 1, exp(-r^2/delta^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing). */
 enum influence { INFLUENCE_ONE, INFLUENCE_GAUSSIAN, INFLUENCE_INVERSE, INFLUENCE_INVERSE_SQUARE, INFLUENCE_LINEAR };
@@ -76,7 +76,8 @@ struct bond_source {
     int cracks;
     const struct image *image;           /* of loads */
     int room;                            /* most neighbours of a particle (bonds_room); 0: counted when needed */
-    const real *neighbour_volume;        /* [n_all] V_i^H = sum V_j beta, for the surface correction; NULL without */
+    const real *neighbour_volume;        /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL without */
+    const struct surface_weights *surface;   /* of bonds near faces (bonds/surface.h); NULL without */
 };
 
 /* Horizon and cutoff, shell weights, and the sum over a full family on the lattice. The rules (volume, calibration,

@@ -8,6 +8,7 @@
 #include <signal.h>
 
 #include "bonds/bonds.h"
+#include "bonds/surface.h"
 #include "coupling/grid_coupled.h"
 #include "data/cells.h"
 #include "coupling/conversion.h"
@@ -43,7 +44,8 @@ struct material_tables {
     real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials */
     real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
     int *mirror_axis;                    /* [boundaries] -1: clamped */
-    real *neighbour_volume;              /* [n_all] V^H of every particle, surface correction only */
+    real *neighbour_volume;              /* [n_all] V^H of every particle, volume method only */
+    struct surface_weights surface;      /* of bonds near faces, pd.surface moments only */
     real wave_speed;                     /* fastest of the materials [m/s] */
 };
 

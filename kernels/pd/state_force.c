@@ -48,7 +48,7 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
     rotation_make(rotation, R, spring, dim);
 }
 
-/* Moduli of eight rows, 1/Q and V/Q; nothing where a family has nothing left. */
+/* Moduli of eight rows, 1/Q and V/Q (of a full family, if moduli are); nothing where a family has nothing left. */
 struct own_family { lanes A, B, inverse, share; };     /* [Pa], [Pa], [1/m^2], [m] */
 
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
@@ -57,7 +57,9 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     const int32_t own = b->aligned[g] ? row[0] : -1;
     const struct state_modulus *m = &b->state.modulus[p->material[row[0]]];
     const lanes Q = lanes_load(b->state.weighted + g * LANES), inverse = lanes_choose(Q > 0.0, 1.0 / Q, lanes_of(0));
-    struct own_family f = {lanes_of(m->A), lanes_of(m->B), inverse, lanes_at(p->volume0, own, row) * inverse};
+    const lanes share = b->state.share > 0 ? lanes_choose(Q > 0.0, lanes_of(b->state.share), lanes_of(0))
+                                           : lanes_at(p->volume0, own, row) * inverse;
+    struct own_family f = {lanes_of(m->A), lanes_of(m->B), inverse, share};
     if (own >= 0 && eight_same(p->material + own)) return f;
     for (int l = 0; l < LANES; l++) m = &b->state.modulus[p->material[row[l]]], f.A[l] = m->A, f.B[l] = m->B;
     return f;

@@ -63,7 +63,8 @@ static inline void state_mix_row(struct bonds *b, const struct particles *p, con
     const struct family_left left = family_left_of(b, p, limit, row);
     if (left.ended == 0) return;
     const real Q = b->state.local && b->whole[row] ? left.weighted : b->state.weighted[row];
-    const real inverse = Q > 0 ? 1 / Q : 0, share = p->volume0[i] * inverse, spring = m->B * share;
+    const real share = b->state.share > 0 ? b->state.share : Q > 0 ? p->volume0[i] / Q : 0;
+    const real inverse = Q > 0 ? 1 / Q : 0, spring = m->B * share;
     state_mix(&b->state.pressure[i], m->A * left.extension * inverse * share, left.share);
     if (b->state.rotation[0]) rotation_mix(&b->state, i, &left, spring, p->dim);
     state_mix(&b->state.spring[i], spring, left.share);

@@ -4,7 +4,8 @@
  *
  *     Q_i = sum_j w r^2  (or that of a full family: normalisation bulk)
  *     S_i = sum_j w r e / Q_i  (uniform strain: its mean)
- *     P_i = A S_i V_i/Q_i,  g_i = B V_i/Q_i,   R_i the rotation that makes sum_j w |Y - R_i xi|^2 least
+ *     P_i = A S_i V_i/Q_i,  g_i = B V_i/Q_i  (both over Q of a full family, where faces are corrected by weights),
+ *     R_i the rotation that makes sum_j w |Y - R_i xi|^2 least
  *
  *     ordinary (Silling et al. 2007; Le, Chan & Schwartz 2014, one form for plane stress, plane strain and 3D)
  *         f_i = sum_j w [r (P_i + P_j) + e (g_i + g_j)] n,          A = D^2 (lambda' - G),  B = D (D + 2) G

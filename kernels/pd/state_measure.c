@@ -178,5 +178,6 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
     if (!(Q > 0)) return 0;
     if (b->state.rotation[0]) e2 = row_effective(b, p, row, ago);
     const real mean = S / Q + (p->kind[i] == KIND_PD ? 0 : p->end_strain[i]);
-    return 0.5 * p->volume0[i] * (m->A * square(mean) + m->B * e2 / Q);
+    const real share = b->state.share > 0 ? b->state.share : p->volume0[i] / Q;
+    return 0.5 * share * (m->A * Q * square(mean) + m->B * e2);
 }

@@ -1,7 +1,8 @@
 /* Advice about a scene before it runs: parts that are not resolved, and parts that are not needed. No advice is an
  * error. Limits and their basis:
  *
- *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are incomplete
+ *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are incomplete; how
+ *                far bending and twisting are off: first modes beside Ritz (`cleave bench accuracy=beam` and `=rod`)
  *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from
  *                an interface, the group velocity of the shortest waves is off by a tenth
  *   stress       sigma = rho c v ahead of a part that moves with v; waves of both ends meet and reflect: four times
@@ -34,6 +35,22 @@ static real solid_size(const struct solid *a, int dim)
     return a->kind == SOLID_BALL || a->kind == SOLID_CYLINDER ? 2 * a->radius : least;
 }
 
+/* How far bending and twisting of a part made of bonds and families are off, by its layers [%]: in the plane, in space.
+ * The first row is of all thinner ones, the last of all thicker ones. */
+static const struct { double layers; int bonds[2], rotating[2], uncorrected[2]; } bending_off[] = {
+    {3, {5, 15}, {40, 20}, {30, 40}}, {4, {2, 11}, {9, 5}, {20, 30}}, {5, {1, 6}, {5, 14}, {15, 28}},
+    {7, {1, 4}, {1, 6}, {12, 22}},    {10, {1, 3}, {1, 2}, {9, 17}}};
+
+static int bending_error(const struct scene *s, double layers)
+{
+    size_t row = 0;
+    while (row + 1 < COUNT_OF(bending_off) && layers > bending_off[row + 1].layers - 0.5) row++;
+    const int *off = s->surface != SURFACE_MOMENTS ? bending_off[row].uncorrected
+                     : s->model == MODEL_MOSPD     ? bending_off[row].rotating
+                                                   : bending_off[row].bonds;
+    return off[s->dim > 2];
+}
+
 /* Bodies, gaps and cracks smaller than FEATURE horizons. */
 static void advise_features(const struct scene *s, FILE *out)
 {
@@ -44,9 +61,14 @@ static void advise_features(const struct scene *s, FILE *out)
             if (s->method == METHOD_MPM || (k > 0 && !a->subtract) || !(size < FEATURE * horizon_of(s))) continue;
             fprintf(out,
                     "unresolved: body %s: a %s of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
-                    "it feels cut-off families: spacing %.2g m would do\n",
+                    "it feels cut-off families: spacing %.2g m would do",
                     s->body[b].name, a->subtract ? "gap" : "part", size, size / horizon_of(s), size / s->spacing,
                     FEATURE, size / (FEATURE * s->horizon));
+            if (s->method == METHOD_PD && !a->subtract)
+                fprintf(out, "; as it is, bending and twisting are off by up to about %d %% (method adaptive, whose "
+                        "cells bend within 1 %%, needs no bonds until something breaks)",
+                        bending_error(s, size / s->spacing));
+            fprintf(out, "\n");
         }
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
         real length = 0;

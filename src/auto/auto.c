@@ -91,10 +91,9 @@ static void usual_value(const struct key *k, const struct cost_point *p, char *t
 {
     const char *from = k->fallback + (*k->fallback == '(');
     if (strcmp(k->path, "mpm.frame") == 0) from = "current";      /* tables without a frame were measured in it */
-    if (strcmp(k->path, "pd.surface") == 0)
-        from = cost_point_has(p, "method", "pd") && !has_states(p) ? "volume" : "none";
+    if (strcmp(k->path, "pd.surface") == 0) from = cost_point_has(p, "method", "pd") ? "moments" : "none";
     if (strcmp(k->path, "pd.influence") == 0) from = has_states(p) ? "inverse" : "one";
-    if (strcmp(k->path, "pd.normalisation") == 0) from = cost_point_has(p, "model", "mospd") ? "bulk" : "local";
+    if (strcmp(k->path, "pd.normalisation") == 0) from = cost_point_has(p, "method", "pd") ? "bulk" : "local";
     snprintf(text, room, "%.*s", (int)strcspn(from, *k->fallback == '(' ? "; )" : ""), from);
 }
 

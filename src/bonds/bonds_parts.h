@@ -105,9 +105,9 @@ bool regular_bonds(const struct site_map *l, const struct particles *p, int64_t 
 struct stencil_cache *stencil_cache_make(const struct site_map *l);
 void stencil_cache_free(struct stencil_cache *t);
 /* First particle of an earlier row block with bitwise equal bonds to those of i .. i + 7: lengths, weights and their
- * sums, if none is cut. -1: none, and this row block is stored. `around`: of particles, what weights
- * follow from beside them (neighbour_volume), NULL: nothing. */
-int64_t stencil_cache_find_row(const struct regular_bonds *b, const real *around, int64_t i);
+ * sums, if none is cut. -1: none, and this row block is stored. `weights`: what these follow from beside
+ * the sites (NULL: nothing). */
+int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i);
 /* 1/length and weight of the bonds from particles i .. i + 7 to j .. j + 7, none of them cut. */
 void regular_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
                    int64_t j, real *inverse, real *w);

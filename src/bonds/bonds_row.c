@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "bonds/surface.h"
 
 /* The vector test finds bonds above their limit less this share, for round-off; the scalar rule decides. */
 #define TRIGGER_MARGIN 1e-9
@@ -79,6 +80,7 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
     if (s->neighbour_volume)             /* volume method, Le & Bobaru 2018 */
         weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
+    if (s->surface) weight *= surface_factor(s->surface, i, xi);
     return weight;
 }
 

@@ -199,7 +199,7 @@ void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_
     const int32_t i = b->particle[g * LANES];
     real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
     int columns = 0;
-    if (whole_families(bonds) && row_block_follow(b, g, stencil_cache_find_row(bonds, m->source->neighbour_volume, i)))
+    if (whole_families(bonds) && row_block_follow(b, g, stencil_cache_find_row(bonds, m->source, i)))
         return;
     for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
     for (int k = 0; k < bonds->n; k++) {

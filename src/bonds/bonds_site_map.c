@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "bonds/surface.h"
 
 /* No site's distance may be as near to the cutoff [spacings]: particles may be LATTICE_NEAR from their sites,
  * round-off then decides nothing, and horizons of whole spacings (tolerance 1e-7) still pass. */
@@ -257,6 +258,11 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
             w[l] *= pairs->ratio[p->material[i + l] * pairs->materials + p->material[j + l]];
     if (around)
         for (int l = 0; l < LANES; l++) w[l] *= 2 * f->full / (around[i + l] + around[j + l]);
+    for (int l = 0; l < LANES && s->surface; l++) {
+        real one[DIM_MAX];
+        for (int d = 0; d < dim; d++) one[d] = xi[d][l];
+        w[l] *= surface_factor(s->surface, i + l, one);
+    }
 }
 
 void regular_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,

@@ -2,6 +2,7 @@
 #include "bonds_parts.h"
 
 #include "base/memory.h"
+#include "bonds/surface.h"
 
 real state_weight_left(const struct bonds *b, int64_t row)
 {
@@ -11,9 +12,11 @@ real state_weight_left(const struct bonds *b, int64_t row)
     return Q;
 }
 
-/* Q of the rows of a row block: of all bonds they have, or of a full family on the lattice [m^2]. */
-static void row_block_weigh(struct bonds *b, const struct particles *p, const struct family *f, int64_t g)
+/* Q of the rows of a row block: of all bonds they have, of those that they had when they were whole, or of a full
+ * family on the lattice [m^2]. */
+static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)
 {
+    const struct family *f = &s->family;
     real *Q = b->state.weighted + g * LANES;
     struct column_copy column;
     for (int l = 0; l < LANES; l++) Q[l] = 0;
@@ -25,21 +28,25 @@ static void row_block_weigh(struct bonds *b, const struct particles *p, const st
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++)
         if (!b->state.local || !b->whole[g * LANES + l])
             Q[l] = f->weighted * p->volume0[b->particle[g * LANES + l]] / f->cell_volume;
+    for (int l = 0; s->surface && l < LANES && g * LANES + l < b->rows; l++) {
+        const int32_t i = b->particle[g * LANES + l], class = s->surface->class_of[i];
+        if (class > 0) Q[l] = s->surface->weighted[class] * p->volume0[i] / f->cell_volume;
+    }
 }
 
-void state_weigh(struct bonds *b, const struct particles *p, const struct family *f)
+void state_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     if (!b->state.modulus) return;
 #pragma omp parallel for schedule(static)
-    for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, f, g);
+    for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, s, g);
 }
 
 /* Row blocks that rows made anew have taken over keep their Q; those of others are still 0. */
-static void state_weigh_new(struct bonds *b, const struct particles *p, const struct family *f)
+static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++)
-        if (b->state.weighted[g * LANES] == 0) row_block_weigh(b, p, f, g);
+        if (b->state.weighted[g * LANES] == 0) row_block_weigh(b, p, s, g);
 }
 
 void state_start(struct bonds *b, const struct bond_source *s)
@@ -47,6 +54,7 @@ void state_start(struct bonds *b, const struct bond_source *s)
     if (!s->modulus) return;
     b->state.modulus = s->modulus;
     b->state.local = s->local;
+    b->state.share = s->surface ? s->family.cell_volume / s->family.weighted : 0;
     b->state.weighted = NEW("state.weighted", b->row_blocks * LANES, real);
 }
 
@@ -62,7 +70,7 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
     b->state.image = NEW("state.image", p->n_all - p->n, struct state_image);
     for (int64_t k = 0; k < p->n_all - p->n; k++)
         b->state.image[k] = (struct state_image){s->image[k].source, s->mirror_axis[s->image[k].load]};
-    state_weigh_new(b, p, &s->family);
+    state_weigh_new(b, p, s);
 }
 
 void state_free(struct bonds *b)

@@ -4,6 +4,7 @@
 
 #include "bonds_parts.h"
 #include "base/memory.h"
+#include "bonds/surface.h"
 
 enum { REMEMBERED = 32 };                /* kinds of row blocks in some rows of a block: inside, and at its ends */
 
@@ -68,7 +69,16 @@ static void remember(struct stencil_cache *t, const struct regular_bonds *b, int
     t->next = (t->next + 1) % REMEMBERED;
 }
 
-int64_t stencil_cache_find_row(const struct regular_bonds *b, const real *around, int64_t i)
+/* Do weights follow from what is the same beside i .. i + 7 and beside j .. j + 7? */
+static bool same_weights(const struct bond_source *s, const struct regular_bonds *b, int64_t i, int64_t j)
+{
+    if (s->neighbour_volume && !same_around(s->neighbour_volume, b, i, j)) return false;
+    const struct surface_weights *w = s->surface;
+    return !w || (memcmp(w->class_of + i, w->class_of + j, LANES * sizeof *w->class_of) == 0 &&
+                  eight_bytes(w->mirrors + i) == eight_bytes(w->mirrors + j));
+}
+
+int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i)
 {
     struct stencil_cache *t = b->stencil_cache;
     if (!t->map->uniform) return -1;
@@ -76,7 +86,7 @@ int64_t stencil_cache_find_row(const struct regular_bonds *b, const real *around
         const int at = (t->last + k) % t->n;
         const struct cached *other = &t->cached[at];
         if (!same_sites(&other->bonds, b)) continue;
-        if (around && !same_around(around, b, i, other->i)) continue;
+        if (weights && !same_weights(weights, b, i, other->i)) continue;
         t->last = at;
         return other->i;
     }

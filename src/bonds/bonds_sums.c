@@ -207,7 +207,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
         for (int64_t first = 0; first < p->n; first += LANES) {
             if (map.at && first + LANES <= p->n && row_block_regular(&map, s, &all, first, &regular)) {
                 /* that of an equal row block is in `largest` */
-                if (stencil_cache_find_row(&regular, s->neighbour_volume, first) < 0)
+                if (stencil_cache_find_row(&regular, s, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
             }

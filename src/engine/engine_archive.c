@@ -81,7 +81,7 @@ status engine_archive(void *engine, struct archive *a)
     if (!a->saving) TRY(particles_check(e->scene, &e->part));
     if (!a->saving) engine_archive_rebuild(e);
     TRY(bonds_archive(&e->bonds, &e->part, a));
-    if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source.family);
+    if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source);
     if (!a->saving) {
         engine_partial_make(e);
         mesh_free(&e->reference.mesh);

@@ -107,7 +107,7 @@ static void make_mirrors(const struct scene *s, struct material_tables *tables, 
 }
 
 /* Converts the initial peridynamic particles and makes the bonds. */
-static void make_bonds(struct engine *e)
+static status make_bonds(struct engine *e)
 {
     const struct scene *s = e->scene;
     make_mirrors(e->scene, &e->tables, &e->source);
@@ -118,6 +118,10 @@ static void make_bonds(struct engine *e)
         bonds_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
         e->source.neighbour_volume = e->tables.neighbour_volume;
     }
+    if (s->surface == SURFACE_MOMENTS && has_peridynamics(s)) {
+        TRY(surface_make(&e->tables.surface, &e->part, &e->source, e->source.rotates));
+        e->source.surface = &e->tables.surface;
+    }
     if (s->method == METHOD_ADAPTIVE) {
         convert_region(&e->coupling.start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
                        s->conversion.tips * e->source.family.horizon);
@@ -127,6 +131,7 @@ static void make_bonds(struct engine *e)
     e->coupling.conversion.first_time = NAN;
     e->coupling.conversion.start = e->coupling.conversion.peak = e->part.n_of[KIND_PD];
     e->coupling.conversion.peak_bonds = e->bonds.n;
+    return OK;
 }
 
 void engine_partial_make(struct engine *e)
@@ -359,7 +364,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
                             e->source.family.cutoff, e->optional)));
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
-    make_bonds(e);
+    TRY(make_bonds(e));
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_update(e);
@@ -410,6 +415,7 @@ void engine_free(struct engine *e)
     memory_free(e->tables.pair_yield);
     memory_free(e->tables.pair_hardening);
     memory_free(e->tables.neighbour_volume);
+    surface_free(&e->tables.surface);
     memory_free(e->tables.elastic);
     memory_free(e->reference.elastic);
     memory_free(e->reference.choice);

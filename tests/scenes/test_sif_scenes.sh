@@ -46,12 +46,14 @@ wait
 
 # off RUN PROBE: relative error of K_I.
 off() { compute "$(f "$1" "probes.$2.K_I") / (11.93e6 * sqrt(1e-3)) - 1"; }
-between "mospd: K_I" "$(off mospd sif)" -0.003 0.003
-between "ospd: K_I" "$(off ospd sif)" -0.01 0.01
-between "ospd, 200 particles: K_I" "$(off ospd_fine sif)" -0.005 0.005
+# With faces that bend as they should what is left is the end of the crack: as if it were longer by half a horizon, half
+# of it with half the spacing.
+between "mospd: K_I" "$(off mospd sif)" -0.01 0.003
+between "ospd: K_I" "$(off ospd sif)" 0.012 0.022
+between "ospd, 200 particles: K_I" "$(off ospd_fine sif)" 0.005 0.012
 # what families cut short by faces cost: 2.3 % with constants of their own, and bonds soft at surfaces 1.6 %
 between "mospd local: K_I" "$(off local sif)" -0.03 -0.015
-between "bonds: K_I" "$(off bond sif)" 0.01 0.02
+between "bonds: K_I" "$(off bond sif)" 0.012 0.022
 for run in mospd ospd ospd_fine; do
     between "$run: contours" "$(f $run probes.sif.contour_spread)" 0 0.003
 done

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "bonds/bonds.h"
+#include "bonds/surface.h"
 #include "base/memory.h"
 #include "data/particles.h"
 
@@ -36,6 +37,7 @@ struct cloud {
     struct bond_source source;
     struct bonds bonds;
     real *neighbour_volume;
+    struct surface_weights surface;
 };
 
 /* Uniform in [0, 1); a linear congruence is random enough for shaking particles, and the same everywhere. */
@@ -123,6 +125,8 @@ static inline void cloud_source(struct cloud *c)
     s->materials = CLOUD_MATERIALS;
     s->limit = (struct bond_limit){c->limit, CLOUD_MATERIALS, LAST_FORCE_HALF, 0};
     s->yield = (struct bond_yield){c->yield, c->hardening, CLOUD_MATERIALS};
+    if (s->family.surface == SURFACE_MOMENTS && surface_make(&c->surface, &c->p, s, s->rotates) == OK)
+        s->surface = &c->surface;
     if (s->family.surface != SURFACE_VOLUME) return;
     c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);
     bonds_neighbour_volume(c->neighbour_volume, &c->p, s);
@@ -151,6 +155,7 @@ static inline void cloud_free(struct cloud *c)
     if (c->bonds.column) bonds_free(&c->bonds);
     if (c->cells.start) cells_free(&c->cells);
     memory_free(c->neighbour_volume);
+    surface_free(&c->surface);
     particles_free(&c->p);
     memset(c, 0, sizeof *c);
 }

@@ -90,17 +90,19 @@ static const struct cheap {
     const char *method;
     int resolution;
     double error;
-} cheap[] = {{&accuracy_hole, 0, "pd bond", 40, 0.0325},
+} cheap[] = {{&accuracy_hole, 0, "pd bond", 40, 0.216},
              {&accuracy_hole, 0, "mpm reference", 40, 0.0201},
-             {&accuracy_cracks, 0, "pd mospd", 32, 0.00825},
-             {&accuracy_cracks, 1, "pd bond", 32, 0.0166},
+             {&accuracy_cracks, 0, "pd mospd", 32, 0.0287},
+             {&accuracy_cracks, 1, "pd bond", 32, 0.0211},
              {&accuracy_cracks, 0, "mpm reference", 32, 0.0461},
              {&accuracy_sudden, 0, "mpm reference", 20, 0.00288},
-             {&accuracy_sudden, 1, "pd bond", 20, 0.104},
+             {&accuracy_sudden, 1, "pd bond", 20, 0.0771},
              {&accuracy_spall, 0, "pd bond", 200, 0.0403},
              {&accuracy_spall, 0, "adaptive reference", 200, 0.0208},
-             {&accuracy_fracture, 0, "pd bond", 60, 0.223},
-             {&accuracy_fracture, 1, "adaptive reference", 100, 0.0508}};
+             {&accuracy_beam, 0, "pd bond", 5, 0.0063},
+             {&accuracy_rod, 1, "pd bond", 5, 0.0562},
+             {&accuracy_fracture, 0, "pd bond", 60, 0.177},
+             {&accuracy_fracture, 1, "adaptive reference", 100, 0.0954}};
 
 static void points_are_as_far_off_as_measured(void **state)
 {
@@ -114,7 +116,7 @@ static void points_are_as_far_off_as_measured(void **state)
         struct engine e;
         struct scene s;
         double error, part[ACCURACY_PARTS];
-        assert_true(p.problem->applies(&p));
+        assert_true(!p.problem->applies || p.problem->applies(&p));
         accuracy_scene_make(&p, &from);
         assert_int_equal(bench_engine_make(&e, &s, "test", from.text, bench_overrides_ready(&from.set), from.set.n),
                          OK);
@@ -136,8 +138,8 @@ static void references_converge(void **state)
                               *used = &f[FRACTURE_QUARTER];
         double beside = 0;
         for (int r = 0; r < FRACTURE_RINGS; r++) beside += pow(used->angle[r] - finest->angle[r], 2) / FRACTURE_RINGS;
-        assert_true(sqrt(beside) <= 0.043 && fabs(used->length / finest->length - 1) <= 0.009);
-        assert_true(fabs(used->start / finest->start - 1) <= 0.009 && fabs(used->speed / finest->speed - 1) <= 0.045);
+        assert_true(sqrt(beside) <= 0.043 && fabs(used->length / finest->length - 1) <= 0.022);
+        assert_true(fabs(used->start / finest->start - 1) <= 0.009 && fabs(used->speed / finest->speed - 1) <= 0.014);
     }
 }
 

@@ -265,7 +265,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             b->c.bonds.w[q] = 0, b->c.bonds.inverse_length[q] *= -1;
             bonds_changed(&b->c.bonds, g * LANES + q % LANES, q);
         }
-    state_weigh(&b->c.bonds, &b->c.p, &b->c.source.family);
+    state_weigh(&b->c.bonds, &b->c.p, &b->c.source);
     uint64_t seed = 17;
     for (int64_t i = 0; i < b->c.p.n; i++)
         for (int d = 0; d < dim; d++)

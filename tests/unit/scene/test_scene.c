@@ -173,7 +173,7 @@ static void test_block(void **state)
 {
     (void)state;
     struct scene s = read_ok(block, NULL, 0);
-    assert_true(s.dim == 3 && s.thickness == 1 && s.surface == SURFACE_VOLUME && s.material->poisson == 0.25);
+    assert_true(s.dim == 3 && s.thickness == 1 && s.surface == SURFACE_MOMENTS && s.material->poisson == 0.25);
     assert_string_equal(s.body->name, "body");
     assert_true(s.body->shape.solid[0].kind == SOLID_CYLINDER && s.body->shape.solid[0].to[2] == 1e-2);
     assert_true(s.crack->n == 4 && s.crack->corner[2][1] == 5e-3 && s.initial->velocity_gradient[7] == 7);

@@ -1,0 +1,60 @@
+/* Weights of bonds near faces, of all particles (surface.h). */
+#include "bonds/surface.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "surface_parts.h"
+
+/* Factors of the offsets of all classes, and what their families weigh. */
+static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct alike *a,
+                        const struct family *f, const real *factor)
+{
+    const int n = b->offset.n;
+    to->factor = NEW("surface.factor", (int64_t)a->classes * n, real);
+    to->weighted = NEW("surface.weighted", a->classes, real);
+    to->weighted[0] = f->weighted;
+    for (int32_t class = 1; class < a->classes; class++)
+        for (int k = 0; k < n; k++) {
+            const int64_t entry = (int64_t)class * n + k, group = a->group_of[entry];
+            const real r = b->offset.length[k] * f->spacing;
+            to->factor[entry] = group >= 0 ? factor[group] : 1;
+            if (alike_neighbour(a, b, class, k) >= 0)
+                to->weighted[class] += to->factor[entry] * b->offset.share[k] * square(r);
+        }
+}
+
+status surface_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s, bool rotates)
+{
+    struct near_faces b;
+    struct faces f;
+    struct alike a;
+    TRY(near_faces_make(&b, p, s));
+    faces_make(&f, &b, rotates);
+    alike_make(&a, &b);
+    real *factor = NEW("surface.factors", a.groups, real);
+    surface_fit(factor, &b, &f, &a, rotates);
+    *to = (struct surface_weights){.spacing = s->family.spacing, .reach = b.offset.reach, .dim = p->dim,
+                                   .offsets = b.offset.n, .classes = a.classes};
+    to->offset_at = b.offset.number, b.offset.number = NULL;
+    to->class_of = NEW("surface.class_of", p->n, int32_t);
+    to->mirrors = NEW("surface.mirrors", p->n, uint8_t);
+    for (int64_t t = 0; t < b.n; t++)
+        to->class_of[b.particle[t]] = a.class_of[t], to->mirrors[b.particle[t]] = a.mirrors[t];
+    tables_make(to, &b, &a, &s->family, factor);
+    memory_free(factor);
+    alike_free(&a);
+    faces_free(&f);
+    near_faces_free(&b);
+    return OK;
+}
+
+void surface_free(struct surface_weights *w)
+{
+    memory_free(w->offset_at);
+    memory_free(w->class_of);
+    memory_free(w->mirrors);
+    memory_free(w->factor);
+    memory_free(w->weighted);
+    *w = (struct surface_weights){0};
+}

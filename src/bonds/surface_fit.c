@@ -1,0 +1,467 @@
+/* Factors of bonds near faces: a bounded linear least-squares problem, solved by conjugate gradients.
+ *
+ * With the moments M4 = sum f w r nnnn and M3 = sum f w nnn of a class of particles, the factors f minimise
+ *
+ *     sum_classes members [ |M4 - (1 + tau) M|^2 + |M3 + M A/2|^2 ] + PRIOR sum_bonds (f - 1)^2,   LEAST <= f <= MOST
+ *
+ * where |T|^2 = sum_k (T:B_k) P (T:B_k) over a basis B of strains, and P = (1 + STIFF Q)^-1 weighs strains by the
+ * traction that they leave on faces nearby, Q(e, e') = (M:e) : N (x) N : (M:e'). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/quadratic.h"
+#include "bonds_parts.h"
+#include "surface_parts.h"
+
+#define STIFF 1000.0                     /* strains that load a face count 1/STIFF */
+#define ROTATIONS -0.2                   /* alpha of models with rotations: fitted to bending */
+/* Over the mean square of a bond in its moments: with a twentieth of it frequencies of beams of 10 layers are nearer by
+ * 0.1 %, and steps shorter by a fifth. So with wider bounds. */
+#define PRIOR 2e-2
+#define LEAST 0.2
+#define MOST 3.0
+#define CLOSE 1e-12                      /* share of the gradient that is left */
+#define PRODUCTS 1000                    /* at most; in space 800 are enough, in the plane 250 */
+#define WORK 5e10                        /* multiplications at most: 10 s of two cores */
+/* Moments of a bond side by side: third, then fourth, then nothing. */
+enum { STRAINS = 6, THIRDS = 10, FOURTHS = 15, MOMENTS_2D = 16, MOMENTS = 32 };
+
+/* Components of symmetric tensors of rank `rank`: axes in ascending order. */
+struct components { int n, rank, axis[FOURTHS][4]; };
+
+static void components_make(struct components *c, int rank, int dim)
+{
+    int axis[4] = {0};
+    c->n = 0, c->rank = rank;
+    for (;;) {
+        memcpy(c->axis[c->n++], axis, sizeof axis);
+        int k = rank - 1;
+        while (k >= 0 && axis[k] == dim - 1) k--;
+        if (k < 0) return;
+        for (int next = axis[k] + 1; k < rank; k++) axis[k] = next;
+    }
+}
+
+/* Number of the component with these axes in any order. */
+static int component_of(const struct components *c, const int *any)
+{
+    int axis[4];
+    memcpy(axis, any, (size_t)c->rank * sizeof *axis);
+    for (int a = 1; a < c->rank; a++)
+        for (int b = a; b > 0 && axis[b - 1] > axis[b]; b--) {
+            const int swap = axis[b];
+            axis[b] = axis[b - 1], axis[b - 1] = swap;
+        }
+    for (int k = 0; k < c->n; k++)
+        if (memcmp(c->axis[k], axis, (size_t)c->rank * sizeof *axis) == 0) return k;
+    return -1;
+}
+
+static real component_value(const struct components *c, int k, const real *n)
+{
+    real value = 1;
+    for (int a = 0; a < c->rank; a++) value *= n[c->axis[k][a]];
+    return value;
+}
+
+/* What all classes share. */
+struct moments {
+    int dim, strains;
+    struct components third, fourth;
+    int width;                                                   /* of what a bond adds: MOMENTS_2D or MOMENTS */
+    real *of;                                                    /* [offsets width] that, over M_1111 */
+    real full[FOURTHS];                                          /* M over M_1111 */
+    real strain[STRAINS][DIM_MAX][DIM_MAX], stress[STRAINS][DIM_MAX][DIM_MAX];   /* B_k, M:B_k */
+    real fourth_by[STRAINS][STRAINS][FOURTHS];                   /* B_k:T:B_l of T by component */
+    real third_by[DIM_MAX][STRAINS][THIRDS];                     /* n_p.T:B_l */
+};
+
+static real full_of(const struct moments *m, int a, int b, int c, int d)
+{
+    return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
+}
+
+static void strains_make(struct moments *m)
+{
+    const int dim = m->dim;
+    for (int a = 0; a < dim; a++) m->strain[m->strains++][a][a] = 1;
+    for (int a = 0; a < dim; a++)
+        for (int c = a + 1; c < dim; c++, m->strains++)
+            m->strain[m->strains][a][c] = m->strain[m->strains][c][a] = sqrt(0.5);
+    for (int k = 0; k < m->strains; k++)
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < dim; b++)
+                for (int c = 0; c < dim; c++)
+                    for (int d = 0; d < dim; d++) {
+                        const real e = m->strain[k][c][d];
+                        m->stress[k][a][b] += e != 0 ? full_of(m, a, b, c, d) * e : 0;
+                        for (int l = 0; l < m->strains && e != 0; l++)
+                            m->fourth_by[l][k][component_of(&m->fourth, (const int[]){a, b, c, d})] +=
+                                m->strain[l][a][b] * e;
+                        if (b == 0 && e != 0) m->third_by[a][k][component_of(&m->third, (const int[]){a, c, d})] += e;
+                    }
+}
+
+static void moments_make(struct moments *m, const struct offsets *o)
+{
+    real sum[FOURTHS] = {0};
+    *m = (struct moments){.dim = o->dim};
+    components_make(&m->third, 3, o->dim);
+    components_make(&m->fourth, 4, o->dim);
+    for (int k = 0; k < o->n; k++)
+        for (int c = 0; c < m->fourth.n; c++)
+            sum[c] += o->weight[k] * o->length[k] * component_value(&m->fourth, c, o->direction[k]);
+    for (int c = 0; c < m->fourth.n; c++) m->full[c] = sum[c] / sum[0];
+    m->width = o->dim < 3 ? MOMENTS_2D : MOMENTS;
+    m->of = NEW("surface.moments", (int64_t)o->n * m->width, real);
+    for (int k = 0; k < o->n; k++) {
+        real *third = m->of + (int64_t)k * m->width, *fourth = third + m->third.n;
+        for (int c = 0; c < m->third.n; c++)
+            third[c] = o->weight[k] * component_value(&m->third, c, o->direction[k]) / sum[0];
+        for (int c = 0; c < m->fourth.n; c++)
+            fourth[c] = o->weight[k] * o->length[k] * component_value(&m->fourth, c, o->direction[k]) / sum[0];
+    }
+    strains_make(m);
+}
+
+/* alpha of bonds: that of a plane face along which the body is pulled; in an isotropic family that of shear along it is
+ * the same. */
+static real face_moment(const struct moments *m, const struct offsets *o)
+{
+    const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
+    real sum = 0, weight = 0;
+    for (int k = 0; k < o->n; k++) {
+        real strain = square(o->direction[k][0]);
+        for (int d = 1; d < m->dim; d++) strain -= across * square(o->direction[k][d]);
+        const real w = o->weight[k] * o->length[k] * square(strain);
+        sum += w * square((real)o->at[k][1]), weight += w;
+    }
+    return 1.0 / 24 + sum / weight / 8;
+}
+
+/* ---- a class ----------------------------------------------------------------------------------------------------- */
+
+/* Weights of the squares of its moments, times its members, and what the bonds that may change ought to add to them. */
+struct class_fit { real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS]; };
+
+/* Inverse of a symmetric positive matrix, in place, by Gauss and Jordan. */
+static void invert(real (*a)[STRAINS], int n)
+{
+    for (int k = 0; k < n; k++) {
+        const real pivot = 1 / a[k][k];
+        a[k][k] = 1;
+        for (int c = 0; c < n; c++) a[k][c] *= pivot;
+        for (int r = 0; r < n; r++) {
+            if (r == k) continue;
+            const real factor = a[r][k];
+            a[r][k] = 0;
+            for (int c = 0; c < n; c++) a[r][c] -= factor * a[k][c];
+        }
+    }
+}
+
+/* P of a mean N (x) N. */
+static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], real (*P)[STRAINS])
+{
+    const int dim = m->dim;
+    for (int k = 0; k < m->strains; k++)
+        for (int l = 0; l < m->strains; l++) {
+            real traction = 0;
+            for (int a = 0; a < dim; a++)
+                for (int b = 0; b < dim; b++)
+                    for (int c = 0; c < dim; c++) traction += m->stress[k][a][b] * normal2[b][c] * m->stress[l][a][c];
+            P[k][l] = (k == l) + STIFF * traction;
+        }
+    invert(P, m->strains);
+}
+
+/* to = sum_k by_k^T P by_k. */
+static void quadratic(const real *by, int rows, int strains, int n, int room, real (*P)[STRAINS], real *to)
+{
+    for (int k = 0; k < rows; k++)
+        for (int l = 0; l < strains; l++) {
+            real half[FOURTHS] = {0};
+            for (int q = 0; q < strains; q++)
+                for (int y = 0; y < n; y++) half[y] += P[l][q] * by[(k * STRAINS + q) * room + y];
+            for (int x = 0; x < n; x++)
+                for (int y = 0; y < n; y++) to[x * room + y] += by[(k * STRAINS + l) * room + x] * half[y];
+        }
+}
+
+/* Means over the members of a class of what faces ask for, in all mirrors in which it looks alike: beyond the
+ * surroundings that make a class, members may differ, and sides of a member. */
+struct class_goal { real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX]; };
+
+static void class_goal_add(struct class_goal *to, int dim, const struct faces *f, int64_t t, int mirrors, real share)
+{
+    to->dipole += share * f->dipole[t];
+    for (int d = 0; d < dim; d++) {
+        const real sign = share * mirror_sign(mirrors, d);
+        to->area[d] += sign * f->area[t][d];
+        for (int e = 0; e < dim; e++) to->normal2[d][e] += sign * mirror_sign(mirrors, e) * f->normal2[t][d][e];
+    }
+}
+
+static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b, const struct faces *f,
+                        const struct alike *a)
+{
+    for (int64_t t = 0; t < b->n; t++) {
+        const int32_t class = a->class_of[t];
+        const int symmetry = a->symmetry[class];
+        const real share = 1 / (a->members[class] * __builtin_popcount((unsigned)symmetry));
+        for (int m = 0; m < 1 << dim; m++)
+            if (symmetry >> m & 1) class_goal_add(&goal[class], dim, f, t, a->mirrors[t] ^ m, share);
+    }
+}
+
+static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
+                       struct class_goal *goal, const struct alike *a, int32_t class, real alpha)
+{
+    real P[STRAINS][STRAINS];
+    strain_weights(m, goal->normal2, P);
+    *c = (struct class_fit){{{0}}, {{0}}, {0}};
+    quadratic(&m->fourth_by[0][0][0], m->strains, m->strains, m->fourth.n, FOURTHS, P, &c->fourth[0][0]);
+    quadratic(&m->third_by[0][0][0], m->dim, m->strains, m->third.n, THIRDS, P, &c->third[0][0]);
+    for (int x = 0; x < THIRDS; x++)
+        for (int y = 0; y < THIRDS; y++) c->third[x][y] *= a->members[class];
+    for (int x = 0; x < FOURTHS; x++)
+        for (int y = 0; y < FOURTHS; y++) c->fourth[x][y] *= a->members[class];
+    for (int x = 0; x < m->third.n; x++)
+        for (int d = 0; d < m->dim; d++) {
+            const int *axis = m->third.axis[x];
+            c->goal[x] -= 0.5 * full_of(m, axis[0], axis[1], axis[2], d) * goal->area[d];
+        }
+    for (int x = 0; x < m->fourth.n; x++) c->goal[m->third.n + x] = (1 + alpha * goal->dipole) * m->full[x];
+    for (int k = 0; k < b->offset.n; k++) {              /* less those that stay */
+        if (alike_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t)class * b->offset.n + k] >= 0) continue;
+        for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
+    }
+}
+
+/* to = the squares' weights of a class times its moments. */
+static void class_weigh(const struct moments *m, const struct class_fit *c, const real *moment, real *to)
+{
+    const int thirds = m->third.n, fourths = m->fourth.n;
+    for (int x = 0; x < MOMENTS; x++) to[x] = 0;
+    for (int x = 0; x < thirds; x++)
+        for (int y = 0; y < thirds; y++) to[x] += c->third[x][y] * moment[y];
+    for (int x = 0; x < fourths; x++)
+        for (int y = 0; y < fourths; y++) to[thirds + x] += c->fourth[x][y] * moment[thirds + y];
+}
+
+/* ---- the problem ------------------------------------------------------------------------------------------------- */
+
+struct problem {
+    const struct alike *alike;
+    int offsets;
+    struct moments moments;
+    struct class_fit *class;
+    int64_t *first, *entry;              /* [groups + 1], entries of a group */
+    real *bonds;                         /* [groups] its bonds: half of what its entries count */
+    real *diagonal, *goal, prior;        /* [groups] of the matrix; the right side; times bonds */
+    real *value;                         /* [entries] room */
+};
+
+static void group_entries(struct problem *q)
+{
+    const struct alike *a = q->alike;
+    const int64_t entries = (int64_t)a->classes * q->offsets;
+    q->first = NEW("surface.first", a->groups + 1, int64_t);
+    q->bonds = NEW("surface.bonds", a->groups, real);
+    for (int64_t k = 0; k < entries; k++)
+        if (a->group_of[k] >= 0) q->first[a->group_of[k] + 1]++;
+    for (int64_t g = 0; g < a->groups; g++) q->first[g + 1] += q->first[g];
+    q->entry = NEW("surface.entry", q->first[a->groups], int64_t);
+    int64_t *next = NEW("surface.next", a->groups, int64_t);
+    memcpy(next, q->first, (size_t)a->groups * sizeof *next);
+    for (int64_t k = 0; k < entries; k++) {
+        const int64_t g = a->group_of[k];
+        if (g < 0) continue;
+        q->entry[next[g]++] = k, q->bonds[g] += 0.5 * a->members[k / q->offsets];
+    }
+    memory_free(next);
+}
+
+/* to_g = sum over the entries of g of `value`. */
+static void group_sums(const struct problem *q, real *to)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t g = 0; g < q->alike->groups; g++) {
+        real sum = 0;
+        for (int64_t k = q->first[g]; k < q->first[g + 1]; k++) sum += q->value[q->entry[k]];
+        to[g] = sum;
+    }
+}
+
+/* Values of the entries of a class from its moments. */
+static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, const real *moment, const int width)
+{
+    real by[MOMENTS];
+    real *value = q->value + (int64_t)class * q->offsets;
+    class_weigh(&q->moments, &q->class[class], moment, by);
+    for (int k = 0; k < q->offsets; k++) {
+        const real *of = q->moments.of + (int64_t)k * width;
+        real sum[LANES] = {0};
+        for (int x = 0; x < width; x += LANES)
+            for (int l = 0; l < LANES; l++) sum[l] += of[x + l] * by[x + l];
+        value[k] = (sum[0] + sum[1] + sum[2] + sum[3]) + (sum[4] + sum[5] + sum[6] + sum[7]);
+    }
+}
+
+static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, const real *x, const int width)
+{
+    const int64_t *group = q->alike->group_of + (int64_t)class * q->offsets;
+    real moment[MOMENTS] = {0};
+    for (int k = 0; k < q->offsets; k++) {
+        if (group[k] < 0) continue;
+        const real factor = x[group[k]], *of = q->moments.of + (int64_t)k * width;
+        for (int c = 0; c < width; c++) moment[c] += factor * of[c];
+    }
+    class_back(q, class, moment, width);
+}
+
+/* y = H x. */
+static void fit_product(void *context, const real *x, real *y)
+{
+    const struct problem *q = context;
+    const bool plane = q->moments.width == MOMENTS_2D;
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < q->alike->classes; class++) {
+        if (plane) class_product(q, class, x, MOMENTS_2D);
+        else class_product(q, class, x, MOMENTS);
+    }
+    group_sums(q, y);
+    for (int64_t g = 0; g < q->alike->groups; g++) y[g] += q->prior * q->bonds[g] * x[g];
+}
+
+/* Diagonal of the matrix, prior and right side. */
+static void diagonal_make(struct problem *q)
+{
+    const struct moments *m = &q->moments;
+    const int64_t groups = q->alike->groups;
+    real sum = 0, bonds = 0;
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < q->alike->classes; class++)
+        for (int k = 0; k < q->offsets; k++) {
+            const real *of = m->of + (int64_t)k * m->width;
+            real by[MOMENTS], value = 0;
+            class_weigh(m, &q->class[class], of, by);
+            for (int x = 0; x < m->width; x++) value += of[x] * by[x];
+            q->value[(int64_t)class * q->offsets + k] = value;
+        }
+    q->diagonal = NEW("surface.diagonal", groups, real);
+    group_sums(q, q->diagonal);
+    for (int64_t g = 0; g < groups; g++) sum += q->diagonal[g], bonds += q->bonds[g];
+    q->prior = bonds > 0 ? PRIOR * sum / bonds : 0;
+    for (int64_t g = 0; g < groups; g++) q->diagonal[g] += q->prior * q->bonds[g];
+    q->goal = NEW("surface.goal", groups, real);
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < q->alike->classes; class++)
+        class_back(q, class, q->class[class].goal, m->width);
+    group_sums(q, q->goal);
+    for (int64_t g = 0; g < groups; g++) q->goal[g] += q->prior * q->bonds[g];
+}
+
+/* Factors from where they are; `fixed` ones stay. */
+static void solve(struct problem *q, real *factor, const uint8_t *fixed)
+{
+    const int64_t n = q->alike->groups;
+    const real work = 4.0 * q->alike->classes * q->offsets * q->moments.width;
+    real *low = NEW("surface.low", n, real), *high = NEW("surface.high", n, real);
+    for (int64_t k = 0; k < n; k++) low[k] = fixed[k] ? factor[k] : LEAST, high[k] = fixed[k] ? factor[k] : MOST;
+    const struct quadratic f = {fit_product, q, n, q->goal, q->diagonal, low, high};
+    quadratic_descend(&f, factor, CLOSE, (int)fmin(PRODUCTS, WORK / work));
+    memory_free(low);
+    memory_free(high);
+}
+
+/* Is the particle beside the end of a crack: cut from one that a neighbour of its still reaches? */
+static bool at_crack_end(const struct near_faces *b, int64_t t)
+{
+    const struct offsets *o = &b->offset;
+    const struct particles *p = b->p;
+    if (!cracks_near(b->source, p, b->particle[t])) return false;
+    for (int k = 0; k < o->n; k++) {
+        const int32_t j = neighbour_of(b, t, k);
+        if (j < 0 || j >= p->n || b->place[j] < 0) continue;
+        for (int l = 0; l < o->n; l++) {
+            int place = 0;
+            bool within = neighbour_of(b, b->place[j], l) >= 0;
+            for (int d = o->dim - 1; d >= 0; d--) {
+                const int at = o->at[k][d] + o->at[l][d];
+                within = within && abs(at) <= o->reach;
+                place = place * (2 * o->reach + 1) + o->reach + at;
+            }
+            if (within && o->number[place] >= 0 && neighbour_of(b, t, o->number[place]) < 0) return true;
+        }
+    }
+    return false;
+}
+
+static int neighbours(const struct near_faces *b, int64_t t)
+{
+    int n = 0;
+    for (int k = 0; k < b->offset.n; k++) n += neighbour_of(b, t, k) >= 0;
+    return n;
+}
+
+static bool may_break(const struct bond_limit *limit)
+{
+    bool breaks = false;
+    for (int k = 0; k < limit->materials * limit->materials; k++) breaks |= isfinite(limit->critical_stretch[k]);
+    return breaks;
+}
+
+/* Bonds of thin parts, for which there are too few layers, and at the ends of cracks take the factor of the volume
+ * method (Le & Bobaru 2018), in models with rotations none. Where bonds may break those at the ends of cracks are next:
+ * they keep their weights, for which G_c is calibrated (else Kalthoff's crack turns to 61 degrees at 1 mm). */
+static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, const struct faces *f,
+                        const struct alike *a, bool rotates)
+{
+    const int n = b->offset.n;
+    const bool breaks = may_break(&b->source->limit);
+    for (int32_t class = 1; class < a->classes; class++) {
+        const int64_t t = a->member[class];
+        const bool end = at_crack_end(b, t), plain = f->thin[t] || end;
+        for (int k = 0; k < n && plain; k++) {
+            const int64_t g = a->group_of[(int64_t)class * n + k];
+            if (g < 0) continue;
+            const int64_t other = b->place[seen_of(b, alike_neighbour(a, b, class, k)).particle];
+            const real both = neighbours(b, t) + neighbours(b, other);
+            x[g] = rotates || (end && breaks) ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST), fixed[g] = 1;
+        }
+    }
+}
+
+void surface_fit(real *factor, const struct near_faces *b, const struct faces *f, const struct alike *a,
+                 bool rotates)
+{
+    struct problem q = {.alike = a, .offsets = b->offset.n};
+    moments_make(&q.moments, &b->offset);
+    const real alpha = rotates ? ROTATIONS : face_moment(&q.moments, &b->offset);
+    q.class = BARE("surface.class", a->classes, struct class_fit);
+    struct class_goal *goal = NEW("surface.goal", a->classes, struct class_goal);
+    class_goals(goal, b->offset.dim, b, f, a);
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < a->classes; class++)
+        class_make(&q.class[class], &q.moments, b, &goal[class], a, class, alpha);
+    memory_free(goal);
+    group_entries(&q);
+    q.value = NEW("surface.value", (int64_t)a->classes * q.offsets, real);
+    diagonal_make(&q);
+    uint8_t *fixed = NEW("surface.fixed", a->groups, uint8_t);
+    for (int64_t g = 0; g < a->groups; g++) factor[g] = 1;
+    plain_parts(factor, fixed, b, f, a, rotates);
+    solve(&q, factor, fixed);
+    memory_free(fixed);
+    memory_free(q.class);
+    memory_free(q.moments.of);
+    memory_free(q.first);
+    memory_free(q.entry);
+    memory_free(q.bonds);
+    memory_free(q.value);
+    memory_free(q.diagonal);
+    memory_free(q.goal);
+}
