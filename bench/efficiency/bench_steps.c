@@ -49,6 +49,7 @@ static status stepped_start(struct bench_child *child, const struct way_of_break
     bench_override(&o, "model", "%s", w->model);
     bench_override(&o, "method", "%s", w->method);
     bench_override(&o, "pd.last_force", "%s", w->rule);
+    if (strcmp(w->method, "adaptive") == 0) bench_override(&o, "pd.surface", "none");  /* the default there */
     bench_override(&o, "time.step", "auto");
     bench_override(&o, "time.safety", "%.6g", share);
     bench_override(&o, "output.frames", "0");
