@@ -45,7 +45,8 @@ static void say_time_step(const struct engine *e)
         printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
     else
-        printf("time step      %.4g s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->clock.dt,
+        printf("time step      %.4g s%s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->clock.dt,
+               e->scene->time_step > 0 ? " by time.step, whatever time.safety is" : "",
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
