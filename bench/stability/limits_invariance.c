@@ -87,7 +87,7 @@ static void put_loads(FILE *to, const struct twin *t)
 }
 
 /* A notched plate with a hole, no symmetry left, pulled at two faces while a pulse runs through it. */
-static void put_plate(FILE *to, const struct twin *t, const char *list)
+static void put_plate(FILE *to, const struct twin *t, const struct limits_row *r, const char *list)
 {
     const double mm = 1e-3 * t->scale;
     fprintf(to, "name: plate\nspace: plane stress\nthickness: %.17g\nduration: %.17g\ntime: {step: %.17g}\n", mm,
@@ -100,6 +100,7 @@ static void put_plate(FILE *to, const struct twin *t, const char *list)
     put_vector(to, t, mm, 0, 0);
     fputs("}\npd: {region: ", to);
     limits_invariance_put_box(to, t, -10, -5, 4, 7);
+    if (strcmp(r->set[1], "pd") == 0) fputs(", surface: moments", to);   /* no default of bodies from lists */
     fputs("}\nconversion: {criteria: none}\n", to);
 }
 
@@ -108,7 +109,7 @@ static status plate_run(struct engine *e, struct scene *s, const struct twin *t,
     char text[4096], list[64] = "";
     if (t->listed) TRY(list_write(t, list));
     FILE *to = fmemopen(text, sizeof text, "w");
-    put_plate(to, t, list);
+    put_plate(to, t, r, list);
     fclose(to);
     const status made = limits_make(e, s, r, "%s", text);
     if (t->listed) remove(list);

@@ -2,7 +2,8 @@
  * error. Limits and their basis:
  *
  *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are incomplete; how
- *                far bending and twisting are off: first modes beside Ritz (`cleave bench accuracy=beam` and `=rod`)
+ *                far its stiffness is off: first modes beside Ritz (`cleave bench accuracy=beam` and `=rod`), whose
+ *                errors in frequency are half of that, and strips in tension
  *   wave         a front or pulse shorter than WAVE spacings disperses: 2 % of a pulse of 16 spacings comes back from
  *                an interface, the group velocity of the shortest waves is off by a tenth
  *   stress       sigma = rho c v ahead of a part that moves with v; waves of both ends meet and reflect: four times
@@ -35,11 +36,17 @@ static real solid_size(const struct solid *a, int dim)
     return a->kind == SOLID_BALL || a->kind == SOLID_CYLINDER ? 2 * a->radius : least;
 }
 
-/* How far bending and twisting of a part made of bonds and families are off, by its layers [%]: in the plane, in space.
+/* How far the stiffness of a part made of bonds and families is off in bending, twisting and stretching, by its layers,
+ * the worst of the three [%]: in the plane, in space, at horizons of 3.015 spacings and Poisson's ratios up to 1/3.
  * The first row is of all thinner ones, the last of all thicker ones. */
 static const struct { double layers; int bonds[2], rotating[2], uncorrected[2]; } bending_off[] = {
-    {3, {5, 15}, {40, 20}, {30, 40}}, {4, {2, 11}, {9, 5}, {20, 30}}, {5, {1, 6}, {5, 14}, {15, 28}},
-    {7, {1, 4}, {1, 6}, {12, 22}},    {10, {1, 3}, {1, 2}, {9, 17}}};
+    {3, {80, 80}, {64, 67}, {80, 80}}, {4, {4, 21}, {18, 34}, {36, 51}}, {5, {2, 12}, {10, 30}, {28, 48}},
+    {7, {2, 8}, {3, 12}, {23, 39}},    {10, {2, 6}, {2, 4}, {17, 31}}};
+#define USUAL_HORIZON 0.5                /* spacings from 3.015 within which these hold */
+/* Poisson's ratios beyond 0.4, in plane strain and space: bending of 10 layers, falling with their number [%] */
+#define SOFT_LAYERS 10
+#define SOFT_MOST 2.0                    /* less is not worth a line [%] */
+static double nearly_incompressible(double poisson) { return poisson > 0.47 ? 30 : 15; }
 
 static int bending_error(const struct scene *s, double layers)
 {
@@ -49,6 +56,41 @@ static int bending_error(const struct scene *s, double layers)
                      : s->model == MODEL_MOSPD     ? bending_off[row].rotating
                                                    : bending_off[row].bonds;
     return off[s->dim > 2];
+}
+
+/* What a part of so many layers does as it is. */
+static void advise_thin(const struct scene *s, double layers, FILE *out)
+{
+    if (layers < 1.5) {
+        fprintf(out, "; a single layer has no stiffness against bending, and is up to %d %% too stiff or too soft "
+                "in tension", bending_error(s, layers));
+        return;
+    }
+    fprintf(out, "; as it is, its stiffness in bending, twisting and tension is off by up to about %d %%%s",
+            bending_error(s, layers),
+            fabs(s->horizon - 3.015) <= USUAL_HORIZON ? ""
+            : s->model == MODEL_MOSPD ? " at a horizon of 3.015, and several times that at others"
+                                      : " at a horizon of 3.015, and more at longer ones");
+    fprintf(out, " (method adaptive, whose cells bend within 1 %% from 10 layers on, needs no bonds until something "
+            "breaks)");
+}
+
+/* Families of nearly incompressible materials: measured with ospd and mospd in plane strain, by static bending. */
+static void advise_incompressible(const struct scene *s, FILE *out)
+{
+    if (s->method != METHOD_PD || s->model == MODEL_BOND || (s->space != SPACE_PLANE_STRAIN && s->dim < 3)) return;
+    for (int b = 0; b < s->bodies; b++) {
+        const real poisson = s->material[s->body[b].material].poisson;
+        for (int k = 0; k < s->body[b].shape.n && poisson > 0.4; k++) {
+            const struct solid *a = &s->body[b].shape.solid[k];
+            const double layers = solid_size(a, s->dim) / s->spacing;
+            const double off = nearly_incompressible(poisson) * SOFT_LAYERS / layers;
+            if (a->subtract || !(off >= SOFT_MOST)) continue;
+            fprintf(out, "unresolved: body %s: at a Poisson's ratio of %.3g families near faces are too stiff: %.0f "
+                    "layers bend about %.0f %% too little, less with more layers\n",
+                    s->body[b].name, poisson, layers, off);
+        }
+    }
 }
 
 /* Bodies, gaps and cracks smaller than FEATURE horizons. */
@@ -65,9 +107,7 @@ static void advise_features(const struct scene *s, FILE *out)
                     s->body[b].name, a->subtract ? "gap" : "part", size, size / horizon_of(s), size / s->spacing,
                     FEATURE, size / (FEATURE * s->horizon));
             if (s->method == METHOD_PD && !a->subtract)
-                fprintf(out, "; as it is, bending and twisting are off by up to about %d %% (method adaptive, whose "
-                        "cells bend within 1 %%, needs no bonds until something breaks)",
-                        bending_error(s, size / s->spacing));
+                advise_thin(s, size / s->spacing, out);
             fprintf(out, "\n");
         }
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
@@ -268,6 +308,7 @@ static void advise_symmetry(const struct engine *e, FILE *out)
 void advise(const struct engine *e, FILE *out)
 {
     advise_features(e->scene, out);
+    advise_incompressible(e->scene, out);
     advise_waves(e, out);
     advise_ties(e, out);
     advise_separation(e, out);

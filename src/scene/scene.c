@@ -30,6 +30,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(read_materials(r, root));
     resolve_safety(r, root);
     TRY(read_bodies(r, root));
+    resolve_lists(r, root);
     resolve_frames(s);
     TRY(check_size(r, root));
     TRY(read_cracks(r, root));

@@ -88,23 +88,31 @@ void resolve_safety(struct reader *r, const struct node *root)
 static enum surface_rule surface_by_default(const struct scene *s, const struct node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
-    for (int b = 0; b < s->bodies; b++) lattice = lattice && !s->body[b].file;
+    for (int b = 0; b < s->bodies; b++) lattice = lattice && !s->body[b].file;      /* known from resolve_lists on */
     if (s->method != METHOD_PD) return SURFACE_NONE;
     if (lattice) return SURFACE_MOMENTS;
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
 }
 
+/* Corrections of surfaces and what families are normalised by, where the scene does not say. */
+static void resolve_surface(struct scene *s, const struct node *root)
+{
+    if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
+    if (!scene_check_below(root, "pd", "normalisation"))   /* an irregular lattice has no full families */
+        s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
+}
+
+void resolve_lists(struct reader *r, const struct node *root) { resolve_surface(r->scene, root); }
+
 /* Defaults that depend on method, model, coupling and solver. */
 static void resolve_defaults(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
-    if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
+    resolve_surface(s, root);
     if (!scene_check_below(root, "pd", "weights"))
         s->shells = s->calibration == CALIBRATION_LATTICE ? SHELLS_ISOTROPIC : SHELLS_UNIFORM;
     if (!scene_check_below(root, "pd", "influence"))
         s->influence = s->model == MODEL_BOND ? INFLUENCE_ONE : INFLUENCE_INVERSE;
-    if (!scene_check_below(root, "pd", "normalisation"))   /* an irregular lattice has no full families */
-        s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
     if (!scene_check_below(root, "mpm", "shape"))
         s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
     if (!scene_check_below(root, "mpm", "transfer") && s->solver != SOLVER_EXPLICIT && s->shape != SHAPE_LINEAR)

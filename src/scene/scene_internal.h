@@ -162,6 +162,8 @@ void resolve_safety(struct reader *r, const struct node *root);
 status check_size(struct reader *r, const struct node *root);
 /* Resolves frames left at auto; after the bodies are read. */
 void resolve_frames(struct scene *s);
+/* Surfaces of bodies again once they are known: those of lists need not be lattices. */
+void resolve_lists(struct reader *r, const struct node *root);
 status check_solver(struct reader *r, const struct node *root);
 
 /* The words of enum space and enum probe_kind. */

@@ -135,10 +135,12 @@ static status check(struct solver *s, const struct static_body *body, int64_t st
     s->best = real_min(s->best, s->residual);
     restart(s, body->part);
     if (s->stalls < STALLS_MOST) return OK;
+    solver_cg_place(s, body);            /* the nearest that was found, in place of the last trial motion */
     return status_set(FAILED,
                       "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
-                      "wanted; choose a larger solver_tolerance (below 1e-8 it is round-off), or see whether "
-                      "moments of the loads are balanced",
+                      "wanted; choose a larger solver_tolerance (round-off leaves 1e-8 of compact bodies, 1e-6 of "
+                      "slender ones), or see whether moments of the loads are balanced and every part is stiff: a "
+                      "single row of particles bends without resistance",
                       (long long)step, s->best, body->tolerance);
 }
 
