@@ -9,6 +9,7 @@
 
 #include "bonds/bonds.h"
 #include "bonds/surface.h"
+#include "contact/contact.h"
 #include "coupling/grid_coupled.h"
 #include "data/cells.h"
 #include "coupling/conversion.h"
@@ -153,6 +154,7 @@ struct engine {
     struct grid_method mpm;
     struct reference_frame reference;
     struct coupling_state coupling;
+    struct contact contact;
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c) */
     struct solver solver;

@@ -79,7 +79,7 @@ struct constrained_set {
 struct loads {
     int n;
     struct load *load;
-    uint8_t *loaded;                     /* [n] LOADED, MOVES_LATER; NULL: no particle is */
+    uint8_t *loaded;                     /* [n] LOADED, MOVES_LATER, TOUCHES; NULL: no particle is */
     int64_t listed;
     int32_t *list;                       /* [listed] those that are not 0, ascending */
     int64_t images;
@@ -97,9 +97,12 @@ struct loads {
 };
 
 /* LOADED: something else than bonds and the grid may move a particle. MOVES_LATER: bonds across a clamped plane nearby
- * act on it after the sweep of its own. */
-enum { LOADED = 1, MOVES_LATER = 2 };
-static inline bool is_loaded(const struct loads *l, int64_t i) { return l->loaded && l->loaded[i] & LOADED; }
+ * act on it after the sweep of its own. TOUCHES: so does contact. */
+enum { LOADED = 1, MOVES_LATER = 2, TOUCHES = 4 };
+static inline bool is_loaded(const struct loads *l, int64_t i)
+{
+    return l->loaded && l->loaded[i] & (LOADED | TOUCHES);
+}
 /* Is it a mirror that holds motion along its plane, too? Along a line there is none: it is one of symmetry. */
 static inline bool is_clamp(const struct boundary *b, int dim)
 {
@@ -125,6 +128,8 @@ void face_free(struct face *f);
 status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
                   real reach, int optional);
 void loads_free(struct loads *l);
+/* From now on these n particles, ascending, are those that contact may push. */
+void loads_touch(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 

@@ -13,6 +13,7 @@ struct energy {
     real kinetic;                        /* 1/2 m v_before . v_after of the velocity update [J] */
     real strain, plastic;                /* of bonds and material points [J] */
     real fracture;                       /* of bonds broken [J] */
+    real contact;                        /* of pairs in contact (contact.h) [J] */
     real damped;                         /* taken by the interface damping (interface_zone.h) [J] */
 };
 

@@ -8,6 +8,7 @@
 
 #include <stdio.h>
 
+#include "contact/contact.h"
 #include "bonds/bonds.h"
 #include "coupling/conversion.h"
 #include "fracture/growth.h"
@@ -94,6 +95,8 @@ struct scene {
     enum influence influence;            /* resolved */
     bool bulk;                           /* state-based: normalised as full families are */
     enum last_force last_force;          /* of a bond in the step in which it breaks */
+    enum contact_between contact_between;
+    real contact_stiffness;              /* in units of that of a cell [1] */
     bool has_pd_region;  struct region pd_region; /* peridynamic from the start (adaptive) */
 
     real cell;                           /* grid node distance, in spacings */

@@ -113,3 +113,19 @@ void active_rows_update(struct bonds *b, const struct particles *p, const struct
     row_levels_find(b, p, l);
     active_set_list(&b->active);
 }
+
+void active_rows_touch(struct bonds *b, const struct particles *p, const struct loads *l, const int32_t *list,
+                       int64_t n)
+{
+    bool any = false;
+    if (!b->active.is_current) return;
+    for (int64_t k = 0; k < n; k++) {
+        const int32_t row = b->row_of[list[k]];
+        if (row < 0 || b->active.level[row / LANES] >= most_of(b)) continue;
+        row_block_activate(b, p, l, row / LANES, most_of(b));
+        any = true;
+    }
+    if (!any) return;
+    b->active.over = false;
+    active_set_list(&b->active);
+}

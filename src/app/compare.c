@@ -200,6 +200,7 @@ static status compare_energies(const struct pair *p)
         {"strain", "strain", "J"},
         {"plastic", "plastic", "J"},
         {"fracture", "fracture", "J"},
+        {"contact", "contact", "J"},
         {"damped", "damped", "J"},
         {"external_work", "external work", "J"},
         {"balance_error", "balance error", ""},

@@ -57,7 +57,10 @@ static const char page[] =
     "\n"
     "STATICS   K u = f by conjugate gradients, or adaptive dynamic relaxation.\n"
     "\n"
-    "ENERGY   balance error = (kinetic + strain + plastic + fracture + damped - work - start)/largest sum.\n"
+    "CONTACT   pairs without a bond, closer than d = min(r_0, spacing): k (d - r) along the line of centres,\n"
+    "  k = 15 c V_i V_j/delta at 3.015 spacings (Macek and Silling 2007), energy k (d - r)^2/2.\n"
+    "\n"
+    "ENERGY   balance error = (kinetic + strain + plastic + fracture + contact + damped - work - start)/largest sum.\n"
     "\n"
     "Titles and DOIs of the sources are in README.md.\n";
 

@@ -188,6 +188,8 @@ static status prepare(struct engine *e, struct step *now)
 {
     now->middle = e->clock.t + 0.5 * e->clock.dt;
     now->dt_velocity = e->clock.step == 0 ? 0.5 * e->clock.dt : e->clock.dt;
+    contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                   e->diagnostics.bonds_broken);
     now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
     e->mpm.transfer.dt_velocity = now->dt_velocity;
     engine_revert(e);
@@ -202,12 +204,13 @@ static status prepare(struct engine *e, struct step *now)
     return OK;
 }
 
-/* Forces of bonds and loads, and bonds that break; the energies of a sample; cracks that grow. */
+/* Forces of bonds, contact and loads, and bonds that break; the energies of a sample; cracks that grow. */
 static void forces(struct engine *e, struct step *now)
 {
     loads_clear(&e->loads, &e->part);
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
                               sweep_moves(e->scene, &e->report) ? &now->motion : NULL);
+    contact_force(&e->contact, &e->part);
     loads_apply(&e->loads, &e->part, now->middle, e->clock.dt, now->dt_velocity);
     lap(&e->report.laps, LAP_BONDS);
     engine_sample_energy(e);

@@ -8,14 +8,14 @@
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-enum { RECORD_FIXED = 22 };
+enum { RECORD_FIXED = 23 };
 
 static const struct column fixed_columns[RECORD_FIXED] = {
     {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
     {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
     {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
     {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}, {"mpm_share", ""},
-    {"rest_share", ""}};
+    {"rest_share", ""}, {"contact", "J"}};
 
 /* Mean inactive share of the body over the steps since the last sample; 0 where there was none. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
@@ -40,7 +40,8 @@ static void fill_record(struct engine *e)
         l->time, (real)e->clock.step, u->kinetic, u->strain, u->plastic, u->fracture, l->external_work,
         l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
         (real)e->bonds.n, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN, dim > 2 ? place[2] : NAN,
-        u->damped, (real)e->part.n_of[KIND_MPM] / n, inactive_since_sample(&e->clock, &e->report)};
+        u->damped, (real)e->part.n_of[KIND_MPM] / n, inactive_since_sample(&e->clock, &e->report),
+        u->contact};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
 }
@@ -120,6 +121,7 @@ static void sample_energies(struct engine *e)
                   mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain),
         .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling.partial),
         .fracture = bonds_fracture_energy(&e->bonds),
+        .contact = contact_energy(&e->contact, &e->part),
         .damped = e->coupling.damped,
     };
 }
@@ -133,7 +135,7 @@ static void sample_write(struct engine *e, real t_velocity, real kinetic, real w
     probes_sample_end(&e->probing.probes, &o, t_velocity);
     sampling->energy.kinetic = kinetic;
     const struct energy *u = &sampling->energy;
-    e->stability.lost = !isfinite(kinetic + u->strain + u->plastic + u->fracture + u->damped + work);
+    e->stability.lost = !isfinite(kinetic + u->strain + u->plastic + u->fracture + u->contact + u->damped + work);
     if (e->stability.lost) return;               /* engine_energy_check reports it; nothing is written */
     diagnostics_balance(&e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
@@ -246,6 +248,7 @@ static real power_last(struct engine *e, real *held)
     if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
+    contact_force(&e->contact, &e->part);
     loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, e->clock.dt);
     if (e->reference.mesh.points > 0) engine_nodes_force(e);
     const real power = power_now(&e->part, &e->reference) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);

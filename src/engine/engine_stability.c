@@ -237,6 +237,37 @@ static status inversion_check(const struct run_clock *clock, const struct partic
                       p->dim > 2 ? p->X[2][i] : 0);
 }
 
+#define OVERLAP_DOUBTFUL 0.3             /* [spacings] */
+#define OVERLAP_MOST 0.9                 /* beyond, particles pass each other */
+
+/* Says once that particles in contact overlap much; FAILED where they are about to pass each other. */
+static status overlap_check(struct engine *e)
+{
+    const struct contact *c = &e->contact;
+    const real overlap = c->overlap / e->scene->spacing;
+    char text[320];
+    if (!(overlap > OVERLAP_DOUBTFUL)) return OK;
+    if (overlap > OVERLAP_MOST) {
+        const struct particles *p = &e->part;
+        const int32_t i = c->deepest;
+        return status_set(FAILED,
+                          "contact at step %lld, t = %.3g s: particle %d, now at (%.6g, %.6g, %.6g) m, is %.2g "
+                          "spacings inside another, which it is about to pass; see whether the speeds (wave speed "
+                          "%.4g m/s) are meant, or choose a larger contact.stiffness (now %.3g) with a smaller "
+                          "time.safety",
+                          (long long)e->clock.step, e->clock.t, (int)p->id[i], p->x[0][i], p->dim > 1 ? p->x[1][i] : 0,
+                          p->dim > 2 ? p->x[2][i] : 0, overlap, e->tables.wave_speed, e->scene->contact_stiffness);
+    }
+    if (e->contact.overlap_said) return OK;
+    e->contact.overlap_said = true;
+    snprintf(text, sizeof text,
+             "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): pressures "
+             "there are no longer those of the material; a larger contact.stiffness overlaps less",
+             OVERLAP_DOUBTFUL);
+    engine_say(e, text);
+    return OK;
+}
+
 status engine_stability_check(struct engine *e)
 {
     const bool diverged =
@@ -244,6 +275,7 @@ status engine_stability_check(struct engine *e)
     if (diverged) mesh_points_move(&e->reference.mesh, &e->part);
     TRY(engine_divergence_check(e, e->stability.diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, &e->reference));
+    TRY(overlap_check(e));
     if (e->clock.step % RISE_STRIDE == 0)
         rise_note(&e->stability.speed, e->clock.step, square(fastest_now(&e->part, &e->reference)));
     return OK;

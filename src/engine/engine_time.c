@@ -137,6 +137,8 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
     return OK;
 }
 
+#define CONTACT_SAFETY 0.8               /* of its own critical step, where the scene takes less of that of the bonds */
+
 /* The critical step is the smallest limit of all methods, whichever kinds are present at the start, since particles
  * convert. */
 status engine_time_make(struct engine *e)
@@ -144,7 +146,9 @@ status engine_time_make(struct engine *e)
     const struct scene *s = e->scene;
     e->clock.dt_critical =
         real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
-    const real dt = s->time_step > 0 ? s->time_step : s->safety * e->clock.dt_critical;
+    const real contact = contact_critical_step(&e->contact, &e->part, s->material, e->clock.dt_critical);
+    const real automatic = real_min(s->safety * e->clock.dt_critical, real_max(s->safety, CONTACT_SAFETY) * contact);
+    const real dt = s->time_step > 0 ? s->time_step : automatic;
     if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e->scene, &e->clock, dt));
     else e->clock.steps = s->solver_steps, e->clock.dt = dt;
     e->source.limit.dt = e->clock.dt;

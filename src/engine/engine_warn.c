@@ -141,10 +141,9 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
     if (s->bodies < 2) return;
+    if (s->method == METHOD_PD && s->contact_between != CONTACT_NONE) return;
     if (s->method == METHOD_PD)
-        warnings_add(
-            to, "peridynamic bodies do not meet in this version: they pass through each other; with mpm and adaptive "
-                "material points meet through the grid");
+        warnings_add(to, "peridynamic bodies pass through each other without contact.between: bodies or all");
     else warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current && !coupling_unified(coupling->kind))
         warnings_add(

@@ -151,11 +151,22 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
     json_real(j, "strain", l->energy.strain);
     json_real(j, "plastic", l->energy.plastic);
     json_real(j, "fracture", l->energy.fracture);
+    json_real(j, "contact", l->energy.contact);
     json_real(j, "damped", l->energy.damped);
     json_real(j, "external_work", l->external_work);
     json_real(j, "balance_error", l->balance_error);
     json_close(j, '}');
     json_real(j, "momentum_error", l->momentum_error);
+}
+
+/* Pairs in contact at once and their largest overlap, in a run with contact. */
+static void put_contact(struct json *j, const struct contact *c)
+{
+    if (c->law.between == CONTACT_NONE) return;
+    json_open(j, "contact", '{');
+    json_count(j, "pairs_max", c->pairs_most);
+    json_real(j, "overlap_max", c->overlap_most / c->law.spacing);
+    json_close(j, '}');
 }
 
 static void put_tip(struct json *j, const struct tip *tip, int dim)
@@ -276,6 +287,7 @@ static void summary_print(FILE *file, const struct engine *e, status s, const ch
     put_solver(&j, e);
     put_choice(&j, &e->scene->choice);
     put_energy_balance(&j, &e->diagnostics.now);
+    put_contact(&j, &e->contact);
     put_crack(&j, e);
     put_conversion(&j, e);
     put_probes(&j, e);

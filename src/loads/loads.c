@@ -42,6 +42,20 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     return OK;
 }
 
+void loads_touch(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
+{
+    if (!l->loaded && n == 0) return;
+    if (!l->loaded) l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
+    for (int64_t i = 0; i < p->n; i++) l->loaded[i] &= (uint8_t)~TOUCHES;
+    for (int64_t k = 0; k < n; k++) l->loaded[list[k]] |= TOUCHES;
+    l->listed = 0;
+    for (int64_t i = 0; i < p->n; i++) l->listed += l->loaded[i] != 0;
+    memory_free(l->list);
+    l->list = BARE("loads.list", l->listed, int32_t);
+    for (int64_t i = 0, k = 0; i < p->n; i++)
+        if (l->loaded[i]) l->list[k++] = (int32_t)i;
+}
+
 void loads_free(struct loads *l)
 {
     loads_applied_free(l);

@@ -2,7 +2,6 @@
 #include "scene_internal.h"
 
 #include <math.h>
-#include <string.h>
 
 #define NOWHERE .place = 0
 #define AT(s, member) .place = 1 + offsetof(struct s, member), .size = sizeof(((struct s *)0)->member)
@@ -152,6 +151,15 @@ const struct key keys[] = {
         .words = "moment|half|whole|none"),
     KEY("pd.region", KEY_REGION, UNIT_NONE, AT(scene, pd_region), ANY, NONE,
         "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
+
+    KEY("contact", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "forces between particles that no bond joins"),
+    KEY("contact.between", KEY_CHOICE, UNIT_NONE, AT(scene, contact_between), ANY, "none",
+        "which peridynamic particles push each other apart when they meet: none, those of two bodies, or all near a "
+        "face (bodies, fragments, faces of cracks)",
+        .words = "none|bodies|all"),
+    KEY("contact.stiffness", KEY_REAL, UNIT_NONE, AT(scene, contact_stiffness), INSIDE(0, 4.001), "1",
+        "of contact, in units of that of a cell of the material (15 c V^2/delta at 3.015 spacings); above 1 it may "
+        "need a smaller step"),
 
     KEY("mpm", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "material point method"),
     KEY("mpm.cell", KEY_REAL, UNIT_NONE, AT(scene, cell), BETWEEN(1, 8), "2", "node distance of the grid, in spacings"),
@@ -442,59 +450,3 @@ const struct key keys[] = {
     KEY("probes.rigid.region", KEY_REGION, UNIT_NONE, AT(probe_request, region), ANY, "(everywhere)", "where"),
 };
 const int keys_count = COUNT_OF(keys);
-
-const char *key_leaf(const struct key *k)
-{
-    const char *dot = strrchr(k->path, '.');
-    return dot ? dot + 1 : k->path;
-}
-
-bool key_in(const struct key *k, const char *group)
-{
-    size_t length = strlen(group);
-    if (k->type == KEY_GROUP) return false;
-    if (length == 0) return !strchr(k->path, '.');
-    return strncmp(k->path, group, length) == 0 && k->path[length] == '.' && !strchr(k->path + length + 1, '.');
-}
-
-const struct key *key_find(const char *group, const char *leaf)
-{
-    for (int k = 0; k < keys_count; k++)
-        if (key_in(&keys[k], group) && strcmp(key_leaf(&keys[k]), leaf) == 0) return &keys[k];
-    return NULL;
-}
-
-/* Number of letters to add, drop, change or swap with their neighbour (optimal string alignment) between a and b. */
-int edit_distance(const char *a, const char *b)
-{
-    enum { LONGEST = 48 };
-    int row[3][LONGEST + 1], n = (int)strnlen(a, LONGEST), m = (int)strnlen(b, LONGEST);
-    int *older = row[0], *old = row[1], *now = row[2];
-    for (int j = 0; j <= m; j++) old[j] = j;
-    for (int i = 1; i <= n; i++) {
-        now[0] = i;
-        for (int j = 1; j <= m; j++) {
-            int best = old[j - 1] + (a[i - 1] != b[j - 1]);
-            if (old[j] + 1 < best) best = old[j] + 1;
-            if (now[j - 1] + 1 < best) best = now[j - 1] + 1;
-            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped && older[j - 2] + 1 < best) best = older[j - 2] + 1;
-            now[j] = best;
-        }
-        int *spare = older;
-        older = old, old = now, now = spare;
-    }
-    return old[m];
-}
-
-const struct key *key_nearest(const char *group, const char *leaf)
-{
-    const struct key *nearest = NULL;
-    int least = 1000;
-    for (int k = 0; k < keys_count; k++) {
-        if (!key_in(&keys[k], group)) continue;
-        int distance = edit_distance(key_leaf(&keys[k]), leaf);
-        if (distance < least) nearest = &keys[k], least = distance;
-    }
-    return nearest;
-}

@@ -1,0 +1,225 @@
+/* The search for pairs that may meet: which particles can, and which are near, where they are now. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "contact/contact.h"
+
+#define SKIN 0.3                         /* beyond the contact distance [spacings]: pairs that may come to it soon */
+enum { BREAKS_WAIT = 32 }; /* steps between searches for broken bonds: they open before they can close */
+
+/* ---- particles that can meet ------------------------------------------------------------------------------------- */
+
+/* Share of a full family below which a particle is in the first layer of a body: there it has 0.50 (line) to 0.67 (two
+ * spacings in the plane), in the second layer 0.79 or more at 3 spacings. A family of nearest neighbours alone has up
+ * to 5/6 in the first layer and all in the second. */
+static real first_layer_share(const struct family *f) { return f->horizon < 1.5 * f->spacing ? 0.95 : 0.78; }
+
+/* Is particle i of the body near a face? */
+static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, int64_t i)
+{
+    const int64_t row = b->row_of[i];
+    if (p->kind[i] != KIND_PD) return false;
+    return p->damage[i] > 0 || row < 0 || b->family_volume[row] < least_volume;
+}
+
+/* Lists them, and images of them. */
+static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
+{
+    const real least_volume = first_layer_share(f) * f->full;
+    uint8_t *exposed = BARE("contact.exposed", p->n_all, uint8_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) exposed[i] = is_exposed(p, b, least_volume, i);
+    for (int64_t i = p->n; i < p->n_all; i++) exposed[i] = exposed[image_root(p, c->law.image, i)];
+    c->n = c->rows = 0;
+    for (int64_t i = 0; i < p->n_all; i++) c->n += exposed[i];
+    memory_free(c->particle);
+    c->particle = BARE("contact.particle", c->n, int32_t);
+    int64_t k = 0;
+    for (int64_t i = 0; i < p->n_all; i++) {
+        if (!exposed[i]) continue;
+        c->particle[k++] = (int32_t)i;
+        c->rows += i < p->n;
+    }
+    memory_free(exposed);
+    for (int d = 0; d < p->dim; d++) {
+        memory_free(c->at[d]);
+        c->at[d] = BARE("contact.at", c->n, real);
+        for (k = 0; k < c->n; k++) c->at[d][k] = p->x[d][c->particle[k]];
+    }
+}
+
+/* ---- pairs ------------------------------------------------------------------------------------------------------- */
+
+/* Spacing of a particle [m]: that of the lattice, exactly, if its volume is that of the lattice but for round-off. */
+static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
+{
+    const real full = lattice_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
+    if (fabs(share - 1) < 1e-6) return law->spacing;
+    return law->spacing * pow(share, 1.0 / p->dim);
+}
+
+/* Distance at which i and j come in contact where nothing else is known [m]. The same bits from both ends. */
+static real contact_distance(const struct contact_law *law, const struct particles *p, int64_t i, int64_t j)
+{
+    real r2 = 0;
+    for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
+    return real_min(sqrt(r2), 0.5 * (contact_spacing(law, p, i) + contact_spacing(law, p, j)));
+}
+
+/* One row in the making: neighbours found, those with an intact bond marked by the row's number. */
+struct contact_search {
+    const struct contact *before;
+    const struct contact_law *law;
+    const struct particles *p;
+    const struct bonds *b;
+    struct particles places;             /* X: where those who may meet are now */
+    struct cells cells;
+    const int32_t *particle;
+    real reach;                          /* [m] */
+};
+
+static void mark_bonded(const struct bonds *b, int32_t i, int64_t *mark, int64_t row)
+{
+    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
+        if (it.bond.w != 0) mark[it.bond.nbr] = row;
+}
+
+/* Distance d of a pair that was on the list before [m]; NAN: it was not. */
+static real distance_before(const struct contact *before, int64_t row, int32_t j)
+{
+    if (row < 0) return NAN;
+    for (int64_t q = before->first[row]; q < before->first[row + 1]; q++)
+        if (before->other[q] == j) return before->distance[q];
+    return NAN;
+}
+
+/* Row of particle i in the list before, -1: none. */
+static int64_t row_before(const struct contact *before, int32_t i)
+{
+    int64_t low = 0, high = before->made ? before->rows : 0;
+    while (low < high) {
+        const int64_t middle = (low + high) / 2;
+        if (before->particle[middle] < i) low = middle + 1;
+        else high = middle;
+    }
+    return before->made && low < before->rows && before->particle[low] == i ? low : -1;
+}
+
+/* Writes the pairs of row k: neighbours and distances; returns their number. */
+static int64_t row_pairs(const struct contact_search *s, struct near *near, int64_t *mark, int64_t k, int32_t *other,
+                         real *distance)
+{
+    const struct particles *p = s->p;
+    const int32_t i = s->particle[k];
+    const int64_t row = row_before(s->before, i);
+    int64_t n = 0;
+    near_find(near, &s->cells, &s->places, k, s->reach, false);
+    if (near->n == 0) return 0;
+    mark_bonded(s->b, i, mark, k);
+    for (int q = 0; q < near->n; q++) {
+        const int32_t j = s->particle[near->at[q]];
+        if (mark[j] == k) continue;
+        if (s->law->between == CONTACT_BODIES && p->body[i] == p->body[j]) continue;
+        if (other) {
+            const real nominal = contact_distance(s->law, p, i, j), was = distance_before(s->before, row, j);
+            real r2 = 0;
+            for (int d = 0; d < p->dim; d++) r2 += square(p->x[d][i] - p->x[d][j]);
+            other[n] = j;
+            distance[n] = real_min(nominal, isnan(was) ? sqrt(r2) : real_max(was, sqrt(r2)));
+        }
+        n++;
+    }
+    return n;
+}
+
+/* Pairs of all rows, in two passes: how many, then which. */
+static void pairs_find(struct contact *c, const struct contact_search *s)
+{
+    int64_t *first = NEW("contact.first", c->rows + 1, int64_t);
+    int32_t *other = NULL;
+    real *distance = NULL;
+    for (int pass = 0; pass < 2; pass++) {
+#pragma omp parallel
+        {
+            struct near near = {0};
+            int64_t *mark = BARE("contact.mark", s->p->n_all, int64_t);
+            for (int64_t i = 0; i < s->p->n_all; i++) mark[i] = -1;
+#pragma omp for schedule(static)
+            for (int64_t k = 0; k < c->rows; k++) {
+                const int64_t n = pass == 0 ? row_pairs(s, &near, mark, k, NULL, NULL)
+                                            : row_pairs(s, &near, mark, k, other + first[k], distance + first[k]);
+                if (pass == 0) first[k + 1] = n;
+            }
+            memory_free(near.at);
+            memory_free(mark);
+        }
+        if (pass > 0) break;
+        for (int64_t k = 0; k < c->rows; k++) first[k + 1] += first[k];
+        other = BARE("contact.other", first[c->rows], int32_t);
+        distance = BARE("contact.distance", first[c->rows], real);
+    }
+    c->first = first, c->other = other, c->distance = distance, c->pairs = first[c->rows];
+}
+
+static real largest_distance(const struct contact *c, const struct particles *p)
+{
+    real most = 0;
+    for (int64_t k = 0; k < c->n; k++) most = real_max(most, contact_spacing(&c->law, p, c->particle[k]));
+    return most;
+}
+
+static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
+{
+    struct contact old = *c;
+    c->particle = NULL, c->first = NULL, c->other = NULL, c->distance = NULL;
+    for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
+    list_exposed(c, p, b, f);
+    struct contact_search s = {&old, &c->law, p, b, {.n = c->n, .n_all = c->n, .dim = p->dim}, {0}, c->particle, 0};
+    for (int d = 0; d < p->dim; d++) s.places.X[d] = c->at[d];
+    s.reach = largest_distance(c, p) + SKIN * c->law.spacing;
+    if (c->n > 0) cells_make(&s.cells, &s.places, s.reach);
+    pairs_find(c, &s);
+    if (c->n > 0) cells_free(&s.cells);
+    old.law.stiffness = NULL;
+    contact_free(&old);
+}
+
+/* ---- when -------------------------------------------------------------------------------------------------------- */
+
+/* Has one of them come half the skin far since the last search? */
+static bool has_come_far(const struct contact *c, const struct particles *p)
+{
+    const real far2 = square(0.5 * SKIN * c->law.spacing);
+    bool far = false;
+#pragma omp parallel for schedule(static) reduction(|| : far)
+    for (int64_t k = 0; k < c->rows; k++) {
+        real way2 = 0;
+        for (int d = 0; d < p->dim; d++) way2 += square(p->x[d][c->particle[k]] - c->at[d][k]);
+        far = far || !(way2 < far2);
+    }
+    return far;
+}
+
+void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+                    const struct family *family, int64_t step, int64_t broken)
+{
+    if (c->law.between == CONTACT_NONE) return;
+    const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
+    if (c->made && p->n_of[KIND_PD] == c->peridynamic && !new_faces && !has_come_far(c, p)) return;
+    search_pairs(c, p, b, family);
+    c->made = true;
+    c->searched = step, c->broken = broken, c->peridynamic = p->n_of[KIND_PD];
+    contact_follow(c, p, b, l);
+}
+
+void contact_follow(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
+{
+    int32_t *list = BARE("contact.list", c->rows, int32_t);
+    int64_t n = 0;
+    for (int64_t k = 0; k < c->rows; k++)
+        if (c->first[k + 1] > c->first[k]) list[n++] = c->particle[k];
+    loads_touch(l, p, list, n);
+    active_rows_touch(b, p, l, list, n);
+    memory_free(list);
+}
