@@ -14,7 +14,7 @@ static const struct bench benches[] = {
     {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
     {"sif", bench_sif}, {"threads", bench_threads},       {"scale", bench_scale},
     {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability},
-    {"sensitivity", bench_sensitivity}, {"steps", bench_steps}};
+    {"sensitivity", bench_sensitivity}, {"steps", bench_steps}, {"contact", bench_contact}};
 enum { BENCHES = COUNT_OF(benches) };
 
 /* Names of earlier versions. */

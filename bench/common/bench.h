@@ -176,6 +176,9 @@ status bench_efficiency(bool quick);
 /* bench_sensitivity.c: how far the ends of cracks lie apart when nothing but the time step differs. */
 status bench_sensitivity(bool quick);
 
+/* bench_contact.c: bodies that meet. */
+status bench_contact(bool quick);
+
 /* bench_steps.c: start, length, angle and energy of cracks over the time step. */
 status bench_steps(bool quick);
 

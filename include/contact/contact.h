@@ -1,16 +1,18 @@
 /* Room `contact`: forces between peridynamic particles that no bond joins: faces of cracks, fragments, bodies. It
  * knows particles, cells, bonds and loads, but neither scenes nor the step; the engine calls it.
  *
- * Law: a pair without an intact bond, closer than its contact distance d, is pushed apart by k (d - r) along the line
- * of centres; k = 15 c V_i V_j/delta, the usual short-range stiffness of peridynamics, for delta = 3.015 spacings
- * whatever the horizon of the scene, so that contact is as stiff as a cell of the material. Its energy is
- * 1/2 k (d - r)^2.
+ * Two forms of the law. Both push faces apart by k times the overlap, k = 15 c V_i V_j/delta a particle of the face:
+ * the usual short-range stiffness of peridynamics, for delta = 3.015 spacings whatever the horizon of the scene, so
+ * that contact is as stiff as a cell of the material. Both are gradients of an energy, 1/2 k overlap^2.
  *
- *     d = least of the reference distance of the two and the mean of their spacings
+ *     surface  each particle feels where the smooth face beside it lies (contact_face.c); contact begins one spacing
+ *              above its first layer
+ *     pair     each pair of particles closer than d is pushed apart along its line of centres (contact_pair.c); d: one
+ *              spacing. Faces that slide mesh like gears
  *
- * so that bodies and faces touch at their true surfaces: nothing overlaps in the reference state, and a bond that is
- * torn apart leaves a pair that is farther apart than d. A pair that is met closer than d (its bond ended under
- * pressure) starts with d = r, which follows the pair up to d as it opens: no energy appears.
+ * so that bodies and faces touch at their true surfaces. Contact begins later for what the reference state has closer,
+ * and for what is met closer (bonds that ended under pressure), until it opens: nothing overlaps in the reference state
+ * or at the moment of cutting, and no energy appears.
  *
  * Only particles near a face can meet: those of the first layer of a body, and those that have lost a bond. */
 #ifndef CLEAVE_CONTACT
@@ -22,14 +24,26 @@
 #include "loads/loads.h"
 
 enum contact_between { CONTACT_NONE, CONTACT_BODIES, CONTACT_ALL };
+enum contact_form { CONTACT_SURFACE, CONTACT_PAIR };
+
+/* Depth of a face below a particle, in spacings, by the density that it feels there (contact_face.c). */
+enum { PROFILE_NODES = 49 };
+struct contact_profile { real density[PROFILE_NODES], depth[PROFILE_NODES], slope[PROFILE_NODES]; };
 
 struct contact_law {
     enum contact_between between;        /* which particles may meet: none, those of two bodies, all */
+    enum contact_form form;              /* faces, or pairs of particles */
+    struct contact_profile profile;      /* of faces */
     int materials;
     real *stiffness;                     /* [materials^2] k/(V_i V_j) [N/m^7] */
     real spacing, section;               /* of the lattice [m]; as in lattice_volume */
     const struct image *image;           /* of loads */
 };
+
+/* What a particle feels of faces beside it: energy 1/4 k (depth - zero)^2 where depth < zero. */
+struct contact_face { real zero;         /* depth at which contact begins [spacings] */
+                      real stiffness;    /* k [J] */
+                      real push; };      /* derivative of its energy by the density it feels [J] */
 
 /* Pairs near enough to meet before the next search, row by row: each pair stands in the rows of both its particles, so
  * that each row has one owner. */
@@ -38,11 +52,14 @@ struct contact {
     bool made;                           /* a search has been made */
     int64_t n, rows;                     /* particles that may meet, images included; of the body, which come first */
     int32_t *particle;                   /* [n] ascending */
+    int32_t *root;                       /* [n] row of the particle of which it is an image, its own if of none */
+    real *size;                          /* [n] spacing of the particle [m] */
     real *at[DIM_MAX];                   /* [n] where they were at the last search [m] */
     int64_t *first;                      /* [rows + 1] */
     int64_t pairs;
-    int32_t *other;                      /* [pairs] ascending within a row */
-    real *distance;                      /* [pairs] d [m] */
+    int32_t *other;                      /* [pairs] places in `particle`, ascending within a row */
+    real *distance;                      /* pairs: [pairs] d [m] */
+    struct contact_face *face;           /* faces: [rows] */
     int64_t searched, broken, peridynamic; /* at the last search: step; directed bonds broken; peridynamic particles */
     int64_t pairs_most;                  /* pairs in contact at once, most so far */
     real overlap;                        /* largest (d - r) of the last step that looked [m] */
@@ -53,7 +70,8 @@ struct contact {
 };
 
 /* Law for the materials of the bonds. stiffness: factor on k [1]. */
-void contact_make(struct contact *c, enum contact_between between, real stiffness, const struct bond_source *source);
+void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
+                  const struct bond_source *source);
 void contact_free(struct contact *c);
 
 /* Critical step of particles that contact pushes on one side and bonds hold on the other [s]; `bonds`: of bonds [s]. */

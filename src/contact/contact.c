@@ -1,5 +1,5 @@
 /* Forces and energies of pairs in contact. */
-#include "contact/contact.h"
+#include "contact_internal.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,18 +11,21 @@
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
-void contact_make(struct contact *c, enum contact_between between, real stiffness, const struct bond_source *source)
+void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
+                  const struct bond_source *source)
 {
     struct family family = source->family;
     const int n = source->materials;
     memset(c, 0, sizeof *c);
     c->deepest = -1;
     c->law = (struct contact_law){.between = between,
+                                  .form = form,
                                   .materials = n,
                                   .spacing = family.spacing,
                                   .section = family.section,
                                   .image = source->image};
     if (between == CONTACT_NONE) return;
+    contact_profile_make(&c->law.profile, space_dim(family.space));
     family_make(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
     c->law.stiffness = NEW("contact.stiffness", n * n, real);
     for (int a = 0; a < n; a++)
@@ -40,6 +43,9 @@ void contact_free(struct contact *c)
     memory_free(c->first);
     memory_free(c->other);
     memory_free(c->distance);
+    memory_free(c->root);
+    memory_free(c->size);
+    memory_free(c->face);
     for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]);
     memset(c, 0, sizeof *c);
 }
@@ -61,79 +67,55 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
     return 2 / sqrt(0.5 * square(2 / bonds) + opposite[p->dim] * most);
 }
 
-/* A pair: overlap d - r [m], negative: none; distance r [m]; k [N/m]. The same bits from both its ends. */
-struct contact_pair { real overlap, r, k, apart[DIM_MAX]; };
+/* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int32_t i, int64_t q)
+static void found_join(struct contact_found *all, const struct contact_found *own)
 {
-    const int32_t j = c->other[q];
-    struct contact_pair pair = {0};
-    real r2 = 0;
-    for (int d = 0; d < p->dim; d++) {
-        pair.apart[d] = p->x[d][i] - p->x[d][j];
-        r2 += square(pair.apart[d]);
-    }
-    if (r2 >= square(c->distance[q])) return pair;
-    pair.r = sqrt(r2);
-    pair.overlap = c->distance[q] - pair.r;
-    pair.k = c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
-    return pair;
+    const int64_t touching = all->touching + own->touching;
+    if (own->touching > 0) contact_found_add(all, own->overlap, own->deepest);
+    all->touching = touching;
 }
 
-/* ---- forces ------------------------------------------------------------------------------------------------------ */
-
-/* What the rows of a block have found. */
-struct contact_found { real overlap; int64_t touching; int32_t deepest; };
-
-static void contact_row(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found)
+/* Rows in parallel: what they feel, if faces meet; else their forces. */
+static void rows_sweep(struct contact *c, struct particles *p, struct contact_found *all)
 {
-    const int32_t i = c->particle[row];
-    real f[DIM_MAX] = {0};
-    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_pair pair = contact_pair(c, p, i, q);
-        if (!(pair.overlap > 0 && pair.r > 0)) continue;
-        for (int d = 0; d < p->dim; d++) f[d] += pair.k * pair.overlap / pair.r * pair.apart[d];
-        found->touching++;
-        if (pair.overlap > found->overlap) found->overlap = pair.overlap, found->deepest = i;
+    const bool faces = c->law.form == CONTACT_SURFACE;
+#pragma omp parallel
+    {
+        struct contact_found own = {0, 0, INT32_MAX};
+#pragma omp for schedule(static)
+        for (int64_t row = 0; row < c->rows; row++) {
+            if (c->first[row + 1] == c->first[row]) continue;
+            if (faces) contact_face_feel(c, p, row, &own);
+            else contact_pair_row(c, p, row, &own);
+        }
+#pragma omp critical
+        found_join(all, &own);
     }
-    for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
 
 void contact_force(struct contact *c, struct particles *p)
 {
-    struct contact_found all = {0, 0, -1};
+    struct contact_found all = {0, 0, INT32_MAX};
     if (c->pairs == 0) return;
-#pragma omp parallel
-    {
-        struct contact_found own = {0, 0, -1};
-#pragma omp for schedule(static)
+    rows_sweep(c, p, &all);
+    if (c->law.form == CONTACT_SURFACE && all.touching > 0) {
+#pragma omp parallel for schedule(static)
         for (int64_t row = 0; row < c->rows; row++)
-            if (c->first[row + 1] > c->first[row]) contact_row(c, p, row, &own);
-#pragma omp critical
-        {
-            const bool first = own.overlap == all.overlap && own.deepest >= 0 && own.deepest < all.deepest;
-            if (own.overlap > all.overlap || first) all.overlap = own.overlap, all.deepest = own.deepest;
-            all.touching += own.touching;
-        }
+            if (c->first[row + 1] > c->first[row]) contact_face_row(c, p, row);
     }
-    c->overlap = all.overlap, c->touching = all.touching, c->deepest = all.deepest;
+    c->overlap = all.overlap, c->touching = all.touching, c->deepest = all.touching > 0 ? all.deepest : -1;
     c->overlap_most = real_max(c->overlap_most, all.overlap);
     if (all.touching / 2 > c->pairs_most) c->pairs_most = all.touching / 2;
 }
-
-/* ---- energy ------------------------------------------------------------------------------------------------------ */
 
 struct contact_sum { const struct contact *c; const struct particles *p; };
 
 static real contact_energy_term(const void *context, int64_t row)
 {
     const struct contact_sum *s = context;
-    real energy = 0;
-    for (int64_t q = s->c->first[row]; q < s->c->first[row + 1]; q++) {
-        const struct contact_pair pair = contact_pair(s->c, s->p, s->c->particle[row], q);
-        energy += 0.25 * pair.k * square(pair.overlap);
-    }
-    return energy;
+    return s->c->law.form == CONTACT_SURFACE ? contact_face_energy(s->c, s->p, row)
+                                             : contact_pair_energy(s->c, s->p, row);
 }
 
 real contact_energy(const struct contact *c, const struct particles *p)
@@ -159,7 +141,7 @@ static status contact_check(const struct contact *c, const struct particles *p)
     bool good = c->rows <= c->n && c->first[0] == 0 && c->first[c->rows] == c->pairs;
     for (int64_t k = 0; k < c->n; k++) good = good && c->particle[k] >= 0 && c->particle[k] < p->n_all;
     for (int64_t k = 0; k < c->rows; k++) good = good && c->first[k] <= c->first[k + 1] && c->particle[k] < p->n;
-    for (int64_t q = 0; q < c->pairs; q++) good = good && c->other[q] >= 0 && c->other[q] < p->n_all;
+    for (int64_t q = 0; q < c->pairs; q++) good = good && c->other[q] >= 0 && c->other[q] < c->n;
     return good ? OK : status_set(FAILED, "cannot resume: pairs in contact of the checkpoint are none of this body");
 }
 
@@ -185,6 +167,11 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     }
     TRY(stored_array(a, "contact/first", (void **)&c->first, c->rows + 1, sizeof *c->first));
     TRY(stored_array(a, "contact/other", (void **)&c->other, c->pairs, sizeof *c->other));
-    TRY(stored_array(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
-    return a->saving ? OK : contact_check(c, p);
+    if (c->law.form == CONTACT_PAIR)
+        TRY(stored_array(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
+    else TRY(stored_array(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
+    if (a->saving) return OK;
+    TRY(contact_check(c, p));
+    contact_list_describe(c, p);
+    return OK;
 }

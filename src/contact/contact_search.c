@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "contact/contact.h"
+#include "contact_internal.h"
 
 #define SKIN 0.3                         /* beyond the contact distance [spacings]: pairs that may come to it soon */
 enum { BREAKS_WAIT = 32 }; /* steps between searches for broken bonds: they open before they can close */
@@ -21,6 +21,38 @@ static bool is_exposed(const struct particles *p, const struct bonds *b, real le
     const int64_t row = b->row_of[i];
     if (p->kind[i] != KIND_PD) return false;
     return p->damage[i] > 0 || row < 0 || b->family_volume[row] < least_volume;
+}
+
+/* Row of particle i, -1: none. */
+static int64_t contact_row_of(const struct contact *c, int64_t i)
+{
+    int64_t low = 0, high = c->rows;
+    while (low < high) {
+        const int64_t middle = (low + high) / 2;
+        if (c->particle[middle] < i) low = middle + 1;
+        else high = middle;
+    }
+    return low < c->rows && c->particle[low] == i ? low : -1;
+}
+
+/* Spacing of a particle [m]: that of the lattice, exactly, if its volume is that of the lattice but for round-off. */
+static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
+{
+    const real full = lattice_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
+    if (fabs(share - 1) < 1e-6) return law->spacing;
+    return law->spacing * pow(share, 1.0 / p->dim);
+}
+
+void contact_list_describe(struct contact *c, const struct particles *p)
+{
+    memory_free(c->root);
+    memory_free(c->size);
+    c->root = BARE("contact.root", c->n, int32_t);
+    c->size = BARE("contact.size", c->n, real);
+    for (int64_t k = 0; k < c->n; k++) {
+        c->size[k] = contact_spacing(&c->law, p, c->particle[k]);
+        c->root[k] = (int32_t)(k < c->rows ? k : contact_row_of(c, image_root(p, c->law.image, c->particle[k])));
+    }
 }
 
 /* Lists them, and images of them. */
@@ -47,29 +79,13 @@ static void list_exposed(struct contact *c, const struct particles *p, const str
         c->at[d] = BARE("contact.at", c->n, real);
         for (k = 0; k < c->n; k++) c->at[d][k] = p->x[d][c->particle[k]];
     }
+    contact_list_describe(c, p);
 }
 
 /* ---- pairs ------------------------------------------------------------------------------------------------------- */
 
-/* Spacing of a particle [m]: that of the lattice, exactly, if its volume is that of the lattice but for round-off. */
-static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
-{
-    const real full = lattice_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
-    if (fabs(share - 1) < 1e-6) return law->spacing;
-    return law->spacing * pow(share, 1.0 / p->dim);
-}
-
-/* Distance at which i and j come in contact where nothing else is known [m]. The same bits from both ends. */
-static real contact_distance(const struct contact_law *law, const struct particles *p, int64_t i, int64_t j)
-{
-    real r2 = 0;
-    for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
-    return real_min(sqrt(r2), 0.5 * (contact_spacing(law, p, i) + contact_spacing(law, p, j)));
-}
-
 /* One row in the making: neighbours found, those with an intact bond marked by the row's number. */
 struct contact_search {
-    const struct contact *before;
     const struct contact_law *law;
     const struct particles *p;
     const struct bonds *b;
@@ -85,49 +101,19 @@ static void mark_bonded(const struct bonds *b, int32_t i, int64_t *mark, int64_t
         if (it.bond.w != 0) mark[it.bond.nbr] = row;
 }
 
-/* Distance d of a pair that was on the list before [m]; NAN: it was not. */
-static real distance_before(const struct contact *before, int64_t row, int32_t j)
-{
-    if (row < 0) return NAN;
-    for (int64_t q = before->first[row]; q < before->first[row + 1]; q++)
-        if (before->other[q] == j) return before->distance[q];
-    return NAN;
-}
-
-/* Row of particle i in the list before, -1: none. */
-static int64_t row_before(const struct contact *before, int32_t i)
-{
-    int64_t low = 0, high = before->made ? before->rows : 0;
-    while (low < high) {
-        const int64_t middle = (low + high) / 2;
-        if (before->particle[middle] < i) low = middle + 1;
-        else high = middle;
-    }
-    return before->made && low < before->rows && before->particle[low] == i ? low : -1;
-}
-
-/* Writes the pairs of row k: neighbours and distances; returns their number. */
-static int64_t row_pairs(const struct contact_search *s, struct near *near, int64_t *mark, int64_t k, int32_t *other,
-                         real *distance)
+/* Writes the pairs of row k (other NULL: none) and returns their number. */
+static int64_t row_pairs(const struct contact_search *s, struct near *near, int64_t *mark, int64_t k, int32_t *other)
 {
     const struct particles *p = s->p;
     const int32_t i = s->particle[k];
-    const int64_t row = row_before(s->before, i);
     int64_t n = 0;
     near_find(near, &s->cells, &s->places, k, s->reach, false);
     if (near->n == 0) return 0;
     mark_bonded(s->b, i, mark, k);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = s->particle[near->at[q]];
-        if (mark[j] == k) continue;
-        if (s->law->between == CONTACT_BODIES && p->body[i] == p->body[j]) continue;
-        if (other) {
-            const real nominal = contact_distance(s->law, p, i, j), was = distance_before(s->before, row, j);
-            real r2 = 0;
-            for (int d = 0; d < p->dim; d++) r2 += square(p->x[d][i] - p->x[d][j]);
-            other[n] = j;
-            distance[n] = real_min(nominal, isnan(was) ? sqrt(r2) : real_max(was, sqrt(r2)));
-        }
+        if (mark[j] == k || (s->law->between == CONTACT_BODIES && p->body[i] == p->body[j])) continue;
+        if (other) other[n] = near->at[q];
         n++;
     }
     return n;
@@ -137,8 +123,7 @@ static int64_t row_pairs(const struct contact_search *s, struct near *near, int6
 static void pairs_find(struct contact *c, const struct contact_search *s)
 {
     int64_t *first = NEW("contact.first", c->rows + 1, int64_t);
-    int32_t *other = NULL;
-    real *distance = NULL;
+    c->other = NULL;
     for (int pass = 0; pass < 2; pass++) {
 #pragma omp parallel
         {
@@ -147,8 +132,7 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
             for (int64_t i = 0; i < s->p->n_all; i++) mark[i] = -1;
 #pragma omp for schedule(static)
             for (int64_t k = 0; k < c->rows; k++) {
-                const int64_t n = pass == 0 ? row_pairs(s, &near, mark, k, NULL, NULL)
-                                            : row_pairs(s, &near, mark, k, other + first[k], distance + first[k]);
+                const int64_t n = row_pairs(s, &near, mark, k, pass == 0 ? NULL : c->other + first[k]);
                 if (pass == 0) first[k + 1] = n;
             }
             memory_free(near.at);
@@ -156,33 +140,60 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
         }
         if (pass > 0) break;
         for (int64_t k = 0; k < c->rows; k++) first[k + 1] += first[k];
-        other = BARE("contact.other", first[c->rows], int32_t);
-        distance = BARE("contact.distance", first[c->rows], real);
+        c->other = BARE("contact.other", first[c->rows], int32_t);
     }
-    c->first = first, c->other = other, c->distance = distance, c->pairs = first[c->rows];
+    c->first = first, c->pairs = first[c->rows];
 }
 
-static real largest_distance(const struct contact *c, const struct particles *p)
+/* Distance d of particles i, j if they were on the list before [m]; NAN: they were not. */
+static real distance_before(const struct contact *before, int64_t row, int32_t j)
+{
+    if (row < 0) return NAN;
+    for (int64_t q = before->first[row]; q < before->first[row + 1]; q++)
+        if (before->particle[before->other[q]] == j) return before->distance[q];
+    return NAN;
+}
+
+/* Where contact of each row, or of each of its pairs, begins. */
+static void pairs_begin(struct contact *c, const struct contact *before, const struct particles *p)
+{
+    if (c->law.form == CONTACT_SURFACE) c->face = BARE("contact.face", c->rows, struct contact_face);
+    else c->distance = BARE("contact.distance", c->pairs, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t row = 0; row < c->rows; row++) {
+        const int64_t was = before->made ? contact_row_of(before, c->particle[row]) : -1;
+        if (c->law.form == CONTACT_SURFACE) contact_face_begin(c, before, was, p, row);
+        else
+            for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
+                c->distance[q] = contact_pair_distance(c, p, row, c->other[q],
+                                                       distance_before(before, was, c->particle[c->other[q]]));
+    }
+}
+
+/* Farthest pairs that can meet before the next search [m]. */
+static real search_reach(const struct contact *c)
 {
     real most = 0;
-    for (int64_t k = 0; k < c->n; k++) most = real_max(most, contact_spacing(&c->law, p, c->particle[k]));
-    return most;
+    for (int64_t k = 0; k < c->n; k++) most = real_max(most, c->size[k]);
+    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : 1) + SKIN * c->law.spacing;
 }
 
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
-    struct contact old = *c;
-    c->particle = NULL, c->first = NULL, c->other = NULL, c->distance = NULL;
+    struct contact before = *c;
+    c->particle = NULL, c->root = NULL, c->size = NULL, c->first = NULL, c->other = NULL, c->distance = NULL;
+    c->face = NULL;
     for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
     list_exposed(c, p, b, f);
-    struct contact_search s = {&old, &c->law, p, b, {.n = c->n, .n_all = c->n, .dim = p->dim}, {0}, c->particle, 0};
+    struct contact_search s = {&c->law, p, b, {.n = c->n, .n_all = c->n, .dim = p->dim}, {0}, c->particle, 0};
     for (int d = 0; d < p->dim; d++) s.places.X[d] = c->at[d];
-    s.reach = largest_distance(c, p) + SKIN * c->law.spacing;
+    s.reach = search_reach(c);
     if (c->n > 0) cells_make(&s.cells, &s.places, s.reach);
     pairs_find(c, &s);
     if (c->n > 0) cells_free(&s.cells);
-    old.law.stiffness = NULL;
-    contact_free(&old);
+    pairs_begin(c, &before, p);
+    before.law.stiffness = NULL;
+    contact_free(&before);
 }
 
 /* ---- when -------------------------------------------------------------------------------------------------------- */

@@ -366,7 +366,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     e->source.cells = &e->cells;
     TRY(make_bonds(e));
     contact_make(&e->contact, s->solver == SOLVER_EXPLICIT && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
-                 s->contact_stiffness, &e->source);
+                 s->contact_form, s->contact_stiffness, &e->source);
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_update(e);

@@ -137,7 +137,10 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
     return OK;
 }
 
-#define CONTACT_SAFETY 0.8               /* of its own critical step, where the scene takes less of that of the bonds */
+/* Share of the step that contact allows, where the scene takes less of that of the bonds. In a line all of a face
+ * meets in one step: two bars of 100 particles gain 1 % of their energy at 0.8 of it, 0.1 % at 0.4; in the plane 0.1 %
+ * at 0.8. */
+static real contact_safety(const struct scene *s) { return s->dim == 1 ? 0.4 : real_max(s->safety, 0.8); }
 
 /* The critical step is the smallest limit of all methods, whichever kinds are present at the start, since particles
  * convert. */
@@ -147,7 +150,7 @@ status engine_time_make(struct engine *e)
     e->clock.dt_critical =
         real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
     const real contact = contact_critical_step(&e->contact, &e->part, s->material, e->clock.dt_critical);
-    const real automatic = real_min(s->safety * e->clock.dt_critical, real_max(s->safety, CONTACT_SAFETY) * contact);
+    const real automatic = real_min(s->safety * e->clock.dt_critical, contact_safety(s) * contact);
     const real dt = s->time_step > 0 ? s->time_step : automatic;
     if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e->scene, &e->clock, dt));
     else e->clock.steps = s->solver_steps, e->clock.dt = dt;

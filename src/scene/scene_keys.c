@@ -157,6 +157,9 @@ const struct key keys[] = {
         "which peridynamic particles push each other apart when they meet: none, those of two bodies, or all near a "
         "face (bodies, fragments, faces of cracks)",
         .words = "none|bodies|all"),
+    KEY("contact.law", KEY_CHOICE, UNIT_NONE, AT(scene, contact_form), ANY, "surface",
+        "what meets: smooth faces, or pairs of particles, as in other programs, whose faces mesh like gears",
+        .words = "surface|pair"),
     KEY("contact.stiffness", KEY_REAL, UNIT_NONE, AT(scene, contact_stiffness), INSIDE(0, 4.001), "1",
         "of contact, in units of that of a cell of the material (15 c V^2/delta at 3.015 spacings); above 1 it may "
         "need a smaller step"),

@@ -32,10 +32,11 @@ static const char line[] =
     "  - {name: target, shape: {box: {from: [0.02 mm], to: [20.02 mm]}}}\n"
     "particles: {spacing: 1 mm}\ncontact: {between: all}\noutput: {frames: 1, samples: 10}\n";
 
-static struct engine *contact_run(struct scene *s, const char *text)
+static struct engine *contact_run(struct scene *s, const char *text, const char *law)
 {
+    const struct scene_override set = {"contact.law", law};
     struct engine *e = NEW("test.engine", 1, struct engine);
-    if (scene_read_text(s, text, strlen(text), "contact.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    if (scene_read_text(s, text, strlen(text), "contact.yaml", &set, 1) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
     e->report.quiet = true;
     assert_ok(engine_report_start(e));
@@ -63,29 +64,99 @@ static real length(const struct particles *p, real *const *place, int64_t i, int
     return sqrt(r2);
 }
 
-/* Sum over all pairs of particles without a bond, closer than a spacing and than they were: 15 c V V/delta (d - r), of
- * two materials the harmonic mean. f: [dim n]; returns the energy [J]. */
-static real plain_sum(const struct engine *e, real *f)
+/* k of two particles [N/m]: 15 c V V/delta, of two materials the harmonic mean. */
+static real plain_stiffness(const struct engine *e, int64_t i, int64_t j)
 {
     const struct particles *p = &e->part;
     struct family family = e->source.family;
-    real c[2], energy = 0;
     family_make(&family, family.space, family.spacing, 3.015, family.section);
-    for (int m = 0; m < e->scene->materials; m++) c[m] = family_micro_modulus(&family, &e->scene->material[m]);
+    const real a = family_micro_modulus(&family, &e->scene->material[p->material[i]]);
+    const real b = family_micro_modulus(&family, &e->scene->material[p->material[j]]);
+    return 15 * (2 * a * b / (a + b)) * p->volume0[i] * p->volume0[j] / (3.015 * e->scene->spacing);
+}
+
+static bool may_meet(const struct engine *e, int64_t i, int64_t j)
+{
+    const struct particles *p = &e->part;
+    if (i == j || (e->scene->contact_between == CONTACT_BODIES && p->body[i] == p->body[j])) return false;
+    return !has_bond(e, i, j);
+}
+
+/* Law `pair`: sum over all pairs of particles without a bond, closer than a spacing and than they were. f: [dim n];
+ * returns the energy [J]. */
+static real plain_pairs(const struct engine *e, real *f)
+{
+    const struct particles *p = &e->part;
+    real energy = 0;
     memset(f, 0, (size_t)(p->n * p->dim) * sizeof *f);
     for (int64_t i = 0; i < p->n; i++)
         for (int64_t j = i + 1; j < p->n; j++) {
             const real r = length(p, p->x, i, j), d = real_min(e->scene->spacing, length(p, p->X, i, j));
-            if (r >= d || has_bond(e, i, j)) continue;
-            if (e->scene->contact_between == CONTACT_BODIES && p->body[i] == p->body[j]) continue;
-            const real a = c[p->material[i]], b = c[p->material[j]];
-            const real k = 15 * (2 * a * b / (a + b)) * p->volume0[i] * p->volume0[j] / (3.015 * e->scene->spacing);
+            if (r >= d || !may_meet(e, i, j)) continue;
+            const real k = plain_stiffness(e, i, j);
             energy += 0.5 * k * square(d - r);
             for (int x = 0; x < p->dim; x++) {
                 const real push = k * (d - r) * (p->x[x][i] - p->x[x][j]) / r;
                 f[x * p->n + i] += push, f[x * p->n + j] -= push;
             }
         }
+    return energy;
+}
+
+/* ---- law `surface` ----------------------------------------------------------------------------------------------- */
+
+static real wendland(real q) { return q < 1 ? pow(1 - q, 4) * (1 + 4 * q) : 0; }
+
+/* Density s spacings above a particle of a layer. */
+static real above_layer(int dim, real s)
+{
+    real sum = 0;
+    for (int a = -3; a <= 3; a++)
+        for (int b = -3; b <= 3; b++)
+            if ((dim > 1 || a == 0) && (dim > 2 || b == 0)) sum += wendland(0.5 * sqrt(a * a + b * b + s * s));
+    return sum;
+}
+
+/* Height above a layer with this density, by bisection [spacings]. */
+static real height_of(int dim, real density)
+{
+    real low = 0, high = 2;
+    for (int k = 0; k < 60; k++) {
+        const real middle = 0.5 * (low + high);
+        if (above_layer(dim, middle) > density) low = middle;
+        else high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* Density that particle i feels of those that it may meet, now or in the reference state. *softest: k of the softest
+ * pair [N/m]. Only particles near faces count, as in the engine. */
+static real plain_density(const struct engine *e, int64_t i, real *const *place, real *softest)
+{
+    const struct contact *c = &e->contact;
+    real sum = 0;
+    *softest = INFINITY;
+    for (int64_t k = 0; k < c->rows; k++) {
+        const int32_t j = c->particle[k];
+        if (!may_meet(e, i, j) || length(&e->part, e->part.x, i, j) > 2.3 * e->scene->spacing) continue;
+        sum += wendland(0.5 * length(&e->part, place, i, j) / e->scene->spacing);
+        *softest = real_min(*softest, plain_stiffness(e, i, j));
+    }
+    return sum;
+}
+
+/* Energy of all that a particle feels: 1/4 k (zero - height)^2, zero: 1, or less if the reference state is closer. */
+static real plain_faces(const struct engine *e)
+{
+    real energy = 0, softest;
+    for (int64_t k = 0; k < e->contact.rows; k++) {
+        const int32_t i = e->contact.particle[k];
+        const real height = height_of(e->part.dim, plain_density(e, i, e->part.x, &softest));
+        if (height >= 1) continue;
+        const real density = plain_density(e, i, e->part.X, &softest);
+        const real zero = real_min(1, height_of(e->part.dim, density));
+        if (height < zero) energy += 0.25 * softest * square((zero - height) * e->scene->spacing);
+    }
     return energy;
 }
 
@@ -96,23 +167,46 @@ static void contact_alone(struct engine *e)
     contact_force(&e->contact, &e->part);
 }
 
-/* Round-off of forces of up to a dozen pairs. */
+/* Third law: momentum and angular momentum, to the round-off of forces of up to a dozen pairs. */
+static void check_third_law(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    real most = 0, sum[DIM_MAX] = {0}, moment[DIM_MAX] = {0};
+    for (int64_t i = 0; i < p->n; i++)
+        for (int d = 0; d < p->dim; d++) {
+            const int a = (d + 1) % 3, b = (d + 2) % 3;
+            most = real_max(most, fabs(p->f[d][i]));
+            sum[d] += p->f[d][i];
+            if (a < p->dim && b < p->dim) moment[d] += p->x[a][i] * p->f[b][i] - p->x[b][i] * p->f[a][i];
+        }
+    if (p->dim == 2)
+        for (int64_t i = 0; i < p->n; i++) moment[2] += p->x[0][i] * p->f[1][i] - p->x[1][i] * p->f[0][i];
+    for (int d = 0; d < 3; d++) {
+        assert_near(sum[d], 0, 1e-13 * most * sqrt((real)p->n));
+        assert_near(moment[d], 0, 1e-13 * most * sqrt((real)p->n) * 20e-3);
+    }
+}
+
+/* Pairs: forces and energy to round-off. Faces: the energy within what 1e-6 spacings in the table of heights make;
+ * forces are its gradient. */
 static void check_plain(struct engine *e)
 {
     const struct particles *p = &e->part;
     real *f = NEW("test.f", p->n * p->dim, real), most = 0;
-    const real energy = plain_sum(e, f);
     contact_alone(e);
-    for (int64_t k = 0; k < p->n * p->dim; k++) most = real_max(most, fabs(f[k]));
-    for (int d = 0; d < p->dim; d++) {
-        real sum = 0;
-        for (int64_t i = 0; i < p->n; i++) {
-            assert_near(p->f[d][i], f[d * p->n + i], 1e-12 * most);
-            sum += p->f[d][i];
-        }
-        assert_near(sum, 0, 1e-13 * most * sqrt((real)p->n));
+    const real found = contact_energy(&e->contact, p);
+    if (e->scene->contact_form == CONTACT_SURFACE) {
+        const real energy = plain_faces(e);
+        const real k = plain_stiffness(e, 0, 0) * square(e->scene->spacing);
+        assert_near(found, energy, 1e-6 * sqrt(k * energy * (real)(e->contact.touching + 1)));
+    } else {
+        const real energy = plain_pairs(e, f);
+        for (int64_t k = 0; k < p->n * p->dim; k++) most = real_max(most, fabs(f[k]));
+        for (int d = 0; d < p->dim; d++)
+            for (int64_t i = 0; i < p->n; i++) assert_near(p->f[d][i], f[d * p->n + i], 1e-12 * most);
+        assert_near(found, energy, 1e-12 * energy);
     }
-    assert_near(contact_energy(&e->contact, p), energy, 1e-12 * energy);
+    check_third_law(e);
     memory_free(f);
 }
 
@@ -138,10 +232,10 @@ static void check_gradient(struct engine *e)
 }
 
 /* Through a collision: beside the plain sum after every fourth step. */
-static void check_collision(const char *text, real pairs_least)
+static void check_collision(const char *text, const char *law, real pairs_least)
 {
     struct scene s;
-    struct engine *e = contact_run(&s, text);
+    struct engine *e = contact_run(&s, text, law);
     int64_t seen = 0;
     while (e->clock.step < e->clock.steps) {
         assert_ok(engine_step(e));
@@ -157,9 +251,26 @@ static void check_collision(const char *text, real pairs_least)
     contact_end(e, &s);
 }
 
-static void test_line(void **state) { (void)state; check_collision(line, 1); }
-static void test_plane(void **state) { (void)state; check_collision(plane, 8); }
-static void test_space(void **state) { (void)state; check_collision(space, 20); }
+static void test_line(void **state)
+{
+    (void)state;
+    check_collision(line, "pair", 1);
+    check_collision(line, "surface", 1);
+}
+
+static void test_plane(void **state)
+{
+    (void)state;
+    check_collision(plane, "pair", 8);
+    check_collision(plane, "surface", 8);
+}
+
+static void test_space(void **state)
+{
+    (void)state;
+    check_collision(space, "pair", 20);
+    check_collision(space, "surface", 20);
+}
 
 /* k of a pair of lattice particles: 5/6 E A/D in a line (families of 3: E A/D is 6 k1, and k is 15/3.015 k1), and 0.51
  * E h a column in the plane, to 3 % (shell weights change c). */
@@ -167,18 +278,17 @@ static void test_stiffness(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = contact_run(&s, line);
+    struct engine *e = contact_run(&s, line, "pair");
     assert_near(e->contact.law.stiffness[0] * square(4e-6 * 1e-3), 15 / 3.015 / 6 * 200e9 * 4e-6 / 1e-3, 1);
     contact_end(e, &s);
-    e = contact_run(&s, plane);
+    e = contact_run(&s, plane, "pair");
     assert_near(e->contact.law.stiffness[0] * square(2e-3 * 1e-6), 0.51 * 200e9 * 2e-3, 0.03 * 0.51 * 200e9 * 2e-3);
     contact_end(e, &s);
 }
 
 /* Bodies one spacing apart at rest, and a crack: no force, and nothing moves, to the last bit. */
-static void test_rest(void **state)
+static void check_rest(const char *law)
 {
-    (void)state;
     static const char text[] =
         "name: rest\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: 100 us\n"
         "material: {young: 72 GPa, density: 2440}\n"
@@ -187,12 +297,19 @@ static void test_rest(void **state)
         "cracks: [{from: [5 mm, -1 mm], to: [5 mm, 8 mm]}]\nparticles: {spacing: 1 mm}\n"
         "contact: {between: all}\ntime: {step: 0.1 us}\noutput: {frames: 1, samples: 10}\n";
     struct scene s;
-    struct engine *e = contact_run(&s, text);
+    struct engine *e = contact_run(&s, text, law);
     for (int step = 0; step < 1000; step++) assert_ok(engine_step(e));
     assert_true(e->contact.pairs > 50);
     for (int d = 0; d < 2; d++)
         for (int64_t i = 0; i < e->part.n; i++) assert_true(e->part.v[d][i] == 0);
     contact_end(e, &s);
+}
+
+static void test_rest(void **state)
+{
+    (void)state;
+    check_rest("pair");
+    check_rest("surface");
 }
 
 int main(void)

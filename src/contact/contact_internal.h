@@ -1,0 +1,57 @@
+/* Inside `contact`: the two forms of the law share the list of pairs. */
+#ifndef CLEAVE_CONTACT_INTERNAL
+#define CLEAVE_CONTACT_INTERNAL
+
+#include "contact/contact.h"
+
+#define CONTACT_REACH 2.0                /* of the field of a face [mean spacings] */
+
+/* What the rows of a step have found. */
+struct contact_found { real overlap; int64_t touching; int32_t deepest; };
+
+static inline void contact_found_add(struct contact_found *to, real overlap, int32_t i)
+{
+    const bool first = overlap == to->overlap && i < to->deepest;
+    if (overlap > to->overlap || first) to->overlap = overlap, to->deepest = i;
+    to->touching++;
+}
+
+/* Vector from entry l of the list to entry k, and its square [m^2]. */
+static inline real contact_apart(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real *apart)
+{
+    const int32_t i = c->particle[k], j = c->particle[l];
+    real r2 = 0;
+    for (int d = 0; d < p->dim; d++) {
+        apart[d] = p->x[d][i] - p->x[d][j];
+        r2 += square(apart[d]);
+    }
+    return r2;
+}
+
+/* Stiffness of the pair of entries k, l [N/m]. */
+static inline real contact_stiffness(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+{
+    const int32_t i = c->particle[k], j = c->particle[l];
+    return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
+}
+
+/* Images and spacings of the entries of the list. */
+void contact_list_describe(struct contact *c, const struct particles *p);
+
+/* One row: adds its force to part.f. */
+void contact_pair_row(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found);
+real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row);
+/* Distance d of a pair that is new on the list, or was there with distance `was` (NAN: not) [m]. */
+real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was);
+
+void contact_profile_make(struct contact_profile *profile, int dim);
+/* In two passes: what each particle feels, then the forces of all that feel something. */
+void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, struct contact_found *found);
+void contact_face_row(const struct contact *c, struct particles *p, int64_t row);
+real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
+/* Where contact begins for the particle of a row that is new on the list, or was row `was` of the list `before` (-1:
+ * not): its energy does not change. */
+void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
+                        int64_t row);
+
+#endif

@@ -1,0 +1,53 @@
+/* Contact between pairs of particles: each is a sphere, or a disc, of its own. */
+#include <math.h>
+
+#include "contact_internal.h"
+
+/* A pair: overlap d - r [m], negative: none; distance r [m]; k [N/m]. The same bits from both its ends. */
+struct contact_pair { real overlap, r, k, apart[DIM_MAX]; };
+
+static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
+{
+    struct contact_pair pair = {0};
+    const real r2 = contact_apart(c, p, row, c->other[q], pair.apart);
+    if (r2 >= square(c->distance[q])) return pair;
+    pair.r = sqrt(r2);
+    pair.overlap = c->distance[q] - pair.r;
+    pair.k = contact_stiffness(c, p, row, c->other[q]);
+    return pair;
+}
+
+void contact_pair_row(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found)
+{
+    const int32_t i = c->particle[row];
+    real f[DIM_MAX] = {0};
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+        const struct contact_pair pair = contact_pair(c, p, row, q);
+        if (!(pair.overlap > 0 && pair.r > 0)) continue;
+        for (int d = 0; d < p->dim; d++) f[d] += pair.k * pair.overlap / pair.r * pair.apart[d];
+        contact_found_add(found, pair.overlap, i);
+    }
+    for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
+}
+
+real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row)
+{
+    real energy = 0;
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+        const struct contact_pair pair = contact_pair(c, p, row, q);
+        energy += 0.25 * pair.k * square(pair.overlap);
+    }
+    return energy;
+}
+
+/* Least of the distance in the reference state and the mean of the spacings, and for a pair that is met closer, as it
+ * is until it opens. The same bits from both ends. */
+real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was)
+{
+    const int32_t i = c->particle[k], j = c->particle[l];
+    real reference2 = 0, apart[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) reference2 += square(p->X[d][i] - p->X[d][j]);
+    const real nominal = real_min(sqrt(reference2), 0.5 * (c->size[k] + c->size[l]));
+    const real r = sqrt(contact_apart(c, p, k, l, apart));
+    return real_min(nominal, isnan(was) ? r : real_max(was, r));
+}
