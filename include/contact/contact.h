@@ -22,6 +22,7 @@
 #include "base/archive.h"
 #include "bonds/bonds.h"
 #include "loads/loads.h"
+#include "rigid/rigid.h"
 
 enum contact_between { CONTACT_NONE, CONTACT_BODIES, CONTACT_ALL };
 enum contact_form { CONTACT_SURFACE, CONTACT_PAIR };
@@ -45,6 +46,10 @@ struct contact_face { real zero;         /* depth at which contact begins [spaci
                       real stiffness;    /* k [J] */
                       real push; };      /* derivative of its energy by the density it feels [J] */
 
+/* Particles near a rigid body: rows, ascending, and the gap at which contact begins, 0 or less [m]; where the body was
+ * at the search. */
+struct contact_near { int64_t n; int32_t *row; real *zero, x[DIM_MAX], turn[DIM_MAX * DIM_MAX]; };
+
 /* Pairs near enough to meet before the next search, row by row: each pair stands in the rows of both its particles, so
  * that each row has one owner. */
 struct contact {
@@ -60,6 +65,9 @@ struct contact {
     int32_t *other;                      /* [pairs] places in `particle`, ascending within a row */
     real *distance;                      /* pairs: [pairs] d [m] */
     struct contact_face *face;           /* faces: [rows] */
+    int rigids;
+    struct rigid_body *rigid;            /* borrowed */
+    struct contact_near *near;           /* [rigids]; NULL before the first search */
     int64_t searched, broken, peridynamic; /* at the last search: step; directed bonds broken; peridynamic particles */
     int64_t pairs_most;                  /* pairs in contact at once, most so far */
     real overlap;                        /* largest (d - r) of the last step that looked [m] */
@@ -69,9 +77,9 @@ struct contact {
     int64_t touching;                    /* directed pairs in contact in the last step */
 };
 
-/* Law for the materials of the bonds. stiffness: factor on k [1]. */
+/* Law for the materials of the bonds. stiffness: factor on k [1]. Rigid bodies, borrowed, meet all particles. */
 void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
-                  const struct bond_source *source);
+                  const struct bond_source *source, struct rigid_body *rigid, int rigids);
 void contact_free(struct contact *c);
 
 /* Critical step of particles that contact pushes on one side and bonds hold on the other [s]; `bonds`: of bonds [s]. */
@@ -85,7 +93,7 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
 /* Marks the particles of pairs as loaded and their row blocks as active; also after a restart. */
 void contact_follow(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
-/* Adds the forces to part.f, and finds the largest overlap. After the forces of bonds, before loads. */
+/* Adds the forces to part.f and to rigid bodies, and finds the largest overlap. After the forces of bonds, before loads. */
 void contact_force(struct contact *c, struct particles *p);
 
 /* Energy of all pairs where they are now [J]; half of that of pairs with an image. */

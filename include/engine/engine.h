@@ -119,6 +119,7 @@ struct sampling {
     real kinetic, work, constraint_work; /* [J] before the step */
     real *before[DIM_MAX];               /* velocities at its begin, where something is on the grid [m/s] */
     struct energy energy;                /* of the positions of t_n; kinetic comes last */
+    real rigid, rigid_work;              /* of rigid bodies: kinetic at the begin; work up to t_n [J] */
 };
 
 /* What a run leaves and says, and when. */
@@ -154,6 +155,7 @@ struct engine {
     struct grid_method mpm;
     struct reference_frame reference;
     struct coupling_state coupling;
+    struct rigid_body *rigid;            /* [scene->rigids] */
     struct contact contact;
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c) */
@@ -236,6 +238,15 @@ status engine_archive(void *engine, struct archive *a);
 void engine_warn(struct engine *e);
 /* A warning of a running run: into e->report.warnings and, the first time, on standard error. */
 void engine_say(struct engine *e, const char *text);
+/* Rigid bodies (engine_rigid.c): made at the start; their forces booked after those of contact; their motion; kinetic
+ * energy before a step and, of the step that has been made, as leap-frog keeps it; work of what drives them [J]. */
+status engine_rigid_make(struct engine *e);
+void engine_rigid_book(struct engine *e, real dt_velocity);
+void engine_rigid_move(struct engine *e, real middle, real dt_velocity);
+struct rigid_energy { real before, step, last, work; };
+struct rigid_energy engine_rigid_energy(const struct engine *e);
+int engine_rigid_columns(const struct engine *e, struct column *column);   /* column NULL: only their number */
+void engine_rigid_record(const struct engine *e, real *record);
 /* Stability checks (engine_stability.c). `make`: the state at the start. `check`, after every step: FAILED with
  * place, step, cause and remedy where something moves faster than waves; the divergence check alone takes
  * peridynamic particles and points of a mesh only if their flags are set. `remedy`: what to change, from how `value`

@@ -33,6 +33,8 @@ struct scene_body {
     uint64_t contents;                   /* hash of that file; 0: not read */
     char place[PLACE_LENGTH];            /* in the scene, of its list if it has one */
     real velocity[DIM_MAX];              /* [m/s] */
+    bool rigid;                          /* no particles: it has a shape that keeps its form ... */
+    real mass, ramp;                     /* ... flies with a mass [kg], or is driven, at full speed from `ramp` on [s] */
     enum grid_frame frame; /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
     const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not */
 };
@@ -80,7 +82,8 @@ struct scene {
     int solver_steps;                    /* at the most */
 
     int materials;  struct material *material;
-    int bodies;     struct scene_body *body;
+    int bodies;     struct scene_body *body;   /* deformable ones; behind them `rigids` rigid ones */
+    int rigids;
 
     bool has_accuracy; real accuracy;    /* required of method auto [1] */
     struct scene_choice choice;

@@ -12,7 +12,7 @@
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
 void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
-                  const struct bond_source *source)
+                  const struct bond_source *source, struct rigid_body *rigid, int rigids)
 {
     struct family family = source->family;
     const int n = source->materials;
@@ -24,7 +24,8 @@ void contact_make(struct contact *c, enum contact_between between, enum contact_
                                   .spacing = family.spacing,
                                   .section = family.section,
                                   .image = source->image};
-    if (between == CONTACT_NONE) return;
+    c->rigid = rigid, c->rigids = rigids;
+    if (!contact_works(c)) return;
     contact_profile_make(&c->law.profile, space_dim(family.space));
     family_make(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
     c->law.stiffness = NEW("contact.stiffness", n * n, real);
@@ -46,6 +47,7 @@ void contact_free(struct contact *c)
     memory_free(c->root);
     memory_free(c->size);
     memory_free(c->face);
+    contact_rigid_free(c);
     for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]);
     memset(c, 0, sizeof *c);
 }
@@ -59,7 +61,7 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
     static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2};
     const int n = c->law.materials;
     real volume = 0, most = 0;
-    if (c->law.between == CONTACT_NONE) return INFINITY;
+    if (!contact_works(c)) return INFINITY;
     for (int64_t i = 0; i < p->n; i++) volume = real_max(volume, p->volume0[i]);
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++)
@@ -94,16 +96,20 @@ static void rows_sweep(struct contact *c, struct particles *p, struct contact_fo
     }
 }
 
+static void pairs_force(struct contact *c, struct particles *p, struct contact_found *all)
+{
+    rows_sweep(c, p, all);
+    if (c->law.form == CONTACT_PAIR || all->touching == 0) return;
+#pragma omp parallel for schedule(static)
+    for (int64_t row = 0; row < c->rows; row++)
+        if (c->first[row + 1] > c->first[row]) contact_face_row(c, p, row);
+}
+
 void contact_force(struct contact *c, struct particles *p)
 {
     struct contact_found all = {0, 0, INT32_MAX};
-    if (c->pairs == 0) return;
-    rows_sweep(c, p, &all);
-    if (c->law.form == CONTACT_SURFACE && all.touching > 0) {
-#pragma omp parallel for schedule(static)
-        for (int64_t row = 0; row < c->rows; row++)
-            if (c->first[row + 1] > c->first[row]) contact_face_row(c, p, row);
-    }
+    if (c->pairs > 0) pairs_force(c, p, &all);
+    contact_rigid_force(c, p, &all);
     c->overlap = all.overlap, c->touching = all.touching, c->deepest = all.touching > 0 ? all.deepest : -1;
     c->overlap_most = real_max(c->overlap_most, all.overlap);
     if (all.touching / 2 > c->pairs_most) c->pairs_most = all.touching / 2;
@@ -120,13 +126,13 @@ static real contact_energy_term(const void *context, int64_t row)
 
 real contact_energy(const struct contact *c, const struct particles *p)
 {
-    return c->pairs > 0 ? team_sum(c->rows, contact_energy_term, &(struct contact_sum){c, p}) : 0;
+    const real pairs = c->pairs > 0 ? team_sum(c->rows, contact_energy_term, &(struct contact_sum){c, p}) : 0;
+    return pairs + contact_rigid_energy(c, p);
 }
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Makes room for `bytes` of a stored array. */
-static status stored_array(struct archive *a, const char *name, void **array, int64_t count, size_t size)
+status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size)
 {
     if (!a->saving) {
         memory_free(*array);
@@ -150,7 +156,7 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
 {
     int64_t numbers[] = {c->made, c->n, c->rows, c->pairs, c->searched, c->broken, c->peridynamic, c->pairs_most,
                          c->overlap_said};
-    if (c->law.between == CONTACT_NONE) return OK;
+    if (!contact_works(c)) return OK;
     ARCHIVE_VALUE(a, "contact/numbers", numbers);
     ARCHIVE_VALUE(a, "contact/overlap_most", c->overlap_most);
     c->made = numbers[0] != 0, c->n = numbers[1], c->rows = numbers[2], c->pairs = numbers[3];
@@ -159,17 +165,18 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     if (!c->made) return OK;
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
         return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact");
-    TRY(stored_array(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
+    TRY(contact_stored(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
     for (int d = 0; d < p->dim; d++) {
         char name[] = "contact/at_x";
         name[sizeof name - 2] = (char)('x' + d);
-        TRY(stored_array(a, name, (void **)&c->at[d], c->n, sizeof *c->at[d]));
+        TRY(contact_stored(a, name, (void **)&c->at[d], c->n, sizeof *c->at[d]));
     }
-    TRY(stored_array(a, "contact/first", (void **)&c->first, c->rows + 1, sizeof *c->first));
-    TRY(stored_array(a, "contact/other", (void **)&c->other, c->pairs, sizeof *c->other));
+    TRY(contact_stored(a, "contact/first", (void **)&c->first, c->rows + 1, sizeof *c->first));
+    TRY(contact_stored(a, "contact/other", (void **)&c->other, c->pairs, sizeof *c->other));
     if (c->law.form == CONTACT_PAIR)
-        TRY(stored_array(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
-    else TRY(stored_array(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
+        TRY(contact_stored(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
+    else TRY(contact_stored(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
+    TRY(contact_rigid_archive(c, a));
     if (a->saving) return OK;
     TRY(contact_check(c, p));
     contact_list_describe(c, p);

@@ -35,6 +35,12 @@ static inline real contact_stiffness(const struct contact *c, const struct parti
     return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
 }
 
+/* Is there anything that may meet? */
+static inline bool contact_works(const struct contact *c) { return c->law.between != CONTACT_NONE || c->rigids > 0; }
+
+/* Row of particle i, -1: none. */
+int64_t contact_row_of(const struct contact *c, int64_t i);
+
 /* Images and spacings of the entries of the list. */
 void contact_list_describe(struct contact *c, const struct particles *p);
 
@@ -53,5 +59,16 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
  * not): its energy does not change. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row);
+
+/* Particles within `skin` of rigid bodies [m]. */
+void contact_rigid_find(struct contact *c, const struct contact *before, const struct particles *p, real skin);
+void contact_rigid_free(struct contact *c);
+/* Has a point of a body come so far since the search [m]? */
+bool contact_rigid_has_come(const struct contact *c, real far);
+void contact_rigid_force(struct contact *c, struct particles *p, struct contact_found *all);
+status contact_rigid_archive(struct contact *c, struct archive *a);
+/* Stores an array, or makes room for it and restores it. */
+status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size);
+real contact_rigid_energy(const struct contact *c, const struct particles *p);
 
 #endif

@@ -23,8 +23,7 @@ static bool is_exposed(const struct particles *p, const struct bonds *b, real le
     return p->damage[i] > 0 || row < 0 || b->family_volume[row] < least_volume;
 }
 
-/* Row of particle i, -1: none. */
-static int64_t contact_row_of(const struct contact *c, int64_t i)
+int64_t contact_row_of(const struct contact *c, int64_t i)
 {
     int64_t low = 0, high = c->rows;
     while (low < high) {
@@ -107,6 +106,7 @@ static int64_t row_pairs(const struct contact_search *s, struct near *near, int6
     const struct particles *p = s->p;
     const int32_t i = s->particle[k];
     int64_t n = 0;
+    if (s->law->between == CONTACT_NONE) return 0;
     near_find(near, &s->cells, &s->places, k, s->reach, false);
     if (near->n == 0) return 0;
     mark_bonded(s->b, i, mark, k);
@@ -182,7 +182,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
 {
     struct contact before = *c;
     c->particle = NULL, c->root = NULL, c->size = NULL, c->first = NULL, c->other = NULL, c->distance = NULL;
-    c->face = NULL;
+    c->face = NULL, c->near = NULL;
     for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
     list_exposed(c, p, b, f);
     struct contact_search s = {&c->law, p, b, {.n = c->n, .n_all = c->n, .dim = p->dim}, {0}, c->particle, 0};
@@ -192,6 +192,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     pairs_find(c, &s);
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
+    contact_rigid_find(c, &before, p, SKIN * c->law.spacing);
     before.law.stiffness = NULL;
     contact_free(&before);
 }
@@ -202,7 +203,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
 static bool has_come_far(const struct contact *c, const struct particles *p)
 {
     const real far2 = square(0.5 * SKIN * c->law.spacing);
-    bool far = false;
+    bool far = contact_rigid_has_come(c, 0.5 * SKIN * c->law.spacing);
 #pragma omp parallel for schedule(static) reduction(|| : far)
     for (int64_t k = 0; k < c->rows; k++) {
         real way2 = 0;
@@ -215,7 +216,7 @@ static bool has_come_far(const struct contact *c, const struct particles *p)
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                     const struct family *family, int64_t step, int64_t broken)
 {
-    if (c->law.between == CONTACT_NONE) return;
+    if (!contact_works(c)) return;
     const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
     if (c->made && p->n_of[KIND_PD] == c->peridynamic && !new_faces && !has_come_far(c, p)) return;
     search_pairs(c, p, b, family);
@@ -224,13 +225,24 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
     contact_follow(c, p, b, l);
 }
 
+/* Marks the rows of particles that something may push. */
+static void rows_followed(const struct contact *c, uint8_t *followed)
+{
+    for (int64_t k = 0; k < c->rows; k++) followed[k] = c->first[k + 1] > c->first[k];
+    for (int b = 0; b < c->rigids; b++)
+        for (int64_t q = 0; q < c->near[b].n; q++) followed[c->near[b].row[q]] = 1;
+}
+
 void contact_follow(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);
+    uint8_t *followed = BARE("contact.followed", c->rows, uint8_t);
     int64_t n = 0;
+    rows_followed(c, followed);
     for (int64_t k = 0; k < c->rows; k++)
-        if (c->first[k + 1] > c->first[k]) list[n++] = c->particle[k];
+        if (followed[k]) list[n++] = c->particle[k];
     loads_touch(l, p, list, n);
     active_rows_touch(b, p, l, list, n);
     memory_free(list);
+    memory_free(followed);
 }

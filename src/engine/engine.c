@@ -211,6 +211,7 @@ static void forces(struct engine *e, struct step *now)
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
                               sweep_moves(e->scene, &e->report) ? &now->motion : NULL);
     contact_force(&e->contact, &e->part);
+    engine_rigid_book(e, now->dt_velocity);
     loads_apply(&e->loads, &e->part, now->middle, e->clock.dt, now->dt_velocity);
     lap(&e->report.laps, LAP_BONDS);
     engine_sample_energy(e);
@@ -233,6 +234,7 @@ static void move(struct engine *e, struct step *now)
 {
     struct particles *p = &e->part;
     move_peridynamic(e, &now->motion);
+    engine_rigid_move(e, now->middle, now->dt_velocity);
     lap(&e->report.laps, LAP_BONDS);
     if (p->n_free + p->n_grid_coupled > 0) step_grid(e, now->middle);
     else step_without_grid(e);

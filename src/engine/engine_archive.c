@@ -104,6 +104,7 @@ status engine_archive(void *engine, struct archive *a)
     TRY(active_set_archive(&e->reference.mesh.active, "mesh", a));
     ARCHIVE_VALUE(a, "engine/loop_seconds", e->report.loop_seconds);
     TRY(loads_archive(&e->loads, a));
+    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid[k], k, a));
     TRY(contact_archive(&e->contact, &e->part, a));
     if (!a->saving && e->contact.made) contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
     TRY(solver_archive(&e->solver, a));

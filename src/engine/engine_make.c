@@ -365,8 +365,9 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     TRY(make_bonds(e));
+    TRY(engine_rigid_make(e));
     contact_make(&e->contact, s->solver == SOLVER_EXPLICIT && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
-                 s->contact_form, s->contact_stiffness, &e->source);
+                 s->contact_form, s->contact_stiffness, &e->source, e->rigid, s->rigids);
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_update(e);
@@ -406,6 +407,7 @@ void engine_free(struct engine *e)
     grid_free(&e->mpm.grid);
     bonds_free(&e->bonds);
     contact_free(&e->contact);
+    memory_free(e->rigid);
     cells_free(&e->cells);
     loads_free(&e->loads);
     particles_free(&e->part);

@@ -102,7 +102,7 @@ status engine_report_start(struct engine *e)
     r->loop_before = r->loop_seconds;
     /* the first checkpoint, of step 0, already counts the first frame */
     const bool resumed = r->out && r->out->frames > 0;
-    TRY(engine_history_start(&e->probing, r, resumed));
+    TRY(engine_history_start(e, resumed));
     if (!r->out) return OK;
     if (resumed) return say_lost(e);
     engine_profiles_remove(e);

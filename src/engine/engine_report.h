@@ -5,7 +5,7 @@
 #include "engine/engine.h"
 
 /* Opens history.csv: the columns of every run, then those of the probes. */
-status engine_history_start(struct probing *probing, struct run_report *report, bool resume);
+status engine_history_start(struct engine *e, bool resume);
 
 /* True if the step to come is one of those that samples are spread over. */
 bool engine_sample_due(const struct scene *s, const struct run_clock *clock);

@@ -44,16 +44,20 @@ static void fill_record(struct engine *e)
         u->contact};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
+    engine_rigid_record(e, r + RECORD_FIXED + e->probing.probes.columns);
 }
 
-status engine_history_start(struct probing *probing, struct run_report *report, bool resume)
+status engine_history_start(struct engine *e, bool resume)
 {
-    const int columns = RECORD_FIXED + probing->probes.columns;
+    struct run_report *report = &e->report;
+    const struct probes *probes = &e->probing.probes;
+    const int columns = RECORD_FIXED + probes->columns + engine_rigid_columns(e, NULL);
     report->record = NEW("report.record", columns, real);
     if (!report->out) return OK;
     struct column *column = NEW("report.columns", columns, struct column);
     memcpy(column, fixed_columns, sizeof fixed_columns);
-    for (int c = 0; c < probing->probes.columns; c++) column[RECORD_FIXED + c] = probing->probes.column[c];
+    for (int c = 0; c < probes->columns; c++) column[RECORD_FIXED + c] = probes->column[c];
+    engine_rigid_columns(e, column + RECORD_FIXED + probes->columns);
     status s = output_history_open(report->out, column, columns, resume);
     memory_free(column);
     return s;
@@ -176,11 +180,14 @@ void engine_sample_begin(struct engine *e)
     probes_keep(&e->probing.probes, &o);
     keep_velocities(sampling, &e->part, e->coupling.kind);
     sampling->kinetic = kinetic_now(&e->part, &e->reference);
+    sampling->rigid = engine_rigid_energy(e).before;
 }
 
 void engine_sample_energy(struct engine *e)
 {
-    if (e->report.sampling.due) sample_energies(e);
+    if (!e->report.sampling.due) return;
+    sample_energies(e);
+    e->report.sampling.rigid_work = engine_rigid_energy(e).work;
 }
 
 /* True if a boundary drives particles at a speed, so that velocities jump in the first step. */
@@ -208,13 +215,15 @@ void engine_sample_end(struct engine *e)
     if (!sampling->due) return;
     if (e->clock.step == 0) {                /* velocities of t = 0, not of half a step before; nothing is damped yet */
         sampling->energy.damped = 0;
-        sample_write(e, e->clock.t + 0.5 * e->clock.dt, sampling->kinetic, sampling->work);
+        sample_write(e, e->clock.t + 0.5 * e->clock.dt, sampling->kinetic + sampling->rigid,
+                     sampling->work);
         e->diagnostics.energy_start -= start_excess(e);
         return;
     }
     real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, &e->reference)) - kick_now(e);
-    sample_write(e, e->clock.t + 0.5 * e->clock.dt, kinetic,
-                 sampling->work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
+    const struct rigid_energy rigid = engine_rigid_energy(e);
+    sample_write(e, e->clock.t + 0.5 * e->clock.dt, kinetic + rigid.step,
+                 sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
 
 void engine_sample_rest(struct engine *e)
@@ -271,7 +280,9 @@ void engine_sample_last(struct engine *e)
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, &e->reference);
     if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * e->clock.dt * power_last(e, &held);
-    sample_write(e, e->clock.t - 0.5 * e->clock.dt, kinetic, e->loads.work + e->loads.constraint_work + 0.5 * held);
+    const struct rigid_energy rigid = engine_rigid_energy(e);
+    sample_write(e, e->clock.t - 0.5 * e->clock.dt, kinetic + rigid.last,
+                 e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }
 
 void engine_breaks(struct engine *e, int64_t broken)

@@ -52,7 +52,7 @@ status scene_tree(struct reader *r, const char *text, size_t length, struct node
 
 void scene_free(struct scene *s)
 {
-    for (int k = 0; k < s->bodies; k++) {
+    for (int k = 0; k < s->bodies + s->rigids; k++) {
         region_free(&s->body[k].shape);
         memory_free(s->body[k].file);
     }

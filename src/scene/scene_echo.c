@@ -156,12 +156,23 @@ static const void *scene_echo_place_of(const struct key *k, const void *base)
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
 
+/* A rigid body has neither material nor frame; only it has a mass (if it flies) and a ramp. */
+static bool is_left_out(const struct key *k, const char *group, const void *base)
+{
+    static const char *const words[] = {"material", "frame", "rigid", "mass", "ramp"};
+    const struct scene_body *b = base;
+    size_t n = 0;
+    if (strcmp(group, "bodies") != 0) return false;
+    while (n < COUNT_OF(words) && strcmp(key_leaf(k), words[n]) != 0) n++;
+    return b->rigid ? n < 2 || (n == 3 && !(b->mass > 0)) : n >= 2 && n < COUNT_OF(words);
+}
+
 /* Writes all keys of a group from the struct `base`, with their units as comments. */
 static void write_group(struct writer *w, const char *group, const void *base)
 {
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
-        if (!key_in(k, group)) continue;
+        if (!key_in(k, group) || is_left_out(k, group, base)) continue;
         if (k->type == KEY_MAP) {
             begin(w, key_leaf(k));
             fputc('\n', w->out);
@@ -246,7 +257,7 @@ static void write_bodies(struct writer *w)
 {
     const struct scene *s = w->scene;
     fputs("bodies:\n", w->out);
-    for (int k = 0; k < s->bodies; k++) {
+    for (int k = 0; k < s->bodies + s->rigids; k++) {
         begin_item(w);
         write_group(w, "bodies", &s->body[k]);
         if (s->body[k].file) write_particle_list(w, &s->body[k]);

@@ -91,7 +91,14 @@ const struct key keys[] = {
         .words = "file name, .csv or .h5"),
     KEY("bodies.frame", KEY_CHOICE, UNIT_NONE, AT(scene_body, frame), ANY, "(mpm.frame)", "its own mpm.frame",
         .words = "current|reference|auto"),
-    KEY("bodies.velocity", KEY_POINT, UNIT_SPEED, AT(scene_body, velocity), ANY, "(0)", "initial velocity"),
+    KEY("bodies.velocity", KEY_POINT, UNIT_SPEED, AT(scene_body, velocity), ANY, "(0)",
+        "initial velocity; of a rigid body without a mass the one that it keeps"),
+    KEY("bodies.rigid", KEY_FLAG, UNIT_NONE, AT(scene_body, rigid), ANY, "false",
+        "keeps its form and has no particles; peridynamic particles meet it; without mass and velocity it stands still"),
+    KEY("bodies.mass", KEY_REAL, UNIT_MASS, AT(scene_body, mass), ABOVE(0), NONE,
+        "rigid: it flies and turns under the forces of contact; in the plane of its thickness, in line of its section"),
+    KEY("bodies.ramp", KEY_REAL, UNIT_TIME, AT(scene_body, ramp), FROM(0), NONE,
+        "rigid, with a velocity that it keeps: until then the velocity grows in proportion"),
 
     KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
         "what bodies and regions are made of: one of the following, or a list of them, built in order"),
@@ -153,7 +160,7 @@ const struct key keys[] = {
         "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
 
     KEY("contact", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "forces between particles that no bond joins"),
-    KEY("contact.between", KEY_CHOICE, UNIT_NONE, AT(scene, contact_between), ANY, "none",
+    KEY("contact.between", KEY_CHOICE, UNIT_NONE, AT(scene, contact_between), ANY, "(all with rigid bodies, else none)",
         "which peridynamic particles push each other apart when they meet: none, those of two bodies, or all near a "
         "face (bodies, fragments, faces of cracks)",
         .words = "none|bodies|all"),

@@ -138,26 +138,53 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
     return fault(r, n, "%s cannot be read; a particle list in the scene's folder is expected", shown(r, n));
 }
 
-/* Reads one body; `number`: its place in the list. REFUSED without shape or particles, or with both. */
+/* REFUSED for what a rigid body cannot have, and for what only it has. */
+static status check_rigid(struct reader *r, const struct node *n, const struct scene_body *b)
+{
+    static const char *const own[] = {"mass", "ramp"}, *const others[] = {"material", "particles", "frame"};
+    for (size_t k = 0; k < COUNT_OF(own) && !b->rigid; k++)
+        if (node_find(n, own[k])) return fault(r, node_find(n, own[k]), "only rigid bodies have it; add rigid: true");
+    for (size_t k = 0; k < COUNT_OF(others) && b->rigid; k++)
+        if (node_find(n, others[k]))
+            return fault(r, node_find(n, others[k]), "a rigid body has none; a shape is expected, and a mass if it flies");
+    for (int k = 0; k < b->shape.n && b->rigid; k++)
+        for (int d = 0; d < r->scene->dim && b->shape.solid[k].kind == SOLID_BOX; d++)
+            if (!isfinite(b->shape.solid[k].from[d]) || !isfinite(b->shape.solid[k].to[d]))
+                return fault(r, node_find(n, "shape"), "a box without end; a half-space is expected");
+    return OK;
+}
+
+/* Reads one body; `number`: how many there are before it. REFUSED without shape or particles, or with both. */
 static status scene_parts_read_body(struct reader *r, const struct node *n, struct scene_body *b, int number)
 {
     const struct node *shape = node_find(n, "shape"), *file = node_find(n, "particles");
-    snprintf(b->name, sizeof b->name, "body%d", number);
     fault_place(r, n, b->place, sizeof b->place);
     b->material = -1;
-    r->bounded = true;
+    r->bounded = !node_find(n, "rigid");
     TRY(read_group(r, n, n, "bodies", b));
     r->bounded = false;
+    TRY(check_rigid(r, n, b));
     if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
     if (shape && file) return fault_both(r, shape, file);
     if (file) TRY(read_file(r, file, b));
-    if (b->material < 0 && r->scene->materials > 1) return fault_missing(r, n, key_find("bodies", "material"));
+    if (!b->rigid && b->material < 0 && r->scene->materials > 1) return fault_missing(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;
     if (!node_find(n, "frame")) b->frame = r->scene->frame;
     for (int j = 0; j < number; j++)
         if (strcmp(r->scene->body[j].name, b->name) == 0)
             return fault(r, n, "%s is the name of another body; every body has its own", b->name);
     return OK;
+}
+
+/* Deformable bodies first, then rigid ones, each in the order of the scene. */
+static void sort_bodies(struct scene *s, int n)
+{
+    struct scene_body *sorted = NEW("bodies", n, struct scene_body);
+    for (int rigid = 0; rigid < 2; rigid++)
+        for (int k = 0; k < n; k++)
+            if (s->body[k].rigid == rigid) sorted[s->bodies + s->rigids] = s->body[k], *(rigid ? &s->rigids : &s->bodies) += 1;
+    memory_free(s->body);
+    s->body = sorted;
 }
 
 status read_bodies(struct reader *r, const struct node *root)
@@ -168,9 +195,10 @@ status read_bodies(struct reader *r, const struct node *root)
     if (one && many) return fault_both(r, one, many);
     if (one && s->materials > 1) return fault(r, one, "which of %d materials is it; use bodies", s->materials);
     if (many) TRY(expect_list(r, key_find("", "bodies"), many));
-    s->bodies = many ? many->n : 1;
-    s->body = NEW("bodies", s->bodies, struct scene_body);
+    const int n_bodies = many ? many->n : 1;
+    s->body = NEW("bodies", n_bodies, struct scene_body);
     if (one) {
+        s->bodies = 1;
         strcpy(s->body->name, "body");
         fault_place(r, one, s->body->place, sizeof s->body->place);
         s->body->frame = s->frame;
@@ -180,7 +208,15 @@ status read_bodies(struct reader *r, const struct node *root)
         return OK;
     }
     const struct node *n = many->first;
-    for (int k = 0; k < s->bodies; k++, n = n->next) TRY(scene_parts_read_body(r, n, &s->body[k], k));
+    for (int k = 0; k < n_bodies; k++, n = n->next) {
+        snprintf(s->body[k].name, sizeof s->body[k].name, "body%d", k);
+        s->bodies = k + 1;                       /* for whoever frees a refused scene */
+        TRY(scene_parts_read_body(r, n, &s->body[k], k));
+    }
+    s->bodies = 0;
+    sort_bodies(s, n_bodies);
+    if (s->bodies == 0) return fault(r, many, "only rigid bodies; one with a material is expected");
+    if (s->rigids > 0 && !node_find(node_find(root, "contact"), "between")) s->contact_between = CONTACT_ALL;
     return OK;
 }
 

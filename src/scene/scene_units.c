@@ -22,6 +22,7 @@ const struct unit_row unit_rows[UNITS] = {
     [UNIT_TOUGHNESS] = {"a stress intensity", "Pa m^0.5", "60 MPa m^0.5", {-1, 2, -4}},
     [UNIT_BODY_FORCE] = {"a force per volume", "N/m^3", "1e5 N/m^3", {-4, 2, -4}},
     [UNIT_RATE] = {"a rate", "1/s", "100 1/s", {0, 0, -2}},
+    [UNIT_MASS] = {"a mass", "kg", "1.6 kg", {0, 2, 0}},
 };
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */

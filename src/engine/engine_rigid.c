@@ -1,0 +1,88 @@
+/* Rigid bodies of a run: forces from contact, motion, energies, and their columns in history.csv. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "engine/engine.h"
+
+status engine_rigid_make(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->rigid = NEW("engine.rigid", s->rigids, struct rigid_body);
+    for (int k = 0; k < s->rigids; k++) {
+        const struct scene_body *b = &s->body[s->bodies + k];
+        memcpy(e->rigid[k].name, b->name, sizeof b->name);
+        TRY(status_at(b->place, rigid_make(&e->rigid[k], &b->shape, s->dim, b->mass, b->velocity,
+                                           s->spacing)));
+        e->rigid[k].ramp = b->ramp;
+    }
+    return OK;
+}
+
+/* Their forces on particles are loads to the balance of momentum. */
+void engine_rigid_book(struct engine *e, real dt_velocity)
+{
+    for (int k = 0; k < e->scene->rigids; k++) {
+        rigid_book(&e->rigid[k]);
+        for (int d = 0; d < e->part.dim; d++) e->loads.impulse[d] -= e->rigid[k].force[d] * dt_velocity;
+    }
+}
+
+void engine_rigid_move(struct engine *e, real middle, real dt_velocity)
+{
+    for (int k = 0; k < e->scene->rigids; k++) rigid_move(&e->rigid[k], middle, e->clock.dt, dt_velocity);
+}
+
+struct rigid_energy engine_rigid_energy(const struct engine *e)
+{
+    struct rigid_energy sum = {0};
+    for (int k = 0; k < e->scene->rigids; k++) {
+        const struct rigid_body *r = &e->rigid[k];
+        sum.before += rigid_kinetic(r);
+        sum.step += r->kinetic;
+        sum.last += rigid_kinetic(r) + rigid_kick(r, e->clock.dt);
+        sum.work += rigid_work(r);
+    }
+    return sum;
+}
+
+/* ---- columns ----------------------------------------------------------------------------------------------------- */
+
+static int add_column(struct column *column, int at, const char *body, const char *what, const char *unit)
+{
+    if (!column) return at + 1;
+    snprintf(column[at].name, sizeof column[at].name, "%s_%s", body, what);
+    snprintf(column[at].unit, sizeof column[at].unit, "%s", unit);
+    return at + 1;
+}
+
+/* Force on the body, moment about its centre, place of the centre, velocity. */
+int engine_rigid_columns(const struct engine *e, struct column *column)
+{
+    static const char *const force[] = {"force_x", "force_y", "force_z"}, *const place[] = {"x", "y", "z"};
+    static const char *const moment[] = {"moment_x", "moment_y", "moment_z"};
+    static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
+    const int dim = e->part.dim;
+    int n = 0;
+    for (int k = 0; k < e->scene->rigids; k++) {
+        const char *name = e->rigid[k].name;
+        for (int d = 0; d < dim; d++) n = add_column(column, n, name, force[d], "N");
+        for (int d = dim == 2 ? 2 : 0; d < 3 && dim > 1; d++) n = add_column(column, n, name, moment[d], "N m");
+        for (int d = 0; d < dim; d++) n = add_column(column, n, name, place[d], "m");
+        for (int d = 0; d < dim; d++) n = add_column(column, n, name, velocity[d], "m/s");
+    }
+    return n;
+}
+
+void engine_rigid_record(const struct engine *e, real *record)
+{
+    const int dim = e->part.dim;
+    for (int k = 0; k < e->scene->rigids; k++) {
+        const struct rigid_body *r = &e->rigid[k];
+        for (int d = 0; d < dim; d++) *record++ = r->force[d];
+        for (int d = dim == 2 ? 2 : 0; d < 3 && dim > 1; d++) *record++ = r->moment[d];
+        for (int d = 0; d < dim; d++) *record++ = r->x[d];
+        for (int d = 0; d < dim; d++) *record++ = r->v[d];
+    }
+}

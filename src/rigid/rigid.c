@@ -1,0 +1,224 @@
+/* Motion of rigid bodies, and the points of their surface. */
+#include "rigid/rigid.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- rotations --------------------------------------------------------------------------------------------------- */
+
+/* to = A b, or its transpose times b. */
+static void rotate(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real *to)
+{
+    for (int r = 0; r < DIM_MAX; r++) {
+        to[r] = 0;
+        for (int c = 0; c < DIM_MAX; c++) to[r] += (back ? A[c][r] : A[r][c]) * b[c];
+    }
+}
+
+/* Turns A by the rotation vector w: Rodrigues. */
+static void rotate_further(real A[DIM_MAX][DIM_MAX], const real *w)
+{
+    const real angle = sqrt(dot(w, w, DIM_MAX));
+    const real a = angle > 1e-8 ? sin(angle) / angle : 1, b = angle > 1e-4 ? (1 - cos(angle)) / square(angle) : 0.5;
+    for (int c = 0; c < DIM_MAX; c++) {
+        const real v[DIM_MAX] = {A[0][c], A[1][c], A[2][c]};
+        const real once[] = {w[1] * v[2] - w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1] - w[1] * v[0]};
+        const real twice[] = {w[1] * once[2] - w[2] * once[1], w[2] * once[0] - w[0] * once[2],
+                              w[0] * once[1] - w[1] * once[0]};
+        for (int r = 0; r < DIM_MAX; r++) A[r][c] = v[r] + a * once[r] + b * twice[r];
+    }
+}
+
+/* x = A^-1 b of a symmetric, positive 3 x 3 matrix, by cofactors. */
+static void solve_three(real A[DIM_MAX][DIM_MAX], const real *b, real *x)
+{
+    real cofactor[DIM_MAX][DIM_MAX], determinant = 0;
+    for (int r = 0; r < DIM_MAX; r++)
+        for (int c = 0; c < DIM_MAX; c++) {
+            const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+            cofactor[r][c] = A[r1][c1] * A[r2][c2] - A[r1][c2] * A[r2][c1];
+        }
+    for (int c = 0; c < DIM_MAX; c++) determinant += A[0][c] * cofactor[0][c];
+    rotate(cofactor, b, true, x);
+    for (int r = 0; r < DIM_MAX; r++) x[r] /= determinant;
+}
+
+/* Spin of the body with the rotation `turn` and its angular momentum. */
+static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spin)
+{
+    real own[DIM_MAX], own_spin[DIM_MAX];
+    if (r->dim < 3) {
+        spin[0] = spin[1] = 0, spin[2] = r->angular[2] / r->inertia[2][2];
+        return;
+    }
+    rotate(turn, r->angular, true, own);
+    solve_three(r->inertia, own, own_spin);
+    rotate(turn, own_spin, false, spin);
+}
+
+/* ---- at t = 0 ---------------------------------------------------------------------------------------------------- */
+
+enum { SAMPLES = 200, SAMPLES_SPACE = 80 }; /* points of a body along its longest edge, for its inertia */
+
+struct box { real from[DIM_MAX], to[DIM_MAX]; };
+
+/* Volume, centre and second moments of a region by its points on a grid. */
+static real region_moments(const struct region *shape, int dim, const struct box *b, real *centre,
+                           real second[DIM_MAX][DIM_MAX])
+{
+    real longest = 0, sum = 0, step[DIM_MAX] = {1, 1, 1}, X[DIM_MAX] = {0};
+    int n[DIM_MAX] = {1, 1, 1};
+    for (int d = 0; d < dim; d++) longest = real_max(longest, b->to[d] - b->from[d]);
+    for (int d = 0; d < dim; d++) {
+        n[d] = (int)ceil((b->to[d] - b->from[d]) / longest * (dim < 3 ? SAMPLES : SAMPLES_SPACE));
+        step[d] = (b->to[d] - b->from[d]) / n[d];
+    }
+    memset(centre, 0, DIM_MAX * sizeof *centre);
+    memset(second, 0, DIM_MAX * DIM_MAX * sizeof(real));
+    for (int64_t k = 0; k < (int64_t)n[0] * n[1] * n[2]; k++) {
+        const int64_t at[] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
+        for (int d = 0; d < dim; d++) X[d] = b->from[d] + ((real)at[d] + 0.5) * step[d];
+        if (!region_contains(shape, X, dim, 0)) continue;
+        sum++;
+        for (int r = 0; r < dim; r++) {
+            centre[r] += X[r];
+            for (int c = 0; c < dim; c++) second[r][c] += X[r] * X[c];
+        }
+    }
+    for (int r = 0; r < dim && sum > 0; r++) centre[r] /= sum;
+    for (int r = 0; r < dim && sum > 0; r++)
+        for (int c = 0; c < dim; c++) second[r][c] = second[r][c] / sum - centre[r] * centre[c];
+    return sum * step[0] * step[1] * step[2];
+}
+
+/* Inertia about the centre from second moments. */
+static void inertia_make(struct rigid_body *r, real second[DIM_MAX][DIM_MAX])
+{
+    const real trace = second[0][0] + second[1][1] + second[2][2];
+    for (int a = 0; a < DIM_MAX; a++)
+        for (int b = 0; b < DIM_MAX; b++) r->inertia[a][b] = r->mass * ((a == b ? trace : 0) - second[a][b]);
+}
+
+status rigid_make(struct rigid_body *r, const struct region *shape, int dim, real mass, const real *velocity,
+                  real spacing)
+{
+    struct box box = {{0}, {0}};
+    real second[DIM_MAX][DIM_MAX] = {{0}};
+    const bool bounded = region_bounds(shape, dim, box.from, box.to);
+    r->shape = shape, r->dim = dim, r->mass = mass;
+    r->motion = mass > 0 ? RIGID_FREE : dot(velocity, velocity, dim) > 0 ? RIGID_DRIVEN : RIGID_FIXED;
+    memcpy(r->motion == RIGID_DRIVEN ? r->speed : r->v, velocity, (size_t)dim * sizeof *velocity);
+    for (int d = 0; d < DIM_MAX; d++) r->turn[d][d] = 1;
+    if (!bounded && r->motion != RIGID_FIXED)
+        return status_set(REFUSED, "rigid body %s moves, and its shape has no end; a shape of boxes, balls, discs and "
+                          "cylinders is expected", r->name);
+    if (bounded && !(region_moments(shape, dim, &box, r->centre, second) > 0))
+        return status_set(REFUSED, "rigid body %s has no volume", r->name);
+    for (int d = 0; d < dim && bounded; d++) r->radius += square(0.5 * (box.to[d] - box.from[d]));
+    r->radius = bounded ? 2 * sqrt(r->radius) : spacing;
+    memcpy(r->x, r->centre, sizeof r->x);
+    inertia_make(r, second);
+    r->turns = r->motion == RIGID_FREE && dim > 1;
+    return OK;
+}
+
+/* ---- surface ----------------------------------------------------------------------------------------------------- */
+
+real rigid_distance(const struct rigid_body *r, const real *x, real *normal)
+{
+    real arm[DIM_MAX] = {0}, X[DIM_MAX], own[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX];
+    memcpy(turn, r->turn, sizeof turn);
+    for (int d = 0; d < r->dim; d++) arm[d] = x[d] - r->x[d];
+    rotate(turn, arm, true, X);
+    for (int d = 0; d < r->dim; d++) X[d] += r->centre[d];
+    const real distance = region_distance(r->shape, X, r->dim, own);
+    rotate(turn, own, false, normal);
+    return distance;
+}
+
+void rigid_velocity(const struct rigid_body *r, const real *x, real *v)
+{
+    const real *w = r->spin;
+    real arm[DIM_MAX] = {0};
+    for (int d = 0; d < r->dim; d++) arm[d] = x[d] - r->x[d];
+    const real turning[] = {w[1] * arm[2] - w[2] * arm[1], w[2] * arm[0] - w[0] * arm[2], w[0] * arm[1] - w[1] * arm[0]};
+    for (int d = 0; d < DIM_MAX; d++) v[d] = r->v[d] + turning[d];
+}
+
+/* ---- motion ------------------------------------------------------------------------------------------------------ */
+
+/* The spin in the middle of a step needs the rotation there, which needs the spin: the third is exact to round-off of
+ * any step that contact allows. */
+static void turn_on(struct rigid_body *r, real dt)
+{
+    real middle[DIM_MAX][DIM_MAX], half[DIM_MAX];
+    spin_of(r, r->turn, r->spin);
+    for (int k = 0; k < 3 && r->dim > 2; k++) {
+        memcpy(middle, r->turn, sizeof middle);
+        for (int d = 0; d < DIM_MAX; d++) half[d] = 0.5 * dt * r->spin[d];
+        rotate_further(middle, half);
+        spin_of(r, middle, r->spin);
+    }
+    for (int d = 0; d < DIM_MAX; d++) half[d] = dt * r->spin[d];
+    rotate_further(r->turn, half);
+}
+
+void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
+{
+    const real share = r->ramp > 0 ? real_min(1, middle / r->ramp) : 1;
+    real kinetic = 0;
+    for (int d = 0; d < r->dim; d++) {
+        const real before = r->v[d];
+        if (r->motion == RIGID_DRIVEN) r->v[d] = r->speed[d] * share;
+        if (r->motion == RIGID_FREE) r->v[d] += r->force[d] / r->mass * dt_velocity;
+        kinetic += 0.5 * r->mass * before * r->v[d];
+        r->way[d] = r->v[d] * dt;
+        r->x[d] += r->way[d];
+    }
+    if (r->turns) {
+        const real before[] = {r->angular[0], r->angular[1], r->angular[2]};
+        for (int d = 0; d < DIM_MAX; d++) r->angular[d] += r->moment[d] * dt_velocity;
+        turn_on(r, dt);
+        kinetic += 0.5 * dot(before, r->spin, DIM_MAX);
+    }
+    r->kinetic = kinetic;
+}
+
+/* ---- energies ---------------------------------------------------------------------------------------------------- */
+
+real rigid_work(const struct rigid_body *r)
+{
+    real work = r->work;
+    for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++)
+        work -= 0.5 * (r->force_before[d] + r->force[d]) * r->way[d];
+    return work;
+}
+
+void rigid_book(struct rigid_body *r)
+{
+    r->work = rigid_work(r);
+    memcpy(r->force_before, r->force, sizeof r->force_before);
+    memset(r->way, 0, sizeof r->way);
+}
+
+real rigid_kinetic(const struct rigid_body *r)
+{
+    return 0.5 * r->mass * dot(r->v, r->v, r->dim) + 0.5 * dot(r->angular, r->spin, DIM_MAX);
+}
+
+real rigid_kick(const struct rigid_body *r, real dt)
+{
+    if (r->motion != RIGID_FREE) return 0;
+    return 0.5 * dt * (dot(r->force, r->v, r->dim) + (r->turns ? dot(r->moment, r->spin, DIM_MAX) : 0));
+}
+
+/* ---- state ------------------------------------------------------------------------------------------------------- */
+
+/* All that changes stands behind `radius`. */
+status rigid_archive(struct rigid_body *r, int number, struct archive *a)
+{
+    char name[64];
+    snprintf(name, sizeof name, "rigid/%d", number);
+    return a->exchange(a, name, r->x, sizeof *r - offsetof(struct rigid_body, x));
+}
