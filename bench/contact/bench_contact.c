@@ -1,31 +1,78 @@
-/* `cleave bench contact`. */
+/* `cleave bench contact`: collisions beside closed forms, for faces and for pairs. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "base/memory.h"
 #include "contact_bench.h"
+
+status contact_engine(struct engine *e, struct scene *s, const char *text, ...)
+{
+    char whole[4096];
+    va_list more;
+    va_start(more, text);
+    vsnprintf(whole, sizeof whole, text, more);
+    va_end(more);
+    return bench_engine_make(e, s, "contact", whole, NULL, 0);
+}
+
+struct contact_motion contact_motion_of(const struct engine *e, int body)
+{
+    const struct particles *p = &e->part;
+    struct contact_motion m = {0};
+    double inertia = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->body[i] != body) continue;
+        m.mass += p->mass[i];
+        for (int d = 0; d < p->dim; d++) m.x[d] += p->mass[i] * p->x[d][i], m.v[d] += p->mass[i] * p->v[d][i];
+    }
+    for (int d = 0; d < p->dim; d++) m.x[d] /= m.mass, m.v[d] /= m.mass;
+    for (int64_t i = 0; i < p->n && p->dim > 1; i++) {
+        if (p->body[i] != body) continue;
+        const double a = p->x[0][i] - m.x[0], b = p->x[1][i] - m.x[1];
+        m.spin += p->mass[i] * (a * (p->v[1][i] - m.v[1]) - b * (p->v[0][i] - m.v[0]));
+        inertia += p->mass[i] * (a * a + b * b);
+    }
+    if (inertia > 0) m.spin /= inertia;
+    return m;
+}
+
+bool contact_case_holds(const struct contact_case *c, const double *figure)
+{
+    for (int k = 0; k < CONTACT_FIGURES && c->asked[k].what; k++)
+        if (!(figure[k] >= c->asked[k].low && figure[k] <= c->asked[k].high)) return false;
+    return true;
+}
+
+/* ---- results ----------------------------------------------------------------------------------------------------- */
+
+static void contact_print(const struct contact_case *c, const double *figure)
+{
+    printf("  %-44s %-8s", c->name, c->law);
+    for (int k = 0; k < CONTACT_FIGURES && c->asked[k].what; k++) printf(" %s %.4g%s", c->asked[k].what, figure[k],
+                                                                         k + 1 < CONTACT_FIGURES && c->asked[k + 1].what ? "," : "");
+    printf("%s\n", contact_case_holds(c, figure) ? "" : c->fails ? "  (as expected: no)" : "  MISSED");
+    fflush(stdout);
+}
 
 status bench_contact(bool quick)
 {
+    struct bench_table rows;
     (void)quick;
-    static const char *const law[] = {"surface", "pair"};
-    static const double offset[] = {0, 0.5, 1, 1.5}, radius[] = {20, 40};
-    printf("%-8s %4s %6s %7s %6s  %9s %9s %9s %9s %9s\n", "law", "R/D", "b/R", "v/c", "turn", "restitut.", "tangent.",
-           "spin", "energy", "overlap");
-    for (size_t l = 0; l < COUNT_OF(law); l++)
-        for (size_t r = 0; r < COUNT_OF(radius); r++)
-            for (size_t o = 0; o < COUNT_OF(offset); o++)
-                for (int k = 0; k < 3; k++)
-                    for (int t = 0; t < 2; t++) {
-                        if ((o > 0 && k != 1) || (r == 1 && (k != 1 || quick))) continue;
-                        const double speed = k == 0 ? 1e-3 : k == 1 ? 1e-2 : 5e-2;
-                        struct contact_discs c = {.law = law[l], .model = "bond", .radius = radius[r], .speed = speed,
-                                                  .offset = offset[o], .turn = t ? asin(0.5 * offset[o]) : 0};
-                        if (t && o == 0) continue;
-                        const status ran = contact_discs_run(&c);
-                        if (ran != OK) printf("%s\n", status_message());
-                        printf("%-8s %4g %6g %7g %6.3f  %9.4f %9.4f %9.5f %9.1e %9.4f\n", law[l], radius[r], offset[o],
-                               speed, c.turn, c.restitution, c.tangential, c.spin, c.energy, c.overlap);
-                        fflush(stdout);
-                    }
-    return OK;
+    printf("contact: collisions beside closed forms\n");
+    bench_table_make(&rows, "", "case,law,figure,measured,low,high");
+    for (int k = 0; k < contact_cases_count; k++) {
+        const struct contact_case *c = &contact_cases[k];
+        double figure[CONTACT_FIGURES] = {NAN, NAN, NAN, NAN};
+        if (c->measure(c, figure) != OK) printf("  %s\n", status_message());
+        contact_print(c, figure);
+        for (int j = 0; j < CONTACT_FIGURES && c->asked[j].what; j++) {
+            bench_text(&rows, c->name), bench_text(&rows, c->law), bench_text(&rows, c->asked[j].what);
+            bench_number(&rows, figure[j]), bench_number(&rows, c->asked[j].low), bench_number(&rows, c->asked[j].high);
+        }
+    }
+    const status s = bench_write("contact", &rows, 1);
+    bench_table_free(&rows);
+    return s;
 }

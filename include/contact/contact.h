@@ -28,7 +28,7 @@ enum contact_between { CONTACT_NONE, CONTACT_BODIES, CONTACT_ALL };
 enum contact_form { CONTACT_SURFACE, CONTACT_PAIR };
 
 /* Depth of a face below a particle, in spacings, by the density that it feels there (contact_face.c). */
-enum { PROFILE_NODES = 49 };
+enum { PROFILE_NODES = 86 };
 struct contact_profile { real density[PROFILE_NODES], depth[PROFILE_NODES], slope[PROFILE_NODES]; };
 
 struct contact_law {
@@ -39,12 +39,16 @@ struct contact_law {
     real *stiffness;                     /* [materials^2] k/(V_i V_j) [N/m^7] */
     real spacing, section;               /* of the lattice [m]; as in lattice_volume */
     const struct image *image;           /* of loads */
+    const struct region *const *shape;   /* [bodies] borrowed, NULL: a list of particles */
 };
 
-/* What a particle feels of faces beside it: energy 1/4 k (depth - zero)^2 where depth < zero. */
-struct contact_face { real zero;         /* depth at which contact begins [spacings] */
-                      real stiffness;    /* k [J] */
-                      real push; };      /* derivative of its energy by the density it feels [J] */
+/* What a particle feels of faces beside it: energy 1/4 k g^2 where the gap g < 0 (contact_face.c). */
+struct contact_face {
+    real zero;                           /* height of its own surface, where contact begins [spacings] */
+    real stiffness;                      /* k [J] */
+    real push, lift, mean;               /* derivative of its energy by the density; by the mean rise, over the density
+                                            [J]; mean rise [spacings] */
+};
 
 /* Particles near a rigid body: rows, ascending, and the gap at which contact begins, 0 or less [m]; where the body was
  * at the search. */
@@ -59,6 +63,7 @@ struct contact {
     int32_t *particle;                   /* [n] ascending */
     int32_t *root;                       /* [n] row of the particle of which it is an image, its own if of none */
     real *size;                          /* [n] spacing of the particle [m] */
+    real *rise;                          /* [n] of the surface of its body above it, beyond 1/2 [spacings] */
     real *at[DIM_MAX];                   /* [n] where they were at the last search [m] */
     int64_t *first;                      /* [rows + 1] */
     int64_t pairs;
@@ -77,9 +82,10 @@ struct contact {
     int64_t touching;                    /* directed pairs in contact in the last step */
 };
 
-/* Law for the materials of the bonds. stiffness: factor on k [1]. Rigid bodies, borrowed, meet all particles. */
+/* Law for the materials of the bonds. stiffness: factor on k [1]. shape: [bodies]; those and rigid bodies are borrowed. */
 void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
-                  const struct bond_source *source, struct rigid_body *rigid, int rigids);
+                  const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
+                  int rigids);
 void contact_free(struct contact *c);
 
 /* Critical step of particles that contact pushes on one side and bonds hold on the other [s]; `bonds`: of bonds [s]. */

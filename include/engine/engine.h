@@ -155,6 +155,7 @@ struct engine {
     struct grid_method mpm;
     struct reference_frame reference;
     struct coupling_state coupling;
+    const struct region **shape;         /* [scene->bodies] of bodies that are not lists, for contact */
     struct rigid_body *rigid;            /* [scene->rigids] */
     struct contact contact;
     struct loads loads;

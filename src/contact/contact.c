@@ -12,7 +12,8 @@
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
 void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
-                  const struct bond_source *source, struct rigid_body *rigid, int rigids)
+                  const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
+                  int rigids)
 {
     struct family family = source->family;
     const int n = source->materials;
@@ -23,7 +24,8 @@ void contact_make(struct contact *c, enum contact_between between, enum contact_
                                   .materials = n,
                                   .spacing = family.spacing,
                                   .section = family.section,
-                                  .image = source->image};
+                                  .image = source->image,
+                                  .shape = shape};
     c->rigid = rigid, c->rigids = rigids;
     if (!contact_works(c)) return;
     contact_profile_make(&c->law.profile, space_dim(family.space));
@@ -46,6 +48,7 @@ void contact_free(struct contact *c)
     memory_free(c->distance);
     memory_free(c->root);
     memory_free(c->size);
+    memory_free(c->rise);
     memory_free(c->face);
     contact_rigid_free(c);
     for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]);

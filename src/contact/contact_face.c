@@ -2,13 +2,15 @@
  * lattice, and from it how deep the face below it lies.
  *
  *     density_i = sum_j m_j W(r_ij/(2 D_ij)),   W(q) = (1 - q)^4 (1 + 4 q)       (Wendland 1995: C2, 0 from q = 1 on)
- *     energy    = sum_i 1/4 k_i (depth(density_i) - zero_i)^2  where depth < zero
+ *     gap_i     = depth(density_i) - mean_i - zero_i,   mean_i = sum_j m_j W rise_j/density_i
+ *     energy    = sum_i 1/4 k_i gap_i^2  where gap < 0
  *
  * D_ij: mean of the two spacings, m_j = (D_j/D_ij)^(dim-1). depth is the function that finds the height s, in
- * spacings, of a particle above the first layer of a lattice; zero = 1, or less for particles that the reference state
- * has closer. Each face of two that meet feels the other: together 1/2 k g^2, that of the pair law. Energies depend on
- * distances alone: forces are central, momentum and angular momentum are kept, and along a flat face of a square
- * lattice nothing above 0.7 % of the pressure resists (0.54 of it with the pair law). */
+ * spacings, of a particle above the first layer of a lattice. rise_j: how much higher than half a spacing above particle
+ * j the surface of its body is (a curved face has steps on a lattice, this one not). zero = 1 + rise_i, or less for
+ * particles that the reference state has closer. Each face of two that meet feels the other: together 1/2 k g^2, that of
+ * the pair law. Energies depend on distances alone: forces are central, momentum and angular momentum are kept, and
+ * along a flat face of a square lattice nothing above 0.7 % of the pressure resists (0.54 of it with the pair law). */
 #include <math.h>
 
 #include "contact_internal.h"
@@ -22,8 +24,8 @@ static real kernel_slope(real q) { return -20 * q * (1 - q) * square(1 - q); }
 static void layer_density(int dim, real s, real *density, real *slope)
 {
     *density = *slope = 0;
-    for (int a = dim > 1 ? -2 : 0; a <= (dim > 1 ? 2 : 0); a++)
-        for (int b = dim > 2 ? -2 : 0; b <= (dim > 2 ? 2 : 0); b++) {
+    for (int a = dim > 1 ? -3 : 0; a <= (dim > 1 ? 3 : 0); a++)
+        for (int b = dim > 2 ? -3 : 0; b <= (dim > 2 ? 3 : 0); b++) {
             const real r = sqrt(a * a + b * b + s * s), q = r / CONTACT_REACH;
             if (q >= 1) continue;
             *density += kernel(q);
@@ -32,7 +34,7 @@ static void layer_density(int dim, real s, real *density, real *slope)
 }
 
 #define DEPTH_LEAST 0.2                  /* where the table begins and ends [spacings] */
-#define DEPTH_MOST 1.4
+#define DEPTH_MOST 1.9
 
 void contact_profile_make(struct contact_profile *profile, int dim)
 {
@@ -74,47 +76,58 @@ static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, 
     return dim == 3 ? square(ratio) : dim == 2 ? ratio : 1;
 }
 
-static real density_of(const struct contact *c, const struct particles *p, int64_t row)
+/* Density and mean rise. */
+struct felt { real density, mean; };
+
+static struct felt felt_by(const struct contact *c, const struct particles *p, real *const *place, int64_t row)
 {
-    real sum = 0, apart[DIM_MAX], reach;
+    struct felt felt = {0, 0};
+    const int32_t i = c->particle[row];
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const real share = field_share(c, p->dim, row, c->other[q], &reach);
-        const real r2 = contact_apart(c, p, row, c->other[q], apart);
-        if (r2 < square(reach)) sum += share * kernel(sqrt(r2) / reach);
+        const int32_t l = c->other[q], j = c->particle[l];
+        real reach, r2 = 0;
+        const real share = field_share(c, p->dim, row, l, &reach);
+        for (int d = 0; d < p->dim; d++) r2 += square(place[d][i] - place[d][j]);
+        if (r2 >= square(reach)) continue;
+        const real weight = share * kernel(sqrt(r2) / reach);
+        felt.density += weight, felt.mean += weight * c->rise[l];
     }
-    return sum;
+    if (felt.density > 0) felt.mean /= felt.density;
+    return felt;
 }
 
-/* The same in the reference state. */
-static real density_before(const struct contact *c, const struct particles *p, int64_t row)
+/* Height of the particle above the surface that it feels [spacings]; its derivative by the density. */
+static real height_of(const struct contact *c, const struct felt *felt, real *slope)
 {
-    real sum = 0, reach;
-    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const int32_t i = c->particle[row], j = c->particle[c->other[q]];
-        const real share = field_share(c, p->dim, row, c->other[q], &reach);
-        real r2 = 0;
-        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
-        if (r2 < square(reach)) sum += share * kernel(sqrt(r2) / reach);
-    }
-    return sum;
+    return depth_of(&c->law.profile, felt->density, slope) - felt->mean;
 }
 
 void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, struct contact_found *found)
 {
     struct contact_face *face = &c->face[row];
+    const struct felt felt = felt_by(c, p, p->x, row);
     real slope;
-    const real depth = depth_of(&c->law.profile, density_of(c, p, row), &slope);
-    face->push = 0;
-    if (!(depth < face->zero)) return;
-    face->push = 0.5 * face->stiffness * (depth - face->zero) * slope;
-    contact_found_add(found, (face->zero - depth) * c->size[row], c->particle[row]);
+    const real gap = height_of(c, &felt, &slope) - face->zero;
+    face->push = face->lift = 0, face->mean = felt.mean;
+    if (!(gap < 0)) return;
+    face->push = 0.5 * face->stiffness * gap * slope;
+    face->lift = 0.5 * face->stiffness * gap / felt.density;
+    contact_found_add(found, -gap * c->size[row], c->particle[row]);
 }
 
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row)
 {
+    const struct felt felt = felt_by(c, p, p->x, row);
     real slope;
-    const real depth = depth_of(&c->law.profile, density_of(c, p, row), &slope), zero = c->face[row].zero;
-    return depth < zero ? 0.25 * c->face[row].stiffness * square(depth - zero) : 0;
+    const real gap = height_of(c, &felt, &slope) - c->face[row].zero;
+    return gap < 0 ? 0.25 * c->face[row].stiffness * square(gap) : 0;
+}
+
+/* Derivative of the energy of what entry k feels by the weight of entry l. */
+static real face_pull(const struct contact *c, int64_t k, int64_t l)
+{
+    const struct contact_face *face = &c->face[c->root[k]];
+    return face->push - face->lift * (c->rise[l] - face->mean);
 }
 
 /* Force on the particle of a row: as one that feels, and as one that others feel. */
@@ -124,12 +137,12 @@ void contact_face_row(const struct contact *c, struct particles *p, int64_t row)
     real f[DIM_MAX] = {0}, apart[DIM_MAX], reach;
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
-        const real own = c->face[row].push, others = c->face[c->root[l]].push;
-        if (own == 0 && others == 0) continue;
+        if (c->face[row].push == 0 && c->face[c->root[l]].push == 0) continue;
         const real r2 = contact_apart(c, p, row, l, apart), r = sqrt(r2);
         const real share = field_share(c, p->dim, row, l, &reach), back = field_share(c, p->dim, l, row, &reach);
         if (r >= reach || !(r > 0)) continue;
-        const real pull = (own * share + others * back) * kernel_slope(r / reach) / (reach * r);
+        const real both = face_pull(c, row, l) * share + face_pull(c, l, row) * back;
+        const real pull = both * kernel_slope(r / reach) / (reach * r);
         for (int d = 0; d < p->dim; d++) f[d] -= pull * apart[d];
     }
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
@@ -148,21 +161,22 @@ static real face_stiffness(const struct contact *c, const struct particles *p, i
     return isfinite(least) ? least : contact_stiffness(c, p, row, row) * square(c->size[row]);
 }
 
-/* In contact, the overlap stays such that the energy does; else contact begins at one spacing, or less deep where the
- * reference state or the state now is closer. */
+/* In contact, the overlap stays such that the energy does; else contact begins where the surfaces of the scene meet, or
+ * later where the reference state or the state now is closer. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row)
 {
     struct contact_face *face = &c->face[row];
+    const struct felt now = felt_by(c, p, p->x, row), reference = felt_by(c, p, p->X, row);
     real slope, overlap = 0;
-    const real depth = depth_of(&c->law.profile, density_of(c, p, row), &slope);
-    const real reference = depth_of(&c->law.profile, density_before(c, p, row), &slope);
     face->stiffness = face_stiffness(c, p, row);
-    face->push = 0;
+    face->push = face->lift = 0, face->mean = now.mean;
     if (was >= 0) {
-        const struct contact_face *old = &before->face[was];
-        overlap = real_max(0, old->zero - depth_of(&c->law.profile, density_of(before, p, was), &slope));
-        overlap *= sqrt(old->stiffness / face->stiffness);
+        const struct felt then = felt_by(before, p, p->x, was);
+        overlap = real_max(0, before->face[was].zero - height_of(before, &then, &slope));
+        overlap *= sqrt(before->face[was].stiffness / face->stiffness);
     }
-    face->zero = overlap > 0 ? depth + overlap : real_min(real_min(1, reference), depth);
+    const real height = height_of(c, &now, &slope);
+    face->zero = overlap > 0 ? height + overlap
+                             : real_min(real_min(1 + c->rise[row], height_of(c, &reference, &slope)), height);
 }

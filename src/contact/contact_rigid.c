@@ -17,14 +17,14 @@ void contact_rigid_free(struct contact *c)
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Distance of the cell of the particle of a row from a body, negative: overlap [m]; normal of the surface. */
+/* Distance of the surface above the particle of a row from a body, negative: overlap [m]; normal of the surface. */
 static real gap_of(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                    real *normal)
 {
     const int32_t i = c->particle[row];
     real x[DIM_MAX] = {0};
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-    return rigid_distance(r, x, normal) - 0.5 * c->size[row];
+    return rigid_distance(r, x, normal) - (0.5 + c->rise[row]) * c->size[row];
 }
 
 /* Can the particle come near the body before the next search? A quick answer for the many that are far. */

@@ -5,6 +5,8 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
+#define RISE_MOST 0.6                    /* surfaces are not looked for farther away [spacings] */
+#define ROUND_OFF 1e-6
 #define SKIN 0.3                         /* beyond the contact distance [spacings]: pairs that may come to it soon */
 enum { BREAKS_WAIT = 32 }; /* steps between searches for broken bonds: they open before they can close */
 
@@ -13,7 +15,10 @@ enum { BREAKS_WAIT = 32 }; /* steps between searches for broken bonds: they open
 /* Share of a full family below which a particle is in the first layer of a body: there it has 0.50 (line) to 0.67 (two
  * spacings in the plane), in the second layer 0.79 or more at 3 spacings. A family of nearest neighbours alone has up
  * to 5/6 in the first layer and all in the second. */
-static real first_layer_share(const struct family *f) { return f->horizon < 1.5 * f->spacing ? 0.95 : 0.78; }
+static real first_layer_share(const struct family *f) 
+{
+    return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
+}
 
 /* Is particle i of the body near a face? */
 static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, int64_t i)
@@ -42,14 +47,29 @@ static real contact_spacing(const struct contact_law *law, const struct particle
     return law->spacing * pow(share, 1.0 / p->dim);
 }
 
+/* How much higher than half a spacing above the particle the surface of its body is, as the scene says it [spacings]:
+ * particles of a lattice are where a curved face leaves them. Of faces that were inside, 0. */
+static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
+{
+    const struct region *shape = law->shape[p->body[i]];
+    real X[DIM_MAX] = {0}, normal[DIM_MAX];
+    if (!shape || shape->n == 0) return 0;
+    for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+    const real rise = -region_distance(shape, X, p->dim, normal) / size - 0.5;
+    return fabs(rise) < ROUND_OFF || rise > RISE_MOST ? 0 : real_max(rise, -RISE_MOST);
+}
+
 void contact_list_describe(struct contact *c, const struct particles *p)
 {
     memory_free(c->root);
     memory_free(c->size);
+    memory_free(c->rise);
+    c->rise = BARE("contact.rise", c->n, real);
     c->root = BARE("contact.root", c->n, int32_t);
     c->size = BARE("contact.size", c->n, real);
     for (int64_t k = 0; k < c->n; k++) {
         c->size[k] = contact_spacing(&c->law, p, c->particle[k]);
+        c->rise[k] = contact_rise(&c->law, p, image_root(p, c->law.image, c->particle[k]), c->size[k]);
         c->root[k] = (int32_t)(k < c->rows ? k : contact_row_of(c, image_root(p, c->law.image, c->particle[k])));
     }
 }
@@ -181,7 +201,7 @@ static real search_reach(const struct contact *c)
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
-    c->particle = NULL, c->root = NULL, c->size = NULL, c->first = NULL, c->other = NULL, c->distance = NULL;
+    c->particle = NULL, c->root = NULL, c->size = NULL, c->rise = NULL, c->first = NULL, c->other = NULL, c->distance = NULL;
     c->face = NULL, c->near = NULL;
     for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
     list_exposed(c, p, b, f);

@@ -367,7 +367,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     TRY(make_bonds(e));
     TRY(engine_rigid_make(e));
     contact_make(&e->contact, s->solver == SOLVER_EXPLICIT && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
-                 s->contact_form, s->contact_stiffness, &e->source, e->rigid, s->rigids);
+                 s->contact_form, s->contact_stiffness, &e->source, e->shape, e->rigid, s->rigids);
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_update(e);
@@ -408,6 +408,7 @@ void engine_free(struct engine *e)
     bonds_free(&e->bonds);
     contact_free(&e->contact);
     memory_free(e->rigid);
+    memory_free(e->shape);
     cells_free(&e->cells);
     loads_free(&e->loads);
     particles_free(&e->part);

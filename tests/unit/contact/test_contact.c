@@ -129,32 +129,48 @@ static real height_of(int dim, real density)
     return 0.5 * (low + high);
 }
 
-/* Density that particle i feels of those that it may meet, now or in the reference state. *softest: k of the softest
- * pair [N/m]. Only particles near faces count, as in the engine. */
-static real plain_density(const struct engine *e, int64_t i, real *const *place, real *softest)
+/* How much higher than half a spacing above a particle the surface of its body, a ball or a box, is [spacings]. */
+static real plain_rise(const struct engine *e, int64_t i)
+{
+    const struct particles *p = &e->part;
+    const struct solid *solid = e->scene->body[p->body[i]].shape.solid;
+    real inside = INFINITY, r2 = 0;
+    for (int d = 0; d < p->dim; d++) {
+        r2 += square(p->X[d][i] - solid->centre[d]);
+        inside = real_min(inside, real_min(p->X[d][i] - solid->from[d], solid->to[d] - p->X[d][i]));
+    }
+    if (solid->kind == SOLID_BALL) inside = solid->radius - sqrt(r2);
+    const real rise = inside / e->scene->spacing - 0.5;
+    return rise > 0.6 ? 0 : real_max(rise, -0.6);
+}
+
+/* What particle i feels of those near faces that it may meet, now or in the reference state: height above their
+ * surface [spacings]. *softest: k of the softest pair [N/m]. */
+static real plain_height(const struct engine *e, int64_t i, real *const *place, real *softest)
 {
     const struct contact *c = &e->contact;
-    real sum = 0;
+    real density = 0, rise = 0;
     *softest = INFINITY;
     for (int64_t k = 0; k < c->rows; k++) {
         const int32_t j = c->particle[k];
         if (!may_meet(e, i, j) || length(&e->part, e->part.x, i, j) > 2.3 * e->scene->spacing) continue;
-        sum += wendland(0.5 * length(&e->part, place, i, j) / e->scene->spacing);
+        const real weight = wendland(0.5 * length(&e->part, place, i, j) / e->scene->spacing);
+        density += weight, rise += weight * plain_rise(e, j);
         *softest = real_min(*softest, plain_stiffness(e, i, j));
     }
-    return sum;
+    return height_of(e->part.dim, density) - (density > 0 ? rise / density : 0);
 }
 
-/* Energy of all that a particle feels: 1/4 k (zero - height)^2, zero: 1, or less if the reference state is closer. */
+/* Energy of all that a particle feels: 1/4 k (zero - height)^2, zero: that of its own surface and half a spacing, or
+ * less if the reference state is closer. */
 static real plain_faces(const struct engine *e)
 {
     real energy = 0, softest;
     for (int64_t k = 0; k < e->contact.rows; k++) {
         const int32_t i = e->contact.particle[k];
-        const real height = height_of(e->part.dim, plain_density(e, i, e->part.x, &softest));
-        if (height >= 1) continue;
-        const real density = plain_density(e, i, e->part.X, &softest);
-        const real zero = real_min(1, height_of(e->part.dim, density));
+        const real height = plain_height(e, i, e->part.x, &softest);
+        if (height >= 1 + plain_rise(e, i)) continue;
+        const real zero = real_min(1 + plain_rise(e, i), plain_height(e, i, e->part.X, &softest));
         if (height < zero) energy += 0.25 * softest * square((zero - height) * e->scene->spacing);
     }
     return energy;

@@ -1,0 +1,104 @@
+/* Bars that meet: equal ones exchange their velocities and part after 2 L/c, under the force rho c v A. */
+#include <math.h>
+
+#include "contact_bench.h"
+
+#define YOUNG 200e9
+#define DENSITY (YOUNG / (CONTACT_WAVE * CONTACT_WAVE))
+
+static status bars_make(struct engine *e, struct scene *s, const struct contact_case *c, double until)
+{
+    const double D = CONTACT_SPACING, gap = 0.1 * D;
+    return contact_engine(e, s,
+                          "name: bars\nspace: line\nsection: 1 mm^2\nmethod: pd\nduration: %.9g\n"
+                          "material: {young: %.9g, density: %.9g}\nparticles: {spacing: %.9g}\nbodies:\n"
+                          "  - {name: a, shape: {box: {from: [%.9g], to: [0]}}, velocity: [%.9g]}\n"
+                          "  - {name: b, shape: {box: {from: [%.9g], to: [%.9g]}}, velocity: [%.9g]}\n"
+                          "contact: {between: bodies, law: %s}\noutput: {frames: 0, samples: 400}\n",
+                          until, YOUNG, DENSITY, D, -c->given[0] * D, c->given[2] * CONTACT_WAVE, gap,
+                          gap + c->given[1] * D, c->given[3] * CONTACT_WAVE, c->law);
+}
+
+/* Steps to the end: first and last time at which the first body is pushed [s], the largest force [N], the largest
+ * energy error. */
+struct contact_course { double from, until, force, error; };
+
+static status bars_run(struct engine *e, struct contact_course *seen)
+{
+    double before = contact_motion_of(e, 0).v[0];
+    *seen = (struct contact_course){INFINITY, -INFINITY, 0, 0};
+    TRY(engine_report_start(e));
+    while (e->clock.step < e->clock.steps) {
+        TRY(engine_step(e));
+        TRY(engine_stability_check(e));
+        const struct contact_motion a = contact_motion_of(e, 0);
+        const double force = fabs(a.v[0] - before) * a.mass / e->clock.dt;
+        if (force > seen->force) seen->force = force;
+        if (e->contact.touching > 0) seen->from = fmin(seen->from, e->clock.t), seen->until = e->clock.t;
+        seen->error = fmax(seen->error, fabs(e->diagnostics.now.balance_error));
+        before = a.v[0];
+    }
+    return engine_report_end(e);
+}
+
+/* Bars of the same length and opposite velocities. */
+status contact_bars(const struct contact_case *c, double *figure)
+{
+    struct engine e;
+    struct scene s;
+    struct contact_course seen;
+    const double v = c->given[2] * CONTACT_WAVE, L = c->given[0] * CONTACT_SPACING;
+    TRY(bars_make(&e, &s, c, 0.1 * CONTACT_SPACING / (2 * v) + 2.6 * L / CONTACT_WAVE));
+    const status ran = bars_run(&e, &seen);
+    if (ran == OK) {
+        figure[0] = (contact_motion_of(&e, 1).v[0] - contact_motion_of(&e, 0).v[0]) / (2 * v);
+        figure[1] = (seen.until - seen.from) / (2 * L / CONTACT_WAVE);
+        figure[2] = seen.force / (DENSITY * CONTACT_WAVE * v * 1e-6);
+        figure[3] = seen.error;
+    }
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+/* A bar flies at one of twice its length at rest. */
+status contact_striker(const struct contact_case *c, double *figure)
+{
+    struct engine e;
+    struct scene s;
+    struct contact_course seen;
+    const double v = c->given[2] * CONTACT_WAVE, L = c->given[0] * CONTACT_SPACING;
+    TRY(bars_make(&e, &s, c, 0.1 * CONTACT_SPACING / v + 2.6 * L / CONTACT_WAVE));
+    const status ran = bars_run(&e, &seen);
+    if (ran == OK) {
+        figure[0] = contact_motion_of(&e, 0).v[0] / v;
+        figure[1] = contact_motion_of(&e, 1).v[0] / v;
+        figure[2] = seen.error;
+    }
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+/* A plane bar of given[0] x given[0]/5 particles between two fixed walls, 5 spacings of way each. */
+status contact_bounces(const struct contact_case *c, double *figure)
+{
+    struct engine e;
+    struct scene s;
+    struct contact_course seen;
+    const double D = CONTACT_SPACING, n = c->given[0], v = c->given[2] * CONTACT_WAVE, room = 5 * D;
+    TRY(contact_engine(&e, &s,
+                       "name: bounces\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: %.9g\n"
+                       "material: {young: %.9g, poisson: 1/3, density: %.9g}\nparticles: {spacing: %.9g}\nbodies:\n"
+                       "  - {name: bar, shape: {box: {from: [0, 0], to: [%.9g, %.9g]}}, velocity: [%.9g, 0]}\n"
+                       "  - {name: left, rigid: true, shape: {half-space: {point: [%.9g, 0], normal: [1, 0]}}}\n"
+                       "  - {name: right, rigid: true, shape: {half-space: {point: [%.9g, 0], normal: [-1, 0]}}}\n"
+                       "contact: {law: %s}\noutput: {frames: 0, samples: 400}\n",
+                       c->given[1] * (room / v + 2 * n * D / CONTACT_WAVE), YOUNG, DENSITY, D, n * D, 0.2 * n * D, v,
+                       -0.5 * room, n * D + 0.5 * room, c->law));
+    const status ran = bars_run(&e, &seen);
+    if (ran == OK) {
+        figure[0] = seen.error;
+        figure[1] = e.diagnostics.now.momentum_error;
+    }
+    bench_engine_free(&e, &s);
+    return ran;
+}
