@@ -11,12 +11,13 @@
 enum { CONTACT_FIGURES = 4 };
 
 /* A case: what it measures, what closed forms say, and within which limits it is asked to be (INFINITY: of no limit).
- * given: numbers of the case. A row that `fails` is drawn as what the pair law cannot do. */
+ * given: numbers of the case. falls_short: known not to hold (of pairs: what their law cannot do). long_run: takes more
+ * than a second. */
 struct contact_case {
     const char *name, *law;
     status (*measure)(const struct contact_case *c, double *figure);
     double given[4];
-    bool fails;
+    bool falls_short, long_run;
     struct { const char *what; double low, high; } asked[CONTACT_FIGURES];
 };
 /* Rows of a table; `figure` [CONTACT_FIGURES]. */
