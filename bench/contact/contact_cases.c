@@ -13,8 +13,8 @@
     BOTH(.name = "striker on twice its length, " #n " particles", .measure = contact_striker, \
          .given = {n, 2 * n, 1e-3, 0}, \
          .asked = {{"striker", -off, off}, {"struck", 0.5 - off, 0.5 + off}, {"energy", 0, 1e-3}})
-/* Cut through and sheared: 0.7 % of the pressure resists, seven times the shear of the whole block. Opened: what is left
- * of vibrations in the mean over time. */
+/* Cut through and sheared: 0.7 % of the pressure resists, seven times the shear of the whole block. Opened: what is
+ * left of vibrations in the mean over time. */
 #define BLOCK(what, n, strain, shear, least, most, along) \
     {.name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear}, .law = "surface", \
      .asked = {{"force over whole", least, most}, {"along", 0, along}}}
@@ -43,8 +43,8 @@ const struct contact_case contact_cases[] = {
     BARS(100, 2e-2, 0.98, 1.05, false),
     STRIKER(100, 0.02),
     STRIKER(200, 0.01),
-    {.name = "ten bounces between walls, 50 x 10", .law = "surface", .measure = contact_bounces, .given = {50, 10, 2e-3},
-     .falls_short = true, .asked = {{"energy", 0, 1e-3}, {"momentum", 0, 1e-12}}},
+    {.name = "ten bounces between walls, 50 x 10", .law = "surface", .measure = contact_bounces,
+     .given = {50, 10, 2e-3}, .falls_short = true, .asked = {{"energy", 0, 1e-3}, {"momentum", 0, 1e-12}}},
     BLOCK("strain -1e-3", 24, 1e-3, 1e-6, 0.84, 1, INFINITY),
     BLOCK("strain -1e-3", 48, 1e-3, 1e-6, 0.92, 1, INFINITY),
     BLOCK("opened", 24, -1e-3, 1e-6, -2e-3, 2e-3, INFINITY),

@@ -82,7 +82,8 @@ struct contact {
     int64_t touching;                    /* directed pairs in contact in the last step */
 };
 
-/* Law for the materials of the bonds. stiffness: factor on k [1]. shape: [bodies]; those and rigid bodies are borrowed. */
+/* Law for the materials of the bonds. stiffness: factor on k [1]. shape: [bodies]; those and rigid bodies are
+ * borrowed. */
 void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids);
@@ -99,7 +100,8 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
 /* Marks the particles of pairs as loaded and their row blocks as active; also after a restart. */
 void contact_follow(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
-/* Adds the forces to part.f and to rigid bodies, and finds the largest overlap. After the forces of bonds, before loads. */
+/* Adds the forces to part.f and to rigid bodies, and finds the largest overlap. After the forces of bonds, before
+ * loads. */
 void contact_force(struct contact *c, struct particles *p);
 
 /* Energy of all pairs where they are now [J]; half of that of pairs with an image. */

@@ -32,8 +32,8 @@ bool region_contains(const struct region *r, const real *X, int dim, real tolera
 
 /* Smallest box round the added solids; returns false if it is unbounded. */
 bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX]);
-/* Signed distance of X from the surface, negative inside [m]: exact outside each of its solids and beside flat faces, of
- * several solids the nearest; and the unit normal that leads away. All sides of boxes are finite. */
+/* Signed distance of X from the surface, negative inside [m]: exact outside each of its solids and beside flat faces,
+ * of several solids the nearest; and the unit normal that leads away. All sides of boxes are finite. */
 real region_distance(const struct region *r, const real *X, int dim, real *normal);
 void region_free(struct region *r);
 

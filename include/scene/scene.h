@@ -34,7 +34,7 @@ struct scene_body {
     char place[PLACE_LENGTH];            /* in the scene, of its list if it has one */
     real velocity[DIM_MAX];              /* [m/s] */
     bool rigid;                          /* no particles: it has a shape that keeps its form ... */
-    real mass, ramp;                     /* ... flies with a mass [kg], or is driven, at full speed from `ramp` on [s] */
+    real mass, ramp;                     /* ... flies with a mass [kg]; or is driven, fully from `ramp` on [s] */
     enum grid_frame frame; /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
     const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not */
 };

@@ -6,11 +6,12 @@
  *     energy    = sum_i 1/4 k_i gap_i^2  where gap < 0
  *
  * D_ij: mean of the two spacings, m_j = (D_j/D_ij)^(dim-1). depth is the function that finds the height s, in
- * spacings, of a particle above the first layer of a lattice. rise_j: how much higher than half a spacing above particle
- * j the surface of its body is (a curved face has steps on a lattice, this one not). zero = 1 + rise_i, or less for
- * particles that the reference state has closer. Each face of two that meet feels the other: together 1/2 k g^2, that of
- * the pair law. Energies depend on distances alone: forces are central, momentum and angular momentum are kept, and
- * along a flat face of a square lattice nothing above 0.7 % of the pressure resists (0.54 of it with the pair law). */
+ * spacings, of a particle above the first layer of a lattice. rise_j: how much higher than half a spacing above
+ * particle j the surface of its body is (a curved face has steps on a lattice, this one not). zero = 1 + rise_i, or
+ * less for particles that the reference state has closer. Each face of two that meet feels the other: together 1/2 k
+ * g^2, that of the pair law. Energies depend on distances alone: forces are central, momentum and angular momentum are
+ * kept, and along a flat face of a square lattice nothing above 0.7 % of the pressure resists (0.54 of it with the
+ * pair law). */
 #include <math.h>
 
 #include "contact_internal.h"

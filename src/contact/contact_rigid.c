@@ -1,6 +1,6 @@
-/* Contact of particles with rigid bodies: a particle whose centre is nearer than half a spacing to the surface is pushed
- * off along its normal by 2 k times what is missing, k that of two particles of its material: the face has one cell of
- * material, not two. Energy: k missing^2. */
+/* Contact of particles with rigid bodies: a particle whose centre is nearer than half a spacing to the surface is
+ * pushed off along its normal by 2 k times what is missing, k that of two particles of its material: the face has one
+ * cell of material, not two. Energy: k missing^2. */
 #include <math.h>
 #include <stdio.h>
 

@@ -201,7 +201,8 @@ static real search_reach(const struct contact *c)
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
-    c->particle = NULL, c->root = NULL, c->size = NULL, c->rise = NULL, c->first = NULL, c->other = NULL, c->distance = NULL;
+    c->particle = NULL, c->root = NULL, c->size = NULL, c->rise = NULL;
+    c->first = NULL, c->other = NULL, c->distance = NULL;
     c->face = NULL, c->near = NULL;
     for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
     list_exposed(c, p, b, f);

@@ -8,7 +8,7 @@
 /* ---- rotations --------------------------------------------------------------------------------------------------- */
 
 /* to = A b, or its transpose times b. */
-static void rotate(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real *to)
+static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real *to)
 {
     for (int r = 0; r < DIM_MAX; r++) {
         to[r] = 0;
@@ -40,7 +40,7 @@ static void solve_three(real A[DIM_MAX][DIM_MAX], const real *b, real *x)
             cofactor[r][c] = A[r1][c1] * A[r2][c2] - A[r1][c2] * A[r2][c1];
         }
     for (int c = 0; c < DIM_MAX; c++) determinant += A[0][c] * cofactor[0][c];
-    rotate(cofactor, b, true, x);
+    turn_vector(cofactor, b, true, x);
     for (int r = 0; r < DIM_MAX; r++) x[r] /= determinant;
 }
 
@@ -52,9 +52,9 @@ static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spi
         spin[0] = spin[1] = 0, spin[2] = r->angular[2] / r->inertia[2][2];
         return;
     }
-    rotate(turn, r->angular, true, own);
+    turn_vector(turn, r->angular, true, own);
     solve_three(r->inertia, own, own_spin);
-    rotate(turn, own_spin, false, spin);
+    turn_vector(turn, own_spin, false, spin);
 }
 
 /* ---- at t = 0 ---------------------------------------------------------------------------------------------------- */
@@ -70,12 +70,12 @@ static real region_moments(const struct region *shape, int dim, const struct box
     real longest = 0, sum = 0, step[DIM_MAX] = {1, 1, 1}, X[DIM_MAX] = {0};
     int n[DIM_MAX] = {1, 1, 1};
     for (int d = 0; d < dim; d++) longest = real_max(longest, b->to[d] - b->from[d]);
+    for (int d = 0; d < dim; d++)
+        if (!(b->to[d] > b->from[d])) return 0;
     for (int d = 0; d < dim; d++) {
         n[d] = (int)ceil((b->to[d] - b->from[d]) / longest * (dim < 3 ? SAMPLES : SAMPLES_SPACE));
         step[d] = (b->to[d] - b->from[d]) / n[d];
     }
-    memset(centre, 0, DIM_MAX * sizeof *centre);
-    memset(second, 0, DIM_MAX * DIM_MAX * sizeof(real));
     for (int64_t k = 0; k < (int64_t)n[0] * n[1] * n[2]; k++) {
         const int64_t at[] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
         for (int d = 0; d < dim; d++) X[d] = b->from[d] + ((real)at[d] + 0.5) * step[d];
@@ -88,7 +88,7 @@ static real region_moments(const struct region *shape, int dim, const struct box
     }
     for (int r = 0; r < dim && sum > 0; r++) centre[r] /= sum;
     for (int r = 0; r < dim && sum > 0; r++)
-        for (int c = 0; c < dim; c++) second[r][c] = second[r][c] / sum - centre[r] * centre[c];
+        for (int c = 0; c < dim; c++) second[r][c] = second[r][c] / sum - centre[r] * centre[c] + (r == c ? square(step[r]) / 12 : 0);
     return sum * step[0] * step[1] * step[2];
 }
 
@@ -130,10 +130,10 @@ real rigid_distance(const struct rigid_body *r, const real *x, real *normal)
     real arm[DIM_MAX] = {0}, X[DIM_MAX], own[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX];
     memcpy(turn, r->turn, sizeof turn);
     for (int d = 0; d < r->dim; d++) arm[d] = x[d] - r->x[d];
-    rotate(turn, arm, true, X);
+    turn_vector(turn, arm, true, X);
     for (int d = 0; d < r->dim; d++) X[d] += r->centre[d];
     const real distance = region_distance(r->shape, X, r->dim, own);
-    rotate(turn, own, false, normal);
+    turn_vector(turn, own, false, normal);
     return distance;
 }
 
@@ -142,7 +142,8 @@ void rigid_velocity(const struct rigid_body *r, const real *x, real *v)
     const real *w = r->spin;
     real arm[DIM_MAX] = {0};
     for (int d = 0; d < r->dim; d++) arm[d] = x[d] - r->x[d];
-    const real turning[] = {w[1] * arm[2] - w[2] * arm[1], w[2] * arm[0] - w[0] * arm[2], w[0] * arm[1] - w[1] * arm[0]};
+    const real turning[] = {w[1] * arm[2] - w[2] * arm[1], w[2] * arm[0] - w[0] * arm[2],
+                            w[0] * arm[1] - w[1] * arm[0]};
     for (int d = 0; d < DIM_MAX; d++) v[d] = r->v[d] + turning[d];
 }
 

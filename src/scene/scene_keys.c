@@ -94,7 +94,7 @@ const struct key keys[] = {
     KEY("bodies.velocity", KEY_POINT, UNIT_SPEED, AT(scene_body, velocity), ANY, "(0)",
         "initial velocity; of a rigid body without a mass the one that it keeps"),
     KEY("bodies.rigid", KEY_FLAG, UNIT_NONE, AT(scene_body, rigid), ANY, "false",
-        "keeps its form and has no particles; peridynamic particles meet it; without mass and velocity it stands still"),
+        "keeps its form, has no particles; peridynamic particles meet it; without mass and velocity it stands still"),
     KEY("bodies.mass", KEY_REAL, UNIT_MASS, AT(scene_body, mass), ABOVE(0), NONE,
         "rigid: it flies and turns under the forces of contact; in the plane of its thickness, in line of its section"),
     KEY("bodies.ramp", KEY_REAL, UNIT_TIME, AT(scene_body, ramp), FROM(0), NONE,

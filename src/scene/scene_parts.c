@@ -139,14 +139,15 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
 }
 
 /* REFUSED for what a rigid body cannot have, and for what only it has. */
-static status check_rigid(struct reader *r, const struct node *n, const struct scene_body *b)
+static status check_rigid_body(struct reader *r, const struct node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp"}, *const others[] = {"material", "particles", "frame"};
     for (size_t k = 0; k < COUNT_OF(own) && !b->rigid; k++)
         if (node_find(n, own[k])) return fault(r, node_find(n, own[k]), "only rigid bodies have it; add rigid: true");
     for (size_t k = 0; k < COUNT_OF(others) && b->rigid; k++)
         if (node_find(n, others[k]))
-            return fault(r, node_find(n, others[k]), "a rigid body has none; a shape is expected, and a mass if it flies");
+            return fault(r, node_find(n, others[k]), "a rigid body has none; a shape is expected, and a mass if "
+                         "it flies");
     for (int k = 0; k < b->shape.n && b->rigid; k++)
         for (int d = 0; d < r->scene->dim && b->shape.solid[k].kind == SOLID_BOX; d++)
             if (!isfinite(b->shape.solid[k].from[d]) || !isfinite(b->shape.solid[k].to[d]))
@@ -163,11 +164,12 @@ static status scene_parts_read_body(struct reader *r, const struct node *n, stru
     r->bounded = !node_find(n, "rigid");
     TRY(read_group(r, n, n, "bodies", b));
     r->bounded = false;
-    TRY(check_rigid(r, n, b));
+    TRY(check_rigid_body(r, n, b));
     if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
     if (shape && file) return fault_both(r, shape, file);
     if (file) TRY(read_file(r, file, b));
-    if (!b->rigid && b->material < 0 && r->scene->materials > 1) return fault_missing(r, n, key_find("bodies", "material"));
+    if (!b->rigid && b->material < 0 && r->scene->materials > 1)
+        return fault_missing(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;
     if (!node_find(n, "frame")) b->frame = r->scene->frame;
     for (int j = 0; j < number; j++)
@@ -181,8 +183,11 @@ static void sort_bodies(struct scene *s, int n)
 {
     struct scene_body *sorted = NEW("bodies", n, struct scene_body);
     for (int rigid = 0; rigid < 2; rigid++)
-        for (int k = 0; k < n; k++)
-            if (s->body[k].rigid == rigid) sorted[s->bodies + s->rigids] = s->body[k], *(rigid ? &s->rigids : &s->bodies) += 1;
+        for (int k = 0; k < n; k++) {
+            if (s->body[k].rigid != rigid) continue;
+            sorted[s->bodies + s->rigids] = s->body[k];
+            *(rigid ? &s->rigids : &s->bodies) += 1;
+        }
     memory_free(s->body);
     s->body = sorted;
 }

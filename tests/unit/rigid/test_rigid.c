@@ -1,0 +1,134 @@
+/* Rigid bodies: distances beside a search over points of the surface, inertia and free motion beside closed forms. */
+#include <math.h>
+#include <string.h>
+
+#include "rigid/rigid.h"
+#include "tests/support/near.h"
+
+/* ---- distances --------------------------------------------------------------------------------------------------- */
+
+/* A box with a ball on it, and a cylinder; points inside some of them. */
+static struct solid solids[] = {
+    {.kind = SOLID_BOX, .from = {0, 0, 0}, .to = {4, 2, 3}},
+    {.kind = SOLID_BALL, .centre = {5, 1, 1}, .radius = 1.5},
+    {.kind = SOLID_CYLINDER, .from = {-3, 0, 0}, .to = {-3, 4, 1}, .radius = 1},
+};
+static const struct region shape = {3, solids};
+
+/* The distance falls to 0 along the normal, and nothing of the body is nearer: the ball of that radius round the point
+ * holds no point of it (outside). */
+static void check_point(const real *x)
+{
+    real normal[DIM_MAX], at[DIM_MAX];
+    const real distance = region_distance(&shape, x, 3, normal);
+    assert_near(dot(normal, normal, 3), 1, 1e-12);
+    for (int d = 0; d < 3; d++) at[d] = x[d] - distance * normal[d];
+    real other[DIM_MAX];
+    if (distance > 0) assert_near(region_distance(&shape, at, 3, other), 0, 1e-12);
+    for (int k = 0; k < 500 && distance > 0; k++) {
+        const real a = 0.37 * k, b = acos(1 - 2 * (k + 0.5) / 500);
+        const real on[] = {x[0] + 0.999 * distance * sin(b) * cos(a), x[1] + 0.999 * distance * sin(b) * sin(a),
+                           x[2] + 0.999 * distance * cos(b)};
+        assert_false(region_contains(&shape, on, 3, 0));
+    }
+    assert_int_equal(distance < 0, region_contains(&shape, x, 3, -1e-12));
+}
+
+static void test_distance(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 343; k++)
+        check_point((const real[]){-5.03 + 2 * (k % 7), -2.01 + k / 7 % 7, -2.02 + 1.1 * (k / 49)});
+}
+
+/* ---- motion ------------------------------------------------------------------------------------------------------ */
+
+static const real rest[DIM_MAX] = {0, 0, 0};
+
+/* A brick: m/12 (b^2 + c^2); a disc: m R^2/2. A grid of points gives 1e-3 of it. */
+static void test_inertia(void **state)
+{
+    (void)state;
+    static struct solid brick = {.kind = SOLID_BOX, .from = {1, 1, 1}, .to = {5, 3, 2}};
+    static struct solid disc = {.kind = SOLID_BALL, .centre = {1, 2}, .radius = 3};
+    const struct region a = {1, &brick}, b = {1, &disc};
+    struct rigid_body r = {.name = "brick"};
+    assert_ok(rigid_make(&r, &a, 3, 6, rest, 1));
+    assert_near(r.inertia[0][0], 0.5 * (4 + 1), 1e-3 * 2.5);
+    assert_near(r.inertia[1][1], 0.5 * (16 + 1), 1e-3 * 8.5);
+    assert_near(r.inertia[2][2], 0.5 * (16 + 4), 1e-3 * 10);
+    assert_near(r.centre[0], 3, 1e-12);
+    r = (struct rigid_body){.name = "disc"};
+    assert_ok(rigid_make(&r, &b, 2, 2, rest, 1));
+    assert_near(r.inertia[2][2], 9, 5e-3 * 9);
+}
+
+/* Free turning about the middle axis, which is unstable: energy and angular momentum stay. */
+static void test_tumbling(void **state)
+{
+    (void)state;
+    static struct solid brick = {.kind = SOLID_BOX, .from = {-2, -1, -0.5}, .to = {2, 1, 0.5}};
+    const struct region a = {1, &brick};
+    struct rigid_body r = {.name = "brick"};
+    assert_ok(rigid_make(&r, &a, 3, 6, rest, 1));
+    memcpy(r.angular, (const real[]){0.01, 8.5, 0.01}, sizeof r.angular);
+    rigid_move(&r, 0, 1e-3, 1e-3);
+    const real before = rigid_kinetic(&r);
+    real least = INFINITY;
+    for (int k = 0; k < 30000; k++) {
+        rigid_move(&r, 0, 1e-3, 1e-3);
+        least = real_min(least, r.turn[1][1]);
+        assert_near(rigid_kinetic(&r), before, 1e-5 * before);
+    }
+    assert_true(least < -0.9);           /* it has tumbled over */
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            real sum = 0;
+            for (int k = 0; k < 3; k++) sum += r.turn[i][k] * r.turn[j][k];
+            assert_near(sum, i == j, 1e-11);
+        }
+}
+
+/* A constant force and moment: the closed forms of leap-frog, whose energy is their work. */
+static void test_driven(void **state)
+{
+    (void)state;
+    static struct solid disc = {.kind = SOLID_BALL, .centre = {1, 2}, .radius = 3};
+    const struct region b = {1, &disc};
+    struct rigid_body r = {.name = "disc"}, driven = {.name = "plate", .ramp = 1};
+    assert_ok(rigid_make(&r, &b, 2, 2, rest, 1));
+    assert_ok(rigid_make(&driven, &b, 2, 0, (const real[]){3, 0, 0}, 1));
+    real normal[DIM_MAX];
+    for (int k = 0; k < 1000; k++) {
+        r.force[0] = 4, r.moment[2] = 2;
+        driven.force[0] = -5;
+        rigid_book(&driven);
+        rigid_move(&r, (k + 0.5) * 2e-3, 2e-3, k == 0 ? 1e-3 : 2e-3);
+        rigid_move(&driven, (k + 0.5) * 2e-3, 2e-3, 2e-3);
+    }
+    assert_near(r.x[0], 1 + 0.5 * 2 * 4, 1e-9);
+    assert_near(atan2(r.turn[1][0], r.turn[0][0]), 0.5 * 2 / r.inertia[2][2] * 4, 1e-9);
+    assert_near(driven.x[0], 1 + 3 * 1.5, 1e-9);
+    assert_near(rigid_work(&driven), 5 * 3 * 1.5, 5 * 3 * 2e-3);   /* the first interval begins without a force */
+    assert_near(rigid_distance(&driven, (const real[]){5.5 + 5, 2, 0}, normal), 2, 1e-9);
+}
+
+/* What cannot be. */
+static void test_refused(void **state)
+{
+    (void)state;
+    static struct solid half = {.kind = SOLID_HALF_SPACE, .normal = {0, 1, 0}}, none = {.kind = SOLID_BOX};
+    const struct region a = {1, &half}, b = {1, &none};
+    struct rigid_body r = {.name = "floor"};
+    assert_ok(rigid_make(&r, &a, 2, 0, rest, 1));
+    assert_int_equal(rigid_make(&r, &a, 2, 1, rest, 1), REFUSED);
+    assert_int_equal(rigid_make(&r, &b, 2, 0, rest, 1), REFUSED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_distance), cmocka_unit_test(test_inertia),
+                                       cmocka_unit_test(test_tumbling), cmocka_unit_test(test_driven),
+                                       cmocka_unit_test(test_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
