@@ -79,6 +79,7 @@ struct contact {
     real overlap_most;                   /* of all [m] */
     int32_t deepest;                     /* a particle of the pair with the largest overlap, -1: none */
     bool overlap_said;                   /* a warning of large overlaps has been given */
+    real began, ended;                   /* of all contact so far, NAN: none yet [s] */
     int64_t touching;                    /* directed pairs in contact in the last step */
 };
 
@@ -103,6 +104,8 @@ void contact_follow(const struct contact *c, const struct particles *p, struct b
 /* Adds the forces to part.f and to rigid bodies, and finds the largest overlap. After the forces of bonds, before
  * loads. */
 void contact_force(struct contact *c, struct particles *p);
+/* Notes that the time is t [s]. */
+void contact_clock(struct contact *c, real t);
 
 /* Energy of all pairs where they are now [J]; half of that of pairs with an image. */
 real contact_energy(const struct contact *c, const struct particles *p);

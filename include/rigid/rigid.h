@@ -27,6 +27,7 @@ struct rigid_body {
     real angular[DIM_MAX];               /* angular momentum about the centre [kg m^2/s] */
     real turn[DIM_MAX][DIM_MAX];         /* rotation since t = 0 */
     real force[DIM_MAX], moment[DIM_MAX]; /* on it, about its centre, in the last step [N], [N m] */
+    real force_most;                     /* largest so far [N] */
     real way[DIM_MAX];                   /* of the last step [m] */
     real force_before[DIM_MAX];          /* as the last step of `work` had it [N] */
     real work;                           /* done by what drives it, up to `force_before` [J] */

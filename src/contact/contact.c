@@ -19,6 +19,7 @@ void contact_make(struct contact *c, enum contact_between between, enum contact_
     const int n = source->materials;
     memset(c, 0, sizeof *c);
     c->deepest = -1;
+    c->began = c->ended = NAN;
     c->law = (struct contact_law){.between = between,
                                   .form = form,
                                   .materials = n,
@@ -118,6 +119,13 @@ void contact_force(struct contact *c, struct particles *p)
     if (all.touching / 2 > c->pairs_most) c->pairs_most = all.touching / 2;
 }
 
+void contact_clock(struct contact *c, real t)
+{
+    if (c->touching == 0) return;
+    c->ended = t;
+    if (isnan(c->began)) c->began = t;
+}
+
 struct contact_sum { const struct contact *c; const struct particles *p; };
 
 static real contact_energy_term(const void *context, int64_t row)
@@ -162,6 +170,8 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     if (!contact_works(c)) return OK;
     ARCHIVE_VALUE(a, "contact/numbers", numbers);
     ARCHIVE_VALUE(a, "contact/overlap_most", c->overlap_most);
+    ARCHIVE_VALUE(a, "contact/began", c->began);
+    ARCHIVE_VALUE(a, "contact/ended", c->ended);
     c->made = numbers[0] != 0, c->n = numbers[1], c->rows = numbers[2], c->pairs = numbers[3];
     c->searched = numbers[4], c->broken = numbers[5], c->peridynamic = numbers[6], c->pairs_most = numbers[7];
     c->overlap_said = numbers[8] != 0;

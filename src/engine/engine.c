@@ -211,6 +211,7 @@ static void forces(struct engine *e, struct step *now)
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
                               sweep_moves(e->scene, &e->report) ? &now->motion : NULL);
     contact_force(&e->contact, &e->part);
+    contact_clock(&e->contact, e->clock.t);
     engine_rigid_book(e, now->dt_velocity);
     loads_apply(&e->loads, &e->part, now->middle, e->clock.dt, now->dt_velocity);
     lap(&e->report.laps, LAP_BONDS);

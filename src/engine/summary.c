@@ -164,9 +164,29 @@ static void put_contact(struct json *j, const struct contact *c)
 {
     if (c->law.between == CONTACT_NONE) return;
     json_open(j, "contact", '{');
+    json_real(j, "began", c->began);
+    json_real(j, "ended", c->ended);
     json_count(j, "pairs_max", c->pairs_most);
     json_real(j, "overlap_max", c->overlap_most / c->law.spacing);
     json_close(j, '}');
+}
+
+/* Rigid bodies at the end, and the largest force on each. */
+static void put_rigid(struct json *j, const struct engine *e)
+{
+    static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
+    if (e->scene->rigids == 0) return;
+    json_open(j, "rigid", '[');
+    for (int k = 0; k < e->scene->rigids; k++) {
+        const struct rigid_body *r = &e->rigid[k];
+        json_open(j, NULL, '{');
+        json_text(j, "name", r->name);
+        json_point(j, "", r->x, r->dim);
+        for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], r->v[d]);
+        json_real(j, "force_max", r->force_most);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
 }
 
 static void put_tip(struct json *j, const struct tip *tip, int dim)
@@ -288,6 +308,7 @@ static void summary_print(FILE *file, const struct engine *e, status s, const ch
     put_choice(&j, &e->scene->choice);
     put_energy_balance(&j, &e->diagnostics.now);
     put_contact(&j, &e->contact);
+    put_rigid(&j, e);
     put_crack(&j, e);
     put_conversion(&j, e);
     put_probes(&j, e);

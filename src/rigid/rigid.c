@@ -199,6 +199,7 @@ real rigid_work(const struct rigid_body *r)
 void rigid_book(struct rigid_body *r)
 {
     r->work = rigid_work(r);
+    r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
     memcpy(r->force_before, r->force, sizeof r->force_before);
     memset(r->way, 0, sizeof r->way);
 }

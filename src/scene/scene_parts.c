@@ -221,6 +221,10 @@ status read_bodies(struct reader *r, const struct node *root)
     s->bodies = 0;
     sort_bodies(s, n_bodies);
     if (s->bodies == 0) return fault(r, many, "only rigid bodies; one with a material is expected");
+    if (s->rigids > 0 && s->method != METHOD_PD)
+        return fault(r, many, "rigid bodies meet peridynamic particles only; method: pd is expected");
+    if (s->rigids > 0 && s->solver != SOLVER_EXPLICIT)
+        return fault(r, many, "rigid bodies move in steps of time; solver: explicit is expected");
     if (s->rigids > 0 && !node_find(node_find(root, "contact"), "between")) s->contact_between = CONTACT_ALL;
     return OK;
 }

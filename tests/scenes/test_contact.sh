@@ -1,0 +1,96 @@
+#!/bin/sh
+# Scenes of contact: what inputs/ promises; the same bits on any number of threads and after an interruption; what is refused.
+test_name=test_contact
+. tests/support/summary.sh
+. tests/support/scenes.sh
+. tests/support/trust.sh
+
+# ---- inputs/ ---------------------------------------------------------------------------------------------------------
+
+for scene in bars_collide discs_collide kalthoff_projectile three_point_bend brazilian_disc; do start $scene $scene; done
+start middle three_point_bend -s "cracks=[{from: [86.36 mm, -1 mm], to: [86.36 mm, 19 mm]}]"
+wait
+for thickness in 3 4; do
+    start ball_$thickness sphere_on_plate_3d -s particles.spacing=1mm \
+        -s "bodies=[{name: plate, shape: {box: {from: [-24 mm, -24 mm, -$thickness mm], to: [24 mm, 24 mm, 0]}}}, {name: ball, rigid: true, mass: 4.1 g, velocity: [0, 0, -150 m/s], shape: {ball: {centre: [0, 0, 5.1 mm], radius: 5 mm}}}]"
+done
+wait
+for run in bars_collide discs_collide kalthoff_projectile three_point_bend brazilian_disc ball_3 ball_4; do sound $run $pd_balance; done
+
+# last FOLDER COLUMN: its value in the last line of history.csv.
+last() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } } END { print $at }' \
+    "$work/$1/history.csv"; }
+
+between "bars: duration" "$(compute "$(f bars_collide contact.ended) - $(f bars_collide contact.began)")" 40e-6 42e-6
+# mass 8e-4 kg at -5 m/s
+between "bars: speed" "$(compute "$(f bars_collide probes.left.x) / -4e-3")" 0.98 1.001
+between "projectile: angle, 63.2 where its face drives the plate" "$(f kalthoff_projectile crack.angle_deg)" 60.2 66.2
+between "projectile: leaves" "$(f kalthoff_projectile contact.ended)" 40e-6 80e-6
+between "beam: off the vertical" "$(f three_point_bend crack.angle_deg)" 33 45
+between "beam: from the notch" "$(f three_point_bend crack.tips.0.growth)" 0.05 0.08
+between "beam, notch farther out: none there" "$(f middle crack.tips.0.growth)" 0 1e-3
+between "beam, notch farther out: in the middle" "$(f middle crack.tips.1.origin_x)" -0.01 0.01
+between "disc: along the diameter" "$(f brazilian_disc crack.angle_deg)" 80 100
+between "disc: both jaws bear the same" "$(compute "$(f brazilian_disc rigid.0.force_max) / $(f brazilian_disc rigid.1.force_max)")" 0.999 1.001
+# across the middle, 2 P/(pi D t) of a disc of 50 mm, 10 mm thick, in the sample before the first break
+ratio=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); at[$k] = k } }
+    NR > 1 && $at["fracture"] == 0 { r = $at["centre.stress_xx"] * 3.14159265 * 0.05 * 0.01 / 2 / $at["upper_force_y"] }
+    END { print r }' "$work/brazilian_disc/history.csv")
+between "disc: stress across its middle" "$ratio" 0.97 1.03
+between "ball through 4 mm" "$(f ball_4 rigid.0.velocity_z)" -122 -116
+between "ball through 3 mm is faster" "$(f ball_3 rigid.0.velocity_z)" -132 -126
+for run in ball_3 ball_4; do
+    most=$(awk -F, 'NR > 1 && $8 > most { most = $8 } END { print most + 0 }' "$work/$run/history.csv")
+    between "$run: no energy from nowhere" "$most" 0 1e-3
+done
+
+# ---- bits ------------------------------------------------------------------------------------------------------------
+
+# A ball turns as it flies at a plate with a crack; frames, samples, checkpoints.
+cat >"$work/hit.yaml" <<'E'
+space: plane stress
+thickness: 10 mm
+duration: 100 us
+method: pd
+material: {young: 190 GPa, density: 7800, energy_release_rate: 500}
+bodies:
+  - {name: plate, shape: {box: {from: [0, -50 mm], to: [30 mm, 50 mm]}}}
+  - {name: loose, shape: {ball: {centre: [38 mm, 4 mm], radius: 7 mm}}, velocity: [-40 m/s, 0]}
+  - {name: wedge, rigid: true, mass: 0.3 kg, velocity: [60 m/s, 3 m/s], shape: {box: {from: [-20 mm, -7 mm], to: [-0.4 mm, 9 mm]}}}
+cracks: [{from: [10 mm, -60 mm], to: [10 mm, 5 mm]}]
+particles: {spacing: 1 mm}
+output: {frames: 10, samples: 200}
+E
+calm "$work/bits1" "$work/hit.yaml" -t 1
+for threads in 2 3 7; do
+    calm "$work/bits$threads" "$work/hit.yaml" -t $threads
+    same "$threads threads" "$work/bits1" "$work/bits$threads"
+done
+calm "$work/all" "$work/hit.yaml" -s time.active_set=false
+if cmp "$work/bits1/history.csv" "$work/all/history.csv" >/dev/null ||
+    [ "$(cut -d , -f 1-21,23- "$work/bits1/history.csv" | cksum)" = "$(cut -d , -f 1-21,23- "$work/all/history.csv" | cksum)" ]; then pass
+else fail "the active set changes the run"; fi
+calm "$work/echo" "$work/bits1/scene.yaml"
+if cmp "$work/bits1/history.csv" "$work/echo/history.csv"; then pass; else fail "scene.yaml is another scene"; fi
+for lines in 60 120; do
+    interrupted "$work/stopped" $lines "$work/hit.yaml"
+    calm "$work/stopped" -t 3 --resume "$work/hit.yaml"
+    same "after an interruption at line $lines" "$work/bits1" "$work/stopped"
+    rm -r "$work/stopped"
+done
+
+# ---- what is refused, and what stops -----------------------------------------------------------------------------------
+
+refused "a mass without rigid" "$work/no" "only rigid bodies have it" "$work/hit.yaml" \
+    -s "bodies=[{name: a, mass: 1 kg, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}]"
+refused "a material of a rigid body" "$work/no" "a rigid body has none" "$work/hit.yaml" \
+    -s "bodies=[{name: b, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}, {name: a, rigid: true, material: material, shape: {box: {from: [20 mm, 0], to: [29 mm, 9 mm]}}}]"
+refused "only rigid bodies" "$work/no" "only rigid bodies" "$work/hit.yaml" \
+    -s "bodies=[{name: a, rigid: true, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}]"
+refused "a half-space that flies" "$work/no" "has no end" "$work/hit.yaml" \
+    -s "bodies=[{name: b, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}, {name: a, rigid: true, mass: 1 kg, shape: {half-space: {point: [20 mm, 0], normal: [1, 0]}}}]"
+refused "rigid bodies and material points" "$work/no" "method: pd" "$work/hit.yaml" -s method=mpm
+stopped "particles that pass each other" "$work/deep" "inside another" inputs/bars_collide.yaml \
+    -s "bodies=[{name: a, velocity: [2000 m/s], shape: {box: {from: [-100 mm], to: [0]}}}, {name: b, velocity: [-2000 m/s], shape: {box: {from: [1 mm], to: [101 mm]}}}]"
+
+finish
