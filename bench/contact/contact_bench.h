@@ -46,6 +46,9 @@ status contact_discs(const struct contact_case *c, double *figure);
 /* contact_faces.c: a block of given[0] x given[0] particles cut through, its ends moved by the strain given[1] and
  * shear given[2] (in spacings): force on them over that of the whole block, normal and along; overlap. */
 status contact_block(const struct contact_case *c, double *figure);
+/* contact_slope.c: a block on a slope of tangent given[0], friction given[1], on a rigid floor if given[2]:
+ * acceleration over g sin, way in spacings, energy error. */
+status contact_slope(const struct contact_case *c, double *figure);
 /* A ball of given[0] spacings at given[1] wave speeds on a fixed plane: exponent of force over approach, duration over
  * that of Hertz, speed after over before, energy error. */
 status contact_hertz_space(const struct contact_case *c, double *figure);

@@ -25,6 +25,22 @@
     {.name = "ball on a plane, R " #R ", " #v " c", .law = "surface", .measure = contact_hertz_space, .given = {R, v}, \
      .long_run = true, \
      .asked = {{"exponent", 1.45, 1.55}, {"duration", 0.9, 1.1}, {"restitution", 0.9, 1}, {"energy", 0, 1e-3}}}
+/* Discs that stick roll like gear wheels: 2/3 of the tangential velocity stay, and a spin of as much. Elastic ones part
+ * while the spring along their faces swings, and are up to 0.08 off. */
+#define STICKING(b, sine, turn) \
+    {.name = "discs, R 20, 0.01 c, b " #b " R, turn " #turn ", friction 10", .law = "surface, friction: 10", \
+     .measure = contact_discs, .given = {20, 1e-2, b, turn}, .falls_short = true, \
+     .asked = {{"normal", 0.85, 1.03}, {"tangential", 2 / 3. - 0.05, 2 / 3. + 0.05}, \
+               {"spin", sine * 2 / 3 - 0.05, sine * 2 / 3 + 0.05}, {"energy", 0, 5e-3}}}
+/* Within 10 % of g sin; what stays moves by less than 0.2 spacings. */
+#define SLOPE(tan, mu, rigid, on) \
+    {.name = "block on a " on ", tan " #tan ", friction " #mu, .law = "surface", .measure = contact_slope, \
+     .given = {tan, mu, rigid}, \
+     .asked = {{"g sin", (tan > mu ? 1 - mu / (tan) : 0) - 0.1, (tan > mu ? 1 - mu / (tan) : 0) + 0.1}, \
+               {"way", tan > mu ? 5 : -0.2, tan > mu ? 50 : 0.2}, {"energy", 0, 1e-2}}}
+#define SLOPES(rigid, on) \
+    SLOPE(0.2, 0, rigid, on), SLOPE(0.4, 0, rigid, on), SLOPE(0.7, 0, rigid, on), SLOPE(0.2, 0.3, rigid, on), \
+    SLOPE(0.4, 0.3, rigid, on), SLOPE(0.7, 0.3, rigid, on), SLOPE(0.7, 10, rigid, on)
 /* Along the lattice (turn 0), and turned so that velocities are along it. */
 #define DISCS(law_, R, v, b, turn, short_) \
     {.name = "discs, R " #R ", " #v " c, b " #b " R, turn " #turn, .law = law_, .measure = contact_discs, \
@@ -51,8 +67,13 @@ const struct contact_case contact_cases[] = {
     BLOCK("strain -5e-3, sheared", 24, 5e-3, 0.05, 0.84, 1, 0.05),
     PAIR_BLOCK("strain -1e-3", 24, 1e-3, 1e-6, 0.84, 1, INFINITY, false),
     PAIR_BLOCK("strain -5e-3, sheared", 24, 5e-3, 0.05, 0.84, 1, 0.05, true),
+    SLOPES(1, "rigid floor"),
+    SLOPES(0, "floor of its own"),
     BALL(20, 5e-2),
     BALL(24, 3e-2),
     ALL_DISCS("surface", false),
+    STICKING(1, 0.5, 0),
+    STICKING(1.5, 0.75, 0),
+    STICKING(1, 0.5, 0.5236),
     ALL_DISCS("pair", true)};
 const int contact_cases_count = COUNT_OF(contact_cases);

@@ -35,11 +35,20 @@ struct contact_law {
     enum contact_between between;        /* which particles may meet: none, those of two bodies, all */
     enum contact_form form;              /* faces, or pairs of particles */
     struct contact_profile profile;      /* of faces */
+    real friction;                       /* coefficient [1] */
     int materials;
     real *stiffness;                     /* [materials^2] k/(V_i V_j) [N/m^7] */
     real spacing, section;               /* of the lattice [m]; as in lattice_volume */
     const struct image *image;           /* of loads */
     const struct region *const *shape;   /* [bodies] borrowed, NULL: a list of particles */
+};
+
+/* Friction of a particle that touches something: a spring along the face, laid down by its motion there. */
+struct contact_spring {
+    real length[DIM_MAX];                /* [m] */
+    real drag[DIM_MAX];                  /* its force on the particle [N] */
+    real density;                        /* of the face it feels, over which the reaction is spread */
+    real stored, lost;                   /* energy it holds; friction's work since the last search [J] */
 };
 
 /* What a particle feels of faces beside it: energy 1/4 k g^2 where the gap g < 0 (contact_face.c). */
@@ -52,7 +61,8 @@ struct contact_face {
 
 /* Particles near a rigid body: rows, ascending, and the gap at which contact begins, 0 or less [m]; where the body was
  * at the search. */
-struct contact_near { int64_t n; int32_t *row; real *zero, x[DIM_MAX], turn[DIM_MAX * DIM_MAX]; };
+struct contact_near { int64_t n; int32_t *row; real *zero, x[DIM_MAX], turn[DIM_MAX * DIM_MAX];
+                      struct contact_spring *spring; };
 
 /* Pairs near enough to meet before the next search, row by row: each pair stands in the rows of both its particles, so
  * that each row has one owner. */
@@ -70,6 +80,8 @@ struct contact {
     int32_t *other;                      /* [pairs] places in `particle`, ascending within a row */
     real *distance;                      /* pairs: [pairs] d [m] */
     struct contact_face *face;           /* faces: [rows] */
+    struct contact_spring *spring;       /* [rows], with friction */
+    real friction_work;                  /* up to the last search [J] */
     int rigids;
     struct rigid_body *rigid;            /* borrowed */
     struct contact_near *near;           /* [rigids]; NULL before the first search */
@@ -102,13 +114,15 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
 void contact_follow(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
 /* Adds the forces to part.f and to rigid bodies, and finds the largest overlap. After the forces of bonds, before
- * loads. */
-void contact_force(struct contact *c, struct particles *p);
+ * loads. dt: for which particles have moved with their velocities since the last call [s]. */
+void contact_force(struct contact *c, struct particles *p, real dt);
 /* Notes that the time is t [s]. */
 void contact_clock(struct contact *c, real t);
 
 /* Energy of all pairs where they are now [J]; half of that of pairs with an image. */
 real contact_energy(const struct contact *c, const struct particles *p);
+/* Work that friction has taken so far [J]. */
+real contact_friction_work(const struct contact *c);
 
 status contact_archive(struct contact *c, const struct particles *p, struct archive *a);
 

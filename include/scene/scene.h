@@ -100,6 +100,7 @@ struct scene {
     enum last_force last_force;          /* of a bond in the step in which it breaks */
     enum contact_between contact_between;
     enum contact_form contact_form;
+    real contact_friction;               /* coefficient [1] */
     real contact_stiffness;              /* in units of that of a cell [1] */
     bool has_pd_region;  struct region pd_region; /* peridynamic from the start (adaptive) */
 

@@ -51,6 +51,7 @@ void contact_free(struct contact *c)
     memory_free(c->size);
     memory_free(c->rise);
     memory_free(c->face);
+    memory_free(c->spring);
     contact_rigid_free(c);
     for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]);
     memset(c, 0, sizeof *c);
@@ -100,20 +101,29 @@ static void rows_sweep(struct contact *c, struct particles *p, struct contact_fo
     }
 }
 
-static void pairs_force(struct contact *c, struct particles *p, struct contact_found *all)
+/* Both passes of faces, and of their friction. */
+static void faces_force(struct contact *c, struct particles *p, real dt)
 {
-    rows_sweep(c, p, all);
-    if (c->law.form == CONTACT_PAIR || all->touching == 0) return;
-#pragma omp parallel for schedule(static)
-    for (int64_t row = 0; row < c->rows; row++)
-        if (c->first[row + 1] > c->first[row]) contact_face_row(c, p, row);
+#pragma omp parallel
+    {
+#pragma omp for schedule(static)
+        for (int64_t row = 0; row < c->rows; row++) {
+            if (c->first[row + 1] == c->first[row]) continue;
+            contact_face_row(c, p, row);
+            if (c->spring) contact_face_slide(c, p, row, dt);
+        }
+#pragma omp for schedule(static)
+        for (int64_t row = 0; row < (c->spring ? c->rows : 0); row++)
+            if (c->first[row + 1] > c->first[row]) contact_face_drag(c, p, row);
+    }
 }
 
-void contact_force(struct contact *c, struct particles *p)
+void contact_force(struct contact *c, struct particles *p, real dt)
 {
     struct contact_found all = {0, 0, INT32_MAX};
-    if (c->pairs > 0) pairs_force(c, p, &all);
-    contact_rigid_force(c, p, &all);
+    if (c->pairs > 0) rows_sweep(c, p, &all);
+    if (c->pairs > 0 && c->law.form == CONTACT_SURFACE && (all.touching > 0 || c->spring)) faces_force(c, p, dt);
+    contact_rigid_force(c, p, dt, &all);
     c->overlap = all.overlap, c->touching = all.touching, c->deepest = all.touching > 0 ? all.deepest : -1;
     c->overlap_most = real_max(c->overlap_most, all.overlap);
     if (all.touching / 2 > c->pairs_most) c->pairs_most = all.touching / 2;
@@ -138,7 +148,7 @@ static real contact_energy_term(const void *context, int64_t row)
 real contact_energy(const struct contact *c, const struct particles *p)
 {
     const real pairs = c->pairs > 0 ? team_sum(c->rows, contact_energy_term, &(struct contact_sum){c, p}) : 0;
-    return pairs + contact_rigid_energy(c, p);
+    return pairs + contact_rigid_energy(c, p) + contact_friction_stored(c);
 }
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
@@ -189,6 +199,10 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     if (c->law.form == CONTACT_PAIR)
         TRY(contact_stored(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
     else TRY(contact_stored(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
+    if (c->law.friction > 0) {
+        ARCHIVE_VALUE(a, "contact/friction_work", c->friction_work);
+        TRY(contact_stored(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
+    }
     TRY(contact_rigid_archive(c, a));
     if (a->saving) return OK;
     TRY(contact_check(c, p));

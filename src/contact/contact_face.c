@@ -131,20 +131,29 @@ static real face_pull(const struct contact *c, int64_t k, int64_t l)
     return face->push - face->lift * (c->rise[l] - face->mean);
 }
 
+struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+{
+    struct contact_weight w = {0};
+    real reach;
+    const real share = field_share(c, p->dim, k, l, &reach);
+    const real r = sqrt(contact_apart(c, p, k, l, w.apart));
+    if (r >= reach || !(r > 0)) return w;
+    w.weight = share * kernel(r / reach);
+    w.pull = face_pull(c, k, l) * share * kernel_slope(r / reach) / (reach * r);
+    return w;
+}
+
 /* Force on the particle of a row: as one that feels, and as one that others feel. */
 void contact_face_row(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
-    real f[DIM_MAX] = {0}, apart[DIM_MAX], reach;
+    real f[DIM_MAX] = {0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
         if (c->face[row].push == 0 && c->face[c->root[l]].push == 0) continue;
-        const real r2 = contact_apart(c, p, row, l, apart), r = sqrt(r2);
-        const real share = field_share(c, p->dim, row, l, &reach), back = field_share(c, p->dim, l, row, &reach);
-        if (r >= reach || !(r > 0)) continue;
-        const real both = face_pull(c, row, l) * share + face_pull(c, l, row) * back;
-        const real pull = both * kernel_slope(r / reach) / (reach * r);
-        for (int d = 0; d < p->dim; d++) f[d] -= pull * apart[d];
+        const struct contact_weight own = contact_weight(c, p, row, l);
+        const real pull = own.pull + contact_weight(c, p, l, row).pull;
+        for (int d = 0; d < p->dim; d++) f[d] -= pull * own.apart[d];
     }
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }

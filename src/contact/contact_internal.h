@@ -60,12 +60,27 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row);
 
+/* What entry l adds to what entry k feels: its weight; derivative of the energy of k over r [N/m]; from l to k [m]. */
+struct contact_weight { real weight, pull, apart[DIM_MAX]; };
+struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
+
+/* A step of a spring: its face has the normal `normal` (0: left), the particle went `way` past it [m]; k [N/m]; most:
+ * at which it gives way [N], 0 where both have parted. */
+void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *way, real k, real most);
+/* In two passes, as of faces. */
+void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt);
+void contact_face_drag(const struct contact *c, struct particles *p, int64_t row);
+real contact_friction_stored(const struct contact *c);
+void contact_springs_begin(struct contact *c, const struct contact *before);
+void contact_spring_take(struct contact_spring *to, const struct contact_spring *before, int64_t at);
+void contact_friction_settle(struct contact *c, const struct contact *before);
+
 /* Particles within `skin` of rigid bodies [m]. */
 void contact_rigid_find(struct contact *c, const struct contact *before, const struct particles *p, real skin);
 void contact_rigid_free(struct contact *c);
 /* Has a point of a body come so far since the search [m]? */
 bool contact_rigid_has_come(const struct contact *c, real far);
-void contact_rigid_force(struct contact *c, struct particles *p, struct contact_found *all);
+void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct contact_found *all);
 status contact_rigid_archive(struct contact *c, struct archive *a);
 /* Stores an array, or makes room for it and restores it. */
 status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size);

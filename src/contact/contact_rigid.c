@@ -10,7 +10,11 @@
 
 void contact_rigid_free(struct contact *c)
 {
-    for (int b = 0; b < c->rigids && c->near; b++) memory_free(c->near[b].row), memory_free(c->near[b].zero);
+    for (int b = 0; b < c->rigids && c->near; b++) {
+        memory_free(c->near[b].row);
+        memory_free(c->near[b].zero);
+        memory_free(c->near[b].spring);
+    }
     memory_free(c->near);
     c->near = NULL;
 }
@@ -37,16 +41,17 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
     return gap_of(c, p, r, row, normal) < skin;
 }
 
-static real zero_before(const struct contact *before, int body, int64_t row)
+/* Its entry in the list before, -1: none. */
+static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
-    int64_t low = 0, high = before->near ? before->near[body].n : 0;
-    while (row >= 0 && low < high) {
+    const int64_t row = before->made ? contact_row_of(before, particle) : -1;
+    int64_t low = 0, high = row >= 0 ? before->near[body].n : 0;
+    while (low < high) {
         const int64_t middle = (low + high) / 2;
         if (before->near[body].row[middle] < row) low = middle + 1;
         else high = middle;
     }
-    const bool found = row >= 0 && before->near && low < before->near[body].n && before->near[body].row[low] == row;
-    return found ? before->near[body].zero[low] : INFINITY;
+    return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
 
 /* Where contact begins follows a particle that is met closer, until it opens: as of pairs. */
@@ -63,13 +68,15 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
     for (int64_t row = 0; row < c->rows; row++) near->n += found[row];
     near->row = BARE("contact.near", near->n, int32_t);
     near->zero = BARE("contact.zero", near->n, real);
+    near->spring = c->law.friction > 0 ? NEW("contact.springs", near->n, struct contact_spring) : NULL;
     near->n = 0;
     for (int64_t row = 0; row < c->rows; row++) {
         if (!found[row]) continue;
-        const int64_t was = before->made ? contact_row_of(before, c->particle[row]) : -1;
-        const real gap = gap_of(c, p, r, row, normal), zero = zero_before(before, body, was);
+        const int64_t was = near_before(before, body, c->particle[row]);
+        const real gap = gap_of(c, p, r, row, normal), zero = was >= 0 ? before->near[body].zero[was] : -INFINITY;
+        if (near->spring) contact_spring_take(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
         near->row[near->n] = (int32_t)row;
-        near->zero[near->n++] = real_min(0, isfinite(zero) ? real_max(zero, gap) : gap);
+        near->zero[near->n++] = real_min(0, real_max(zero, gap));
     }
     memory_free(found);
 }
@@ -99,74 +106,98 @@ bool contact_rigid_has_come(const struct contact *c, real far)
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Force of a body on the particle of its list entry q [N]; returns the overlap [m], 0: none. */
+/* Overlap of the particle of list entry q [m], 0: none; normal of the surface there. */
+static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
+{
+    const struct contact_near *near = &c->near[body];
+    return real_max(0, near->zero[q] - gap_of(c, p, &c->rigid[body], near->row[q], normal));
+}
+
+/* Its force on the particle [N]; returns the overlap. */
 static real push_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *force)
 {
     const struct contact_near *near = &c->near[body];
     real normal[DIM_MAX] = {0};
-    const real overlap = near->zero[q] - gap_of(c, p, &c->rigid[body], near->row[q], normal);
+    const real overlap = overlap_of(c, p, body, q, normal);
     const real k = 2 * contact_stiffness(c, p, near->row[q], near->row[q]);
-    for (int d = 0; d < DIM_MAX; d++) force[d] = overlap > 0 ? k * overlap * normal[d] : 0;
-    return real_max(overlap, 0);
+    for (int d = 0; d < DIM_MAX; d++)
+        force[d] = k * overlap * normal[d] + (near->spring ? near->spring[q].drag[d] : 0);
+    return overlap;
+}
+
+/* The spring of list entry q, after a step. */
+static void spring_step(struct contact *c, const struct particles *p, int body, int64_t q, real dt)
+{
+    const struct contact_near *near = &c->near[body];
+    const int32_t i = c->particle[near->row[q]];
+    real normal[DIM_MAX] = {0}, x[DIM_MAX] = {0}, v[DIM_MAX], way[DIM_MAX];
+    const real overlap = overlap_of(c, p, body, q, normal);
+    const real k = 2 * contact_stiffness(c, p, near->row[q], near->row[q]);
+    if (overlap == 0 && near->spring[q].stored == 0) return;
+    for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
+    rigid_velocity(&c->rigid[body], x, v);
+    for (int d = 0; d < p->dim; d++) way[d] = (p->v[d][i] - v[d]) * dt;
+    contact_slide(&near->spring[q], p->dim, normal, way, k, c->law.friction * k * overlap);
 }
 
 struct rigid_sum { const struct contact *c; const struct particles *p; int body; };
 
-/* Force and moment on the body, and the energy: seven sums. */
+/* Force and moment on the body: six sums. */
 static void rigid_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
-    const struct contact_near *near = &s->c->near[s->body];
     for (int64_t q = first; q < end; q++) {
         real f[DIM_MAX], arm[DIM_MAX] = {0};
-        const real overlap = push_of(s->c, s->p, s->body, q, f);
-        const int32_t i = s->c->particle[near->row[q]];
-        if (overlap == 0) continue;
+        if (push_of(s->c, s->p, s->body, q, f) == 0) continue;
+        const int32_t i = s->c->particle[s->c->near[s->body].row[q]];
         for (int d = 0; d < s->p->dim; d++) arm[d] = s->p->x[d][i] - s->c->rigid[s->body].x[d], sum[d] -= f[d];
         for (int d = 0; d < DIM_MAX; d++) {
             const int a = (d + 1) % DIM_MAX, b = (d + 2) % DIM_MAX;
             sum[DIM_MAX + d] -= arm[a] * f[b] - arm[b] * f[a];
         }
-        sum[2 * DIM_MAX] += contact_stiffness(s->c, s->p, near->row[q], near->row[q]) * square(overlap);
     }
 }
 
-enum { RIGID_TERMS = 2 * DIM_MAX + 1 };
+enum { RIGID_TERMS = 2 * DIM_MAX };
 
-static void rigid_sums(const struct contact *c, const struct particles *p, int body, real sum[RIGID_TERMS])
+/* Forces of one body; a particle may feel several, one after the other. */
+static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_found *all)
 {
+    const struct contact_near *near = &c->near[body];
     const struct rigid_sum s = {c, p, body};
-    for (int k = 0; k < RIGID_TERMS; k++) sum[k] = 0;
-    team_sums(c->near[body].n, RIGID_TERMS, rigid_block, &s, sum);
+    real sum[RIGID_TERMS] = {0};
+    for (int64_t q = 0; q < near->n; q++) {
+        real f[DIM_MAX];
+        const int32_t i = c->particle[near->row[q]];
+        if (near->spring) spring_step(c, p, body, q, dt);
+        const real overlap = push_of(c, p, body, q, f);
+        if (overlap == 0) continue;
+        for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
+        contact_found_add(all, overlap, i);
+        all->touching++;                     /* a pair of which only one row is here */
+    }
+    team_sums(near->n, RIGID_TERMS, rigid_block, &s, sum);
+    for (int d = 0; d < DIM_MAX; d++) c->rigid[body].force[d] = sum[d], c->rigid[body].moment[d] = sum[DIM_MAX + d];
 }
 
-/* A particle may feel several bodies; they come one after the other. */
-void contact_rigid_force(struct contact *c, struct particles *p, struct contact_found *all)
+void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
-    for (int b = 0; b < c->rigids && c->near; b++) {
-        const struct contact_near *near = &c->near[b];
-        real sum[RIGID_TERMS];
-        for (int64_t q = 0; q < near->n; q++) {
-            real f[DIM_MAX];
-            const real overlap = push_of(c, p, b, q, f);
-            const int32_t i = c->particle[near->row[q]];
-            if (overlap == 0) continue;
-            for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
-            contact_found_add(all, overlap, i);
-            all->touching++;                 /* a pair of which only one row is here */
-        }
-        rigid_sums(c, p, b, sum);
-        for (int d = 0; d < DIM_MAX; d++) c->rigid[b].force[d] = sum[d], c->rigid[b].moment[d] = sum[DIM_MAX + d];
-    }
+    for (int b = 0; b < c->rigids && c->near; b++) body_force(c, p, b, dt, all);
+}
+
+static real near_energy(const void *context, int64_t q)
+{
+    const struct rigid_sum *s = context;
+    const int64_t row = s->c->near[s->body].row[q];
+    real normal[DIM_MAX];
+    return contact_stiffness(s->c, s->p, row, row) * square(overlap_of(s->c, s->p, s->body, q, normal));
 }
 
 real contact_rigid_energy(const struct contact *c, const struct particles *p)
 {
-    real energy = 0, sum[RIGID_TERMS];
-    for (int b = 0; b < c->rigids && c->near; b++) {
-        rigid_sums(c, p, b, sum);
-        energy += sum[2 * DIM_MAX];
-    }
+    real energy = 0;
+    for (int b = 0; b < c->rigids && c->near; b++)
+        energy += team_sum(c->near[b].n, near_energy, &(struct rigid_sum){c, p, b});
     return energy;
 }
 
@@ -189,6 +220,8 @@ status contact_rigid_archive(struct contact *c, struct archive *a)
         TRY(contact_stored(a, name, (void **)&near->row, near->n, sizeof *near->row));
         snprintf(name, sizeof name, "contact/near_zero_%d", b);
         TRY(contact_stored(a, name, (void **)&near->zero, near->n, sizeof *near->zero));
+        snprintf(name, sizeof name, "contact/near_spring_%d", b);
+        if (c->law.friction > 0) TRY(contact_stored(a, name, (void **)&near->spring, near->n, sizeof *near->spring));
         for (int64_t q = 0; q < near->n; q++)
             if (near->row[q] < 0 || near->row[q] >= c->rows)
                 return status_set(FAILED, "cannot resume: particles near a rigid body are none of the checkpoint");

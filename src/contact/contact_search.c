@@ -203,7 +203,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     struct contact before = *c;
     c->particle = NULL, c->root = NULL, c->size = NULL, c->rise = NULL;
     c->first = NULL, c->other = NULL, c->distance = NULL;
-    c->face = NULL, c->near = NULL;
+    c->face = NULL, c->spring = NULL, c->near = NULL;
     for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
     list_exposed(c, p, b, f);
     struct contact_search s = {&c->law, p, b, {.n = c->n, .n_all = c->n, .dim = p->dim}, {0}, c->particle, 0};
@@ -213,7 +213,9 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     pairs_find(c, &s);
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
+    contact_springs_begin(c, &before);
     contact_rigid_find(c, &before, p, SKIN * c->law.spacing);
+    contact_friction_settle(c, &before);
     before.law.stiffness = NULL;
     contact_free(&before);
 }

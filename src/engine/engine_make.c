@@ -368,6 +368,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     TRY(engine_rigid_make(e));
     contact_make(&e->contact, s->solver == SOLVER_EXPLICIT && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
                  s->contact_form, s->contact_stiffness, &e->source, e->shape, e->rigid, s->rigids);
+    e->contact.law.friction = s->contact_friction;
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_update(e);

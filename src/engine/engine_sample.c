@@ -126,7 +126,7 @@ static void sample_energies(struct engine *e)
         .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling.partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .contact = contact_energy(&e->contact, &e->part),
-        .damped = e->coupling.damped,
+        .damped = e->coupling.damped + contact_friction_work(&e->contact),
     };
 }
 
@@ -257,7 +257,7 @@ static real power_last(struct engine *e, real *held)
     if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_force(&e->contact, &e->part);
+    contact_force(&e->contact, &e->part, 0);
     loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, e->clock.dt);
     if (e->reference.mesh.points > 0) engine_nodes_force(e);
     const real power = power_now(&e->part, &e->reference) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);

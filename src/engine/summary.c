@@ -167,6 +167,7 @@ static void put_contact(struct json *j, const struct contact *c)
     json_real(j, "began", c->began);
     json_real(j, "ended", c->ended);
     json_count(j, "pairs_max", c->pairs_most);
+    json_real(j, "friction_work", contact_friction_work(c));
     json_real(j, "overlap_max", c->overlap_most / c->law.spacing);
     json_close(j, '}');
 }

@@ -88,7 +88,8 @@ static real region_moments(const struct region *shape, int dim, const struct box
     }
     for (int r = 0; r < dim && sum > 0; r++) centre[r] /= sum;
     for (int r = 0; r < dim && sum > 0; r++)
-        for (int c = 0; c < dim; c++) second[r][c] = second[r][c] / sum - centre[r] * centre[c] + (r == c ? square(step[r]) / 12 : 0);
+        for (int c = 0; c < dim; c++)
+            second[r][c] = second[r][c] / sum - centre[r] * centre[c] + (r == c ? square(step[r]) / 12 : 0);
     return sum * step[0] * step[1] * step[2];
 }
 

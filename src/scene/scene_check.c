@@ -42,6 +42,21 @@ status check_size(struct reader *r, const struct node *root)
     return fault(r, spacing, "%s would make about %.1e particles; 2e9 is the most", shown(r, spacing), total);
 }
 
+/* REFUSED for friction where there is none. */
+status check_friction(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *friction = scene_check_below(root, "contact", "friction");
+    if (!(s->contact_friction > 0)) return OK;
+    if (s->contact_form == CONTACT_PAIR)
+        return fault(r, friction, "pairs of particles mesh like gears, which is rougher than friction; contact.law: "
+                     "surface is expected");
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR)
+            return fault(r, friction, "there is no friction beside mirrors; 0, or a body without mirrors is expected");
+    return OK;
+}
+
 /* REFUSED for more than 1e12 time steps. */
 static status check_steps(struct reader *r, const struct node *root)
 {

@@ -160,6 +160,7 @@ status check_scene(struct reader *r, const struct node *root);
 /* Default share of the critical step, by whether bonds may break; after the materials are read. */
 void resolve_safety(struct reader *r, const struct node *root);
 status check_size(struct reader *r, const struct node *root);
+status check_friction(struct reader *r, const struct node *root);
 /* Resolves frames left at auto; after the bodies are read. */
 void resolve_frames(struct scene *s);
 /* Surfaces of bodies again once they are known: those of lists need not be lattices. */

@@ -167,6 +167,8 @@ const struct key keys[] = {
     KEY("contact.law", KEY_CHOICE, UNIT_NONE, AT(scene, contact_form), ANY, "surface",
         "what meets: smooth faces, or pairs of particles, as in other programs, whose faces mesh like gears",
         .words = "surface|pair"),
+    KEY("contact.friction", KEY_REAL, UNIT_NONE, AT(scene, contact_friction), BETWEEN(0, 100), "0",
+        "coefficient of Coulomb's friction between all that meets (contact.law: surface)"),
     KEY("contact.stiffness", KEY_REAL, UNIT_NONE, AT(scene, contact_stiffness), INSIDE(0, 4.001), "1",
         "of contact, in units of that of a cell of the material (15 c V^2/delta at 3.015 spacings); above 1 it may "
         "need a smaller step"),

@@ -78,6 +78,17 @@ for lines in 60 120; do
     same "after an interruption at line $lines" "$work/bits1" "$work/stopped"
     rm -r "$work/stopped"
 done
+for friction in 0.3 10; do               # sliding and sticking
+    rub="$work/hit.yaml -s contact.friction=$friction"
+    for threads in 1 3; do calm "$work/rub$threads" $rub -t $threads; done
+    same "friction $friction, 3 threads" "$work/rub1" "$work/rub3"
+    between "friction $friction takes work" "$(figure "$work/rub1" contact.friction_work)" 0.1 1000
+    between "friction $friction: energy" "$(figure "$work/rub1" energy.balance_error)" -0.005 0.005
+    interrupted "$work/stopped" 120 $rub
+    calm "$work/stopped" -t 3 --resume $rub
+    same "friction $friction, after an interruption" "$work/rub1" "$work/stopped"
+    rm -r "$work/stopped" "$work/rub1" "$work/rub3"
+done
 
 # ---- what is refused, and what stops -----------------------------------------------------------------------------------
 
@@ -89,6 +100,7 @@ refused "only rigid bodies" "$work/no" "only rigid bodies" "$work/hit.yaml" \
     -s "bodies=[{name: a, rigid: true, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}]"
 refused "a half-space that flies" "$work/no" "has no end" "$work/hit.yaml" \
     -s "bodies=[{name: b, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}, {name: a, rigid: true, mass: 1 kg, shape: {half-space: {point: [20 mm, 0], normal: [1, 0]}}}]"
+refused "friction of pairs" "$work/no" "contact.law: surface" "$work/hit.yaml" -s contact.friction=0.1 -s contact.law=pair
 refused "rigid bodies and material points" "$work/no" "method: pd" "$work/hit.yaml" -s method=mpm
 stopped "particles that pass each other" "$work/deep" "inside another" inputs/bars_collide.yaml \
     -s "bodies=[{name: a, velocity: [2000 m/s], shape: {box: {from: [-100 mm], to: [0]}}}, {name: b, velocity: [-2000 m/s], shape: {box: {from: [1 mm], to: [101 mm]}}}]"

@@ -1,0 +1,47 @@
+/* A block on a slope, under a weight: it slides with g (sin - mu cos), or stays. */
+#include <math.h>
+
+#include "contact_bench.h"
+
+/* A block of 12 x 8 particles: on a rigid floor, or on a row of a deformable one that is held below. */
+status contact_slope(const struct contact_case *c, double *figure)
+{
+    struct engine e;
+    struct scene s;
+    const double D = CONTACT_SPACING, slope = atan(c->given[0]), friction = c->given[1], E = 200e9, density = 8000;
+    const double g = 1e-4 * E / (density * 8 * D), settle = 100e-6, slide = sqrt(2 * 20 * D / (g * sin(slope)));
+    const bool rigid = c->given[2] > 0;
+    char floor[256], held[256] = "";
+    if (rigid)
+        snprintf(floor, sizeof floor,
+                 "  - {name: floor, rigid: true, shape: {half-space: {point: [0, 0], normal: [0, 1]}}}\n");
+    else {
+        snprintf(floor, sizeof floor, "  - {name: floor, shape: {box: {from: [%.9g, %.9g], to: [%.9g, 0]}}}\n", -6 * D,
+                 -4 * D, 54 * D);
+        snprintf(held, sizeof held, "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, %.9g]}}}\n", -2 * D);
+    }
+    TRY(contact_engine(&e, &s,
+                       "name: slope\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: %.9g\n"
+                       "material: {young: %.9g, poisson: 1/3, density: %.9g}\nparticles: {spacing: %.9g}\nbodies:\n"
+                       "  - {name: block, shape: {box: {from: [0, 0], to: [%.9g, %.9g]}}}\n%s"
+                       "boundary:\n%s"
+                       "  - {body_force: [0, %.9g], body: block, time: {ramp: {until: %.9g}}}\n"
+                       "  - {body_force: [%.9g, 0], body: block, time: {ramp: {from: %.9g, until: %.9g}}}\n"
+                       "contact: {between: bodies, friction: %.9g}\noutput: {frames: 0, samples: 100}\n",
+                       2 * settle + slide, E, density, D, 12 * D, 8 * D, floor, held, -density * g * cos(slope), settle,
+                       density * g * sin(slope), settle, 1.001 * settle, friction));
+    double from = 0, at = 0, then = 0;
+    status ran = engine_report_start(&e);
+    while (ran == OK && e.clock.step < e.clock.steps) {
+        ran = engine_step(&e);
+        const struct contact_motion m = contact_motion_of(&e, 0);
+        if (e.clock.t < 2 * settle) from = m.x[0], at = m.v[0], then = e.clock.t;
+    }
+    if (ran == OK) ran = engine_report_end(&e);
+    const struct contact_motion m = contact_motion_of(&e, 0);
+    figure[0] = (m.v[0] - at) / (e.clock.t - then) / (g * sin(slope));
+    figure[1] = (m.x[0] - from) / D;
+    figure[2] = fabs(e.diagnostics.now.balance_error);
+    bench_engine_free(&e, &s);
+    return ran;
+}
