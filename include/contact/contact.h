@@ -55,6 +55,7 @@ struct contact_spring {
 struct contact_face {
     real zero;                           /* height of its own surface, where contact begins [spacings] */
     real stiffness;                      /* k [J] */
+    real far;                            /* gap at the search, 0 or more [spacings] */
     real push, lift, mean;               /* derivative of its energy by the density; by the mean rise, over the density
                                             [J]; mean rise [spacings] */
 };
@@ -85,6 +86,7 @@ struct contact {
     int rigids;
     struct rigid_body *rigid;            /* borrowed */
     struct contact_near *near;           /* [rigids]; NULL before the first search */
+    real way;                            /* the farthest that a particle has come since the search [m] */
     int64_t searched, broken, peridynamic; /* at the last search: step; directed bonds broken; peridynamic particles */
     int64_t pairs_most;                  /* pairs in contact at once, most so far */
     real overlap;                        /* largest (d - r) of the last step that looked [m] */

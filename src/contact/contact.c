@@ -87,12 +87,13 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
 static void rows_sweep(struct contact *c, struct particles *p, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
+    const real reach = 3 * c->way / c->law.spacing;          /* both sides come nearer, and fields are not quite flat */
 #pragma omp parallel
     {
         struct contact_found own = {0, 0, INT32_MAX};
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
-            if (c->first[row + 1] == c->first[row]) continue;
+            if (c->first[row + 1] == c->first[row] || (faces && c->face[row].far > reach)) continue;
             if (faces) contact_face_feel(c, p, row, &own);
             else contact_pair_row(c, p, row, &own);
         }

@@ -147,13 +147,16 @@ struct contact_weight contact_weight(const struct contact *c, const struct parti
 void contact_face_row(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
-    real f[DIM_MAX] = {0};
+    real f[DIM_MAX] = {0}, apart[DIM_MAX], reach;
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int64_t l = c->other[q];
         if (c->face[row].push == 0 && c->face[c->root[l]].push == 0) continue;
-        const struct contact_weight own = contact_weight(c, p, row, l);
-        const real pull = own.pull + contact_weight(c, p, l, row).pull;
-        for (int d = 0; d < p->dim; d++) f[d] -= pull * own.apart[d];
+        const real own = field_share(c, p->dim, row, l, &reach), back = field_share(c, p->dim, l, row, &reach);
+        const real r2 = contact_apart(c, p, row, l, apart);
+        if (r2 >= square(reach) || r2 == 0) continue;
+        const real r = sqrt(r2), slope = kernel_slope(r / reach) / (reach * r);
+        const real pull = (face_pull(c, row, l) * own + face_pull(c, l, row) * back) * slope;
+        for (int d = 0; d < p->dim; d++) f[d] -= pull * apart[d];
     }
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
@@ -189,4 +192,5 @@ void contact_face_begin(struct contact *c, const struct contact *before, int64_t
     const real height = height_of(c, &now, &slope);
     face->zero = overlap > 0 ? height + overlap
                              : real_min(real_min(1 + c->rise[row], height_of(c, &reference, &slope)), height);
+    face->far = real_max(0, height - face->zero);
 }

@@ -222,18 +222,24 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
 
 /* ---- when -------------------------------------------------------------------------------------------------------- */
 
-/* Has one of them come half the skin far since the last search? */
-static bool has_come_far(const struct contact *c, const struct particles *p)
+/* The farthest that one of them has come since the last search [m]; infinite where it is not known. */
+static real farthest_way(const struct contact *c, const struct particles *p)
 {
-    const real far2 = square(0.5 * SKIN * c->law.spacing);
-    bool far = contact_rigid_has_come(c, 0.5 * SKIN * c->law.spacing);
-#pragma omp parallel for schedule(static) reduction(|| : far)
+    real far2 = 0;
+#pragma omp parallel for schedule(static) reduction(max : far2)
     for (int64_t k = 0; k < c->rows; k++) {
         real way2 = 0;
         for (int d = 0; d < p->dim; d++) way2 += square(p->x[d][c->particle[k]] - c->at[d][k]);
-        far = far || !(way2 < far2);
+        far2 = way2 >= 0 ? real_max(far2, way2) : INFINITY;
     }
-    return far;
+    return sqrt(far2);
+}
+
+/* Has one of them, or a rigid body, come half the skin far? */
+static bool has_come_far(const struct contact *c)
+{
+    const real far = 0.5 * SKIN * c->law.spacing;
+    return !(c->way < far) || contact_rigid_has_come(c, far);
 }
 
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
@@ -241,9 +247,10 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
 {
     if (!contact_works(c)) return;
     const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
-    if (c->made && p->n_of[KIND_PD] == c->peridynamic && !new_faces && !has_come_far(c, p)) return;
+    if (c->made) c->way = farthest_way(c, p);
+    if (c->made && p->n_of[KIND_PD] == c->peridynamic && !new_faces && !has_come_far(c)) return;
     search_pairs(c, p, b, family);
-    c->made = true;
+    c->made = true, c->way = 0;
     c->searched = step, c->broken = broken, c->peridynamic = p->n_of[KIND_PD];
     contact_follow(c, p, b, l);
 }

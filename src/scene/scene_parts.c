@@ -225,7 +225,8 @@ status read_bodies(struct reader *r, const struct node *root)
         return fault(r, many, "rigid bodies meet peridynamic particles only; method: pd is expected");
     if (s->rigids > 0 && s->solver != SOLVER_EXPLICIT)
         return fault(r, many, "rigid bodies move in steps of time; solver: explicit is expected");
-    if (s->rigids > 0 && !node_find(node_find(root, "contact"), "between")) s->contact_between = CONTACT_ALL;
+    if (!node_find(node_find(root, "contact"), "between") && s->method == METHOD_PD && s->solver == SOLVER_EXPLICIT)
+        s->contact_between = s->rigids > 0 ? CONTACT_ALL : s->bodies > 1 ? CONTACT_BODIES : CONTACT_NONE;
     return OK;
 }
 
