@@ -39,7 +39,7 @@ static status bench_mark(const char *word, bool *asked)
     return status_set(REFUSED,
                       "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
                       "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability[=lasting|=CASE]] "
-                      "[sensitivity] [steps] [--quick] [--readme]",
+                      "[sensitivity] [steps] [contact] [--quick] [--readme]",
                       word);
 }
 

@@ -29,9 +29,27 @@ static void say_frames(const struct engine *e)
                (long long)e->reference.mesh.points);
 }
 
+/* Which peridynamic particles meet, and by which law. */
+static void say_contact_of_bonds(const struct scene *s)
+{
+    static const char *const who[] = {"", "peridynamic particles of two bodies",
+                                      "peridynamic particles near any face: bodies, fragments, faces of cracks"};
+    if (s->contact_between == CONTACT_NONE && s->rigids == 0) return;
+    printf("contact        %s", who[s->contact_between]);
+    if (s->rigids > 0)
+        printf("%s%d rigid %s", s->contact_between == CONTACT_NONE ? "peridynamic particles with " : ", and ", s->rigids,
+               s->rigids > 1 ? "bodies" : "body");
+    printf("; %s", s->contact_form == CONTACT_PAIR ? "pairs of particles: faces that slide mesh like gears"
+                                                   : "smooth faces");
+    if (s->contact_friction > 0) printf(", friction %.3g (a flat face along the lattice has 0.007 of its own)",
+                                        s->contact_friction);
+    putchar('\n');
+}
+
 static void say_contact(const struct engine *e)
 {
     int on_grid = 0;
+    say_contact_of_bonds(e->scene);
     for (int b = 0; b < e->scene->bodies; b++)
         on_grid += e->scene->method != METHOD_PD && !e->reference.choice[b].reference;
     if (on_grid > 1)

@@ -7,6 +7,7 @@ test_name=test_contact
 
 # ---- inputs/ ---------------------------------------------------------------------------------------------------------
 
+start spall hopkinson_bar -s method=pd
 for scene in bars_collide discs_collide kalthoff_projectile three_point_bend brazilian_disc; do start $scene $scene; done
 start middle three_point_bend -s "cracks=[{from: [86.36 mm, -1 mm], to: [86.36 mm, 19 mm]}]"
 wait
@@ -21,6 +22,11 @@ for run in bars_collide discs_collide kalthoff_projectile three_point_bend brazi
 last() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } } END { print $at }' \
     "$work/$1/history.csv"; }
 
+# An impactor of 30 m/s, both of bonds: as with points, test_scenes.sh.
+sound spall $pd_balance
+between "hopkinson_bar of bonds: first break" "$(f spall crack.start_time)" 1.00e-3 1.07e-3
+between "hopkinson_bar of bonds: spall" "$(f spall probes.spall.position)" 0.038 0.042
+between "hopkinson_bar of bonds: its speed" "$(f spall probes.spall.speed)" 26 30
 between "bars: duration" "$(compute "$(f bars_collide contact.ended) - $(f bars_collide contact.began)")" 40e-6 42e-6
 # mass 8e-4 kg at -5 m/s
 between "bars: speed" "$(compute "$(f bars_collide probes.left.x) / -4e-3")" 0.98 1.001
