@@ -41,8 +41,8 @@ static void say_contact_of_bonds(const struct scene *s)
                s->rigids > 1 ? "bodies" : "body");
     printf("; %s", s->contact_form == CONTACT_PAIR ? "pairs of particles: faces that slide mesh like gears"
                                                    : "smooth faces");
-    if (s->contact_friction > 0) printf(", friction %.3g (a flat face along the lattice has 0.007 of its own)",
-                                        s->contact_friction);
+    if (s->contact_friction > 0)
+        printf(", friction %.3g (a flat face along the lattice has 0.007 of its own)", s->contact_friction);
     putchar('\n');
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "engine/engine.h"
+#include "fracture/fragments.h"
 #include "base/memory.h"
 #include "simd/simd.h"
 
@@ -190,6 +191,59 @@ static void put_rigid(struct json *j, const struct engine *e)
     json_close(j, ']');
 }
 
+/* ---- fragments --------------------------------------------------------------------------------------------------- */
+
+/* Bodies of bonds that have lost some. */
+static bool has_fragments(const struct engine *e)
+{
+    return e->scene->method == METHOD_PD && e->scene->solver == SOLVER_EXPLICIT &&
+           (e->diagnostics.bonds_broken > 0 || e->scene->cracks > 0);
+}
+
+static void put_fragments(struct json *j, const struct fragments *f)
+{
+    json_open(j, "fragments", '{');
+    json_count(j, "count", f->n);
+    json_real(j, "mass_max", f->n > 0 ? f->fragment[0].mass : 0);
+    json_count(j, "particles_alone", f->singles);
+    json_real(j, "mass_alone", f->mass_singles);
+    json_close(j, '}');
+}
+
+/* fragments.csv: a line each, the heaviest first. */
+static void fragments_print(FILE *file, const struct engine *e, const struct fragments *f)
+{
+    static const char axis[] = "xyz";
+    const int dim = e->part.dim;
+    fputs("body,particles,mass [kg]", file);
+    for (int d = 0; d < dim; d++) fprintf(file, ",%c [m]", axis[d]);
+    for (int d = 0; d < dim; d++) fprintf(file, ",velocity_%c [m/s]", axis[d]);
+    fputc('\n', file);
+    for (int64_t k = 0; k < f->n; k++) {
+        const struct fragment *g = &f->fragment[k];
+        fprintf(file, "%d,%lld,%.9g", g->body, (long long)g->particles, g->mass);
+        for (int d = 0; d < dim; d++) fprintf(file, ",%.9g", g->x[d]);
+        for (int d = 0; d < dim; d++) fprintf(file, ",%.9g", g->v[d]);
+        fputc('\n', file);
+    }
+}
+
+static status fragments_write(const struct engine *e, const struct fragments *f)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&text, &length);
+    if (!file) return status_set(FAILED, "cannot write fragments.csv: out of memory");
+    fragments_print(file, e, f);
+    const bool whole = !ferror(file) && fclose(file) == 0;
+    const status written = whole ? output_text(e->report.out, "fragments.csv", text, length)
+                                 : status_set(FAILED, "cannot write fragments.csv: out of memory");
+    free(text);
+    return written;
+}
+
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
+
 static void put_tip(struct json *j, const struct tip *tip, int dim)
 {
     json_open(j, NULL, '{');
@@ -298,8 +352,8 @@ static void put_machine(struct json *j, const struct engine *e, int threads, dou
     json_number(j, "rest_share", e->report.inactive / (real)(e->clock.step > 0 ? e->clock.step : 1), DIGITS_TIMING);
 }
 
-static void summary_print(FILE *file, const struct engine *e, status s, const char *message, int threads,
-                          double wall_seconds)
+static void summary_print(FILE *file, const struct engine *e, const struct fragments *fragments, status s,
+                          const char *message, int threads, double wall_seconds)
 {
     struct json j = {.file = file, .depth = 1};
     fputc('{', file);
@@ -310,6 +364,7 @@ static void summary_print(FILE *file, const struct engine *e, status s, const ch
     put_energy_balance(&j, &e->diagnostics.now);
     put_contact(&j, &e->contact);
     put_rigid(&j, e);
+    if (has_fragments(e)) put_fragments(&j, fragments);
     put_crack(&j, e);
     put_conversion(&j, e);
     put_probes(&j, e);
@@ -323,9 +378,15 @@ status summary_write(const struct engine *e, status s, int threads, double wall_
     size_t length = 0;
     if (!e->report.out) return OK;
     snprintf(message, sizeof message, "%s", status_message());
+    struct fragments fragments = {0};
+    if (has_fragments(e)) {
+        fragments_find(&fragments, &e->bonds, &e->part);
+        TRY(fragments_write(e, &fragments));
+    }
     FILE *file = open_memstream(&text, &length);
     if (!file) return status_set(FAILED, "cannot write summary.json: out of memory");
-    summary_print(file, e, s, message, threads, wall_seconds);
+    summary_print(file, e, &fragments, s, message, threads, wall_seconds);
+    fragments_free(&fragments);
     bool whole = !ferror(file);
     if (fclose(file) != 0) whole = false;
     status written = whole ? output_text(e->report.out, "summary.json", text, length)

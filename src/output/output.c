@@ -32,6 +32,7 @@ static const char *const made[] = {"checkpoint.h5",
                                    "checkpoint.damaged.h5",
                                    "summary.json",
                                    "history.csv",
+                                   "fragments.csv",
                                    "frames.hdf.series",
                                    "frames.xdmf"};
 

@@ -160,7 +160,8 @@ const struct key keys[] = {
         "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
 
     KEY("contact", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "forces between particles that no bond joins"),
-    KEY("contact.between", KEY_CHOICE, UNIT_NONE, AT(scene, contact_between), ANY, "(all with rigid bodies, bodies with several, else none)",
+    KEY("contact.between", KEY_CHOICE, UNIT_NONE, AT(scene, contact_between), ANY,
+        "(all with rigid bodies, bodies with several, else none)",
         "which peridynamic particles push each other apart when they meet: none, those of two bodies, or all near a "
         "face (bodies, fragments, faces of cracks)",
         .words = "none|bodies|all"),

@@ -1,0 +1,81 @@
+/* Fragments by joining both ends of every bond: the particle of the lowest number stands for the others. */
+#include "fracture/fragments.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static int32_t stands_for(int32_t *leader, int32_t i)
+{
+    while (leader[i] != i) i = leader[i] = leader[leader[i]];
+    return i;
+}
+
+static void join_ends(int32_t *leader, const struct bonds *b, const struct particles *p)
+{
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);) {
+            if (it.bond.w == 0 || it.bond.nbr >= p->n) continue;     /* images belong to other particles */
+            const int32_t one = stands_for(leader, i), other = stands_for(leader, it.bond.nbr);
+            if (one < other) leader[other] = one;
+            else leader[one] = other;
+        }
+    }
+}
+
+static int heavier_first(const void *a, const void *b)
+{
+    const struct fragment *x = a, *y = b;
+    if (x->mass != y->mass) return x->mass > y->mass ? -1 : 1;
+    return x->first < y->first ? -1 : 1;
+}
+
+static void add_particle(struct fragment *f, const struct particles *p, int32_t i)
+{
+    f->particles++, f->mass += p->mass[i];
+    for (int d = 0; d < p->dim; d++) f->x[d] += p->mass[i] * p->x[d][i], f->v[d] += p->mass[i] * p->v[d][i];
+}
+
+/* Means from sums; particles without bonds are counted and left out. */
+static void leave_singles(struct fragments *f)
+{
+    int64_t kept = 0;
+    for (int64_t k = 0; k < f->n; k++) {
+        struct fragment *g = &f->fragment[k];
+        if (g->particles < 2) {
+            f->singles++, f->mass_singles += g->mass;
+            continue;
+        }
+        for (int d = 0; d < DIM_MAX; d++) g->x[d] /= g->mass, g->v[d] /= g->mass;
+        f->fragment[kept++] = *g;
+    }
+    f->n = kept;
+}
+
+void fragments_find(struct fragments *f, const struct bonds *b, const struct particles *p)
+{
+    /* place[i]: number of the fragment that begins with particle i */
+    int32_t *leader = BARE("fragments.leader", p->n, int32_t), *place = BARE("fragments.place", p->n, int32_t);
+    memset(f, 0, sizeof *f);
+    for (int64_t i = 0; i < p->n; i++) leader[i] = (int32_t)i;
+    join_ends(leader, b, p);
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        if (stands_for(leader, i) == i) place[i] = (int32_t)f->n++;
+    }
+    f->fragment = NEW("fragments", f->n, struct fragment);
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k], first = stands_for(leader, i);
+        struct fragment *g = &f->fragment[place[first]];
+        g->first = first, g->body = p->body[i];
+        add_particle(g, p, i);
+    }
+    leave_singles(f);
+    qsort(f->fragment, (size_t)f->n, sizeof *f->fragment, heavier_first);
+    memory_free(leader);
+    memory_free(place);
+}
+
+void fragments_free(struct fragments *f) { memory_free(f->fragment); }
