@@ -37,8 +37,8 @@ static void say_contact_of_bonds(const struct scene *s)
     if (s->contact_between == CONTACT_NONE && s->rigids == 0) return;
     printf("contact        %s", who[s->contact_between]);
     if (s->rigids > 0)
-        printf("%s%d rigid %s", s->contact_between == CONTACT_NONE ? "peridynamic particles with " : ", and ", s->rigids,
-               s->rigids > 1 ? "bodies" : "body");
+        printf("%s%d rigid %s", s->contact_between == CONTACT_NONE ? "peridynamic particles with " : ", and ",
+               s->rigids, s->rigids > 1 ? "bodies" : "body");
     printf("; %s", s->contact_form == CONTACT_PAIR ? "pairs of particles: faces that slide mesh like gears"
                                                    : "smooth faces");
     if (s->contact_friction > 0)
