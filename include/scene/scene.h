@@ -33,10 +33,19 @@ struct scene_body {
     uint64_t contents;                   /* hash of that file; 0: not read */
     char place[PLACE_LENGTH];            /* in the scene, of its list if it has one */
     real velocity[DIM_MAX];              /* [m/s] */
+    int joined;                          /* lowest number of the bodies that are one with it by interfaces */
     bool rigid;                          /* no particles: it has a shape that keeps its form ... */
     real mass, ramp;                     /* ... flies with a mass [kg]; or is driven, fully from `ramp` on [s] */
     enum grid_frame frame; /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
     const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not */
+};
+
+/* What lies between two bodies. */
+struct scene_interface {
+    int body[2];
+    bool joined;
+    real energy_release_rate;            /* NAN: that of the weaker material [J/m^2] */
+    real critical_stretch;               /* of it; 0: none [1] */
 };
 
 /* Initial state of the particles in a region; later entries overwrite earlier ones. */
@@ -84,6 +93,7 @@ struct scene {
     int materials;  struct material *material;
     int bodies;     struct scene_body *body;   /* deformable ones; behind them `rigids` rigid ones */
     int rigids;
+    int interfaces; struct scene_interface *interface;
 
     bool has_accuracy; real accuracy;    /* required of method auto [1] */
     struct scene_choice choice;

@@ -16,6 +16,13 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
         for (int b = 0; b < s->materials; b++)
             tables->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
+    for (int k = 0; k < s->interfaces; k++) {
+        const struct scene_interface *face = &s->interface[k];
+        const int a = s->body[face->body[0]].material, b = s->body[face->body[1]].material;
+        if (!(face->critical_stretch > 0)) continue;
+        tables->pair_stretch[a * s->materials + b] = face->critical_stretch;
+        tables->pair_stretch[b * s->materials + a] = face->critical_stretch;
+    }
     source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->last_force, 0};
     if (s->solver != SOLVER_EXPLICIT) source->limit = bond_limit_never;    /* no bond breaks in a static solution */
 }

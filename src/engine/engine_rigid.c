@@ -11,6 +11,8 @@ status engine_rigid_make(struct engine *e)
     const struct scene *s = e->scene;
     e->shape = NEW("engine.shape", s->bodies, const struct region *);
     for (int b = 0; b < s->bodies; b++) e->shape[b] = s->body[b].file ? NULL : &s->body[b].shape;
+    for (int b = 0; b < s->bodies; b++)          /* of several solids side by side nobody knows the surface */
+        if (s->body[b].joined != b) e->shape[s->body[b].joined] = NULL;
     e->rigid = NEW("engine.rigid", s->rigids, struct rigid_body);
     for (int k = 0; k < s->rigids; k++) {
         const struct scene_body *b = &s->body[s->bodies + k];

@@ -438,7 +438,9 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, ON_SURFACE * spacing);
     TRY(check_start(p, d, spacing));
     particles_sort(p, spacing, optional);
-    return check_distances(p, d, spacing);
+    TRY(check_distances(p, d, spacing));
+    for (int64_t i = 0; i < p->n; i++) p->body[i] = (uint8_t)s->body[p->body[i]].joined;     /* joined ones are one */
+    return OK;
 }
 
 status fill_particles(struct particles *p, const struct scene *s, int optional)

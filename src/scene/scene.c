@@ -30,6 +30,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(read_materials(r, root));
     resolve_safety(r, root);
     TRY(read_bodies(r, root));
+    TRY(read_interfaces(r, root));
     resolve_lists(r, root);
     resolve_frames(s);
     TRY(check_size(r, root));
@@ -37,6 +38,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(read_initials(r, root));
     TRY(read_boundaries(r, root));
     TRY(check_friction(r, root));
+    TRY(check_joined(r, root));
     TRY(read_probes(r, root));
     TRY(read_growths(r, root));
     return check_solver(r, root);
@@ -71,6 +73,7 @@ void scene_free(struct scene *s)
     region_free(&s->pd_region);
     memory_free(s->material);
     memory_free(s->body);
+    memory_free(s->interface);
     memory_free(s->crack);
     memory_free(s->initial);
     memory_free(s->boundary);

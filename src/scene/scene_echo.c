@@ -264,6 +264,23 @@ static void write_bodies(struct writer *w)
     }
 }
 
+static void write_interfaces(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->interfaces) fputs("interfaces:\n", w->out);
+    for (int k = 0; k < s->interfaces; k++) {
+        const struct scene_interface *face = &s->interface[k];
+        begin_item(w);
+        begin(w, "bodies");
+        fputs(" [", w->out);
+        write_quoted(w, s->body[face->body[0]].name);
+        fputs(", ", w->out);
+        write_quoted(w, s->body[face->body[1]].name);
+        fputs("]\n", w->out);
+        write_group(w, "interfaces", face);
+    }
+}
+
 static void write_cracks(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -418,6 +435,7 @@ char *scene_echo(const struct scene *s)
     write_group(&w, "", &head);
     write_materials(&w);
     write_bodies(&w);
+    write_interfaces(&w);
     write_cracks(&w);
     write_initials(&w);
     write_boundaries(&w);

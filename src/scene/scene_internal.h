@@ -160,6 +160,10 @@ status check_scene(struct reader *r, const struct node *root);
 /* Default share of the critical step, by whether bonds may break; after the materials are read. */
 void resolve_safety(struct reader *r, const struct node *root);
 status check_size(struct reader *r, const struct node *root);
+status read_interfaces(struct reader *r, const struct node *root);
+status check_joined(struct reader *r, const struct node *root);
+/* Critical stretch of a material with an energy release rate, in this scene. */
+real scene_critical_stretch(const struct scene *s, const struct material *m);
 status check_friction(struct reader *r, const struct node *root);
 /* Resolves frames left at auto; after the bodies are read. */
 void resolve_frames(struct scene *s);

@@ -100,6 +100,14 @@ const struct key keys[] = {
     KEY("bodies.ramp", KEY_REAL, UNIT_TIME, AT(scene_body, ramp), FROM(0), NONE,
         "rigid, with a velocity that it keeps: until then the velocity grows in proportion"),
 
+    KEY("interfaces", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
+        "what lies between two bodies of method pd; without, they meet by contact"),
+    KEY("interfaces.bodies", KEY_HAND, UNIT_NONE, NOWHERE, ANY, REQUIRED, "which two", .words = "list of two names"),
+    KEY("interfaces.joined", KEY_FLAG, UNIT_NONE, AT(scene_interface, joined), ANY, "true",
+        "bonds go from one to the other where they touch: one body of two materials, the first one's number in frames"),
+    KEY("interfaces.energy_release_rate", KEY_REAL, UNIT_SURFACE_ENERGY, AT(scene_interface, energy_release_rate),
+        ABOVE(0), "(that of the weaker material)", "critical energy release rate of the interface"),
+
     KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
         "what bodies and regions are made of: one of the following, or a list of them, built in order"),
     KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),

@@ -61,7 +61,7 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
 
 /* Critical stretch from G_c: in closed form, or for the model with rotations (mospd) from the work that separates the
  * lattice. */
-static real critical_stretch(const struct scene *s, const struct material *m)
+real scene_critical_stretch(const struct scene *s, const struct material *m)
 {
     const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
     if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
@@ -89,7 +89,7 @@ static status scene_parts_read_material(struct reader *r, const struct node *n, 
                      "yield_stress, is expected");
     material_derive(m, s->space);
     if (!isnan(m->energy_release_rate))
-        m->critical_stretch = critical_stretch(s, m);
+        m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return OK;
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
 }
@@ -225,8 +225,6 @@ status read_bodies(struct reader *r, const struct node *root)
         return fault(r, many, "rigid bodies meet peridynamic particles only; method: pd is expected");
     if (s->rigids > 0 && s->solver != SOLVER_EXPLICIT)
         return fault(r, many, "rigid bodies move in steps of time; solver: explicit is expected");
-    if (!node_find(node_find(root, "contact"), "between") && s->method == METHOD_PD && s->solver == SOLVER_EXPLICIT)
-        s->contact_between = s->rigids > 0 ? CONTACT_ALL : s->bodies > 1 ? CONTACT_BODIES : CONTACT_NONE;
     return OK;
 }
 

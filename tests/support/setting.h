@@ -35,6 +35,7 @@ static inline void setting_make(struct setting *s, enum space space, const real 
     }
     for (int b = 0; b < BODIES; b++) {
         s->body[b].shape = (struct region){1, s->solid[b]};
+        s->body[b].joined = b;
         snprintf(s->body[b].name, sizeof s->body[b].name, "%s", name[b]);
     }
     s->solid[0][0].kind = SOLID_BOX;

@@ -1,0 +1,118 @@
+/* Reads the interfaces of a scene: bodies that are joined become one, of several materials. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene_internal.h"
+
+/* The two bodies of an interface, by their names. */
+static status interface_bodies(struct reader *r, const struct node *n, struct scene_interface *face)
+{
+    const struct scene *s = r->scene;
+    const struct node *names = node_find(n, "bodies");
+    if (!names) return fault_missing(r, n, key_find("interfaces", "bodies"));
+    if (names->kind != NODE_LIST || names->n != 2)
+        return fault(r, names, "names of two bodies are expected, as [plate, layer]");
+    const struct node *name = names->first;
+    for (int k = 0; k < 2; k++, name = name->next) {
+        face->body[k] = -1;
+        for (int b = 0; b < s->bodies; b++)
+            if (name->kind == NODE_SCALAR && strcmp(s->body[b].name, name->text) == 0) face->body[k] = b;
+        if (face->body[k] < 0) return fault(r, name, "no body of this name has particles");
+    }
+    if (face->body[0] == face->body[1]) return fault(r, names, "a body and itself; two bodies are expected");
+    return OK;
+}
+
+/* A material of its own for a body, the same as before: bonds know bodies that are one by their materials. */
+static status material_apart(struct reader *r, const struct node *n, struct scene_body *b)
+{
+    struct scene *s = r->scene;
+    if (s->materials >= 255) return fault(r, n, "bodies of one material get one each, and 255 are the most");
+    s->material = memory_resize("materials", s->material, (size_t)s->materials, (size_t)s->materials + 1,
+                                sizeof *s->material);
+    struct material *own = &s->material[s->materials];
+    *own = s->material[b->material];
+    char name[2 * NAME_MAX_LENGTH + 8];
+    snprintf(name, sizeof name, "%s_%s", s->material[b->material].name, b->name);
+    snprintf(own->name, sizeof own->name, "%.*s", (int)sizeof own->name - 1, name);
+    b->material = s->materials++;
+    return OK;
+}
+
+/* The stretch at which bonds across it break: that of a material between both, with its toughness. */
+static status interface_strength(struct reader *r, const struct node *n, struct scene_interface *face)
+{
+    struct scene *s = r->scene;
+    if (isnan(face->energy_release_rate)) return OK;
+    struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
+    if (one->material == other->material) TRY(material_apart(r, n, other));
+    const struct material *a = &s->material[one->material], *b = &s->material[other->material];
+    struct material between = a->young < b->young ? *a : *b;
+    between.young = 2 * a->young * b->young / (a->young + b->young);
+    between.energy_release_rate = face->energy_release_rate;
+    material_derive(&between, s->space);
+    face->critical_stretch = scene_critical_stretch(s, &between);
+    return OK;
+}
+
+static void join_bodies(struct scene *s, int one, int other)
+{
+    const int from = s->body[one].joined, to = s->body[other].joined;
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined == (from > to ? from : to)) s->body[b].joined = from > to ? to : from;
+}
+
+/* What meets, where the scene does not say. */
+static void resolve_contact(struct scene *s, const struct node *root)
+{
+    bool several = false;
+    for (int b = 0; b < s->bodies; b++) several |= s->body[b].joined > 0;
+    if (node_find(node_find(root, "contact"), "between") || s->method != METHOD_PD || s->solver != SOLVER_EXPLICIT)
+        return;
+    s->contact_between = s->rigids > 0 ? CONTACT_ALL : several ? CONTACT_BODIES : CONTACT_NONE;
+}
+
+status read_interfaces(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *list = node_find(root, "interfaces");
+    for (int b = 0; b < s->bodies; b++) s->body[b].joined = b;
+    if (!list) {
+        resolve_contact(s, root);
+        return OK;
+    }
+    TRY(expect_list(r, key_find("", "interfaces"), list));
+    if (s->method != METHOD_PD) return fault(r, list, "bodies are joined by bonds; method: pd is expected");
+    s->interface = NEW("interfaces", list->n, struct scene_interface);
+    s->interfaces = list->n;
+    const struct node *n = list->first;
+    for (int k = 0; k < s->interfaces; k++, n = n->next) {
+        struct scene_interface *face = &s->interface[k];
+        TRY(read_group(r, n, n, "interfaces", face));
+        TRY(interface_bodies(r, n, face));
+        if (!face->joined && !isnan(face->energy_release_rate))
+            return fault(r, node_find(n, "energy_release_rate"), "only of bodies that are joined");
+        if (!face->joined) continue;
+        TRY(interface_strength(r, n, face));
+        join_bodies(s, face->body[0], face->body[1]);
+    }
+    resolve_contact(s, root);
+    return OK;
+}
+
+status check_joined(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *n = node_find(root, "boundary");
+    n = n ? n->first : NULL;
+    for (int k = 0; k < s->boundaries && n; k++, n = n->next) {
+        const int body = s->boundary[k].body;
+        for (int b = 0; b < s->bodies && body >= 0; b++)
+            if (b != body && s->body[b].joined == s->body[body].joined)
+                return fault(r, node_find(n, "body"), "is joined to %s, one body from then on; a region is expected",
+                             s->body[b].name);
+    }
+    return OK;
+}

@@ -1,0 +1,72 @@
+#!/bin/sh
+# Joined bodies: a wave through two materials, halves that make a whole, a weak joint, refusals.
+test_name=test_interfaces
+. tests/support/summary.sh
+. tests/support/scenes.sh
+. tests/support/trust.sh
+
+# A pulse from steel into a material of a quarter of its impedance: 2 Z1/(Z1 + Z2) = 1.6 goes on, 0.6 comes back.
+cat >"$work/layers.yaml" <<'END'
+space: line
+section: 1 mm^2
+method: pd
+duration: 14 us
+materials:
+  - {name: steel, young: 200 GPa, density: 8000}
+  - {name: soft, young: 50 GPa, density: 2000}
+bodies:
+  - {name: left, material: steel, shape: {box: {from: [-100 mm], to: [0]}}}
+  - {name: right, material: soft, shape: {box: {from: [0], to: [100 mm]}}}
+interfaces: [{bodies: [left, right]}]
+particles: {spacing: 0.25 mm}
+initial: [{pulse: {at: [-30 mm], direction: [1], width: 40 mm, velocity: 1}}]
+probes: [{point: {name: a, at: [-20.1 mm]}}, {point: {name: b, at: [20.1 mm]}}]
+output: {frames: 1, samples: 400}
+END
+# A notched plate, whole, of two halves, and of two halves badly glued, which part at half the load.
+cat >"$work/whole.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+method: pd
+duration: 40 us
+material: {young: 72 GPa, density: 2440, energy_release_rate: 20}
+body: {box: {from: [0, 0], to: [60 mm, 20 mm]}}
+cracks: [{from: [-1 mm, 10 mm], to: [10 mm, 10 mm]}]
+boundary:
+  - {traction: [0, 8 MPa], face: y+}
+  - {traction: [0, -8 MPa], face: y-}
+particles: {spacing: 1 mm}
+output: {frames: 1, samples: 40}
+END
+sed 's/^body:.*/bodies:\
+  - {name: low, shape: {box: {from: [0, 0], to: [60 mm, 10 mm]}}}\
+  - {name: high, shape: {box: {from: [0, 10 mm], to: [60 mm, 20 mm]}}}\
+interfaces: [{bodies: [low, high]}]/' "$work/whole.yaml" >"$work/halves.yaml"
+sed 's/^interfaces:.*/interfaces: [{bodies: [low, high], energy_release_rate: 2}]/; s/8 MPa/4 MPa/' "$work/halves.yaml" >"$work/glued.yaml"
+sed 's/8 MPa/4 MPa/' "$work/whole.yaml" >"$work/strong.yaml"
+for scene in layers whole; do start $scene "$work/$scene.yaml"; done
+wait
+for scene in halves glued; do start $scene "$work/$scene.yaml"; done
+wait
+start strong "$work/strong.yaml"
+start glued_again "$work/glued/scene.yaml"
+wait
+
+# most FOLDER COLUMN FROM: its largest value from that time on [s].
+most() { awk -F, -v name="$2" -v from="$3" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } }
+    NR > 1 && $1 >= from + 0 && $at > most { most = $at } END { print most + 0 }' "$work/$1/history.csv"; }
+between "layers: goes on" "$(most layers b.velocity_x 0)" 1.592 1.608
+between "layers: comes back" "$(most layers a.velocity_x 8e-6)" 0.597 0.603
+for figure in energy.strain energy.fracture crack.length_end; do        # but for round-off
+    between "halves: $figure" "$(compute "$(f halves $figure) / $(f whole $figure)")" 0.999999 1.000001
+done
+between "glued: parts" "$(f glued fragments.count)" 2 2
+is "glued: along the joint" "$(sed -n 2p "$work/glued/fragments.csv" | cut -d, -f2)" 600
+between "strong: one part" "$(f strong fragments.count)" 1 1
+if cmp "$work/glued/history.csv" "$work/glued_again/history.csv"; then pass; else fail "glued: scene.yaml is another scene"; fi
+
+refused "no such body" "$work/no" "no body of this name" "$work/halves.yaml" -s "interfaces=[{bodies: [low, middle]}]"
+refused "a toughness of what is apart" "$work/no" "bodies that are joined" "$work/halves.yaml" \
+    -s "interfaces=[{bodies: [low, high], joined: false, energy_release_rate: 1}]"
+refused "a boundary of a joined body" "$work/no" "is joined to low" "$work/halves.yaml" -s "boundary=[{fixed: all, body: high}]"
+finish
