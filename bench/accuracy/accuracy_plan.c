@@ -30,6 +30,7 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
     if (p->horizon > 0) bench_override(&s->set, "particles.horizon", "%.9g", p->horizon);
     bench_override(&s->set, "time.step", "auto");
     bench_override(&s->set, "time.safety", "%.9g", p->step);
+    bench_override(&s->set, "contact.between", "none");      /* nothing meets in these problems */
     bench_override(&s->set, "output.frames", "0");
     bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }

@@ -164,7 +164,7 @@ static status energy_drift_body_make(struct engine *e, struct scene *s, const st
     char text[4096];
     stability_text(&l->c, text, sizeof text);
     TRY(bench_engine_make(e, s, "body", text, NULL, 0));
-    const real dt = s->safety * e->clock.dt_critical;
+    const real dt = e->clock.dt;
     bench_engine_free(e, s);
     bench_override(&o, "time.step", "%.17g", dt);
     bench_override(&o, "duration", "%.17g", dt * (real)steps);
@@ -183,7 +183,7 @@ static void course_add(struct course *c, const struct engine *e, const struct ea
     if (c->n >= (int)COUNT_OF(c->step)) return;
     c->step[c->n] = (double)e->clock.step;
     real after;
-    const real between = kinetic_between(before, e, &after), stored = u->strain + u->plastic + u->fracture;
+    const real between = kinetic_between(before, e, &after), stored = u->strain + u->plastic + u->fracture + u->contact;
     c->energy[c->n] = between + stored, c->plain[c->n] = after + stored;
     c->work[c->n++] = now->external_work;
 }

@@ -18,6 +18,7 @@ struct stability_case {
     double offset;                       /* of the nodes against the lattice's lower border [cells] */
     int offsets;                         /* how many are tried between 0 and 1, 0: `offset` alone */
     double horizon, poisson, irregularity;
+    bool contact;                        /* faces of cracks meet */
     double heavier;                      /* density of the other half over that of the first; 0: one material */
     enum stability_region { HALF, ISLANDS, SPOTS, STRIP, SQUARE, DISC, CORNER, NOTCH } region;
                              /* peridynamic (adaptive): one half; all but scattered balls; these balls; the middle

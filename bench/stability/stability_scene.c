@@ -209,6 +209,7 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
     if (stability_scene_is(c->method, "adaptive")) fputs("conversion: {criteria: none}\n", to);
     if (c->region == NOTCH)
         fprintf(to, "cracks: [{from: [%.9g, 0], to: [%.9g, %.9g]}]\n", edge / 2, edge / 2, edge / 2);
+    fprintf(to, "contact: {between: %s}\n", c->contact ? "all" : "none");
     put_support(to, c, edge);
     fputs("output: {frames: 0, samples: 1}\n", to);
     fclose(to);

@@ -40,6 +40,8 @@ struct contact_law {
     real *stiffness;                     /* [materials^2] k/(V_i V_j) [N/m^7] */
     real spacing, section;               /* of the lattice [m]; as in lattice_volume */
     const struct image *image;           /* of loads */
+    const struct crack *crack;           /* borrowed; those with a width are notches */
+    int cracks;
     const struct region *const *shape;   /* [bodies] borrowed, NULL: a list of particles */
 };
 
@@ -60,10 +62,17 @@ struct contact_face {
                                             [J]; mean rise [spacings] */
 };
 
+/* Account of what the time step gives and takes at the ends of contact (contact_balance.c). */
+struct contact_balance {
+    real gap, older;                     /* of the last two steps [spacings] */
+    real drag;                           /* force against the rate of the gap [J] */
+    real account;                        /* energy given less taken [J] */
+};
+
 /* Particles near a rigid body: rows, ascending, and the gap at which contact begins, 0 or less [m]; where the body was
  * at the search. */
 struct contact_near { int64_t n; int32_t *row; real *zero, x[DIM_MAX], turn[DIM_MAX * DIM_MAX];
-                      struct contact_spring *spring; };
+                      struct contact_spring *spring; struct contact_balance *balance; };
 
 /* Pairs near enough to meet before the next search, row by row: each pair stands in the rows of both its particles, so
  * that each row has one owner. */
@@ -81,13 +90,16 @@ struct contact {
     int32_t *other;                      /* [pairs] places in `particle`, ascending within a row */
     real *distance;                      /* pairs: [pairs] d [m] */
     struct contact_face *face;           /* faces: [rows] */
+    struct contact_balance *balance;     /* faces: [rows] */
     struct contact_spring *spring;       /* [rows], with friction */
+    uint8_t *followed;                   /* [rows] what may push it: a row_state of contact_internal.h */
+    int64_t waiting;                     /* rows that may feel something once it has moved */
     real friction_work;                  /* up to the last search [J] */
     int rigids;
     struct rigid_body *rigid;            /* borrowed */
     struct contact_near *near;           /* [rigids]; NULL before the first search */
     real way;                            /* the farthest that a particle has come since the search [m] */
-    int64_t searched, broken, peridynamic; /* at the last search: step; directed bonds broken; peridynamic particles */
+    int64_t searched, broken, changed;   /* at the last search: step; directed bonds broken; changes of kind */
     int64_t pairs_most;                  /* pairs in contact at once, most so far */
     real overlap;                        /* largest (d - r) of the last step that looked [m] */
     real overlap_most;                   /* of all [m] */
@@ -109,11 +121,11 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
 
 /* Before a step: searches anew if particles have come too far since the last search, if bonds have broken a while ago,
  * or if particles have changed their kind; what a pair can push counts as loaded and its row blocks are active.
- * broken: directed bonds broken so far. */
+ * broken: directed bonds broken so far; changed: changes of kind so far. */
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                    const struct family *family, int64_t step, int64_t broken);
-/* Marks the particles of pairs as loaded and their row blocks as active; also after a restart. */
-void contact_follow(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
+                    const struct family *family, int64_t step, int64_t broken, int64_t changed);
+/* Marks the particles that something may push as loaded and their row blocks as active; also after a restart. */
+void contact_follow(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
 /* Adds the forces to part.f and to rigid bodies, and finds the largest overlap. After the forces of bonds, before
  * loads. dt: for which particles have moved with their velocities since the last call [s]. */

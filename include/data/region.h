@@ -67,6 +67,7 @@ real time_function_integral(const struct time_function *f, real t);
 struct crack {
     int n;                               /* corners */
     real (*corner)[DIM_MAX];             /* [m] */
+    real width;                          /* of a notch: its faces meet once they are so much nearer [m] */
 };
 
 /* Does the crack cut the bond between two reference positions? Symmetric in a and b to the last bit. A

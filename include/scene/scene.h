@@ -153,6 +153,14 @@ struct scene {
 
 struct scene_override { const char *key, *value; };    /* of `-s key=value` */
 
+/* Are there several bodies, those that are joined counted as one, or rigid ones? */
+static inline bool scene_bodies_meet(const struct scene *s)
+{
+    bool several = s->rigids > 0;
+    for (int b = 0; b < s->bodies; b++) several |= s->body[b].joined > 0;
+    return several;
+}
+
 /* What a length (line), an area (plane) or a volume (solid) is multiplied with to be a volume: [m^2], [m], [1]. */
 static inline real scene_section(const struct scene *s)
 {

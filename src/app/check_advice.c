@@ -151,7 +151,7 @@ static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end
 {
     const struct particles *p = &e->part;
     real corner[2][2][DIM_MAX], hair[DIM_MAX];
-    struct crack longer = {2, corner[0]}, shorter = {2, corner[1]};
+    struct crack longer = {.n = 2, .corner = corner[0]}, shorter = {.n = 2, .corner = corner[1]};
     memcpy(corner[0], c->corner, sizeof corner[0]);
     memcpy(corner[1], c->corner, sizeof corner[1]);
     for (int d = 0; d < p->dim; d++) hair[d] = 1e-7 * (c->corner[end][d] - c->corner[!end][d]);

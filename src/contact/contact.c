@@ -26,6 +26,8 @@ void contact_make(struct contact *c, enum contact_between between, enum contact_
                                   .spacing = family.spacing,
                                   .section = family.section,
                                   .image = source->image,
+                                  .crack = source->crack,
+                                  .cracks = source->cracks,
                                   .shape = shape};
     c->rigid = rigid, c->rigids = rigids;
     if (!contact_works(c)) return;
@@ -52,6 +54,8 @@ void contact_free(struct contact *c)
     memory_free(c->rise);
     memory_free(c->face);
     memory_free(c->spring);
+    memory_free(c->followed);
+    memory_free(c->balance);
     contact_rigid_free(c);
     for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]);
     memset(c, 0, sizeof *c);
@@ -84,17 +88,17 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
 }
 
 /* Rows in parallel: what they feel, if faces meet; else their forces. */
-static void rows_sweep(struct contact *c, struct particles *p, struct contact_found *all)
+static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
-    const real reach = 3 * c->way / c->law.spacing;          /* both sides come nearer, and fields are not quite flat */
+    const real reach = CONTACT_FLATNESS * c->way / c->law.spacing;
 #pragma omp parallel
     {
         struct contact_found own = {0, 0, INT32_MAX};
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
-            if (c->first[row + 1] == c->first[row] || (faces && c->face[row].far > reach)) continue;
-            if (faces) contact_face_feel(c, p, row, &own);
+            if (!contact_follows(c, row) || (faces && c->face[row].far > reach)) continue;
+            if (faces) contact_face_feel(c, p, row, dt, &own);
             else contact_pair_row(c, p, row, &own);
         }
 #pragma omp critical
@@ -109,20 +113,20 @@ static void faces_force(struct contact *c, struct particles *p, real dt)
     {
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
-            if (c->first[row + 1] == c->first[row]) continue;
+            if (!contact_follows(c, row)) continue;
             contact_face_row(c, p, row);
             if (c->spring) contact_face_slide(c, p, row, dt);
         }
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < (c->spring ? c->rows : 0); row++)
-            if (c->first[row + 1] > c->first[row]) contact_face_drag(c, p, row);
+            if (contact_follows(c, row)) contact_face_drag(c, p, row);
     }
 }
 
 void contact_force(struct contact *c, struct particles *p, real dt)
 {
     struct contact_found all = {0, 0, INT32_MAX};
-    if (c->pairs > 0) rows_sweep(c, p, &all);
+    if (c->pairs > 0) rows_sweep(c, p, dt, &all);
     if (c->pairs > 0 && c->law.form == CONTACT_SURFACE && (all.touching > 0 || c->spring)) faces_force(c, p, dt);
     contact_rigid_force(c, p, dt, &all);
     c->overlap = all.overlap, c->touching = all.touching, c->deepest = all.touching > 0 ? all.deepest : -1;
@@ -176,7 +180,7 @@ static status contact_check(const struct contact *c, const struct particles *p)
 /* The list decides which pairs push, and their distances; it is restored as it was. */
 status contact_archive(struct contact *c, const struct particles *p, struct archive *a)
 {
-    int64_t numbers[] = {c->made, c->n, c->rows, c->pairs, c->searched, c->broken, c->peridynamic, c->pairs_most,
+    int64_t numbers[] = {c->made, c->n, c->rows, c->pairs, c->searched, c->broken, c->changed, c->pairs_most,
                          c->overlap_said};
     if (!contact_works(c)) return OK;
     ARCHIVE_VALUE(a, "contact/numbers", numbers);
@@ -184,7 +188,7 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     ARCHIVE_VALUE(a, "contact/began", c->began);
     ARCHIVE_VALUE(a, "contact/ended", c->ended);
     c->made = numbers[0] != 0, c->n = numbers[1], c->rows = numbers[2], c->pairs = numbers[3];
-    c->searched = numbers[4], c->broken = numbers[5], c->peridynamic = numbers[6], c->pairs_most = numbers[7];
+    c->searched = numbers[4], c->broken = numbers[5], c->changed = numbers[6], c->pairs_most = numbers[7];
     c->overlap_said = numbers[8] != 0;
     if (!c->made) return OK;
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
@@ -199,7 +203,10 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     TRY(contact_stored(a, "contact/other", (void **)&c->other, c->pairs, sizeof *c->other));
     if (c->law.form == CONTACT_PAIR)
         TRY(contact_stored(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
-    else TRY(contact_stored(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
+    else {
+        TRY(contact_stored(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
+        TRY(contact_stored(a, "contact/balance", (void **)&c->balance, c->rows, sizeof *c->balance));
+    }
     if (c->law.friction > 0) {
         ARCHIVE_VALUE(a, "contact/friction_work", c->friction_work);
         TRY(contact_stored(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));

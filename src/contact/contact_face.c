@@ -48,7 +48,7 @@ void contact_profile_make(struct contact_profile *profile, int dim)
 
 /* Depth [spacings] and its derivative by the density: cubic between nodes, straight beyond the first, and the last
  * where there is less. */
-static real depth_of(const struct contact_profile *profile, real density, real *slope)
+static real table_depth(const struct contact_profile *profile, real density, real *slope)
 {
     int low = 0, high = PROFILE_NODES - 1;
     *slope = 0;
@@ -100,19 +100,22 @@ static struct felt felt_by(const struct contact *c, const struct particles *p, r
 /* Height of the particle above the surface that it feels [spacings]; its derivative by the density. */
 static real height_of(const struct contact *c, const struct felt *felt, real *slope)
 {
-    return depth_of(&c->law.profile, felt->density, slope) - felt->mean;
+    return table_depth(&c->law.profile, felt->density, slope) - felt->mean;
 }
 
-void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, struct contact_found *found)
+void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt,
+                       struct contact_found *found)
 {
     struct contact_face *face = &c->face[row];
     const struct felt felt = felt_by(c, p, p->x, row);
     real slope;
     const real gap = height_of(c, &felt, &slope) - face->zero;
+    const real force = 0.5 * face->stiffness * real_min(gap, 0)
+                     + contact_balance(&c->balance[row], face->stiffness, gap, dt > 0);
     face->push = face->lift = 0, face->mean = felt.mean;
     if (!(gap < 0)) return;
-    face->push = 0.5 * face->stiffness * gap * slope;
-    face->lift = 0.5 * face->stiffness * gap / felt.density;
+    face->push = force * slope;
+    face->lift = force / felt.density;
     contact_found_add(found, -gap * c->size[row], c->particle[row]);
 }
 
@@ -174,6 +177,20 @@ static real face_stiffness(const struct contact *c, const struct particles *p, i
     return isfinite(least) ? least : contact_stiffness(c, p, row, row) * square(c->size[row]);
 }
 
+/* Widest notch between the particle and those that were near it in the reference state [spacings]. */
+static real face_notch(const struct contact *c, const struct particles *p, int64_t row)
+{
+    real widest = 0;
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+        const int32_t i = c->particle[row], j = c->particle[c->other[q]];
+        real reach, r2 = 0;
+        field_share(c, p->dim, row, c->other[q], &reach);
+        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
+        if (r2 < square(reach)) widest = real_max(widest, contact_notch(c, p, row, c->other[q]));
+    }
+    return widest / c->size[row];
+}
+
 /* In contact, the overlap stays such that the energy does; else contact begins where the surfaces of the scene meet, or
  * later where the reference state or the state now is closer. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
@@ -189,8 +206,9 @@ void contact_face_begin(struct contact *c, const struct contact *before, int64_t
         overlap = real_max(0, before->face[was].zero - height_of(before, &then, &slope));
         overlap *= sqrt(before->face[was].stiffness / face->stiffness);
     }
-    const real height = height_of(c, &now, &slope);
-    face->zero = overlap > 0 ? height + overlap
-                             : real_min(real_min(1 + c->rise[row], height_of(c, &reference, &slope)), height);
+    const real height = height_of(c, &now, &slope), least = height_of(c, &reference, &slope);
+    const real zero = real_min(1 + c->rise[row], least) - face_notch(c, p, row);
+    face->zero = overlap > 0 ? height + overlap : real_min(zero, height);
     face->far = real_max(0, height - face->zero);
+    c->balance[row] = contact_balance_begin(was < 0 ? NULL : &before->balance[was], height - face->zero);
 }

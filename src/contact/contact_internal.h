@@ -5,6 +5,12 @@
 #include "contact/contact.h"
 
 #define CONTACT_REACH 2.0                /* of the field of a face [mean spacings] */
+#define CONTACT_SKIN 0.3                 /* beyond the contact distance [spacings]: pairs that may come to it soon */
+#define CONTACT_FLATNESS 3               /* a gap shrinks by this times the way of a particle: of both sides, and more
+                                            where fields are not flat */
+
+/* What may push a row before the next search: nothing; something once it has moved; what feels it; what it feels. */
+enum row_state { ROW_FAR, ROW_NEAR, ROW_FELT, ROW_FEELS };
 
 /* What the rows of a step have found. */
 struct contact_found { real overlap; int64_t touching; int32_t deepest; };
@@ -38,8 +44,15 @@ static inline real contact_stiffness(const struct contact *c, const struct parti
 /* Is there anything that may meet? */
 static inline bool contact_works(const struct contact *c) { return c->law.between != CONTACT_NONE || c->rigids > 0; }
 
+/* May something push the particle of the row? contact_follow_more, before each step without a search, has marked it. */
+static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_FELT; }
+void contact_follow_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
+
 /* Row of particle i, -1: none. */
 int64_t contact_row_of(const struct contact *c, int64_t i);
+
+/* Width of the notch that lies between two entries in the reference state [m], 0: none. */
+real contact_notch(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
 
 /* Images and spacings of the entries of the list. */
 void contact_list_describe(struct contact *c, const struct particles *p);
@@ -52,13 +65,20 @@ real contact_pair_distance(const struct contact *c, const struct particles *p, i
 
 void contact_profile_make(struct contact_profile *profile, int dim);
 /* In two passes: what each particle feels, then the forces of all that feel something. */
-void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, struct contact_found *found);
+void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt,
+                       struct contact_found *found);
 void contact_face_row(const struct contact *c, struct particles *p, int64_t row);
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
 /* Where contact begins for the particle of a row that is new on the list, or was row `was` of the list `before` (-1:
  * not): its energy does not change. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row);
+
+/* Force along the rate of the gap of a row of stiffness K and energy 1/4 K gap^2; units as of gap and K. advance: a
+ * step has been made since the last call. */
+real contact_balance(struct contact_balance *b, real stiffness, real gap, bool advance);
+/* The account of what has the gap `gap` and is new on the list, or was there with `before` (NULL: not). */
+struct contact_balance contact_balance_begin(const struct contact_balance *before, real gap);
 
 /* What entry l adds to what entry k feels: its weight; derivative of the energy of k over r [N/m]; from l to k [m]. */
 struct contact_weight { real weight, pull, apart[DIM_MAX]; };

@@ -14,6 +14,7 @@ void contact_rigid_free(struct contact *c)
         memory_free(c->near[b].row);
         memory_free(c->near[b].zero);
         memory_free(c->near[b].spring);
+        memory_free(c->near[b].balance);
     }
     memory_free(c->near);
     c->near = NULL;
@@ -68,6 +69,7 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
     for (int64_t row = 0; row < c->rows; row++) near->n += found[row];
     near->row = BARE("contact.near", near->n, int32_t);
     near->zero = BARE("contact.zero", near->n, real);
+    near->balance = BARE("contact.balance", near->n, struct contact_balance);
     near->spring = c->law.friction > 0 ? NEW("contact.springs", near->n, struct contact_spring) : NULL;
     near->n = 0;
     for (int64_t row = 0; row < c->rows; row++) {
@@ -76,7 +78,10 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         const real gap = gap_of(c, p, r, row, normal), zero = was >= 0 ? before->near[body].zero[was] : -INFINITY;
         if (near->spring) contact_spring_take(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
         near->row[near->n] = (int32_t)row;
-        near->zero[near->n++] = real_min(0, real_max(zero, gap));
+        near->zero[near->n] = real_min(0, real_max(zero, gap));
+        near->balance[near->n] = contact_balance_begin(was >= 0 ? &before->near[body].balance[was] : NULL,
+                                                       gap - near->zero[near->n]);
+        near->n++;
     }
     memory_free(found);
 }
@@ -106,11 +111,25 @@ bool contact_rigid_has_come(const struct contact *c, real far)
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Overlap of the particle of list entry q [m], 0: none; normal of the surface there. */
-static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
+/* Overlap of the particle of list entry q [m], negative: none; normal of the surface there. */
+static real depth_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const struct contact_near *near = &c->near[body];
-    return real_max(0, near->zero[q] - gap_of(c, p, &c->rigid[body], near->row[q], normal));
+    return near->zero[q] - gap_of(c, p, &c->rigid[body], near->row[q], normal);
+}
+
+static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
+{
+    return real_max(0, depth_of(c, p, body, q, normal));
+}
+
+/* After a step. */
+static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
+{
+    const struct contact_near *near = &c->near[body];
+    real normal[DIM_MAX];
+    const real k = 4 * contact_stiffness(c, p, near->row[q], near->row[q]);
+    contact_balance(&near->balance[q], k, -depth_of(c, p, body, q, normal), true);
 }
 
 /* Its force on the particle [N]; returns the overlap. */
@@ -121,7 +140,7 @@ static real push_of(const struct contact *c, const struct particles *p, int body
     const real overlap = overlap_of(c, p, body, q, normal);
     const real k = 2 * contact_stiffness(c, p, near->row[q], near->row[q]);
     for (int d = 0; d < DIM_MAX; d++)
-        force[d] = k * overlap * normal[d] + (near->spring ? near->spring[q].drag[d] : 0);
+        force[d] = (k * overlap - near->balance[q].drag) * normal[d] + (near->spring ? near->spring[q].drag[d] : 0);
     return overlap;
 }
 
@@ -169,6 +188,7 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
     for (int64_t q = 0; q < near->n; q++) {
         real f[DIM_MAX];
         const int32_t i = c->particle[near->row[q]];
+        if (dt > 0) balance_step(c, p, body, q);
         if (near->spring) spring_step(c, p, body, q, dt);
         const real overlap = push_of(c, p, body, q, f);
         if (overlap == 0) continue;
@@ -222,6 +242,8 @@ status contact_rigid_archive(struct contact *c, struct archive *a)
         TRY(contact_stored(a, name, (void **)&near->zero, near->n, sizeof *near->zero));
         snprintf(name, sizeof name, "contact/near_spring_%d", b);
         if (c->law.friction > 0) TRY(contact_stored(a, name, (void **)&near->spring, near->n, sizeof *near->spring));
+        snprintf(name, sizeof name, "contact/near_balance_%d", b);
+        TRY(contact_stored(a, name, (void **)&near->balance, near->n, sizeof *near->balance));
         for (int64_t q = 0; q < near->n; q++)
             if (near->row[q] < 0 || near->row[q] >= c->rows)
                 return status_set(FAILED, "cannot resume: particles near a rigid body are none of the checkpoint");

@@ -7,7 +7,6 @@
 
 #define RISE_MOST 0.6                    /* surfaces are not looked for farther away [spacings] */
 #define ROUND_OFF 1e-6
-#define SKIN 0.3                         /* beyond the contact distance [spacings]: pairs that may come to it soon */
 enum { BREAKS_WAIT = 32 }; /* steps between searches for broken bonds: they open before they can close */
 
 /* ---- particles that can meet ------------------------------------------------------------------------------------- */
@@ -15,7 +14,7 @@ enum { BREAKS_WAIT = 32 }; /* steps between searches for broken bonds: they open
 /* Share of a full family below which a particle is in the first layer of a body: there it has 0.50 (line) to 0.67 (two
  * spacings in the plane), in the second layer 0.79 or more at 3 spacings. A family of nearest neighbours alone has up
  * to 5/6 in the first layer and all in the second. */
-static real first_layer_share(const struct family *f) 
+static real first_layer_share(const struct family *f)
 {
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
@@ -37,6 +36,20 @@ int64_t contact_row_of(const struct contact *c, int64_t i)
         else high = middle;
     }
     return low < c->rows && c->particle[low] == i ? low : -1;
+}
+
+real contact_notch(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+{
+    const int32_t i = c->particle[k], j = c->particle[l];
+    real widest = 0, a[DIM_MAX], b[DIM_MAX];
+    if (p->body[i] != p->body[j]) return 0;
+    particle_place(p, i, a);
+    particle_place(p, j, b);
+    for (int n = 0; n < c->law.cracks; n++) {
+        const struct crack *notch = &c->law.crack[n];
+        if (notch->width > widest && crack_cuts(notch, a, b, p->dim)) widest = notch->width;
+    }
+    return widest;
 }
 
 /* Spacing of a particle [m]: that of the lattice, exactly, if its volume is that of the lattice but for round-off. */
@@ -120,49 +133,71 @@ static void mark_bonded(const struct bonds *b, int32_t i, int64_t *mark, int64_t
         if (it.bond.w != 0) mark[it.bond.nbr] = row;
 }
 
-/* Writes the pairs of row k (other NULL: none) and returns their number. */
-static int64_t row_pairs(const struct contact_search *s, struct near *near, int64_t *mark, int64_t k, int32_t *other)
+/* Pairs of consecutive rows, as a thread finds them. */
+struct pair_list { int64_t n, room; int32_t *other; };
+
+static void pair_add(struct pair_list *to, int32_t other)
+{
+    if (to->n == to->room) {
+        const int64_t room = 2 * to->room + 1024;
+        to->other = memory_resize("contact.found", to->other, to->room, room, sizeof *to->other);
+        to->room = room;
+    }
+    to->other[to->n++] = other;
+}
+
+/* Adds the pairs of row k. */
+static void row_pairs(const struct contact_search *s, struct near *near, int64_t *mark, int64_t k, struct pair_list *to)
 {
     const struct particles *p = s->p;
     const int32_t i = s->particle[k];
-    int64_t n = 0;
-    if (s->law->between == CONTACT_NONE) return 0;
+    if (s->law->between == CONTACT_NONE) return;
     near_find(near, &s->cells, &s->places, k, s->reach, false);
-    if (near->n == 0) return 0;
+    if (near->n == 0) return;
     mark_bonded(s->b, i, mark, k);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = s->particle[near->at[q]];
         if (mark[j] == k || (s->law->between == CONTACT_BODIES && p->body[i] == p->body[j])) continue;
-        if (other) other[n] = near->at[q];
-        n++;
+        pair_add(to, near->at[q]);
     }
-    return n;
 }
 
-/* Pairs of all rows, in two passes: how many, then which. */
+/* Numbers of pairs up to each row, and room for the pairs. */
+static void pairs_room(struct contact *c)
+{
+    for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
+    c->pairs = c->first[c->rows];
+    c->other = BARE("contact.other", c->pairs, int32_t);
+}
+
+/* Pairs of all rows: each thread finds those of its rows, then puts them where they belong. */
 static void pairs_find(struct contact *c, const struct contact_search *s)
 {
-    int64_t *first = NEW("contact.first", c->rows + 1, int64_t);
-    c->other = NULL;
-    for (int pass = 0; pass < 2; pass++) {
+    c->first = NEW("contact.first", c->rows + 1, int64_t);
 #pragma omp parallel
-        {
-            struct near near = {0};
-            int64_t *mark = BARE("contact.mark", s->p->n_all, int64_t);
-            for (int64_t i = 0; i < s->p->n_all; i++) mark[i] = -1;
+    {
+        struct near near = {0};
+        struct pair_list own = {0};
+        int64_t *mark = BARE("contact.mark", s->p->n_all, int64_t), put = 0;
+        for (int64_t i = 0; i < s->p->n_all; i++) mark[i] = -1;
 #pragma omp for schedule(static)
-            for (int64_t k = 0; k < c->rows; k++) {
-                const int64_t n = row_pairs(s, &near, mark, k, pass == 0 ? NULL : c->other + first[k]);
-                if (pass == 0) first[k + 1] = n;
-            }
-            memory_free(near.at);
-            memory_free(mark);
+        for (int64_t k = 0; k < c->rows; k++) {
+            const int64_t before = own.n;
+            row_pairs(s, &near, mark, k, &own);
+            c->first[k + 1] = own.n - before;
         }
-        if (pass > 0) break;
-        for (int64_t k = 0; k < c->rows; k++) first[k + 1] += first[k];
-        c->other = BARE("contact.other", first[c->rows], int32_t);
+#pragma omp single
+        pairs_room(c);
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < c->rows; k++) {
+            const int64_t n = c->first[k + 1] - c->first[k];
+            if (n > 0) memcpy(c->other + c->first[k], own.other + put, (size_t)n * sizeof *own.other);
+            put += n;
+        }
+        memory_free(near.at);
+        memory_free(own.other);
+        memory_free(mark);
     }
-    c->first = first, c->pairs = first[c->rows];
 }
 
 /* Distance d of particles i, j if they were on the list before [m]; NAN: they were not. */
@@ -177,7 +212,10 @@ static real distance_before(const struct contact *before, int64_t row, int32_t j
 /* Where contact of each row, or of each of its pairs, begins. */
 static void pairs_begin(struct contact *c, const struct contact *before, const struct particles *p)
 {
-    if (c->law.form == CONTACT_SURFACE) c->face = BARE("contact.face", c->rows, struct contact_face);
+    if (c->law.form == CONTACT_SURFACE) {
+        c->face = BARE("contact.face", c->rows, struct contact_face);
+        c->balance = BARE("contact.balance", c->rows, struct contact_balance);
+    }
     else c->distance = BARE("contact.distance", c->pairs, real);
 #pragma omp parallel for schedule(static)
     for (int64_t row = 0; row < c->rows; row++) {
@@ -195,7 +233,7 @@ static real search_reach(const struct contact *c)
 {
     real most = 0;
     for (int64_t k = 0; k < c->n; k++) most = real_max(most, c->size[k]);
-    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : 1) + SKIN * c->law.spacing;
+    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : 1) + CONTACT_SKIN * c->law.spacing;
 }
 
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
@@ -203,7 +241,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     struct contact before = *c;
     c->particle = NULL, c->root = NULL, c->size = NULL, c->rise = NULL;
     c->first = NULL, c->other = NULL, c->distance = NULL;
-    c->face = NULL, c->spring = NULL, c->near = NULL;
+    c->face = NULL, c->spring = NULL, c->near = NULL, c->followed = NULL, c->balance = NULL;
     for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
     list_exposed(c, p, b, f);
     struct contact_search s = {&c->law, p, b, {.n = c->n, .n_all = c->n, .dim = p->dim}, {0}, c->particle, 0};
@@ -214,7 +252,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
     contact_springs_begin(c, &before);
-    contact_rigid_find(c, &before, p, SKIN * c->law.spacing);
+    contact_rigid_find(c, &before, p, CONTACT_SKIN * c->law.spacing);
     contact_friction_settle(c, &before);
     before.law.stiffness = NULL;
     contact_free(&before);
@@ -238,41 +276,22 @@ static real farthest_way(const struct contact *c, const struct particles *p)
 /* Has one of them, or a rigid body, come half the skin far? */
 static bool has_come_far(const struct contact *c)
 {
-    const real far = 0.5 * SKIN * c->law.spacing;
+    const real far = 0.5 * CONTACT_SKIN * c->law.spacing;
     return !(c->way < far) || contact_rigid_has_come(c, far);
 }
 
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                    const struct family *family, int64_t step, int64_t broken)
+                    const struct family *family, int64_t step, int64_t broken, int64_t changed)
 {
     if (!contact_works(c)) return;
     const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
     if (c->made) c->way = farthest_way(c, p);
-    if (c->made && p->n_of[KIND_PD] == c->peridynamic && !new_faces && !has_come_far(c)) return;
+    if (c->made && changed == c->changed && !new_faces && !has_come_far(c)) {
+        contact_follow_more(c, p, b, l);
+        return;
+    }
     search_pairs(c, p, b, family);
     c->made = true, c->way = 0;
-    c->searched = step, c->broken = broken, c->peridynamic = p->n_of[KIND_PD];
+    c->searched = step, c->broken = broken, c->changed = changed;
     contact_follow(c, p, b, l);
-}
-
-/* Marks the rows of particles that something may push. */
-static void rows_followed(const struct contact *c, uint8_t *followed)
-{
-    for (int64_t k = 0; k < c->rows; k++) followed[k] = c->first[k + 1] > c->first[k];
-    for (int b = 0; b < c->rigids; b++)
-        for (int64_t q = 0; q < c->near[b].n; q++) followed[c->near[b].row[q]] = 1;
-}
-
-void contact_follow(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
-{
-    int32_t *list = BARE("contact.list", c->rows, int32_t);
-    uint8_t *followed = BARE("contact.followed", c->rows, uint8_t);
-    int64_t n = 0;
-    rows_followed(c, followed);
-    for (int64_t k = 0; k < c->rows; k++)
-        if (followed[k]) list[n++] = c->particle[k];
-    loads_touch(l, p, list, n);
-    active_rows_touch(b, p, l, list, n);
-    memory_free(list);
-    memory_free(followed);
 }

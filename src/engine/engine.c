@@ -188,11 +188,11 @@ static status prepare(struct engine *e, struct step *now)
 {
     now->middle = e->clock.t + 0.5 * e->clock.dt;
     now->dt_velocity = e->clock.step == 0 ? 0.5 * e->clock.dt : e->clock.dt;
-    contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                   e->diagnostics.bonds_broken);
-    now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
     e->mpm.transfer.dt_velocity = now->dt_velocity;
     engine_revert(e);
+    contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                   e->diagnostics.bonds_broken, e->coupling.conversion.converted + e->coupling.conversion.reverted);
+    now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
     e->mpm.transfer.bonded = e->coupling.bonded;      /* reversion may have freed it */
     lap(&e->report.laps, LAP_CONVERT);
     engine_sample_begin(e);

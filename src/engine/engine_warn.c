@@ -140,9 +140,7 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
 {
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
-    bool several = false;
-    for (int b = 0; b < s->bodies; b++) several |= s->body[b].joined > 0;
-    if (!several) return;
+    if (!scene_bodies_meet(s)) return;
     if (s->method == METHOD_PD && s->contact_between != CONTACT_NONE) return;
     if (s->method == METHOD_PD)
         warnings_add(to, "peridynamic bodies pass through each other without contact.between: bodies or all");

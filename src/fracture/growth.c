@@ -157,7 +157,7 @@ static void cross(struct growth *g, const struct bonds *b, struct particles *p, 
                   const real from[2])
 {
     real corner[2][DIM_MAX] = {{from[0], from[1]}, {g->place[0], g->place[1]}};
-    const struct crack way = {2, corner};
+    const struct crack way = {.n = 2, .corner = corner};
     int32_t *found;
     const int n = near_way(g, p, s, from, &found);
     for (int k = 0; k < n; k++)

@@ -132,7 +132,7 @@ static void make_cracks(struct sif_tracked *w, const struct observed *o)
         w->behind[0][d] = t->place[d] - 2 * w->reach * t->along[d];
         w->behind[1][d] = t->place[d];
     }
-    w->crack[o->cracks] = (struct crack){2, w->behind};
+    w->crack[o->cracks] = (struct crack){.n = 2, .corner = w->behind};
     w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 

@@ -41,6 +41,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(check_joined(r, root));
     TRY(read_probes(r, root));
     TRY(read_growths(r, root));
+    resolve_contact(r, root);
     return check_solver(r, root);
 }
 

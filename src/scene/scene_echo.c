@@ -292,7 +292,9 @@ static void write_cracks(struct writer *w)
             fputs(j == 0 ? s->dim == 3 ? "[" : "" : s->dim == 2 ? ", to: " : ", ", w->out);
             write_list(w, c->corner[j], s->dim);
         }
-        fprintf(w->out, "%s}\n", s->dim == 3 ? "]" : "");
+        fputs(s->dim == 3 ? "]" : "", w->out);
+        if (c->width > 0) fprintf(w->out, ", width: %.17g", c->width);
+        fputs("}\n", w->out);
     }
 }
 

@@ -64,25 +64,12 @@ static void join_bodies(struct scene *s, int one, int other)
         if (s->body[b].joined == (from > to ? from : to)) s->body[b].joined = from > to ? to : from;
 }
 
-/* What meets, where the scene does not say. */
-static void resolve_contact(struct scene *s, const struct node *root)
-{
-    bool several = false;
-    for (int b = 0; b < s->bodies; b++) several |= s->body[b].joined > 0;
-    if (node_find(node_find(root, "contact"), "between") || s->method != METHOD_PD || s->solver != SOLVER_EXPLICIT)
-        return;
-    s->contact_between = s->rigids > 0 ? CONTACT_ALL : several ? CONTACT_BODIES : CONTACT_NONE;
-}
-
 status read_interfaces(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     const struct node *list = node_find(root, "interfaces");
     for (int b = 0; b < s->bodies; b++) s->body[b].joined = b;
-    if (!list) {
-        resolve_contact(s, root);
-        return OK;
-    }
+    if (!list) return OK;
     TRY(expect_list(r, key_find("", "interfaces"), list));
     if (s->method != METHOD_PD) return fault(r, list, "bodies are joined by bonds; method: pd is expected");
     s->interface = NEW("interfaces", list->n, struct scene_interface);
@@ -98,7 +85,6 @@ status read_interfaces(struct reader *r, const struct node *root)
         TRY(interface_strength(r, n, face));
         join_bodies(s, face->body[0], face->body[1]);
     }
-    resolve_contact(s, root);
     return OK;
 }
 

@@ -159,6 +159,7 @@ status read_probes(struct reader *r, const struct node *root);
 status check_scene(struct reader *r, const struct node *root);
 /* Default share of the critical step, by whether bonds may break; after the materials are read. */
 void resolve_safety(struct reader *r, const struct node *root);
+void resolve_contact(struct reader *r, const struct node *root);  /* what meets, where the scene does not say */
 status check_size(struct reader *r, const struct node *root);
 status read_interfaces(struct reader *r, const struct node *root);
 status check_joined(struct reader *r, const struct node *root);

@@ -169,7 +169,7 @@ const struct key keys[] = {
 
     KEY("contact", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "forces between particles that no bond joins"),
     KEY("contact.between", KEY_CHOICE, UNIT_NONE, AT(scene, contact_between), ANY,
-        "(all with rigid bodies, bodies with several, else none)",
+        "(all where bonds may break, with cracks, several bodies or rigid ones; else none)",
         "which peridynamic particles push each other apart when they meet: none, those of two bodies, or all near a "
         "face (bodies, fragments, faces of cracks)",
         .words = "none|bodies|all"),
@@ -248,6 +248,8 @@ const struct key keys[] = {
     KEY("cracks.at", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "place of a cut (line)"),
     KEY("cracks.polygon", KEY_HAND, UNIT_LENGTH, NOWHERE, BETWEEN(3, 1000), NONE, "plane convex polygon (solid)",
         .words = "list of points"),
+    KEY("cracks.width", KEY_REAL, UNIT_LENGTH, AT(crack, width), FROM(0), "0",
+        "of a notch: with contact.between all its faces meet once they have come so much nearer"),
     KEY("growth", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 64), NONE,
         "cracks that grow at a given speed, by themselves or while a sif probe asks for it (plane, model with bonds)"),
     KEY("growth.name", KEY_NAME, UNIT_NONE, AT(growth_rule, name), ANY, "(growth0, growth1, ..)",

@@ -83,7 +83,7 @@ status read_region(struct reader *r, const struct node *n, struct region *region
 static void crack_make(struct crack *c, int n)
 {
     c->corner = memory_new("cracks", n, sizeof *c->corner);
-    c->n = n;
+    c->n = n, c->width = 0;
 }
 
 /* n = (b - a) x (c - a) */
@@ -131,15 +131,15 @@ static status read_polygon(struct reader *r, const struct node *n, struct crack 
     return check_polygon(r, n, c);
 }
 
-/* Reads one crack: a place on a line, a segment in the plane, a polygon in space. */
-static status read_crack(struct reader *r, const struct node *n, struct crack *c)
+/* Reads the place of a crack: a point on a line, a segment in the plane, a polygon in space. */
+static status read_crack_place(struct reader *r, const struct node *n, struct crack *c)
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
     const char *word = first[r->dim - 1];
     TRY(expect(r, n, NODE_MAP, "a crack such as {from: [..], to: [..]}"));
     TRY(check_keys(r, n, "cracks"));
     for (const struct node *k = n->first; k; k = k->next)
-        if (strcmp(k->key, word) != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
+        if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
             return fault(r, k, "not in space %s; a crack there has %s", space_names[r->scene->space], form[r->dim - 1]);
     const struct node *a = node_find(n, word), *b = node_find(n, "to");
     if (!a) return fault_missing(r, n, key_find("cracks", word));
@@ -151,6 +151,13 @@ static status read_crack(struct reader *r, const struct node *n, struct crack *c
     TRY(read_point(r, key_find("cracks", "to"), b, c->corner[1]));
     if (c->corner[0][0] != c->corner[1][0] || c->corner[0][1] != c->corner[1][1]) return OK;
     return fault(r, n, "has no length; from and to are its two ends");
+}
+
+static status read_crack(struct reader *r, const struct node *n, struct crack *c)
+{
+    TRY(read_crack_place(r, n, c));
+    const struct node *width = node_find(n, "width");
+    return width ? read_key(r, key_find("cracks", "width"), width, c) : OK;
 }
 
 status read_cracks(struct reader *r, const struct node *root)

@@ -100,6 +100,26 @@ static void test_held(void **state)
     all_hold(held, COUNT_OF(held), LASTING_STEPS);
 }
 
+/* Faces of a notch without width that ring on each other. Where contact begins and ends leap-frog gives and takes, and
+ * accounts take back what is too much in the next contact (contact_balance.c): never more than 0.3 % above the start
+ * measured, 6 % below; without accounts three times the energy. */
+static const struct drift_case touching[] = {
+    {.c = {MESH("partial stress", "ospd", 0.2, NOTCH), .contact = true}},
+    {.c = {MESH("handshake", "mospd", 0.3, NOTCH), .contact = true}},
+    {.c = {PLATE, .method = "pd", .region = NOTCH, .contact = true}},
+};
+
+static void test_touching(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(touching); k++) {
+        struct lasting r;
+        assert_ok(drift_run(&touching[k], LASTING_STEPS, &r));
+        if (!(r.largest < 0.01 && r.least > -0.1 && r.rate < 1e-6))
+            fail_msg("notch %zu: energy %+.2e, %.2e at most, %.2e a step", k, r.end, r.largest, r.rate);
+    }
+}
+
 /* ---- and never gained -------------------------------------------------------------------------------------------- */
 
 #define GRID(by, law, nu, where, to) PLATE, .method = "adaptive", .frame = "current", .transfer = to, .shape = "gimp", \
@@ -152,8 +172,9 @@ static void test_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_seen),  cmocka_unit_test(test_meshed),
-                                       cmocka_unit_test(test_held),  cmocka_unit_test(test_current),
-                                       cmocka_unit_test(test_noise), cmocka_unit_test(test_named)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_seen),     cmocka_unit_test(test_meshed),
+                                       cmocka_unit_test(test_held),     cmocka_unit_test(test_touching),
+                                       cmocka_unit_test(test_current),  cmocka_unit_test(test_noise),
+                                       cmocka_unit_test(test_named)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -286,7 +286,7 @@ static void the_chart_is_of_these_methods(void **state)
         for (int j = 0; j < s.set.n; j++) {
             const char *key = s.set.at[j].key;
             bool column = false, later = false;
-            const char *const apart[] = {"particles.", "time.", "output."};
+            const char *const apart[] = {"particles.", "time.", "output.", "contact."};
             for (size_t a = 0; a < COUNT_OF(apart); a++) column |= strncmp(key, apart[a], strlen(apart[a])) == 0;
             for (int i = j + 1; i < s.set.n; i++) later |= strcmp(s.set.at[i].key, key) == 0;
             if (!column && !later) assert_true(cost_point_has(p, key, s.set.at[j].value));

@@ -180,6 +180,7 @@ static real plain_faces(const struct engine *e)
 static void contact_alone(struct engine *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
+    contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
     contact_force(&e->contact, &e->part, 0);
 }
 
