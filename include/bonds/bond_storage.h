@@ -71,6 +71,7 @@ struct state {
     real *weighted;                      /* [row blocks 8] Q [m^2] */
     real share;                          /* V/Q of a full family, where moduli are of that; 0: of each family [m] */
     uint8_t *past;                       /* [row blocks] 1: a bond may have passed its limit in the last sweep */
+    uint8_t *pressed;                    /* [row blocks] 1: a bond is within its core (kernels/pd/bond_core.h) */
     real *pressure, *spring;             /* [n_all] P and g [N/m^2], [N/m] */
     /* [n_all] rotation R and g (kernels/pd/rotation.h); only models with rotations: g (R - 1), row major, in the
      * plane [N/m]; sqrt(2 g) times the quaternion of R, its scalar last, in space [(N/m)^1/2] */

@@ -121,6 +121,12 @@ static ALWAYS_INLINE lanes column_largest(const struct column s, lanes a, lanes 
                                                            : lanes_max_kept(column_intact(s), a, other);
 }
 
+/* a, or of intact bonds what is smaller. */
+static ALWAYS_INLINE lanes column_smallest(const struct column s, lanes a, lanes other)
+{
+    return s.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_kept(column_intact(s), a, other);
+}
+
 /* Values of a row block's particles. */
 static ALWAYS_INLINE void rows_store(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {

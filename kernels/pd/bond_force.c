@@ -9,6 +9,7 @@
 
 #include "bond_laws.h"
 #include "bond_column.h"
+#include "bond_core.h"
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 #include "sweep.h"
@@ -16,8 +17,8 @@
 
 #define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
 
-/* A row block while its columns are visited; `stretch` is the largest. */
-struct bond_sums { lanes x0, x1, x2, f0, f1, f2, stretch; };
+/* A row block while its columns are visited; `stretch` is the largest, `press` the smallest. */
+struct bond_sums { lanes x0, x1, x2, f0, f1, f2, stretch, press; };
 
 /* Adds the forces of a column. The difference of the inverse lengths would be the stretch over the length, and
  * cheaper; a body in free fall then gathers three times the round-off. */
@@ -34,15 +35,17 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     const lanes stretch = STRETCH_OF(distance2 * inverse, column_inverse_length(s));
     const lanes force = bond_law(model, s.b, s.number * LANES, stretch, w) * (w * inverse);
     sum.stretch = column_largest(s, sum.stretch, stretch);
+    sum.press = column_smallest(s, sum.press, stretch);
     sum.f0 += force * d0;
     if (dim > 1) sum.f1 += force * d1;
     if (dim > 2) sum.f2 += force * d2;
     return sum;
 }
 
-/* Force of one row block; returns whether a bond may have passed its limit. */
+/* Force of one row block, all but cores; returns whether a bond may have passed its limit, *pressed: whether it has
+ * cores. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                               const enum pd_model model)
+                                               const enum pd_model model, bool *pressed)
 {
     const int32_t *row = b->particle + g * LANES;
     const bool aligned = b->aligned[g];
@@ -50,13 +53,14 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     const int32_t own = aligned ? row[0] : -1;
     const lanes zero = lanes_of(0), x0 = lanes_at(p->x[0], own, row);
     struct bond_sums sum = {x0, dim > 1 ? lanes_at(p->x[1], own, row) : x0, dim > 2 ? lanes_at(p->x[2], own, row) : x0,
-                            zero, zero, zero, lanes_of(-1)};
+                            zero, zero, zero, lanes_of(-1), zero};
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     rows_store(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
     if (dim > 1) rows_store(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
     if (dim > 2) rows_store(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
+    *pressed = lanes_any(sum.press < CORE_FROM - 1);
     return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
 }
 
@@ -64,7 +68,10 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {
-    return bond_force_row_block(b, p, g, dim, model) ? bond_break_row_block(b, p, limit, g) : 0;
+    bool pressed;
+    const bool past = bond_force_row_block(b, p, g, dim, model, &pressed);
+    if (__builtin_expect(pressed, 0)) core_row_block(b, p, g);
+    return past ? bond_break_row_block(b, p, limit, g) : 0;
 }
 
 #define INSTANCE(D, M)                                                                                                 \

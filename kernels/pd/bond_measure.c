@@ -3,6 +3,7 @@
 
 #include "bond_laws.h"
 #include "bond_column.h"
+#include "bond_core.h"
 #include "kernels/kernels.h"
 #include "base/team.h"
 #include "kernels/simd/variants.h"
@@ -23,12 +24,13 @@ static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struc
     return inverse;
 }
 
-/* Energy of a column over half the stiffness. */
+/* Energy of a column over half the stiffness; *press: the smallest stretch. */
 static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
-                                              const int dim, const enum pd_model model)
+                                              lanes *press, const int dim, const enum pd_model model)
 {
     lanes y[DIM_MAX], stretch;
     bond_measure_store(s, p, x, y, &stretch, dim);
+    *press = column_smallest(s, *press, stretch);
     const lanes w = column_weight(s), inverse = column_inverse_length(s);
     const lanes length = lanes_inverse_root(inverse * inverse);            /* cheaper than a division */
     const lanes elastic = bond_elastic(model, s.b, s.number * LANES, stretch);
@@ -40,12 +42,12 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
                                                 const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
-    lanes sum = lanes_of(0), x[DIM_MAX];
+    lanes sum = lanes_of(0), press = lanes_of(0), x[DIM_MAX];
     for (int d = 0; d < dim; d++) x[d] = lanes_at(p->x[d], b->aligned[g] ? row[0] : -1, row);
-#define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, dim, model)
+#define VISIT(COLUMN) sum += bond_energy_column(COLUMN, p, x, &press, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    real total = 0;
+    real total = lanes_any(press < CORE_FROM - 1) ? core_row_block_energy(b, p, g) / (0.5 * b->stiffness) : 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     return total;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bond_core.h"
 #include "kernels/kernels.h"
 #include "polar.h"
 #include "polar_lanes.h"
@@ -15,9 +16,9 @@
 
 /* ---- first sweep: states of families ----------------------------------------------------------------------------- */
 
-/* Sums over the families of a row block; `stretch` is the largest [1], `moved` has bits where a particle has left
- * its reference place: an undeformed family has no rotation, to the last bit. */
-struct family_sums { lanes extension, stretch, moment[DIM_MAX * DIM_MAX]; lanes_mask moved; };
+/* Sums over the families of a row block; `stretch` is the largest, `press` the smallest [1], `moved` has bits where a
+ * particle has left its reference place: an undeformed family has no rotation, to the last bit. */
+struct family_sums { lanes extension, stretch, press, moment[DIM_MAX * DIM_MAX]; lanes_mask moved; };
 
 /* Adds a column: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
@@ -28,6 +29,7 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     state_bond_make(&s, p, column, x, X, dim, model);
     const lanes w = column_weight(column), stretch = STRETCH_OF(lanes_root(s.distance2), s.inverse_length);
     sum->stretch = column_largest(column, sum->stretch, stretch);
+    sum->press = column_smallest(column, sum->press, stretch);
     sum->extension += state_weight(column, w, s.inverse_length, true) * stretch;
     if (!state_rotates(model)) return;
     for (int c = 0; c < dim; c++) {
@@ -172,7 +174,8 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     const int32_t own = b->aligned[g] ? row[0] : -1;
     lanes x[DIM_MAX], X[DIM_MAX];
     struct family_sums sum;
-    sum.extension = lanes_of(0), sum.stretch = lanes_of(-1), sum.moved = (lanes_mask)lanes_of(0);
+    sum.extension = lanes_of(0), sum.stretch = lanes_of(-1), sum.press = lanes_of(0);
+    sum.moved = (lanes_mask)lanes_of(0);
     for (int c = 0; c < dim * dim; c++) sum.moment[c] = lanes_of(0);
     for (int d = 0; d < dim; d++) {
         x[d] = lanes_at(p->x[d], own, row);
@@ -182,6 +185,7 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     b->state.past[g] = lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
+    b->state.pressed[g] = lanes_any(sum.press < CORE_FROM - 1);
     precompute_by_family(b, p, g, &sum, dim, model);
     if (b->state.past[g]) state_last(b, p, limit, g);
 }
@@ -272,6 +276,7 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
                                              int64_t g, const int dim, const enum pd_model model)
 {
     force_row_block(b, p, g, dim, model);
+    if (__builtin_expect(b->state.pressed[g], 0)) core_row_block(b, p, g);
     if (!b->state.past[g]) return 0;
     return bond_break_row_block(b, p, limit, g);
 }

@@ -5,6 +5,7 @@
  *                       places y, not xi: the stress turns with the body */
 #include <math.h>
 
+#include "bond_core.h"
 #include "bond_last.h"
 #include "kernels/kernels.h"
 #include "polar.h"
@@ -61,7 +62,7 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
     if (b->active.level[g] == 0) return 0;
     const struct own_state s = own_state_of(b, p, g, dim, state_rotates(model));
     lanes sum = lanes_of(0), T[DIM_MAX], y[DIM_MAX];
-    real total = 0;
+    real total = b->state.pressed[g] ? core_row_block_energy(b, p, g) : 0;
 #define VISIT(COLUMN) sum += own_force_column(&s, COLUMN, p, T, y, dim, state_rotates(model))
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT

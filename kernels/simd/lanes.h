@@ -78,6 +78,15 @@ static ALWAYS_INLINE lanes lanes_max(lanes a, lanes b)
 #endif
 }
 
+static ALWAYS_INLINE lanes lanes_min(lanes a, lanes b)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_min_pd((__m512d)a, (__m512d)b);
+#else
+    return lanes_choose(lanes_less(a, b), a, b);
+#endif
+}
+
 static ALWAYS_INLINE lanes lanes_size(lanes a)
 {
     const lanes_mask digits = (lanes_mask){0} + INT64_MAX;
@@ -108,6 +117,16 @@ static ALWAYS_INLINE lanes lanes_max_kept(uint8_t bits, lanes a, lanes b)
     return (lanes)_mm512_mask_max_pd((__m512d)a, bits, (__m512d)a, (__m512d)b);
 #else
     return lanes_choose(lanes_of_bits(bits) & lanes_negative(a - b), b, a);
+#endif
+}
+
+/* The smaller where the lane has a bit, else a. */
+static ALWAYS_INLINE lanes lanes_min_kept(uint8_t bits, lanes a, lanes b)
+{
+#ifdef __AVX512F__
+    return (lanes)_mm512_mask_min_pd((__m512d)a, bits, (__m512d)a, (__m512d)b);
+#else
+    return lanes_choose(lanes_of_bits(bits) & lanes_negative(b - a), b, a);
 #endif
 }
 

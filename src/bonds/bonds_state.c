@@ -63,6 +63,7 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
     if (!s->modulus) return;
     const int64_t room = p->n_all + LANES;
     b->state.past = NEW("state.past", b->row_blocks, uint8_t);
+    b->state.pressed = NEW("state.pressed", b->row_blocks, uint8_t);
     b->state.pressure = NEW("state.pressure", room, real);
     b->state.spring = NEW("state.spring", room, real);
     for (int c = 0; s->rotates && c < ROTATION; c++) b->state.rotation[c] = NEW("state.turn", room, real);
@@ -77,6 +78,7 @@ void state_free(struct bonds *b)
 {
     memory_free(b->state.weighted);
     memory_free(b->state.past);
+    memory_free(b->state.pressed);
     memory_free(b->state.pressure);
     memory_free(b->state.spring);
     for (int c = 0; c < ROTATION; c++) memory_free(b->state.rotation[c]);

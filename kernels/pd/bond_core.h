@@ -1,0 +1,68 @@
+/* What keeps bonds from turning inside out. The force of a linear bond is finite where its length is nothing, and
+ * particles pass through each other: half the wave speed is enough. Below CORE_FROM of its length a bond therefore has
+ * a repulsion of its own, whatever the model of the families; above it nothing changes, to the last bit. With l =
+ * |y|/|xi| and K the force of the bond per stretch:
+ *
+ *     force   -K CORE_STIFFNESS (CORE_FROM - l)
+ *     energy   1/2 K |xi| CORE_STIFFNESS (CORE_FROM - l)^2
+ *
+ * A spring of bounded stiffness, which the step of bonds that may break, 0.5 of the critical one, bears. Halves of a
+ * plate that meet at half the wave speed each stay in their order; what meets faster may not. Rare: the hot loops look
+ * for the most compressed bond of a row block, and only then visit the row block again. */
+#ifndef CLEAVE_KERNELS_BOND_CORE
+#define CLEAVE_KERNELS_BOND_CORE
+
+#include <math.h>
+
+#include "bonds/bonds.h"
+
+#define RARE static __attribute__((noinline, unused))
+#define CORE_FROM 0.7
+#define CORE_STIFFNESS 3.0               /* of the core, in those of the bond */
+
+/* A bond within its core: |y|/|xi|, 1 where it is not; K [N]; from i to j [m]. */
+struct core { real ratio, K, y[DIM_MAX], distance; };
+
+static inline struct core core_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
+{
+    struct core c = {.ratio = 1};
+    const real *spring = b->state.spring;
+    real distance2 = 0;
+    if (bond->w == 0) return c;
+    for (int d = 0; d < p->dim; d++) c.y[d] = p->x[d][bond->nbr] - p->x[d][i], distance2 += square(c.y[d]);
+    c.distance = sqrt(distance2);
+    if (!(c.distance * bond->inverse_length < CORE_FROM && c.distance > 0)) return c;
+    c.ratio = c.distance * bond->inverse_length;
+    c.K = bond->w * (spring ? (spring[i] + spring[bond->nbr]) / bond->inverse_length : b->stiffness);
+    return c;
+}
+
+static inline real core_force(const struct core *c) { return -c->K * CORE_STIFFNESS * (CORE_FROM - c->ratio); }
+
+/* Adds the forces on the particles of a row block. */
+RARE void core_row_block(const struct bonds *b, struct particles *p, int64_t g)
+{
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
+        const int32_t i = b->particle[row];
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+            const struct core c = core_of(b, p, &it.bond, i);
+            if (!(c.ratio < CORE_FROM)) continue;
+            for (int d = 0; d < p->dim; d++) p->f[d][i] += core_force(&c) * c.y[d] / c.distance;
+        }
+    }
+}
+
+/* Half the energy of the bonds of a row block: each has two rows [J]. */
+RARE real core_row_block_energy(const struct bonds *b, const struct particles *p, int64_t g)
+{
+    real sum = 0;
+    for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+            const struct core c = core_of(b, p, &it.bond, b->particle[row]);
+            if (!(c.ratio < CORE_FROM)) continue;
+            sum += 0.25 * c.K / it.bond.inverse_length * CORE_STIFFNESS * square(CORE_FROM - c.ratio);
+        }
+    return sum;
+}
+
+#endif

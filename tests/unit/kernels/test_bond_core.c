@@ -1,0 +1,107 @@
+/* The repulsion within bonds that are squeezed below 0.7 of their length: forces as the gradient of the energy, the
+ * third law, the closed form of a chain, and nothing above 0.7. */
+#include <math.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "base/memory.h"
+#include "engine/engine.h"
+#include "tests/support/near.h"
+
+static const char block[] = "name: squeezed\nspace: plane stress\nthickness: 1\nmethod: pd\nduration: 1\n"
+                            "material: {young: 1e4, poisson: 1/3, density: 1}\n"
+                            "body: {box: {from: [0, 0], to: [9, 7]}}\nparticles: {spacing: 1}\n";
+static const char chain[] = "name: squeezed\nspace: line\nsection: 1\nmethod: pd\nduration: 1\n"
+                            "material: {young: 1e4, density: 1}\nbody: {box: {from: [0], to: [20]}}\n"
+                            "particles: {spacing: 1, horizon: 1.015}\npd: {surface: none}\n";
+
+static struct engine *make(struct scene *s, const char *text, const char *model)
+{
+    const struct scene_override set = {"model", model};
+    struct engine *e = NEW("test.engine", 1, struct engine);
+    if (scene_read_text(s, text, strlen(text), "squeezed.yaml", &set, 1) != OK) fail_msg("%s", status_message());
+    assert_ok(engine_make(e, s, NULL));
+    return e;
+}
+
+static void end(struct engine *e, struct scene *s)
+{
+    engine_free(e);
+    memory_free(e);
+    scene_free(s);
+}
+
+static real energy_now(struct engine *e)
+{
+    for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
+    e->kernels.bond_force(&e->bonds, &e->part, &bond_limit_never, NULL);
+    return e->kernels.bond_energy(&e->bonds, &e->part);
+}
+
+/* Lengths along x to `squeeze`, and each place moved by up to 0.05 spacings. */
+static void squeeze(struct engine *e, real share)
+{
+    struct particles *p = &e->part;
+    for (int64_t i = 0; i < p->n; i++)
+        for (int d = 0; d < p->dim; d++)
+            p->x[d][i] = (d == 0 ? share : 1) * p->X[d][i] + 0.05 * sin(12.9 * (double)i + 78.2 * d);
+}
+
+/* A central difference over 1e-5 of a spacing: second derivatives of 3 K jump where cores begin, 1e-5 K. */
+static void check_gradient(const char *model)
+{
+    struct scene s;
+    struct engine *e = make(&s, block, model);
+    struct particles *p = &e->part;
+    squeeze(e, 0.45);
+    for (int64_t i = 0; i < p->n; i += 5)
+        for (int d = 0; d < p->dim; d++) {
+            const real x = p->x[d][i], h = 1e-5;
+            p->x[d][i] = x + h;
+            const real above = energy_now(e);
+            p->x[d][i] = x - h;
+            const real below = energy_now(e);
+            p->x[d][i] = x;
+            energy_now(e);
+            assert_near(p->f[d][i], (below - above) / (2 * h), 1e-5 * 1e4);
+        }
+    real sum[DIM_MAX] = {0};
+    for (int64_t i = 0; i < p->n; i++)
+        for (int d = 0; d < p->dim; d++) sum[d] += p->f[d][i];
+    for (int d = 0; d < p->dim; d++) assert_near(sum[d], 0, 1e-10 * 1e4);
+    end(e, &s);
+}
+
+static void forces_are_the_gradient(void **state)
+{
+    (void)state;
+    check_gradient("bond");
+    check_gradient("ospd");
+    check_gradient("mospd");
+}
+
+/* A chain of nearest neighbours at the share l of its length: 1/2 E A/D (1 - l)^2 a bond, and 3/2 E A/D (0.7 - l)^2
+ * below 0.7, to round-off. */
+static void chain_has_the_closed_form(void **state)
+{
+    (void)state;
+    struct scene s;
+    struct engine *e = make(&s, chain, "bond");
+    struct particles *p = &e->part;
+    real k = 0;
+    for (real l = 0.95; l > 0.2; l -= 0.05) {
+        for (int64_t i = 0; i < p->n; i++) p->x[0][i] = l * p->X[0][i];
+        const real energy = energy_now(e) / 19, core = l < 0.7 ? 3 * square(0.7 - l) : 0;
+        if (k == 0) k = 2 * energy / square(1 - l);
+        assert_near(energy, 0.5 * k * (square(1 - l) + core), 1e-10 * k);
+        assert_near(p->f[0][0], -k * (1 - l + (l < 0.7 ? 3 * (0.7 - l) : 0)), 1e-10 * k);
+    }
+    end(e, &s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(forces_are_the_gradient),
+                                       cmocka_unit_test(chain_has_the_closed_form)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
