@@ -107,6 +107,8 @@ struct contact {
     bool overlap_said;                   /* a warning of large overlaps has been given */
     real began, ended;                   /* of all contact so far, NAN: none yet [s] */
     int64_t touching;                    /* directed pairs in contact in the last step */
+    bool recorded;                       /* the next step's forces are recorded in ... */
+    real *push[DIM_MAX];                 /* ... [particles of the body] NULL until then [N] */
 };
 
 /* Law for the materials of the bonds. stiffness: factor on k [1]. shape: [bodies]; those and rigid bodies are
@@ -130,6 +132,8 @@ void contact_follow(struct contact *c, const struct particles *p, struct bonds *
 /* Adds the forces to part.f and to rigid bodies, and finds the largest overlap. After the forces of bonds, before
  * loads. dt: for which particles have moved with their velocities since the last call [s]. */
 void contact_force(struct contact *c, struct particles *p, real dt);
+/* Makes room for `push`, if anything can meet: forces are recorded where c->recorded is set. */
+void contact_record(struct contact *c, const struct particles *p);
 /* Notes that the time is t [s]. */
 void contact_clock(struct contact *c, real t);
 

@@ -14,6 +14,7 @@ struct fragment {
 struct fragments {
     int64_t n;                           /* of two particles or more, the heaviest first */
     struct fragment *fragment;
+    int32_t *of;                         /* [n of the body] number of a particle's fragment; -1: none */
     int64_t singles;                     /* particles without any bond ... */
     real mass_singles;                   /* ... and their mass [kg] */
 };

@@ -23,7 +23,7 @@ struct output {
     int frames, frames_room;             /* frames written */
     real *frame_time;                    /* [s] */
     int64_t frame_particles;
-    bool frame_yielding;                 /* frames have plastic strain */
+    unsigned frame_fields;               /* bits of the fields that frames have (output_fields.c) */
     bool compress;
     FILE *history;
     int64_t history_bytes;               /* length at the last sample */
@@ -58,13 +58,20 @@ status output_text(const struct output *o, const char *name, const char *text, s
  * `text` what to say of them. */
 status output_frames_check(struct output *o, int *lost, char *text, size_t room);
 
+/* What frames show besides the particles' own arrays, [n] each; NULL: frames of this run do not have it. */
+struct frame_extra {
+    real *const *push;                   /* [dim] force of contact [N] */
+    const int32_t *fragment;             /* number of the fragment, 0: the heaviest; -1: none */
+};
+
 /* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
  * written in the order of their id. Single precision but for the reference positions. */
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 /* The same, written by a thread of its own while the particles go on: what changes of them is copied before it
  * returns; they and `scene_text` must stay until output_wait. One frame at a time: the next frame, checkpoints and
- * output_close wait for it. A fault is returned by the call that waits. */
-status output_frame_begin(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
+ * output_close wait for it. A fault is returned by the call that waits. extra: NULL, nothing; copied likewise. */
+status output_frame_begin(struct output *o, const struct particles *p, const struct frame_extra *extra, real t,
+                          int64_t step, const char *scene_text);
 /* Until no frame is on its way; OK without one. */
 status output_wait(struct output *o);
 
@@ -83,6 +90,7 @@ struct frame {
     float *stress[SYM_MAX];              /* as in struct particles; in the plane zz comes last */
     uint8_t *kind, *material, *body;
     int32_t *id;
+    int32_t *fragment;                   /* NULL: frames of this run do not have it */
 };
 static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
 status frame_read(struct frame *f, const char *path);

@@ -13,6 +13,7 @@ enum picture {
     DRAWN_ENERGY,
     DRAWN_SIF,
     DRAWN_PATH,
+    DRAWN_FRAGMENTS,
     DRAWN_KINDS
 };
 

@@ -30,6 +30,8 @@ struct cloud {
     float *place[2];                     /* current positions along the two axes of the map [m] */
     float *damage;                       /* [1] */
     uint8_t *kind;
+    int32_t *fragment;                   /* NULL: not known */
+    int32_t fragments;                   /* numbers of fragments are below */
     int axis[2], normal;                 /* 0..2: x y z; normal -1 in 2D */
     double layer;                        /* where the layer is along the normal [m] */
     double t;                            /* [s] */
@@ -42,10 +44,12 @@ void cloud_free(struct cloud *c);
 /* Distance of neighbouring particles: median over a sample, reference positions [m]. */
 double frame_spacing(const struct frame *f);
 
-enum map { MAP_DAMAGE, MAP_KIND };
+enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT };
 struct colour { uint8_t red, green, blue, alpha; };
 /* Colour of a particle; damage is shown from 0 to `top`. */
 struct colour map_colour(enum map map, enum kind kind, double damage, double top);
+/* Of a fragment by its number; -1: single particles. */
+struct colour fragment_colour(int32_t fragment);
 
 /* Rectangle of the map [m], and how its frames are shown. */
 struct view {

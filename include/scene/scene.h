@@ -153,6 +153,20 @@ struct scene {
 
 struct scene_override { const char *key, *value; };    /* of `-s key=value` */
 
+/* Has a material a limit of its bonds? */
+static inline bool scene_bonds_break(const struct scene *s)
+{
+    bool breaks = false;
+    for (int m = 0; m < s->materials; m++) breaks |= isfinite(s->material[m].critical_stretch);
+    return breaks;
+}
+
+/* Can faces come about: by cracks of the scene, their growth, bonds that break? */
+static inline bool scene_cracks(const struct scene *s)
+{
+    return s->cracks > 0 || s->growths > 0 || scene_bonds_break(s);
+}
+
 /* Are there several bodies, those that are joined counted as one, or rigid ones? */
 static inline bool scene_bodies_meet(const struct scene *s)
 {

@@ -57,7 +57,7 @@ void contact_free(struct contact *c)
     memory_free(c->followed);
     memory_free(c->balance);
     contact_rigid_free(c);
-    for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]), memory_free(c->push[d]);
     memset(c, 0, sizeof *c);
 }
 
@@ -123,12 +123,27 @@ static void faces_force(struct contact *c, struct particles *p, real dt)
     }
 }
 
+void contact_record(struct contact *c, const struct particles *p)
+{
+    for (int d = 0; d < p->dim && contact_works(c); d++)
+        if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
+}
+
+/* Forces after contact less those before. */
+static void record(struct contact *c, const struct particles *p, bool after)
+{
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = 0; i < p->n; i++) c->push[d][i] = after ? p->f[d][i] - c->push[d][i] : p->f[d][i];
+}
+
 void contact_force(struct contact *c, struct particles *p, real dt)
 {
     struct contact_found all = {0, 0, INT32_MAX};
+    if (c->recorded) record(c, p, false);
     if (c->pairs > 0) rows_sweep(c, p, dt, &all);
     if (c->pairs > 0 && c->law.form == CONTACT_SURFACE && (all.touching > 0 || c->spring)) faces_force(c, p, dt);
     contact_rigid_force(c, p, dt, &all);
+    if (c->recorded) record(c, p, true);
     c->overlap = all.overlap, c->touching = all.touching, c->deepest = all.touching > 0 ? all.deepest : -1;
     c->overlap_most = real_max(c->overlap_most, all.overlap);
     if (all.touching / 2 > c->pairs_most) c->pairs_most = all.touching / 2;

@@ -254,7 +254,8 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     contact_springs_begin(c, &before);
     contact_rigid_find(c, &before, p, CONTACT_SKIN * c->law.spacing);
     contact_friction_settle(c, &before);
-    before.law.stiffness = NULL;
+    before.law.stiffness = NULL;             /* the new list keeps the law and the record of forces */
+    memset(before.push, 0, sizeof before.push);
     contact_free(&before);
 }
 

@@ -210,6 +210,7 @@ static void forces(struct engine *e, struct step *now)
     loads_clear(&e->loads, &e->part);
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
                               sweep_moves(e->scene, &e->report) ? &now->motion : NULL);
+    e->contact.recorded = e->contact.push[0] && engine_frame_follows(e);
     contact_force(&e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
     contact_clock(&e->contact, e->clock.t);
     engine_rigid_book(e, now->dt_velocity);

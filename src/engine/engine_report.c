@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "fracture/fragments.h"
 #include "output/output_files.h"
 
 #define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
@@ -60,12 +61,29 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
         (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
+/* Is frame number `frames` due once so many steps are done? Those of solvers that are not explicit: at the end. */
+static bool frame_due(const struct engine *e, int64_t step)
+{
+    const struct scene *s = e->scene;
+    const int64_t n = s->frames < e->clock.steps ? s->frames : e->clock.steps;
+    if (!e->report.out || (s->solver != SOLVER_EXPLICIT && step < e->clock.steps)) return false;
+    return e->report.out->frames <= n && step >= frame_step(s, &e->clock, e->report.out->frames, n);
+}
+
+bool engine_frame_follows(const struct engine *e) { return frame_due(e, e->clock.step + 1); }
+
+/* Before the first step nothing has been pushed. */
 static status write_frame(struct engine *e)
 {
+    const bool parts = e->scene->method == METHOD_PD && scene_cracks(e->scene);
+    struct fragments fragments = {0};
     engine_sync(e);
     TRY(frame_sound(&e->clock, &e->part));
-    TRY(output_frame_begin(e->report.out, &e->part, e->clock.t, e->clock.step, e->scene->text));
-    return engine_profiles_write(e);
+    if (parts) fragments_find(&fragments, &e->bonds, &e->part);
+    const struct frame_extra extra = {e->contact.push[0] ? e->contact.push : NULL, fragments.of};
+    const status s = output_frame_begin(e->report.out, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
+    fragments_free(&fragments);
+    return s == OK ? engine_profiles_write(e) : s;
 }
 
 static status write_checkpoint(struct engine *e)
@@ -104,6 +122,7 @@ status engine_report_start(struct engine *e)
     const bool resumed = r->out && r->out->frames > 0;
     TRY(engine_history_start(e, resumed));
     if (!r->out) return OK;
+    contact_record(&e->contact, &e->part);
     if (resumed) return say_lost(e);
     engine_profiles_remove(e);
     TRY(write_frame(e));
@@ -163,11 +182,7 @@ status engine_report(struct engine *e)
     TRY(engine_energy_check(e));
     if (e->clock.step == e->clock.steps) engine_say_balance(e);
     if (e->report.out) {
-        const bool between = e->scene->solver != SOLVER_EXPLICIT && e->clock.step < e->clock.steps;
-        const int64_t frames = e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps;
-        if (!between && e->report.out->frames <= frames &&
-            e->clock.step >= frame_step(e->scene, &e->clock, e->report.out->frames, frames))
-            TRY(write_frame(e));
+        if (frame_due(e, e->clock.step)) TRY(write_frame(e));
         const bool late = wall_is_over(e->scene, &e->report), stop = late || (e->report.stop && *e->report.stop);
         if (stop || team_clock() - e->report.last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
         if (stop && e->clock.step < e->clock.steps)

@@ -4,6 +4,9 @@
 
 #include "engine/engine.h"
 
+/* Does a frame follow the step to come? */
+bool engine_frame_follows(const struct engine *e);
+
 /* Opens history.csv: the columns of every run, then those of the probes. */
 status engine_history_start(struct engine *e, bool resume);
 

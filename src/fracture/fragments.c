@@ -54,6 +54,17 @@ static void leave_singles(struct fragments *f)
     f->n = kept;
 }
 
+/* Each particle's fragment, by the leaders of the sorted ones. */
+static void number_particles(struct fragments *f, int32_t *leader, int64_t n)
+{
+    int32_t *number = BARE("fragments.number", n, int32_t);
+    f->of = BARE("fragments.of", n, int32_t);
+    for (int64_t i = 0; i < n; i++) number[i] = -1;
+    for (int64_t k = 0; k < f->n; k++) number[f->fragment[k].first] = (int32_t)k;
+    for (int64_t i = 0; i < n; i++) f->of[i] = number[stands_for(leader, (int32_t)i)];
+    memory_free(number);
+}
+
 void fragments_find(struct fragments *f, const struct bonds *b, const struct particles *p)
 {
     /* place[i]: number of the fragment that begins with particle i */
@@ -74,8 +85,14 @@ void fragments_find(struct fragments *f, const struct bonds *b, const struct par
     }
     leave_singles(f);
     qsort(f->fragment, (size_t)f->n, sizeof *f->fragment, heavier_first);
+    number_particles(f, leader, p->n);
     memory_free(leader);
     memory_free(place);
 }
 
-void fragments_free(struct fragments *f) { memory_free(f->fragment); }
+void fragments_free(struct fragments *f)
+{
+    memory_free(f->fragment);
+    memory_free(f->of);
+    *f = (struct fragments){0};
+}

@@ -1,8 +1,10 @@
 /* Frames in VTKHDF, each a whole file, and their two indices: frames.hdf.series and frames.xdmf.
  *
  * Written for the reader of VTK 9.1 (ParaView 5.11): a static UnstructuredGrid with one vertex cell per particle. Data
- * that VTK does not define are in /Cleave. A symmetric tensor has VTK's order xx yy zz xy yz xz; components that the
- * space does not have are 0, plane strain has zz. */
+ * that VTK does not define are in /Cleave. What they hold: output_fields.c. */
+#include "output_fields.h"
+
+
 #include <errno.h>
 #include <math.h>
 #include <pthread.h>
@@ -12,112 +14,10 @@
 
 #include "output/checksum.h"
 #include "base/memory.h"
-#include "output/output.h"
 #include "output/output_files.h"
-#include "output/output_hdf5.h"
 
 enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
 enum { COPIED = 4096 };                  /* particles whose rows a thread copies at once */
-
-/* ---- the table of fields ----------------------------------------------------------------------------------------- */
-
-/* One dataset with a row per particle; `columns` 0 stands for dim. `fill`, for fields that are constant during a run,
- * writes the row of particle i; the writing thread calls it. `copy`, for all other fields, writes rows first .. end - 1
- * of `rows` of all particles; the step loop waits for it. */
-struct frame_field {
-    const char *path;
-    enum hdf_type type;
-    int columns;
-    void (*fill)(const struct particles *p, int64_t i, void *row);
-    void (*copy)(const struct particles *p, int64_t first, int64_t end, void *rows);
-};
-
-/* Vectors `of`, or the differences of - less, in rows of three; components that the space does not have are 0. */
-static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less,
-                                       int dim)
-{
-    for (int64_t i = first; i < end; i++)
-        for (int d = 0; d < DIM_MAX; d++)
-            rows[DIM_MAX * i + d] = d < dim ? (float)(less ? of[d][i] - less[d][i] : of[d][i]) : 0;
-}
-
-static void copy_point(const struct particles *p, int64_t first, int64_t end, void *rows)
-{
-    copy_vectors(rows, first, end, p->x, NULL, p->dim);
-}
-
-static void copy_displacement(const struct particles *p, int64_t first, int64_t end, void *rows)
-{
-    copy_vectors(rows, first, end, p->x, p->X, p->dim);
-}
-
-static void copy_velocity(const struct particles *p, int64_t first, int64_t end, void *rows)
-{
-    copy_vectors(rows, first, end, p->v, NULL, p->dim);
-}
-
-/* One number per particle, at a stride of `columns`. */
-static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of, int columns)
-{
-    for (int64_t i = first; i < end; i++) rows[columns * i] = (float)of[i];
-}
-
-static void copy_stress(const struct particles *p, int64_t first, int64_t end, void *rows)
-{
-    /* Place of component k of struct particles in VTK's order; differs only in 2D: xx yy xy. */
-    static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
-    float *out = rows;
-    memset(out + SYM_MAX * first, 0, (size_t)(SYM_MAX * (end - first)) * sizeof *out);
-    for (int k = 0; k < symmetric_count(p->dim); k++)
-        copy_scalars(out + place[p->dim][k], first, end, p->stress[k], SYM_MAX);
-    for (int64_t i = first; i < end && p->plane_strain; i++) out[SYM_MAX * i + 2] = (float)particle_stress_across(p, i);
-}
-
-static void copy_damage(const struct particles *p, int64_t first, int64_t end, void *rows)
-{
-    copy_scalars(rows, first, end, p->damage, 1);
-}
-
-static void copy_plastic_strain(const struct particles *p, int64_t first, int64_t end, void *rows)
-{
-    copy_scalars(rows, first, end, p->plastic_strain, 1);
-}
-
-static void copy_kind(const struct particles *p, int64_t first, int64_t end, void *rows)
-{
-    memcpy((uint8_t *)rows + first, p->kind + first, (size_t)(end - first));
-}
-
-static void fill_reference(const struct particles *p, int64_t i, void *row)
-{
-    for (int d = 0; d < p->dim; d++) ((double *)row)[d] = p->X[d][i];
-}
-
-static void fill_material(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->material[i]; }
-static void fill_body(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->body[i]; }
-static void fill_id(const struct particles *p, int64_t i, void *row) { *(int32_t *)row = p->id[i]; }
-
-#define POINT_DATA "/VTKHDF/PointData/"
-enum { FIELD_POINTS };                   /* index of the positions in the table */
-static const struct frame_field frame_fields[] = {
-    {"/VTKHDF/Points", HDF_F32, 3, NULL, copy_point},
-    {POINT_DATA "displacement", HDF_F32, 3, NULL, copy_displacement},
-    {POINT_DATA "velocity", HDF_F32, 3, NULL, copy_velocity},
-    {POINT_DATA "stress", HDF_F32, 6, NULL, copy_stress},
-    {POINT_DATA "damage", HDF_F32, 1, NULL, copy_damage},
-    {POINT_DATA "plastic_strain", HDF_F32, 1, NULL, copy_plastic_strain},
-    {POINT_DATA "kind", HDF_U8, 1, NULL, copy_kind},
-    {POINT_DATA "material", HDF_U8, 1, fill_material, NULL},
-    {POINT_DATA "body", HDF_U8, 1, fill_body, NULL},
-    {POINT_DATA "id", HDF_I32, 1, fill_id, NULL},
-    {"/Cleave/reference", HDF_F64, 0, fill_reference, NULL},
-};
-
-/* Plastic strain is written only if a material yields. */
-static bool field_exists(const struct frame_field *field, bool yielding)
-{
-    return yielding || field->copy != copy_plastic_strain;
-}
 
 /* ---- one frame --------------------------------------------------------------------------------------------------- */
 
@@ -130,10 +30,11 @@ struct frame_job {
     int64_t n, step;
     int dim;
     real t;
-    bool compress, yielding, broken;
+    bool compress, broken;
+    unsigned fields;                     /* bits of those that there are */
     const char *scene_text;              /* borrowed */
     /* in frame_copy, in the order of the particles; NULL: constant, or not in this frame */
-    char *field[COUNT_OF(frame_fields)];
+    char *field[FRAME_FIELDS];
     char *index[2];                      /* texts of the two indices, including this frame */
     size_t index_length[2];
     pthread_t thread;
@@ -142,37 +43,33 @@ struct frame_job {
     char message[512];
 };
 
-static size_t field_row(const struct frame_field *field, int dim)
-{
-    return hdf_size(field->type) * (size_t)(field->columns ? field->columns : dim);
-}
-
 /* Makes a job for a frame at time t [s] and copies the changing fields; the room of the copies is kept for the next
  * frame. */
-static struct frame_job *job_make(struct output *o, const struct particles *p, real t, int64_t step,
+static struct frame_job *job_make(struct output *o, const struct frame_source *source, real t, int64_t step,
                                   const char *scene_text)
 {
+    const struct particles *p = source->p;
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
-    size_t offset[COUNT_OF(frame_fields)], length = 0;
+    size_t offset[FRAME_FIELDS], length = 0;
     job->p = p, job->o = o, job->n = p->n, job->step = step, job->dim = p->dim, job->t = t;
-    job->compress = o->compress, job->yielding = p->plastic_strain != NULL, job->scene_text = scene_text;
-    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
+    job->compress = o->compress, job->fields = frame_fields_of(source), job->scene_text = scene_text;
+    for (int k = 0; k < FRAME_FIELDS; k++) {
         offset[k] = length;
-        if (field_exists(&frame_fields[k], job->yielding) && frame_fields[k].copy)
-            length += (size_t)p->n * field_row(&frame_fields[k], p->dim);
+        if (job->fields >> k & 1 && frame_fields[k].copy)
+            length += (size_t)p->n * frame_field_row(&frame_fields[k], p->dim);
     }
     if (o->frame_copy_bytes < (int64_t)length) {
         memory_free(o->frame_copy);
         o->frame_copy = NEW("output.frame", (int64_t)length, char);
         o->frame_copy_bytes = (int64_t)length;
     }
-    for (size_t k = 0; k < COUNT_OF(frame_fields); k++) {
+    for (int k = 0; k < FRAME_FIELDS; k++) {
         const struct frame_field *field = &frame_fields[k];
-        if (!field->copy || !field_exists(field, job->yielding)) continue;
+        if (!field->copy || !(job->fields >> k & 1)) continue;
         job->field[k] = o->frame_copy + offset[k];
 #pragma omp parallel for schedule(static)
         for (int64_t first = 0; first < p->n; first += COPIED)
-            field->copy(p, first, first + COPIED < p->n ? first + COPIED : p->n, job->field[k]);
+            field->copy(source, first, first + COPIED < p->n ? first + COPIED : p->n, job->field[k]);
     }
     return job;
 }
@@ -202,10 +99,10 @@ static int32_t *order_by_id(const struct particles *p)
 
 enum { ROW_MOST = 24 };                  /* bytes of a field's row: six singles or three doubles */
 
-static void write_field(struct hdf *f, const struct frame_job *job, size_t k, const int32_t *order, char *room)
+static void write_field(struct hdf *f, const struct frame_job *job, int k, const int32_t *order, char *room)
 {
     const struct frame_field *field = &frame_fields[k];
-    const size_t row = field_row(field, job->dim);
+    const size_t row = frame_field_row(field, job->dim);
     assert(row <= ROW_MOST);
     for (int64_t i = 0; i < job->n; i++)
         if (field->fill) field->fill(job->p, order[i], room + (size_t)i * row);
@@ -267,8 +164,8 @@ static status frame_write(struct frame_job *job)
     hdf_create(&f, path_aside(job->path.text).text, job->compress);
     write_marks(&f, job->dim, job->t, job->step, job->scene_text);
     write_cells(&f, job->n, room);
-    for (size_t k = 0; k < COUNT_OF(frame_fields); k++)
-        if (field_exists(&frame_fields[k], job->yielding)) write_field(&f, job, k, order, room);
+    for (int k = 0; k < FRAME_FIELDS; k++)
+        if (job->fields >> k & 1) write_field(&f, job, k, order, room);
     if (!f.failed) hdf_close(&f);
     if (f.failed) {
         job->broken = true;
@@ -321,10 +218,10 @@ static void xdmf_attribute(FILE *out, const char *frame, const struct frame_fiel
 }
 
 /* Writes the XDMF grid of one frame of n particles at time t [s]. */
-static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, bool yielding)
+static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, unsigned fields)
 {
     /* Cells are listed, because the XDMF3 reader makes none from a count alone. */
-    static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL, false};
+    static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL, NULL};
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
     fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
             (long long)n);
@@ -332,8 +229,8 @@ static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, bool yiel
     fprintf(out, "</Topology>\n<Geometry GeometryType=\"XYZ\">");
     xdmf_item(out, frame, &frame_fields[FIELD_POINTS], n);
     fprintf(out, "</Geometry>\n");
-    for (size_t k = FIELD_POINTS + 1; k < COUNT_OF(frame_fields); k++)
-        if (frame_fields[k].columns > 0 && field_exists(&frame_fields[k], yielding))
+    for (int k = FIELD_POINTS + 1; k < FRAME_FIELDS; k++)
+        if (frame_fields[k].columns > 0 && fields >> k & 1)
             xdmf_attribute(out, frame, &frame_fields[k], n);
     fprintf(out, "</Grid>\n");
 }
@@ -346,7 +243,7 @@ static void xdmf_print(FILE *out, const struct output *o)
         char name[PATH_NAME_ROOM];
         if (isnan(o->frame_time[k])) continue;
         frame_name(name, sizeof name, k);
-        xdmf_grid(out, name, o->frame_time[k], o->frame_particles, o->frame_yielding);
+        xdmf_grid(out, name, o->frame_time[k], o->frame_particles, o->frame_fields);
     }
     fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
 }
@@ -407,16 +304,15 @@ status output_wait(struct output *o)
 }
 
 /* Counts a frame before it is written; output_wait takes the count back on a fault. */
-static void frame_count(struct output *o, const struct particles *p, real t)
+static void frame_count(struct output *o, const struct frame_job *job)
 {
     if (o->frames == o->frames_room) {
         int room = 2 * o->frames_room + 16;
         o->frame_time = memory_resize("output.frame_time", o->frame_time, o->frames_room, room, sizeof(real));
         o->frames_room = room;
     }
-    o->frame_time[o->frames++] = t;
-    o->frame_particles = p->n;
-    o->frame_yielding = p->plastic_strain != NULL;
+    o->frame_time[o->frames++] = job->t;
+    o->frame_particles = job->n, o->frame_fields = job->fields;
 }
 
 /* Starts the writing thread. It blocks all signals, which the stepping thread receives, but those of its own faults. */
@@ -431,16 +327,18 @@ static void output_frames_job_start(struct frame_job *job)
     if (!job->apart) job_run(job);           /* no thread available: write at once */
 }
 
-status output_frame_begin(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
+status output_frame_begin(struct output *o, const struct particles *p, const struct frame_extra *extra, real t,
+                          int64_t step, const char *scene_text)
 {
+    const struct frame_source source = {p, extra ? *extra : (struct frame_extra){0}};
     char name[PATH_NAME_ROOM];
     TRY(output_wait(o));
     if (o->broken) return FAILED;
     TRY(folder_held(&o->lock, o->folder));
-    struct frame_job *job = o->writing = job_make(o, p, t, step, scene_text);
+    struct frame_job *job = o->writing = job_make(o, &source, t, step, scene_text);
     frame_name(name, sizeof name, o->frames);
     job->path = path_join(o->folder, name);
-    frame_count(o, p, t);
+    frame_count(o, job);
     for (int k = 0; k < 2 && job->ended == OK; k++) job->ended = index_make(o, job, k);
     if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
     else output_frames_job_start(job);
@@ -449,7 +347,7 @@ status output_frame_begin(struct output *o, const struct particles *p, real t, i
 
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
 {
-    TRY(output_frame_begin(o, p, t, step, scene_text));
+    TRY(output_frame_begin(o, p, NULL, t, step, scene_text));
     return output_wait(o);
 }
 

@@ -50,6 +50,8 @@ static void read_fields(struct frame *f, struct hdf *h)
     f->material = read_list(h, "/VTKHDF/PointData/material", HDF_U8, f->n);
     f->body = read_list(h, "/VTKHDF/PointData/body", HDF_U8, f->n);
     f->id = read_list(h, "/VTKHDF/PointData/id", HDF_I32, f->n);
+    if (hdf_count(h, "/VTKHDF/PointData/fragment") >= 0)
+        f->fragment = read_list(h, "/VTKHDF/PointData/fragment", HDF_I32, f->n);
 }
 
 /* Reads dimension, time, step and number of particles; a value out of range is a fault of the file. */
@@ -100,6 +102,7 @@ void frame_free(struct frame *f)
     memory_free(f->material);
     memory_free(f->body);
     memory_free(f->id);
+    memory_free(f->fragment);
     *f = (struct frame){0};
 }
 

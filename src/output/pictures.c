@@ -7,6 +7,7 @@
 static const char *const picture_name[DRAWN_KINDS] = {
     [DRAWN_DAMAGE] = "damage", [DRAWN_KIND] = "kind",     [DRAWN_LAST] = "last", [DRAWN_PROFILES] = "profiles",
     [DRAWN_CRACK] = "crack",   [DRAWN_ENERGY] = "energy", [DRAWN_SIF] = "sif",   [DRAWN_PATH] = "path",
+    [DRAWN_FRAGMENTS] = "fragments",
 };
 
 struct path pictures_folder(const char *dir) { return path_join(dir, "pictures"); }

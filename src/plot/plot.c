@@ -159,8 +159,10 @@ static struct view view_of(const struct cloud *cloud, int clouds)
 static status draw_map(const struct request *r, const char *path, enum map map, const struct view *view,
                        const struct cloud *cloud, int clouds)
 {
-    char title[TITLE_LENGTH];
-    compose_title(title, r->folder, map == MAP_DAMAGE ? "damage" : "method and damage", &cloud[0]);
+    char title[TITLE_LENGTH], what[40] = "damage";
+    if (map == MAP_KIND) snprintf(what, sizeof what, "method and damage");
+    if (map == MAP_FRAGMENT) snprintf(what, sizeof what, "%d fragments", (int)cloud[0].fragments);
+    compose_title(title, r->folder, what, &cloud[0]);
     return maps_draw(path, title, map, view, cloud, clouds);
 }
 
@@ -190,6 +192,9 @@ static status draw_maps(const struct request *r, const struct run_frames *frames
     TRY(draw_map(r, picture_path(r->folder, DRAWN_DAMAGE).text, MAP_DAMAGE, &view, cloud, frames->shown));
     TRY(draw_map(r, picture_path(r->folder, DRAWN_KIND).text, MAP_KIND, &view, cloud, frames->shown));
     TRY(draw_map(r, picture_path(r->folder, DRAWN_LAST).text, MAP_DAMAGE, &view, &cloud[frames->shown - 1], 1));
+    if (cloud[frames->shown - 1].fragments > 1)
+        TRY(draw_map(r, picture_path(r->folder, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, &cloud[frames->shown - 1],
+                     1));
     return r->every ? draw_every(r, frames, &view) : OK;
 }
 

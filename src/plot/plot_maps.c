@@ -127,19 +127,21 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
     send_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step);
 }
 
-/* The two kinds of particles, above the panels. */
-static void draw_key(FILE *to, const struct layout *l)
+/* What colours mean, above the panels: the two kinds of particles, or fragments. */
+static void draw_key(FILE *to, const struct layout *l, enum map map)
 {
-    const struct { enum kind kind; const char *text; } entry[] = {{KIND_MPM, "material points"},
-                                                                  {KIND_PD, "peridynamics"}};
+    const struct { struct colour colour; const char *text; } entry[2][2] = {
+        {{map_colour(MAP_KIND, KIND_MPM, 0.25, 1), "material points"},
+         {map_colour(MAP_KIND, KIND_PD, 0.25, 1), "peridynamics"}},
+        {{fragment_colour(0), "the heaviest"}, {fragment_colour(-1), "no bond left"}}};
     for (int k = 0; k < 2; k++) {
-        struct colour c = map_colour(MAP_KIND, entry[k].kind, 0.25, 1);
+        const struct colour c = entry[map == MAP_FRAGMENT][k].colour;
         double x = l->width - RIGHT - 320 + 160 * k, y = 26;
         fprintf(to, "set object rectangle from screen %.6g,%.6g to screen %.6g,%.6g fs solid border rgb '#888888' "
                     "fc rgb '#%02x%02x%02x'\n", x / l->width, 1 - (y + 6) / l->height, (x + 14) / l->width,
                 1 - (y - 8) / l->height, c.red, c.green, c.blue);
-        fprintf(to, "set label '%s' at screen %.6g,%.6g left font ',12' textcolor rgb '#333333'\n", entry[k].text,
-                (x + 21) / l->width, 1 - (y - 1) / l->height);
+        fprintf(to, "set label '%s' at screen %.6g,%.6g left font ',12' textcolor rgb '#333333'\n",
+                entry[map == MAP_FRAGMENT][k].text, (x + 21) / l->width, 1 - (y - 1) / l->height);
     }
 }
 
@@ -153,13 +155,13 @@ status maps_draw(const char *path, const char *title, enum map map, const struct
     gnuplot_quote(g.to, title);
     fprintf(g.to, " at screen %.6g,%.6g left font ',16' textcolor rgb '#111111'\n", (double)LEFT / l.width,
             1 - 26.0 / l.height);
-    if (map == MAP_KIND) draw_key(g.to, &l);
+    if (map != MAP_DAMAGE) draw_key(g.to, &l, map);
     struct unit second = unit_for(cloud[clouds - 1].t, "s");
     for (int k = 0; k < clouds; k++) {
         plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
         fputs("unset label\nunset object\n", g.to);  /* drawn once for all panels */
     }
-    plot_maps_draw_bar(g.to, &l, view, map);
+    if (map != MAP_FRAGMENT) plot_maps_draw_bar(g.to, &l, view, map);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }

@@ -110,10 +110,13 @@ void cloud_make(struct cloud *c, const struct frame *f)
     for (int k = 0; k < 2; k++) c->place[k] = NEW("plot.place", f->n, float);
     c->damage = NEW("plot.damage", f->n, float);
     c->kind = NEW("plot.kind", f->n, uint8_t);
+    if (f->fragment) c->fragment = NEW("plot.fragment", f->n, int32_t);
     for (int64_t i = 0; i < f->n; i++) {
         if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.49 * c->spacing) continue;
         for (int k = 0; k < 2; k++) c->place[k][c->n] = f->X[c->axis[k]][i] + f->u[c->axis[k]][i];
         c->damage[c->n] = f->damage[i];
+        if (f->fragment) c->fragment[c->n] = f->fragment[i];
+        if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1;
         c->kind[c->n++] = f->kind[i];
     }
     c->aligned = is_aligned(c);
@@ -124,6 +127,7 @@ void cloud_free(struct cloud *c)
     for (int k = 0; k < 2; k++) memory_free(c->place[k]);
     memory_free(c->damage);
     memory_free(c->kind);
+    memory_free(c->fragment);
     *c = (struct cloud){0};
 }
 
@@ -160,6 +164,18 @@ struct colour map_colour(enum map map, enum kind kind, double damage, double top
     return along_stops(kind_stops, COUNT_OF(kind_stops), damage / top);
 }
 
+/* The heaviest fragment is light grey; nine colours in turn for the others, apart in lightness and hue for any colour
+ * vision; what has no bond is nearly black. */
+struct colour fragment_colour(int32_t fragment)
+{
+    static const struct colour turn[] = {{68, 119, 170, 255},  {238, 153, 51, 255},  {34, 136, 51, 255},
+                                         {170, 51, 119, 255},  {102, 204, 238, 255}, {204, 68, 51, 255},
+                                         {187, 187, 68, 255},  {119, 85, 170, 255},  {17, 119, 119, 255}};
+    if (fragment < 0) return (struct colour){40, 40, 44, 255};
+    if (fragment == 0) return (struct colour){212, 214, 217, 255};
+    return turn[(size_t)(fragment - 1) % COUNT_OF(turn)];
+}
+
 /* ---- pixels ------------------------------------------------------------------------------------------------------ */
 
 struct canvas {
@@ -182,7 +198,9 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
         from[k] = (int)fmax(ceil(at[k] - reach[k] - 0.5), 0);
         to[k] = (int)fmin(floor(at[k] + reach[k] - 0.5), size[k] - 1);
     }
-    struct colour colour = map_colour(map, (enum kind)c->kind[i], c->damage[i], view->top);
+    const struct colour colour = map == MAP_FRAGMENT
+                                     ? fragment_colour(c->fragment[i])
+                                     : map_colour(map, (enum kind)c->kind[i], c->damage[i], view->top);
     for (int row = from[1]; row <= to[1]; row++) {
         for (int column = from[0]; column <= to[0]; column++) {
             double r2 = square(column + 0.5 - at[0]) + square(row + 0.5 - at[1]);

@@ -87,13 +87,6 @@ static status check_transfer(struct reader *r, const struct node *root)
                               "mapped again); flip, or shape gimp, is expected");
 }
 
-static bool bonds_may_break(const struct scene *s)
-{
-    bool breaks = false;
-    for (int m = 0; m < s->materials; m++) breaks |= isfinite(s->material[m].critical_stretch);
-    return breaks;
-}
-
 /* Default of time.safety: 0.5 where bonds may break, else 0.8. Lengths of cracks are the same at both, and most
  * angles; where a scene is between two paths it goes the same way up to 0.3 to 0.5 of the critical step, and families
  * of mospd lose length beyond 0.2 (`cleave bench steps`). */
@@ -101,14 +94,14 @@ void resolve_safety(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     if (!scene_check_below(root, "time", "safety"))
-        s->safety = bonds_may_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
+        s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
 void resolve_contact(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     const bool bonds = s->method != METHOD_MPM && s->solver == SOLVER_EXPLICIT;
-    const bool faces = scene_bodies_meet(s) || s->cracks > 0 || s->growths > 0 || bonds_may_break(s);
+    const bool faces = scene_bodies_meet(s) || scene_cracks(s);
     if (!scene_check_below(root, "contact", "between"))
         s->contact_between = bonds && faces ? CONTACT_ALL : CONTACT_NONE;
 }

@@ -178,6 +178,39 @@ static void plastic_strain_where_it_is(void **state)
     }
 }
 
+/* Forces of contact and fragments are in frames that are given them, by id, and only there. */
+static void frames_hold_what_they_are_given(void **state)
+{
+    (void)state;
+    real pushed[2] = {1.5, -2.5}, across[2] = {0, 4};
+    real *const push[DIM_MAX] = {pushed, across, NULL};
+    const int32_t fragment[2] = {-1, 3};
+    const struct frame_extra extra = {push, fragment};
+    for (int given = 0; given < 2; given++) {
+        struct output o;
+        struct particles p;
+        struct frame f;
+        struct hdf file;
+        float force[6];
+        open_fresh(&o, "given", false);
+        particles_make(&p, 2, 2, 0);
+        p.id[0] = 1;
+        assert_int_equal(output_frame_begin(&o, &p, given ? &extra : NULL, 0, 0, scene_text), OK);
+        assert_int_equal(output_wait(&o), OK);
+        hdf_open(&file, "given/frames/000000.hdf");
+        hdf_read_rows(&file, "/VTKHDF/PointData/contact_force", HDF_F32, 6, force);
+        assert_int_equal(file.failed, !given);
+        if (given) assert_true(force[0] == -2.5f && force[1] == 4 && force[2] == 0 && force[3] == 1.5f);
+        hdf_close(&file);
+        assert_int_equal(frame_read(&f, "given/frames/000000.hdf"), OK);
+        assert_int_equal(f.fragment != NULL, given);
+        if (given) assert_true(f.fragment[0] == 3 && f.fragment[1] == -1);
+        frame_free(&f);
+        particles_free(&p);
+        output_close(&o);
+    }
+}
+
 static void indices_list_all_frames(void **state)
 {
     (void)state;
@@ -398,6 +431,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(frames_come_back),
         cmocka_unit_test(frames_have_vtk_layout),
         cmocka_unit_test(plastic_strain_where_it_is),
+        cmocka_unit_test(frames_hold_what_they_are_given),
         cmocka_unit_test(indices_list_all_frames),
         cmocka_unit_test(same_state_gives_same_bytes),
         cmocka_unit_test(damaged_frames_are_refused),

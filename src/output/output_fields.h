@@ -1,0 +1,31 @@
+/* The fields of frames, for output_frames.c. */
+#ifndef CLEAVE_OUTPUT_FIELDS
+#define CLEAVE_OUTPUT_FIELDS
+
+#include "output/output.h"
+#include "output/output_hdf5.h"
+
+/* What a frame shows. */
+struct frame_source { const struct particles *p; struct frame_extra extra; };
+
+/* One dataset with a row per particle; `columns` 0 stands for dim. `fill`, for fields that are constant during a run,
+ * writes the row of particle i; the writing thread calls it. `copy`, for all other fields, writes rows first .. end - 1
+ * of `rows` of all particles; the step loop waits for it. */
+struct frame_field {
+    const char *path;
+    enum hdf_type type;
+    int columns;
+    void (*fill)(const struct particles *p, int64_t i, void *row);
+    void (*copy)(const struct frame_source *s, int64_t first, int64_t end, void *rows);
+};
+
+enum { FIELD_POINTS, FRAME_FIELDS = 13 };    /* place of the positions in the table; its length */
+extern const struct frame_field frame_fields[FRAME_FIELDS];
+
+/* Bits of the fields that there are: plastic strain where a material yields, the force of contact where there is
+ * contact, fragments where bodies can break. */
+unsigned frame_fields_of(const struct frame_source *s);
+/* Bytes of a particle. */
+size_t frame_field_row(const struct frame_field *field, int dim);
+
+#endif
