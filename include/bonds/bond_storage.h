@@ -38,6 +38,8 @@
 #include "bonds/family.h"
 #include "data/active_set.h"
 
+#define CORE_STIFFNESS 3.0               /* largest of cores (kernels/pd/bond_core.h), in those of bonds */
+
 /* What yielding has done to a bond: stretch without force, and the way it was yielded back and forth. */
 struct bond_plasticity { real stretch, path; };
 
@@ -160,6 +162,7 @@ struct bonds {
     struct state state;
     struct clamped clamped;
     struct active_set active;            /* of blocks of rows */
+    real core;                           /* stiffness of cores (kernels/pd/bond_core.h), in those of bonds */
     real stiffness;                      /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 

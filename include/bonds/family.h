@@ -70,6 +70,7 @@ struct bond_source {
     struct bond_limit limit;
     struct bond_yield yield;
     const struct state_modulus *modulus; /* of state-based models, else NULL */
+    real core;                           /* stiffness of cores (kernels/pd/bond_core.h), in those of bonds */
     bool local, rotates;                 /* normalisation by what a family has; model with rotations */
     const int *mirror_axis;              /* [loads] axis of a plane of symmetry, -1: clamped */
     const struct crack *crack;

@@ -26,6 +26,10 @@
 
 enum contact_between { CONTACT_NONE, CONTACT_BODIES, CONTACT_ALL };
 enum contact_form { CONTACT_SURFACE, CONTACT_PAIR };
+/* Of pairs: one spacing and what the top of this file says; or the rule of LAMMPS' peri/pmb, for comparison: the least
+ * of 0.9 of the distance in the reference state and 1.35 spacings, also between particles that a bond joins, with the
+ * stiffness 15 c V_i V_j/delta of the scene's own horizon. */
+enum contact_distance { DISTANCE_SPACING, DISTANCE_LAMMPS };
 
 /* Depth of a face below a particle, in spacings, by the density that it feels there (contact_face.c). */
 enum { PROFILE_NODES = 86 };
@@ -34,6 +38,7 @@ struct contact_profile { real density[PROFILE_NODES], depth[PROFILE_NODES], slop
 struct contact_law {
     enum contact_between between;        /* which particles may meet: none, those of two bodies, all */
     enum contact_form form;              /* faces, or pairs of particles */
+    enum contact_distance distance;      /* of pairs */
     struct contact_profile profile;      /* of faces */
     real friction;                       /* coefficient [1] */
     int materials;
@@ -111,9 +116,9 @@ struct contact {
     real *push[DIM_MAX];                 /* ... [particles of the body] NULL until then [N] */
 };
 
-/* Law for the materials of the bonds. stiffness: factor on k [1]. shape: [bodies]; those and rigid bodies are
- * borrowed. */
-void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
+/* Law for the materials of the bonds, of which form, distance and friction are given; stiffness: factor on k [1].
+ * shape: [bodies]; those and rigid bodies are borrowed. */
+void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids);
 void contact_free(struct contact *c);

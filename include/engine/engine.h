@@ -157,6 +157,7 @@ struct engine {
     struct coupling_state coupling;
     const struct region **shape;         /* [scene->bodies] of bodies that are not lists, for contact */
     struct rigid_body *rigid;            /* [scene->rigids] */
+    bool rigid_met;                      /* a warning of two that are inside each other has been given */
     struct contact contact;
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c) */
@@ -247,6 +248,13 @@ void engine_rigid_move(struct engine *e, real middle, real dt_velocity);
 struct rigid_energy { real before, step, last, work; };
 struct rigid_energy engine_rigid_energy(const struct engine *e);
 int engine_rigid_columns(const struct engine *e, struct column *column);   /* column NULL: only their number */
+/* REFUSED where bodies that the scene joins are apart (engine_joined.c). */
+status engine_joined_check(const struct engine *e);
+/* What they cannot do (engine_rigid_check.c): REFUSED before the start; FAILED where one moves too far in a step; said
+ * once where two of them are inside each other. */
+status engine_rigid_check(const struct engine *e);
+status engine_rigid_speed_check(const struct engine *e);
+void engine_rigid_meet(struct engine *e);
 void engine_rigid_record(const struct engine *e, real *record);
 /* Stability checks (engine_stability.c). `make`: the state at the start. `check`, after every step: FAILED with
  * place, step, cause and remedy where something moves faster than waves; the divergence check alone takes

@@ -20,6 +20,8 @@ struct rigid_body {
     real speed[DIM_MAX], ramp;           /* DRIVEN: velocity [m/s] from t = ramp on, less in proportion before [s] */
     real mass;                           /* FREE [kg] */
     real inertia[DIM_MAX][DIM_MAX];      /* about the centre, at t = 0; along z in the plane [kg m^2] */
+    real weight[DIM_MAX];                /* FREE: constant force at its centre [N] */
+    real face;                           /* largest side of the box round it: 1, a length [m] or an area [m^2] */
     real centre[DIM_MAX], radius;        /* of mass (else of the box round it) and farthest point, at t = 0 [m] */
 
     real x[DIM_MAX];                     /* centre now [m] */
@@ -40,6 +42,9 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 
 /* Distance of the point x from its surface, negative inside [m]; outward unit normal there. */
 real rigid_distance(const struct rigid_body *r, const real *x, real *normal);
+
+/* Where its point of t = 0 is now [m]. */
+void rigid_place(const struct rigid_body *r, const real *X, real *x);
 
 /* Velocity of the body at the point x [m/s]. */
 void rigid_velocity(const struct rigid_body *r, const real *x, real *v);

@@ -36,6 +36,7 @@ struct scene_body {
     int joined;                          /* lowest number of the bodies that are one with it by interfaces */
     bool rigid;                          /* no particles: it has a shape that keeps its form ... */
     real mass, ramp;                     /* ... flies with a mass [kg]; or is driven, fully from `ramp` on [s] */
+    real force[DIM_MAX];                 /* on one that flies [N] */
     enum grid_frame frame; /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
     const char *frame_reason;            /* why AUTO became CURRENT; NULL: it did not */
 };
@@ -44,7 +45,7 @@ struct scene_body {
 struct scene_interface {
     int body[2];
     bool joined;
-    real energy_release_rate;            /* NAN: that of the weaker material [J/m^2] */
+    real energy_release_rate;            /* 0: that of the weaker material [J/m^2] */
     real critical_stretch;               /* of it; 0: none [1] */
 };
 
@@ -110,6 +111,7 @@ struct scene {
     enum last_force last_force;          /* of a bond in the step in which it breaks */
     enum contact_between contact_between;
     enum contact_form contact_form;
+    enum contact_distance contact_distance;
     real contact_friction;               /* coefficient [1] */
     real contact_stiffness;              /* in units of that of a cell [1] */
     bool has_pd_region;  struct region pd_region; /* peridynamic from the start (adaptive) */
@@ -153,11 +155,12 @@ struct scene {
 
 struct scene_override { const char *key, *value; };    /* of `-s key=value` */
 
-/* Has a material a limit of its bonds? */
+/* Has a material, or an interface, a limit of its bonds? */
 static inline bool scene_bonds_break(const struct scene *s)
 {
     bool breaks = false;
     for (int m = 0; m < s->materials; m++) breaks |= isfinite(s->material[m].critical_stretch);
+    for (int k = 0; k < s->interfaces; k++) breaks |= s->interface[k].critical_stretch > 0;
     return breaks;
 }
 

@@ -29,20 +29,49 @@ static void say_frames(const struct engine *e)
                (long long)e->reference.mesh.points);
 }
 
+/* Names of bodies from one to end, those of them that are joined in brackets. */
+static void say_names(const struct scene *s, int from, int end)
+{
+    const char *between = "";
+    for (int b = from; b < end; b++) {
+        if (b < s->bodies && s->body[b].joined != b) continue;
+        printf("%s%s", between, s->body[b].name);
+        for (int k = b + 1; k < s->bodies && b < s->bodies; k++)
+            if (s->body[k].joined == b) printf("+%s", s->body[k].name);
+        between = ", ";
+    }
+}
+
 /* Which peridynamic particles meet, and by which law. */
 static void say_contact_of_bonds(const struct scene *s)
 {
-    static const char *const who[] = {"", "peridynamic particles of two bodies",
-                                      "peridynamic particles near any face: bodies, fragments, faces of cracks"};
     if (s->contact_between == CONTACT_NONE && s->rigids == 0) return;
-    printf("contact        %s", who[s->contact_between]);
-    if (s->rigids > 0)
-        printf("%s%d rigid %s", s->contact_between == CONTACT_NONE ? "peridynamic particles with " : ", and ",
-               s->rigids, s->rigids > 1 ? "bodies" : "body");
+    printf("contact        of ");
+    say_names(s, 0, s->bodies);
+    if (s->contact_between == CONTACT_ALL)
+        printf(" %swith itself (fragments, faces of cracks)", s->bodies > 1 ? "with each other and " : "");
+    if (s->contact_between == CONTACT_BODIES) printf(" with each other, not with itself");
+    if (s->rigids > 0) {
+        printf("%s with rigid ", s->contact_between == CONTACT_NONE ? "" : ", and");
+        say_names(s, s->bodies, s->bodies + s->rigids);
+        if (s->rigids > 1) printf(" (rigid bodies do not meet each other)");
+    }
     printf("; %s", s->contact_form == CONTACT_PAIR ? "pairs of particles: faces that slide mesh like gears"
                                                    : "smooth faces");
     if (s->contact_friction > 0)
         printf(", friction %.3g (a flat face along the lattice has 0.007 of its own)", s->contact_friction);
+    putchar('\n');
+}
+
+/* What contact costs: its share of a step, and steps that are shorter for it. */
+static void say_contact_cost(const struct engine *e, const struct cost *c)
+{
+    const struct run_clock *clock = &e->clock;
+    const double shorter = clock->dt / (e->scene->safety * clock->dt_critical);
+    if (!(c->contact > 0) || e->contact.rows == 0) return;
+    printf("contact        looks at %lld of %lld particles, those near a face: %.1f %% of a step at first",
+           (long long)e->contact.rows, (long long)e->part.n, 1e2 * c->contact);
+    if (e->scene->time_step == 0 && shorter < 0.999) printf("; steps are %.2f times as long as without", shorter);
     putchar('\n');
 }
 
@@ -132,6 +161,7 @@ status command_check(int argc, char **argv)
         warnings_print(&e.report.warnings, 0, stdout);
         advise(&e, stdout);
         result = cost_measure(&cost, &e, &a);
+        if (result == OK) say_contact_cost(&e, &cost);
         if (result == OK) say_cost(&e, &cost, threads);
     }
     engine_free(&e);

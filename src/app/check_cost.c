@@ -61,6 +61,21 @@ static double time_force(struct engine *e)
     return median_of(spent, n);
 }
 
+/* Time of contact in a step, where it stands [s]. */
+static double time_contact(struct engine *e)
+{
+    double spent[PERIODS_MOST], all = 0;
+    int n = 0;
+    while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
+        const double start = team_clock();
+        contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                       e->contact.broken, e->contact.changed);
+        contact_force(&e->contact, &e->part, 0);
+        all += spent[n++] = team_clock() - start;
+    }
+    return median_of(spent, n);
+}
+
 /* ---- other scenes ------------------------------------------------------------------------------------------------ */
 
 /* Makes scene and engine with one more override (key NULL: none); the caller frees both in any case. rest: keep
@@ -164,6 +179,7 @@ status cost_measure(struct cost *c, struct engine *e, const struct run_arguments
         return OK;
     }
     TRY(time_steps(e, &c->step));
+    c->contact = time_contact(e) / c->step;
     c->bytes = (double)memory_peak() + OUTPUT_BYTES + n * FRAME_BYTES;
     c->output = output_seconds(e);
     cost_run(c, e, a);

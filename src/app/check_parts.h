@@ -17,6 +17,7 @@ enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 struct cost {
     double make;                         /* from the scene to step 0; by the caller [s] */
     double step; /* a first step, samples included, whole body active; static: an iteration [s] */
+    double contact;                      /* share of contact in such a step, whatever touches then */
     double output;                       /* frames and checkpoints, on an idle disk [s] */
     double run;                          /* whole run [s] */
     enum cost_basis basis;

@@ -327,6 +327,7 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     else site_map_leave(map);
     columns_leave(old, b);
 
+    b->core = s->core;
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
 #pragma omp parallel for schedule(static)
     for (int64_t r = 0; r < b->rows; r++) {

@@ -11,7 +11,7 @@
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
-void contact_make(struct contact *c, enum contact_between between, enum contact_form form, real stiffness,
+void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids)
 {
@@ -21,7 +21,9 @@ void contact_make(struct contact *c, enum contact_between between, enum contact_
     c->deepest = -1;
     c->began = c->ended = NAN;
     c->law = (struct contact_law){.between = between,
-                                  .form = form,
+                                  .form = law.form,
+                                  .distance = law.distance,
+                                  .friction = law.friction,
                                   .materials = n,
                                   .spacing = family.spacing,
                                   .section = family.section,
@@ -32,7 +34,8 @@ void contact_make(struct contact *c, enum contact_between between, enum contact_
     c->rigid = rigid, c->rigids = rigids;
     if (!contact_works(c)) return;
     contact_profile_make(&c->law.profile, space_dim(family.space));
-    family_make(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
+    if (law.distance == DISTANCE_SPACING)
+        family_make(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
     c->law.stiffness = NEW("contact.stiffness", n * n, real);
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++) {
@@ -61,13 +64,30 @@ void contact_free(struct contact *c)
     memset(c, 0, sizeof *c);
 }
 
+/* Square of the frequency of particles of a material between which and a rigid body that flies contact acts [1/s^2]:
+ * one for each spacing of both faces of the body, 2 k each (contact_rigid.c), against its mass. */
+static real rigid_swing(const struct contact *c, const struct particles *p, const struct material *m, real stiffness,
+                        real volume)
+{
+    const real spring = 2 * stiffness * square(volume);
+    real most = 0;
+    for (int k = 0; k < c->rigids; k++) {
+        const struct rigid_body *r = &c->rigid[k];
+        const real touching = 2 * real_max(1, r->face / pow(c->law.spacing, p->dim - 1));
+        if (r->motion == RIGID_FREE)
+            most = real_max(most, spring * (1 / (m->density * volume) + touching / r->mass));
+    }
+    return most;
+}
+
 /* Two particles under contact k swing with 2 k/m. On a flat face a particle has half its bonds, and of the particles of
  * the other face one stands opposite, or in the plane two and in space three beside it, at 60 degrees or more to the
  * face: in all 1, 1.5 and 2 of k across it. Rubble, which may have eight contacts, needs 0.61 of the step of the bonds
- * in the plane, and has 0.5 of it where bonds may break. */
+ * in the plane, and has 0.5 of it where bonds may break. The rule of LAMMPS adds contact with all of 2, 8 or 26
+ * neighbours to whole families. */
 real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds)
 {
-    static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2};
+    static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2}, squeezed[DIM_MAX + 1] = {0, 2, 4, 26.0 / 3};
     const int n = c->law.materials;
     real volume = 0, most = 0;
     if (!contact_works(c)) return INFINITY;
@@ -75,7 +95,11 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++)
             most = real_max(most, c->law.stiffness[a * n + b] * volume * (1 / m[a].density + 1 / m[b].density));
-    return 2 / sqrt(0.5 * square(2 / bonds) + opposite[p->dim] * most);
+    real across = opposite[p->dim] * most;
+    if (c->law.distance == DISTANCE_LAMMPS) return 2 / sqrt(square(2 / bonds) + squeezed[p->dim] * most);
+    for (int a = 0; a < n; a++)
+        across = real_max(across, rigid_swing(c, p, &m[a], c->law.stiffness[a * n + a], volume));
+    return 2 / sqrt(0.5 * square(2 / bonds) + across);
 }
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */

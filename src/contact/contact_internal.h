@@ -6,6 +6,8 @@
 
 #define CONTACT_REACH 2.0                /* of the field of a face [mean spacings] */
 #define CONTACT_SKIN 0.3                 /* beyond the contact distance [spacings]: pairs that may come to it soon */
+#define FAR_LAMMPS 1.35                  /* distance of pairs in LAMMPS' rule at the most [mean spacings] and ... */
+#define NEAR_LAMMPS 0.9                  /* ... [their distance in the reference state] */
 #define CONTACT_FLATNESS 3               /* a gap shrinks by this times the way of a particle: of both sides, and more
                                             where fields are not flat */
 

@@ -47,7 +47,9 @@ real contact_pair_distance(const struct contact *c, const struct particles *p, i
     const int32_t i = c->particle[k], j = c->particle[l];
     real reference2 = 0, apart[DIM_MAX];
     for (int d = 0; d < p->dim; d++) reference2 += square(p->X[d][i] - p->X[d][j]);
-    const real nominal = real_min(sqrt(reference2), 0.5 * (c->size[k] + c->size[l])) - contact_notch(c, p, k, l);
+    const real mean = 0.5 * (c->size[k] + c->size[l]);
+    if (c->law.distance == DISTANCE_LAMMPS) return real_min(NEAR_LAMMPS * sqrt(reference2), FAR_LAMMPS * mean);
+    const real nominal = real_min(sqrt(reference2), mean) - contact_notch(c, p, k, l);
     const real r = sqrt(contact_apart(c, p, k, l, apart));
     return real_min(nominal, isnan(was) ? r : real_max(was, r));
 }

@@ -19,12 +19,12 @@ static real first_layer_share(const struct family *f)
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
-/* Is particle i of the body near a face? */
-static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, int64_t i)
+/* Is particle i of the body near a face, or peridynamic and wanted everywhere? */
+static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, bool everywhere, int64_t i)
 {
     const int64_t row = b->row_of[i];
     if (p->kind[i] != KIND_PD) return false;
-    return p->damage[i] > 0 || row < 0 || b->family_volume[row] < least_volume;
+    return everywhere || p->damage[i] > 0 || row < 0 || b->family_volume[row] < least_volume;
 }
 
 int64_t contact_row_of(const struct contact *c, int64_t i)
@@ -91,9 +91,10 @@ void contact_list_describe(struct contact *c, const struct particles *p)
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
+    const bool everywhere = c->law.distance == DISTANCE_LAMMPS;
     uint8_t *exposed = BARE("contact.exposed", p->n_all, uint8_t);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) exposed[i] = is_exposed(p, b, least_volume, i);
+    for (int64_t i = 0; i < p->n; i++) exposed[i] = is_exposed(p, b, least_volume, everywhere, i);
     for (int64_t i = p->n; i < p->n_all; i++) exposed[i] = exposed[image_root(p, c->law.image, i)];
     c->n = c->rows = 0;
     for (int64_t i = 0; i < p->n_all; i++) c->n += exposed[i];
@@ -154,7 +155,7 @@ static void row_pairs(const struct contact_search *s, struct near *near, int64_t
     if (s->law->between == CONTACT_NONE) return;
     near_find(near, &s->cells, &s->places, k, s->reach, false);
     if (near->n == 0) return;
-    mark_bonded(s->b, i, mark, k);
+    if (s->law->distance == DISTANCE_SPACING) mark_bonded(s->b, i, mark, k);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = s->particle[near->at[q]];
         if (mark[j] == k || (s->law->between == CONTACT_BODIES && p->body[i] == p->body[j])) continue;
@@ -233,7 +234,8 @@ static real search_reach(const struct contact *c)
 {
     real most = 0;
     for (int64_t k = 0; k < c->n; k++) most = real_max(most, c->size[k]);
-    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : 1) + CONTACT_SKIN * c->law.spacing;
+    const real pairs = c->law.distance == DISTANCE_LAMMPS ? FAR_LAMMPS : 1;
+    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + CONTACT_SKIN * c->law.spacing;
 }
 
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)

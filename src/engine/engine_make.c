@@ -373,9 +373,12 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     e->source.cells = &e->cells;
     TRY(make_bonds(e));
     TRY(engine_rigid_make(e));
+    TRY(engine_rigid_check(e));
+    TRY(named(s, engine_joined_check(e)));
+    const struct contact_law law = {
+        .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
     contact_make(&e->contact, s->solver == SOLVER_EXPLICIT && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
-                 s->contact_form, s->contact_stiffness, &e->source, e->shape, e->rigid, s->rigids);
-    e->contact.law.friction = s->contact_friction;
+                 law, s->contact_stiffness, &e->source, e->shape, e->rigid, s->rigids);
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_update(e);

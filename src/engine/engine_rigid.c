@@ -20,6 +20,7 @@ status engine_rigid_make(struct engine *e)
         TRY(status_at(b->place, rigid_make(&e->rigid[k], &b->shape, s->dim, b->mass, b->velocity,
                                            s->spacing)));
         e->rigid[k].ramp = b->ramp;
+        memcpy(e->rigid[k].weight, b->force, sizeof b->force);
     }
     return OK;
 }

@@ -174,7 +174,7 @@ void engine_sample_begin(struct engine *e)
     sampling->constraint_work = e->loads.constraint_work;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
     sync_probes(e);
-    if (sampling->due) sample_state(e);
+    if (sampling->due) sample_state(e), engine_rigid_meet(e);
     else if (wants_stress(e->scene)) engine_stress(e);
     struct observed o = engine_observed(e);
     probes_keep(&e->probing.probes, &o);

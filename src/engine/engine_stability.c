@@ -174,12 +174,40 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
         used += snprintf(text + used, room - (size_t)used, "%s%s", k == 0 ? "" : k == n - 1 ? " or " : ", ", other[k]);
 }
 
+#define SQUEEZED 0.4                     /* a bond's length over its own, below which no law here holds */
+
+/* The smallest length of a bond over its own, 1 at the most. */
+static real shortest_bond(const struct bonds *b, const struct particles *p)
+{
+    real least2 = 1;
+    for (int64_t row = 0; row < b->rows; row++)
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+            real length2 = 0;
+            for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][it.bond.nbr] - p->x[d][b->particle[row]]);
+            if (it.bond.w != 0) least2 = real_min(least2, length2 * square(it.bond.inverse_length));
+        }
+    return sqrt(least2);
+}
+
+/* Says how far bonds are squeezed, if so far that it explains what happens. */
+static bool squeeze_explanation(const struct engine *e, char *text, size_t room)
+{
+    const real least = shortest_bond(&e->bonds, &e->part);
+    if (!(least < SQUEEZED)) return false;
+    snprintf(text, room,
+             "bonds are squeezed to %.2g of their length, where no law here holds; see whether so much compression is "
+             "meant, or choose a smaller time.safety (now %.2f of the critical %.3g s), which keeps particles apart "
+             "a little farther", least, e->clock.dt / e->clock.dt_critical, e->clock.dt_critical);
+    return true;
+}
+
 void engine_remedy(const struct engine *e, const struct rise *rise, real value, char *text, size_t room)
 {
     real steps;
     char others[256];
     const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
     if (load_explanation(e, steps, text, room)) return;
+    if (e->clock.dt <= e->clock.dt_critical && squeeze_explanation(e, text, room)) return;
     if (rate == RISE_FAST || e->clock.dt > e->clock.dt_critical || e->scene->solver != SOLVER_EXPLICIT) {
         say_step(e->scene, &e->clock, text, room);
         return;
@@ -251,7 +279,7 @@ static status overlap_check(struct engine *e)
         const struct particles *p = &e->part;
         const int32_t i = c->deepest;
         return status_set(FAILED,
-                          "contact at step %lld, t = %.3g s: particle %d, now at (%.6g, %.6g, %.6g) m, is %.2g "
+                          "contact at step %lld, t = %.3g s: particle %d, now at (%.6g, %.6g, %.6g) m, is %.2f "
                           "spacings inside another, which it is about to pass; see whether the speeds (wave speed "
                           "%.4g m/s) are meant, or choose a larger contact.stiffness (now %.3g) with a smaller "
                           "time.safety",
@@ -276,6 +304,7 @@ status engine_stability_check(struct engine *e)
     TRY(engine_divergence_check(e, e->stability.diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, &e->reference));
     TRY(overlap_check(e));
+    TRY(engine_rigid_speed_check(e));
     if (e->clock.step % RISE_STRIDE == 0)
         rise_note(&e->stability.speed, e->clock.step, square(fastest_now(&e->part, &e->reference)));
     return OK;

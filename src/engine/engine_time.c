@@ -147,6 +147,13 @@ static real contact_safety(const struct scene *s)
     return real_min(s->safety, s->dim == 1 ? 0.35 : 0.5);
 }
 
+/* Stiffness of the cores of bonds that the step bears, as kernels/pd/bond_core.h has it; of no step: the most. */
+static real core_stiffness(const struct engine *e)
+{
+    if (e->scene->solver != SOLVER_EXPLICIT) return CORE_STIFFNESS;
+    return real_max(0, real_min(CORE_STIFFNESS, square(e->clock.dt_critical / e->clock.dt) - 1));
+}
+
 /* The critical step is the smallest limit of all methods, whichever kinds are present at the start, since particles
  * convert. */
 status engine_time_make(struct engine *e)
@@ -160,5 +167,6 @@ status engine_time_make(struct engine *e)
     if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e->scene, &e->clock, dt));
     else e->clock.steps = s->solver_steps, e->clock.dt = dt;
     e->source.limit.dt = e->clock.dt;
+    e->source.core = e->bonds.core = core_stiffness(e);
     return OK;
 }

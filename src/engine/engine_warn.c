@@ -74,6 +74,9 @@ static void warn_of_solver(const struct engine *e, struct warnings *to)
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
             warnings_add(to, "a static equilibrium has no velocities: those of `initial` are left out");
+    if (s->bodies > 1 || s->cracks > 0)
+        warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
+                     "where they close");
     if (e->solver.applied == 0 && solver_largest(&e->solver.driven, s->dim, e->part.n) == 0)
         warnings_add(to, "nothing loads the body at t = %.4g s: forces have their value at the end of the duration "
                      "there (a step that ends before has none)", s->duration);
@@ -141,9 +144,10 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
     if (!scene_bodies_meet(s)) return;
-    if (s->method == METHOD_PD && s->contact_between != CONTACT_NONE) return;
+    if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || s->solver != SOLVER_EXPLICIT)) return;
     if (s->method == METHOD_PD)
-        warnings_add(to, "peridynamic bodies pass through each other without contact.between: bodies or all");
+        warnings_add(to, "peridynamic bodies pass through each other%s without contact.between: bodies or all",
+                     s->rigids > 0 ? " (rigid ones they meet)" : "");
     else warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current && !coupling_unified(coupling->kind))
         warnings_add(

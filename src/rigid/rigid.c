@@ -118,6 +118,10 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
         return status_set(REFUSED, "rigid body %s has no volume", r->name);
     for (int d = 0; d < dim && bounded; d++) r->radius += square(0.5 * (box.to[d] - box.from[d]));
     r->radius = bounded ? 2 * sqrt(r->radius) : spacing;
+    r->face = dim == 1 ? 1 : 0;
+    for (int d = 0; d < dim && dim > 1 && bounded; d++)
+        r->face = real_max(r->face, (box.to[d] - box.from[d]) *
+                                        (dim < 3 ? 1 : box.to[(d + 1) % 3] - box.from[(d + 1) % 3]));
     memcpy(r->x, r->centre, sizeof r->x);
     inertia_make(r, second);
     r->turns = r->motion == RIGID_FREE && dim > 1;
@@ -136,6 +140,15 @@ real rigid_distance(const struct rigid_body *r, const real *x, real *normal)
     const real distance = region_distance(r->shape, X, r->dim, own);
     turn_vector(turn, own, false, normal);
     return distance;
+}
+
+void rigid_place(const struct rigid_body *r, const real *X, real *x)
+{
+    real arm[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX], turned[DIM_MAX];
+    memcpy(turn, r->turn, sizeof turn);
+    for (int d = 0; d < r->dim; d++) arm[d] = X[d] - r->centre[d];
+    turn_vector(turn, arm, false, turned);
+    for (int d = 0; d < r->dim; d++) x[d] = r->x[d] + turned[d];
 }
 
 void rigid_velocity(const struct rigid_body *r, const real *x, real *v)
@@ -173,7 +186,7 @@ void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
     for (int d = 0; d < r->dim; d++) {
         const real before = r->v[d];
         if (r->motion == RIGID_DRIVEN) r->v[d] = r->speed[d] * share;
-        if (r->motion == RIGID_FREE) r->v[d] += r->force[d] / r->mass * dt_velocity;
+        if (r->motion == RIGID_FREE) r->v[d] += (r->force[d] + r->weight[d]) / r->mass * dt_velocity;
         kinetic += 0.5 * r->mass * before * r->v[d];
         r->way[d] = r->v[d] * dt;
         r->x[d] += r->way[d];
@@ -189,17 +202,25 @@ void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-real rigid_work(const struct rigid_body *r)
+/* Work of what drives it in the last step [J]. */
+static real work_of_step(const struct rigid_body *r)
 {
-    real work = r->work;
+    real work = 0;
     for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++)
         work -= 0.5 * (r->force_before[d] + r->force[d]) * r->way[d];
     return work;
 }
 
+real rigid_work(const struct rigid_body *r)
+{
+    real fallen = 0;
+    for (int d = 0; d < r->dim; d++) fallen += r->weight[d] * (r->x[d] - r->centre[d]);
+    return r->work + work_of_step(r) + fallen;
+}
+
 void rigid_book(struct rigid_body *r)
 {
-    r->work = rigid_work(r);
+    r->work += work_of_step(r);
     r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
     memcpy(r->force_before, r->force, sizeof r->force_before);
     memset(r->way, 0, sizeof r->way);
@@ -213,7 +234,8 @@ real rigid_kinetic(const struct rigid_body *r)
 real rigid_kick(const struct rigid_body *r, real dt)
 {
     if (r->motion != RIGID_FREE) return 0;
-    return 0.5 * dt * (dot(r->force, r->v, r->dim) + (r->turns ? dot(r->moment, r->spin, DIM_MAX) : 0));
+    const real turning = r->turns ? dot(r->moment, r->spin, DIM_MAX) : 0;
+    return 0.5 * dt * (dot(r->force, r->v, r->dim) + dot(r->weight, r->v, r->dim) + turning);
 }
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */

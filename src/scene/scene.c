@@ -28,9 +28,9 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(read_group(r, root, root, "", s));
     TRY(check_scene(r, root));
     TRY(read_materials(r, root));
-    resolve_safety(r, root);
     TRY(read_bodies(r, root));
     TRY(read_interfaces(r, root));
+    resolve_safety(r, root);
     resolve_lists(r, root);
     resolve_frames(s);
     TRY(check_size(r, root));
@@ -41,7 +41,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(check_joined(r, root));
     TRY(read_probes(r, root));
     TRY(read_growths(r, root));
-    resolve_contact(r, root);
+    TRY(resolve_contact(r, root));
     return check_solver(r, root);
 }
 

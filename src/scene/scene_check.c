@@ -97,13 +97,23 @@ void resolve_safety(struct reader *r, const struct node *root)
         s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-void resolve_contact(struct reader *r, const struct node *root)
+/* Default of contact.between. REFUSED where a solver knows no contact, and for friction where nothing meets. */
+status resolve_contact(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
+    const struct node *between = scene_check_below(root, "contact", "between");
+    const struct node *friction = scene_check_below(root, "contact", "friction");
     const bool bonds = s->method != METHOD_MPM && s->solver == SOLVER_EXPLICIT;
-    const bool faces = scene_bodies_meet(s) || scene_cracks(s);
-    if (!scene_check_below(root, "contact", "between"))
-        s->contact_between = bonds && faces ? CONTACT_ALL : CONTACT_NONE;
+    const bool faces = s->bodies + s->rigids > 1 || scene_cracks(s);
+    if (!between) s->contact_between = bonds && faces ? CONTACT_ALL : CONTACT_NONE;
+    if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
+        return fault(r, scene_check_below(root, "contact", "distance"),
+                     "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");
+    if (s->contact_between != CONTACT_NONE && s->solver != SOLVER_EXPLICIT)
+        return fault(r, between, "a static equilibrium knows no contact; solver: explicit is expected");
+    if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
+        return fault(r, friction, "nothing meets (contact.between: none), so nothing rubs");
+    return OK;
 }
 
 /* Only with `method: pd` whole bodies consist of bonds, whose surfaces need the correction; families that are told

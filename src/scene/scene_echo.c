@@ -156,15 +156,16 @@ static const void *scene_echo_place_of(const struct key *k, const void *base)
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
 
-/* A rigid body has neither material nor frame; only it has a mass (if it flies) and a ramp. */
+/* A rigid body has neither material nor frame; only it has a mass and a force (if it flies) or a ramp (if not). */
 static bool is_left_out(const struct key *k, const char *group, const void *base)
 {
-    static const char *const words[] = {"material", "frame", "rigid", "mass", "ramp"};
+    static const char *const words[] = {"material", "frame", "rigid", "mass", "force", "ramp"};
     const struct scene_body *b = base;
     size_t n = 0;
     if (strcmp(group, "bodies") != 0) return false;
     while (n < COUNT_OF(words) && strcmp(key_leaf(k), words[n]) != 0) n++;
-    return b->rigid ? n < 2 || (n == 3 && !(b->mass > 0)) : n >= 2 && n < COUNT_OF(words);
+    if (!b->rigid) return n >= 2 && n < COUNT_OF(words);
+    return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
 /* Writes all keys of a group from the struct `base`, with their units as comments. */

@@ -19,9 +19,16 @@ static status interface_bodies(struct reader *r, const struct node *n, struct sc
         face->body[k] = -1;
         for (int b = 0; b < s->bodies; b++)
             if (name->kind == NODE_SCALAR && strcmp(s->body[b].name, name->text) == 0) face->body[k] = b;
+        for (int b = 0; b < s->rigids; b++)
+            if (name->kind == NODE_SCALAR && strcmp(s->body[s->bodies + b].name, name->text) == 0)
+                return fault(r, name, "%s is rigid: bonds join bodies with particles only", name->text);
         if (face->body[k] < 0) return fault(r, name, "no body of this name has particles");
     }
     if (face->body[0] == face->body[1]) return fault(r, names, "a body and itself; two bodies are expected");
+    for (const struct scene_interface *other = s->interface; other < face; other++)
+        if ((other->body[0] == face->body[0] && other->body[1] == face->body[1]) ||
+            (other->body[0] == face->body[1] && other->body[1] == face->body[0]))
+            return fault(r, names, "these two have an interface already; one of each two is expected");
     return OK;
 }
 
@@ -45,7 +52,7 @@ static status material_apart(struct reader *r, const struct node *n, struct scen
 static status interface_strength(struct reader *r, const struct node *n, struct scene_interface *face)
 {
     struct scene *s = r->scene;
-    if (isnan(face->energy_release_rate)) return OK;
+    if (!(face->energy_release_rate > 0)) return OK;
     struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
     if (one->material == other->material) TRY(material_apart(r, n, other));
     const struct material *a = &s->material[one->material], *b = &s->material[other->material];
@@ -79,7 +86,7 @@ status read_interfaces(struct reader *r, const struct node *root)
         struct scene_interface *face = &s->interface[k];
         TRY(read_group(r, n, n, "interfaces", face));
         TRY(interface_bodies(r, n, face));
-        if (!face->joined && !isnan(face->energy_release_rate))
+        if (!face->joined && node_find(n, "energy_release_rate"))
             return fault(r, node_find(n, "energy_release_rate"), "only of bodies that are joined");
         if (!face->joined) continue;
         TRY(interface_strength(r, n, face));

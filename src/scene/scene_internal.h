@@ -60,7 +60,7 @@ status scene_from_tree(struct reader *r, const struct node *root);
 
 enum unit {
     UNIT_NONE, UNIT_LENGTH, UNIT_AREA, UNIT_TIME, UNIT_SPEED, UNIT_DENSITY, UNIT_PRESSURE, UNIT_SURFACE_ENERGY,
-    UNIT_TOUGHNESS, UNIT_BODY_FORCE, UNIT_RATE, UNIT_MASS, UNITS
+    UNIT_TOUGHNESS, UNIT_BODY_FORCE, UNIT_RATE, UNIT_MASS, UNIT_FORCE, UNITS
 };
 struct unit_row { const char *name, *symbol, *example; signed char twice[3]; }; /* twice the powers of m, kg, s */
 extern const struct unit_row unit_rows[UNITS];
@@ -159,7 +159,7 @@ status read_probes(struct reader *r, const struct node *root);
 status check_scene(struct reader *r, const struct node *root);
 /* Default share of the critical step, by whether bonds may break; after the materials are read. */
 void resolve_safety(struct reader *r, const struct node *root);
-void resolve_contact(struct reader *r, const struct node *root);  /* what meets, where the scene does not say */
+status resolve_contact(struct reader *r, const struct node *root);  /* what meets, where the scene does not say */
 status check_size(struct reader *r, const struct node *root);
 status read_interfaces(struct reader *r, const struct node *root);
 status check_joined(struct reader *r, const struct node *root);

@@ -97,6 +97,8 @@ const struct key keys[] = {
         "keeps its form, has no particles; peridynamic particles meet it; without mass and velocity it stands still"),
     KEY("bodies.mass", KEY_REAL, UNIT_MASS, AT(scene_body, mass), ABOVE(0), NONE,
         "rigid: it flies and turns under the forces of contact; in the plane of its thickness, in line of its section"),
+    KEY("bodies.force", KEY_POINT, UNIT_FORCE, AT(scene_body, force), ANY, "(0)",
+        "rigid, with a mass: at its centre, all the time; its weight, or what presses it on"),
     KEY("bodies.ramp", KEY_REAL, UNIT_TIME, AT(scene_body, ramp), FROM(0), NONE,
         "rigid, with a velocity that it keeps: until then the velocity grows in proportion"),
 
@@ -176,6 +178,10 @@ const struct key keys[] = {
     KEY("contact.law", KEY_CHOICE, UNIT_NONE, AT(scene, contact_form), ANY, "surface",
         "what meets: smooth faces, or pairs of particles, as in other programs, whose faces mesh like gears",
         .words = "surface|pair"),
+    KEY("contact.distance", KEY_CHOICE, UNIT_NONE, AT(scene, contact_distance), ANY, "spacing",
+        "contact.law: pair: a spacing, no more than in the reference state; or the rule of LAMMPS' peri/pmb, for "
+        "comparison: the least of 0.9 of that and 1.35 spacings, also between particles that a bond joins",
+        .words = "spacing|lammps"),
     KEY("contact.friction", KEY_REAL, UNIT_NONE, AT(scene, contact_friction), BETWEEN(0, 100), "0",
         "coefficient of Coulomb's friction between all that meets (contact.law: surface)"),
     KEY("contact.stiffness", KEY_REAL, UNIT_NONE, AT(scene, contact_stiffness), INSIDE(0, 4.001), "1",

@@ -141,9 +141,13 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
 /* REFUSED for what a rigid body cannot have, and for what only it has. */
 static status check_rigid_body(struct reader *r, const struct node *n, const struct scene_body *b)
 {
-    static const char *const own[] = {"mass", "ramp"}, *const others[] = {"material", "particles", "frame"};
+    static const char *const own[] = {"mass", "ramp", "force"}, *const others[] = {"material", "particles", "frame"};
     for (size_t k = 0; k < COUNT_OF(own) && !b->rigid; k++)
         if (node_find(n, own[k])) return fault(r, node_find(n, own[k]), "only rigid bodies have it; add rigid: true");
+    if (node_find(n, "ramp") && (node_find(n, "mass") || !node_find(n, "velocity")))
+        return fault(r, node_find(n, "ramp"), "of a velocity that it keeps: one without mass, with a velocity");
+    if (node_find(n, "force") && !node_find(n, "mass"))
+        return fault(r, node_find(n, "force"), "moves only what has a mass; without, a body keeps its velocity");
     for (size_t k = 0; k < COUNT_OF(others) && b->rigid; k++)
         if (node_find(n, others[k]))
             return fault(r, node_find(n, others[k]), "a rigid body has none; a shape is expected, and a mass if "

@@ -384,6 +384,10 @@ static status scene_value_read_body(struct reader *r, const struct node *n, int 
         if (strcmp(b[k].name, n->text) == 0) return OK;
         if (edit_distance(b[k].name, n->text) < edit_distance(b[nearest].name, n->text)) nearest = k;
     }
+    for (int k = s->bodies; k < s->bodies + s->rigids; k++)
+        if (strcmp(b[k].name, n->text) == 0)
+            return fault(r, n, "%s is rigid; a body with particles is expected (rigid ones have a velocity, a mass "
+                         "and a force of their own)", shown(r, n));
     return fault_reference(r, n, "body", b[nearest].name);
 }
 

@@ -153,7 +153,7 @@ warned "reference frame" "$through" "$two" $apart -s mpm.frame=reference
 silent "reference frame: none meets" '^contact' "$two" $apart -s mpm.frame=reference
 says "one of two in the reference frame" 'left is in the reference frame and meets' "$two" $apart -s bodies.left.frame=reference
 warned "bonds" 'peridynamic bodies pass through each other without contact' "$two" $apart -s method=pd -s contact.between=none
-says "bodies of bonds meet" '^contact .*bodies, fragments, faces of cracks' "$two" $apart -s method=pd
+says "bodies of bonds meet" '^contact .*left, right with each other and with itself' "$two" $apart -s method=pd
 silent "bonds that meet" 'pass through' "$two" $apart -s method=pd -s contact.between=bodies
 warned "adaptive" 'becomes peridynamic meets no other body' "$two" $apart -s method=adaptive
 warned "side by side" 'touch at the start (left with right) and are not joined' "$two" -s method=pd

@@ -19,10 +19,6 @@ done
 wait
 for run in bars_collide discs_collide kalthoff_projectile three_point_bend brazilian_disc ring ball_3 ball_4; do sound $run $pd_balance; done
 
-# last FOLDER COLUMN: its value in the last line of history.csv.
-last() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } } END { print $at }' \
-    "$work/$1/history.csv"; }
-
 # An impactor of 30 m/s, both of bonds: as with points, test_scenes.sh.
 sound spall $pd_balance
 between "hopkinson_bar of bonds: first break" "$(f spall crack.start_time)" 1.00e-3 1.07e-3

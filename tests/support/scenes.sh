@@ -13,6 +13,10 @@ start()
 # f FOLDER PATH: a figure of such a run.
 f() { figure "$work/$1" "$2"; }
 
+# last FOLDER COLUMN: its value in the last line of history.csv.
+last() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } } END { print $at }' \
+    "$work/$1/history.csv"; }
+
 # sound FOLDER BALANCE: what holds for every run: done, momentum to round-off (1e-12 leaves a factor of 25 to the worst of these,
 # 4e-14), energies within BALANCE of their largest sum.
 sound()

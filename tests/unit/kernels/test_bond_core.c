@@ -9,9 +9,11 @@
 #include "tests/support/near.h"
 
 static const char block[] = "name: squeezed\nspace: plane stress\nthickness: 1\nmethod: pd\nduration: 1\n"
+                            "time: {safety: 0.45}\n"
                             "material: {young: 1e4, poisson: 1/3, density: 1}\n"
                             "body: {box: {from: [0, 0], to: [9, 7]}}\nparticles: {spacing: 1}\n";
 static const char chain[] = "name: squeezed\nspace: line\nsection: 1\nmethod: pd\nduration: 1\n"
+                            "time: {safety: 0.45}\n"
                             "material: {young: 1e4, density: 1}\nbody: {box: {from: [0], to: [20]}}\n"
                             "particles: {spacing: 1, horizon: 1.015}\npd: {surface: none}\n";
 
