@@ -177,14 +177,20 @@ KERNEL(void, kernels_choose,
 
 KERNEL(void, grid_clear, (struct grid *g));      /* mass, momentum, force = 0 */
 
-/* Step 3: velocity = (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready
- * for the second map. At walls the velocity is prescribed and the change is that of the prescribed motion. Nodes
- * lighter than `smallest_mass` [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what
- * the walls gave to impulse [N s] and work [J]; with APIC, where particles take the nodal velocity itself, that
- * includes the momentum they replaced. */
-KERNEL(void, grid_move,
-       (struct grid * g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
-        real *work));
+/* Step 3, in two parts, between which bodies on grids of their own meet: nodes move, walls and mirrors hold. velocity =
+ * (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready for the second map. At
+ * walls the velocity is prescribed and the change is that of the prescribed motion. Nodes lighter than `smallest_mass`
+ * [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what the walls gave to impulse [N s]
+ * and work [J]; with APIC, where particles take the nodal velocity itself, that includes the momentum they replaced. */
+KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass));
+KERNEL(void, grid_constrain,
+       (struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work));
+static inline void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass,
+                             real impulse[DIM_MAX], real *work)
+{
+    grid_advance(g, transfer, dt_velocity, smallest_mass);
+    grid_constrain(g, transfer, smallest_mass, impulse, work);
+}
 
 /* Step 6: momentum of the second map becomes its velocity, in place; walls prescribe. */
 KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));

@@ -64,7 +64,7 @@ static status ground_make(struct ground *g, int dim)
     points->mpm.transfer.dt = points->mpm.transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
     g->list = NEW("bench.list", points->part.n, int32_t);
     g->value = NEW("bench.value", points->part.n, real);
-    g->field = NEW("bench.field", points->mpm.grid.n, real);
+    g->field = NEW("bench.field", points->mpm.field[0].grid.n, real);
     for (int64_t i = 0; i < points->part.n; i++) g->list[i] = (int32_t)i, g->value[i] = 1;
     return OK;
 }
@@ -105,23 +105,23 @@ static void job_call(const struct job *j, struct ground *g)
                               &(struct pd_motion){1e-12, 1e-12, INFINITY, NULL, false});
         break;
     case P2G:
-        p2g_table[j->dim][j->shape][j->transfer](&e->mpm.grid, &e->part, &e->mpm.transfer);
+        p2g_table[j->dim][j->shape][j->transfer](&e->mpm.field[0].grid, &e->part, &e->mpm.transfer);
         break;
     case REMAP:
-        remap_table[j->dim][j->shape](&e->mpm.grid, &e->part, &e->mpm.transfer);
+        remap_table[j->dim][j->shape](&e->mpm.field[0].grid, &e->part, &e->mpm.transfer);
         break;
     case G2P:
-        g2p_table[j->dim][j->shape][j->transfer](&e->mpm.grid, &e->part, &e->mpm.transfer);
+        g2p_table[j->dim][j->shape][j->transfer](&e->mpm.field[0].grid, &e->part, &e->mpm.transfer);
         break;
     case SPREAD:
-        spread_table[j->dim][j->shape](&e->mpm.grid, &e->part, e->mpm.transfer.half_width, g->list, e->part.n, g->value,
-                                       g->field);
+        spread_table[j->dim][j->shape](&e->mpm.field[0].grid, &e->part, e->mpm.transfer.half_width, g->list, e->part.n,
+                                       g->value, g->field);
         break;
     case GRID_CLEAR:
-        grid_clear(&e->mpm.grid);
+        grid_clear(&e->mpm.field[0].grid);
         break;
     case GRID_MOVE:
-        grid_move(&e->mpm.grid, TRANSFER_FLIP, 1e-12, e->mpm.smallest_mass, impulse, &work);
+        grid_move(&e->mpm.field[0].grid, TRANSFER_FLIP, 1e-12, e->mpm.smallest_mass, impulse, &work);
         break;
     case MESH_CLEAR:
         mesh_clear(&m->reference.mesh);
@@ -133,7 +133,7 @@ static void job_call(const struct job *j, struct ground *g)
         mesh_move(&m->reference.mesh, 1e-12, 1e-12, impulse, &work);
         break;
     default:
-        grid_remapped(&e->mpm.grid, e->mpm.smallest_mass);
+        grid_remapped(&e->mpm.field[0].grid, e->mpm.smallest_mass);
     }
 }
 
@@ -162,7 +162,7 @@ static void time_all(struct kernel_bench *b, int repetitions)
         }
         b->limits.triad = fmax(b->limits.triad, microbench_triad_run(triad));
         for (int k = 0; k < b->jobs; k++) job_time(&b->job[k], &b->ground[b->job[k].dim]);
-        for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].mpm.grid);
+        for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].mpm.field[0].grid);
     }
     for (int d = 1; d <= DIM_MAX; d++) microbench_lattice_free(cell_stencil[d]);
     microbench_triad_free(triad);
@@ -191,7 +191,8 @@ static double job_bytes(const struct job *j, struct ground *g)
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
     const struct engine *e = &g->engine[POINTS], *pd = bonds_of(j, g);
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
-    const double node = r * (double)e->mpm.grid.n / (double)e->part.n, stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
+    const double node = r * (double)e->mpm.field[0].grid.n / (double)e->part.n;
+    const double stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
     /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
     const double columns = (double)pd->bonds.columns / (double)pd->part.n;
     const double bond = columns * (column_bytes(&pd->bonds) * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +

@@ -30,15 +30,15 @@ static status crossing(const struct limits_row *r, double *to)
     for (int place = 0; place < 64 && done == OK; place++) {
         real from[DIM_MAX] = {-0.1}, until[DIM_MAX] = {0.1 + 0.6 * lambda};
         bool changed;
-        stretch(&e.part, lambda, (place + 0.37) / 64 * e.mpm.grid.h);
-        done = grid_cover(&e.mpm.grid, from, until, 100000, &changed);
+        stretch(&e.part, lambda, (place + 0.37) / 64 * e.mpm.field[0].grid.h);
+        done = grid_cover(&e.mpm.field[0].grid, from, until, 100000, &changed);
         if (done != OK) break;
-        transfer_order_sort(&e.mpm.order, &e.part, e.part.list_free, e.part.n_free, &e.mpm.grid);
-        grid_clear(&e.mpm.grid);
-        e.kernels.p2g(&e.mpm.grid, &e.part, &e.mpm.transfer);
-        for (int64_t I = 0; I < e.mpm.grid.n; I++) {
-            const double x = grid_position(&e.mpm.grid, 0, I);
-            if (x > 0.15 && x < 0.6 * lambda - 0.1) *to = fmax(*to, fabs(e.mpm.grid.force[0][I]));
+        transfer_order_sort(&e.mpm.field[0].order, &e.part, e.part.list_free, e.part.n_free, &e.mpm.field[0].grid);
+        grid_clear(&e.mpm.field[0].grid);
+        e.kernels.p2g(&e.mpm.field[0].grid, &e.part, &e.mpm.transfer);
+        for (int64_t I = 0; I < e.mpm.field[0].grid.n; I++) {
+            const double x = grid_position(&e.mpm.field[0].grid, 0, I);
+            if (x > 0.15 && x < 0.6 * lambda - 0.1) *to = fmax(*to, fabs(e.mpm.field[0].grid.force[0][I]));
         }
     }
     bench_engine_free(&e, &s);

@@ -113,7 +113,7 @@ static status predict(const struct stability_case *c, struct stability_limits *t
     struct scene s;
     TRY(limit_block_make(&e, &s, c, 0));
     to->critical = e.clock.dt_critical, to->automatic = s.safety * e.clock.dt_critical;
-    to->unit = (c->group == GROUP_POINTS ? e.mpm.grid.h : s.spacing) / e.tables.wave_speed;
+    to->unit = (c->group == GROUP_POINTS ? e.mpm.field[0].grid.h : s.spacing) / e.tables.wave_speed;
     to->gershgorin = to->silling = NAN;
     if (s.method == METHOD_PD && s.model == MODEL_BOND)
         to->gershgorin = bonds_critical_step_made(&e.bonds, &e.part), to->silling = silling_step(&e);

@@ -7,6 +7,7 @@
 
 struct grid {
     int dim;
+    int body;                            /* 1 + the only body whose points are on it; 0: any */
     real h;                              /* node distance [m] */
     real anchor[DIM_MAX];                /* position of node 0 [m] */
     int64_t first[DIM_MAX];              /* lowest node of the box, counted from the anchor */
@@ -24,7 +25,7 @@ struct grid {
     real light_mass;                     /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
     struct follower *follower;           /* [n] those of this step, ascending */
-    uint8_t *held;                       /* [n] not 0: a wall holds it; 0 but while followers are found */
+    uint8_t *held;                       /* [n] not 0: a wall holds it; only while followers are found or bodies meet */
 };
 
 /* A node that points have hardly reached, its neighbour and the one behind that, from which its acceleration is

@@ -27,7 +27,8 @@ enum particle_flag {
     FLAG_CRACKED = 8,                    /* lost a bond to a particle, neither of them driven    */
     FLAG_GRID_COUPLED = 16,                   /* peridynamic, but moved by the grid (grid_coupled.h)         */
     FLAG_MESHED = 32,                    /* material point of the mesh (mesh.h)                  */
-    FLAG_LISTED = 64                     /* stands on the list that conversion.c is making          */
+    FLAG_LISTED = 64,                    /* stands on the list that conversion.c is making          */
+    FLAG_NEAR = 128                      /* material point near another body (approach.h)           */
 };
 
 struct particles {

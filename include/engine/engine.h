@@ -10,8 +10,10 @@
 #include "bonds/bonds.h"
 #include "bonds/surface.h"
 #include "contact/contact.h"
+#include "contact/contact_grid.h"
 #include "coupling/grid_coupled.h"
 #include "data/cells.h"
+#include "coupling/approach.h"
 #include "coupling/conversion.h"
 #include "critical_step.h"
 #include "scene/fill.h"
@@ -50,10 +52,21 @@ struct material_tables {
     real wave_speed;                     /* fastest of the materials [m/s] */
 };
 
+/* A grid and its material points: all of them, or where bodies meet on the grid those of one body, whose velocities it
+ * has. */
+struct grid_field {
+    struct grid grid;
+    struct transfer_order order;
+    struct constrained_set held;         /* its nodes in driven regions and on mirrors */
+    int64_t n;
+    int32_t *list;                       /* [n] its points, ascending; NULL: all */
+};
+
 /* Material points on the grid of the current frame. */
 struct grid_method {
-    struct grid grid;
-    struct transfer_order order;         /* of the material points */
+    int fields;                          /* 1, or one a body */
+    struct grid_field *field;
+    struct grid_contact contact;         /* between fields */
     struct active_points active;         /* which of them the transfers leave out */
     struct transfer_data transfer;
     bool sort_needed;                    /* points moved to other cells or converted */
@@ -74,6 +87,7 @@ struct reference_frame {
 
 /* Where peridynamic particles and material points meet, and how one becomes the other. */
 struct coupling_state {
+    bool approaches;                     /* bodies meet: material points near others become peridynamic */
     enum coupling kind;                  /* of the scene; hand-shake where nothing meets */
     struct grid_coupled grid_coupled;    /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct partial_stress partial;

@@ -93,7 +93,7 @@ struct loads {
     real place_step[DIM_MAX];            /* positions across mirrors are rounded to multiples of it; 0: not [m] */
     real *share;                         /* scratch: driven mass of the grid's nodes [kg] */
     int64_t share_room;
-    struct constrained_set held, constrained_mesh; /* nodes in driven regions and on mirrors; driven ones of the mesh */
+    struct constrained_set constrained_mesh; /* nodes of the mesh in driven regions, on mirrors, and driven ones */
 };
 
 /* LOADED: something else than bonds and the grid may move a particle. MOVES_LATER: bonds across a clamped plane nearby
@@ -162,17 +162,16 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
 
 /* Walls of the grid: nodes in a driven region or on a mirror plane, and nodes at least half of whose mass belongs to
  * driven points; and nodes beyond a mirror plane, which follow their images if the plane stands on a node or half-way
- * between two, else are held as those on it. Call after the first map. */
-void loads_walls(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
-                 real half_width, real t, real dt);
+ * between two, else are held as those on it. held: those of the grid, empty at first. Call after the first map. */
+void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
+                 const struct kernels *k, real half_width, real t, real dt);
 
 /* The same for the mesh: found once, and again whenever it has lost points; their velocities in every step. */
 void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p);
 void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
 
-/* After the gather: driven material points take their velocity exactly; books reactions of walls and the work of
- * applied forces. */
-void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt, real dt_velocity);
+/* After the gather: driven material points take their velocity exactly; books the work of applied forces. */
+void loads_hold(struct loads *l, struct particles *p, real t, real dt);
 /* Reactions of the walls of one grid, or of the mesh. */
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
 

@@ -112,6 +112,7 @@ struct scene {
     enum contact_between contact_between;
     enum contact_form contact_form;
     enum contact_distance contact_distance;
+    bool contact_convert;
     real contact_friction;               /* coefficient [1] */
     real contact_stiffness;              /* in units of that of a cell [1] */
     bool has_pd_region;  struct region pd_region; /* peridynamic from the start (adaptive) */

@@ -178,8 +178,7 @@ static void followers_out(struct grid *g)
         }
 }
 
-void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass, real impulse[DIM_MAX],
-               real *work)
+void grid_advance(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass)
 {
     grid_mirror_nodes_gather(g, transfer, dt_velocity);
     followers_in(g, transfer, smallest_mass);
@@ -193,6 +192,10 @@ void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real sm
             g->momentum[d][I] = 0;
         }
     }
+}
+
+void grid_constrain(struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work)
+{
     for (int64_t k = 0; k < g->walls; k++)     /* few; a serial loop keeps sums independent of the threads */
         wall_move(g, &g->wall[k], transfer, smallest_mass, impulse, work);
     followers_out(g);

@@ -78,12 +78,20 @@ static void say_contact_cost(const struct engine *e, const struct cost *c)
 static void say_contact(const struct engine *e)
 {
     int on_grid = 0;
-    say_contact_of_bonds(e->scene);
+    if (e->scene->method != METHOD_MPM) say_contact_of_bonds(e->scene);
     for (int b = 0; b < e->scene->bodies; b++)
         on_grid += e->scene->method != METHOD_PD && !e->reference.choice[b].reference;
-    if (on_grid > 1)
+    if (on_grid < 2) return;
+    if (e->mpm.fields < 2)
         printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
                "cells opens\n");
+    else {
+        printf("contact        of the material points of ");
+        say_names(e->scene, 0, e->scene->bodies);
+        printf(" with each other, on a grid for each");
+        if (e->scene->contact_friction > 0) printf(", friction %.3g", e->scene->contact_friction);
+        putchar('\n');
+    }
 }
 
 static void say_time_step(const struct engine *e)

@@ -58,10 +58,13 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
 
 /* ---- one pass ---------------------------------------------------------------------------------------------------- */
 
+#define MARKS (FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED | FLAG_NEAR)
+
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
-    /* a material point that lost a bond converts whatever the criteria are: damage is stored in bonds only */
-    unsigned wanted = FLAG_LOST_BOND | (rule->criteria & CONVERT_ON_STRESS ? FLAG_STRESSED : 0u);
+    /* a material point that lost a bond converts whatever the criteria are: damage is stored in bonds only; and one
+     * that another body comes near, as particles meet those of any body */
+    unsigned wanted = FLAG_LOST_BOND | FLAG_NEAR | (rule->criteria & CONVERT_ON_STRESS ? FLAG_STRESSED : 0u);
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
@@ -71,7 +74,7 @@ bool convert_due(const struct particles *p)
     uint64_t any = 0;
 #pragma omp parallel for simd schedule(static) reduction(| : any)
     for (int64_t i = 0; i < p->n; i += LANES)
-        any |= eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED);
+        any |= eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED | FLAG_NEAR);
     return any != 0;
 }
 
@@ -113,10 +116,10 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     struct index_list triggered = {0};
     struct near near = {0};
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED))) continue;
+        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(MARKS))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) {
             if (triggers(rule, p, i)) list_add(&triggered, i);
-            p->flag[i] &= (uint8_t)~(FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED);
+            p->flag[i] &= (uint8_t)~MARKS;
         }
     }
     for (int64_t k = 0; k < triggered.n; k++) {

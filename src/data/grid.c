@@ -31,7 +31,7 @@ static void grid_arrays_make(struct grid *g)
     }
     g->mass = NEW("grid.mass", g->n, real);
     g->follower = g->light_mass > 0 ? BARE("grid.follower", g->n, struct follower) : NULL;
-    g->held = g->light_mass > 0 ? NEW("grid.held", g->n, uint8_t) : NULL;
+    g->held = g->light_mass > 0 || g->body > 0 ? NEW("grid.held", g->n, uint8_t) : NULL;
     g->followers = 0;
     for (int d = 0; d < g->dim; d++) {
         g->momentum[d] = NEW("grid.momentum", g->n, real);

@@ -25,23 +25,41 @@ static void bounds_widen(const struct particles *p, const int32_t *list, int64_t
     }
 }
 
-/* Extends the grid over its particles and sorts the material points by cells; does nothing while no particle has left
- * its cell. */
-static status points_sort(struct engine *e)
+/* The points of a field whose body is one of several. */
+static void field_list(struct grid_field *f, const struct particles *p)
+{
+    if (!f->list) f->list = NEW("engine.field", p->n, int32_t);
+    f->n = 0;
+    for (int64_t k = 0; k < p->n_free; k++)
+        if (p->body[p->list_free[k]] + 1 == f->grid.body) f->list[f->n++] = p->list_free[k];
+}
+
+/* Extends a grid over its particles and sorts the material points by cells. */
+static status field_sort(struct engine *e, struct grid_field *f)
 {
     const struct particles *p = &e->part;
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
     bool changed;
-    if (!e->mpm.sort_needed) return OK;
+    if (e->mpm.fields > 1) field_list(f, p);
+    const int32_t *list = f->list ? f->list : p->list_free;
+    const int64_t n = f->list ? f->n : p->n_free;
     for (int k = 0; k < KINDS; k++)
-        if (k == KIND_MPM) bounds_widen(p, p->list_free, p->n_free, from, to);
+        if (k == KIND_MPM) bounds_widen(p, list, n, from, to);
         else if (coupling_unified(e->coupling.kind)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
-    for (int d = 0; d < p->dim; d++)
+    for (int d = 0; d < p->dim && (n > 0 || !f->list); d++)
         if (!isfinite(to[d] - from[d])) return engine_divergence_check(e, true, false);
     int64_t most = 64 * p->n + 1000000;          /* far more than any sound run needs; an index is 32 bits */
-    TRY(grid_cover(&e->mpm.grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
-    transfer_order_sort(&e->mpm.order, p, p->list_free, p->n_free, &e->mpm.grid);
-    e->mpm.transfer.order = &e->mpm.order;
+    if (n > 0 || !f->list) TRY(grid_cover(&f->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
+    transfer_order_sort(&f->order, p, list, n, &f->grid);
+    return OK;
+}
+
+/* Does nothing while no particle has left its cell. */
+static status points_sort(struct engine *e)
+{
+    if (!e->mpm.sort_needed) return OK;
+    for (int k = 0; k < e->mpm.fields; k++) TRY(field_sort(e, &e->mpm.field[k]));
+    e->mpm.transfer.order = &e->mpm.field[0].order;
     e->mpm.sort_needed = false;
     return OK;
 }
@@ -49,12 +67,12 @@ static status points_sort(struct engine *e)
 /* Leaves cells that no motion has reached out of the transfers. */
 static void update_active_points(struct engine *e)
 {
-    if (!e->scene->active_set || e->mpm.active.over || coupling_moves_by_grid(e->coupling.kind) ||
+    if (!e->scene->active_set || e->mpm.active.over || e->mpm.fields > 1 || coupling_moves_by_grid(e->coupling.kind) ||
         e->scene->solver != SOLVER_EXPLICIT)
         return;
     e->mpm.transfer.order =
-        active_points_update(&e->mpm.active, &e->mpm.order, e->mpm.transfer.order, &e->part, &e->mpm.grid, &e->bonds,
-                             &e->loads, e->scene->shape, e->scene->transfer);
+        active_points_update(&e->mpm.active, &e->mpm.field[0].order, e->mpm.transfer.order, &e->part,
+                             &e->mpm.field[0].grid, &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
 }
 
 /* Sorts the points on the grid in this step into cells. */
@@ -67,7 +85,7 @@ static status grid_sort(struct engine *e)
     if (!e->mpm.sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
     TRY(points_sort(e));
     if (coupling_moves_by_grid(e->coupling.kind))
-        grid_coupled_select(&e->coupling.grid_coupled, e->coupling.kind, &e->part, &e->mpm.grid);
+        grid_coupled_select(&e->coupling.grid_coupled, e->coupling.kind, &e->part, &e->mpm.field[0].grid);
     return OK;
 }
 
@@ -79,66 +97,127 @@ static struct transfer_data grid_coupled_data(const struct grid_method *mpm, con
     return grid_coupled;
 }
 
-/* Maps mass, momentum and force of all particles on the grid to its nodes. */
+/* Transfer of the points of field k. */
+static struct transfer_data field_data(const struct grid_method *mpm, int k)
+{
+    struct transfer_data own = mpm->transfer;
+    if (mpm->fields > 1) own.order = &mpm->field[k].order;
+    return own;
+}
+
+/* Maps mass, momentum and force of all particles on the grids to their nodes. */
 static void grid_take(struct engine *e)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
-    grid_clear(&e->mpm.grid);
-    e->kernels.p2g(&e->mpm.grid, &e->part, &e->mpm.transfer);
-    if (e->part.n_grid_coupled > 0) e->kernels.p2g(&e->mpm.grid, &e->part, &grid_coupled);
+    for (int k = 0; k < e->mpm.fields; k++) {
+        const struct transfer_data own = field_data(&e->mpm, k);
+        grid_clear(&e->mpm.field[k].grid);
+        e->kernels.p2g(&e->mpm.field[k].grid, &e->part, &own);
+    }
+    if (e->part.n_grid_coupled > 0) e->kernels.p2g(&e->mpm.field[0].grid, &e->part, &grid_coupled);
 }
 
-/* One step of the grid and of all particles on it. middle: time in the middle of the step [s]. Numbers are steps of the
- * algorithm. */
+/* Where bodies on grids of their own may meet in this step; [fields] sides, NULL of a single grid. */
+static struct grid_side *meeting_find(struct engine *e)
+{
+    struct grid_method *mpm = &e->mpm;
+    if (mpm->fields < 2) return NULL;
+    struct grid_side *side = NEW("engine.sides", mpm->fields, struct grid_side);
+    for (int k = 0; k < mpm->fields; k++)
+        grid_side_make(&side[k], k, &mpm->field[k].grid, &mpm->field[k].order, &e->part);
+    grid_contact_find(&mpm->contact, side, mpm->fields, &e->part);
+    return side;
+}
+
+/* Nodes move under forces, contact, walls and mirrors; dt: of velocities [s]. */
+static void grids_move(struct engine *e, const struct grid_side *side, real middle, real dt)
+{
+    struct grid_method *mpm = &e->mpm;
+    const enum transfer transfer = e->scene->transfer;
+    for (int k = 0; k < mpm->fields; k++) {
+        struct grid_field *f = &mpm->field[k];
+        loads_walls(&e->loads, &f->held, &f->grid, &e->part, &e->kernels, mpm->transfer.half_width, middle,
+                    e->clock.dt);
+        grid_advance(&f->grid, transfer, dt, mpm->smallest_mass);
+    }
+    if (side) e->coupling.damped += grid_contact_exchange(&mpm->contact, side, mpm->fields);
+    for (int k = 0; k < mpm->fields; k++)
+        grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
+}
+
+/* Points receive the change of nodal velocities, and give their momentum back to the nodes. */
+static void grids_remap(struct engine *e, const struct grid_side *side)
+{
+    const struct transfer_data grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
+    for (int k = 0; k < e->mpm.fields; k++) {
+        const struct transfer_data own = field_data(&e->mpm, k);
+        e->kernels.remap(&e->mpm.field[k].grid, &e->part, &own);
+    }
+    if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->mpm.field[0].grid, &e->part, &grid_coupled);
+    lap(&e->report.laps, LAP_SCATTER);
+    for (int k = 0; k < e->mpm.fields; k++) grid_remapped(&e->mpm.field[k].grid, e->mpm.smallest_mass);
+    if (side) e->coupling.damped += grid_contact_remapped(&e->mpm.contact, side);
+    lap(&e->report.laps, LAP_GRID);
+}
+
+/* One step of the grids and of all particles on them. middle: time in the middle of the step [s]. Numbers are steps of
+ * the algorithm. */
 static void step_grid(struct engine *e, real middle)
 {
-    const struct kernels *k = &e->kernels;
     struct particles *p = &e->part;
-    struct grid *g = &e->mpm.grid;
-    const struct transfer_data *t = &e->mpm.transfer, grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
-    const enum transfer transfer = e->scene->transfer;
+    const struct transfer_data grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
+    int64_t moved = 0;
 
     grid_take(e);                                                           /* 1, 3: mass, momentum, force to nodes */
     lap(&e->report.laps, LAP_SCATTER);
     engine_residual(e);
-    loads_walls(&e->loads, g, p, k, t->half_width, middle, e->clock.dt);
-    /* 3: nodes move */
-    grid_move(g, transfer, t->dt_velocity, e->mpm.smallest_mass, e->loads.impulse, &e->loads.constraint_work);
+    struct grid_side *side = meeting_find(e);
+    grids_move(e, side, middle, e->mpm.transfer.dt_velocity);               /* 3: nodes move */
+    if (side) grid_contact_clock(&e->mpm.contact, e->clock.t);
     lap(&e->report.laps, LAP_GRID);
-    if (transfer == TRANSFER_FLIP) {
-        k->remap(g, p, t);                                                  /* 4, 6: velocity; momentum back to nodes */
-        if (p->n_grid_coupled > 0) k->remap(g, p, &grid_coupled);
-        lap(&e->report.laps, LAP_SCATTER);
-        grid_remapped(g, e->mpm.smallest_mass);
-        lap(&e->report.laps, LAP_GRID);
+    if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side);          /* 4, 6: velocity; momentum back to nodes */
+    for (int k = 0; k < e->mpm.fields; k++) {                               /* 4, 7: position, strain, stress */
+        const struct transfer_data own = field_data(&e->mpm, k);
+        moved += e->kernels.g2p(&e->mpm.field[k].grid, p, &own);
     }
-    int64_t moved = k->g2p(g, p, t);                                        /* 4, 7: position, strain, stress */
-    if (p->n_grid_coupled > 0) moved += k->g2p(g, p, &grid_coupled);
+    if (p->n_grid_coupled > 0) moved += e->kernels.g2p(&e->mpm.field[0].grid, p, &grid_coupled);
+    memory_free(side);
     e->mpm.sort_needed = moved > 0;
     if (p->end_strain) partial_ends_update(&e->coupling.partial, p, e->scene->material);
     lap(&e->report.laps, LAP_GATHER);
 }
 
+/* Sum of P . f/m of the nodes before they move, over the change that forces, contact and walls make [W]. */
 real engine_grid_power(struct engine *e, real middle)
 {
-    struct grid *g = &e->mpm.grid;
-    real power = 0, *momentum;
+    real power = 0;
     if (e->part.n_free + e->part.n_grid_coupled == 0 || grid_sort(e) != OK) return 0;
     grid_take(e);
-    momentum = BARE("engine.momentum", g->n * g->dim, real);
-    for (int d = 0; d < g->dim; d++) memcpy(momentum + d * g->n, g->momentum[d], (size_t)g->n * sizeof(real));
-    loads_walls(&e->loads, g, &e->part, &e->kernels, e->mpm.transfer.half_width, middle, e->clock.dt);
-    grid_move(g, e->scene->transfer, e->clock.dt, e->mpm.smallest_mass, e->loads.impulse, &e->loads.constraint_work);
-    for (int d = 0; d < g->dim; d++)     /* once per run; serial, so that the sum does not depend on threads */
-        for (int64_t I = 0; I < g->n; I++) power += momentum[d * g->n + I] * g->force[d][I] / e->clock.dt;
+    real **momentum = NEW("engine.momenta", e->mpm.fields, real *);
+    for (int k = 0; k < e->mpm.fields; k++) {
+        const struct grid *g = &e->mpm.field[k].grid;
+        momentum[k] = BARE("engine.momentum", g->n * g->dim, real);
+        for (int d = 0; d < g->dim; d++) memcpy(momentum[k] + d * g->n, g->momentum[d], (size_t)g->n * sizeof(real));
+    }
+    struct grid_side *side = meeting_find(e);
+    const real damped = e->coupling.damped;
+    grids_move(e, side, middle, e->clock.dt);
+    e->coupling.damped = damped;
+    for (int k = 0; k < e->mpm.fields; k++) {
+        const struct grid *g = &e->mpm.field[k].grid;
+        for (int d = 0; d < g->dim; d++) /* once per run; serial, so that the sum does not depend on threads */
+            for (int64_t I = 0; I < g->n; I++) power += momentum[k][d * g->n + I] * g->force[d][I] / e->clock.dt;
+        memory_free(momentum[k]);
+    }
     memory_free(momentum);
+    memory_free(side);
     return power;
 }
 
 /* Nothing moves on the grid: its walls constrain no node, and residuals are those of particles. */
 static void step_without_grid(struct engine *e)
 {
-    grid_idle(&e->mpm.grid);
+    for (int k = 0; k < e->mpm.fields; k++) grid_idle(&e->mpm.field[k].grid);
     engine_residual(e);
 }
 
@@ -182,6 +261,29 @@ static bool sweep_moves(const struct scene *s, const struct run_report *report)
     return !report->sampling.due && s->growths == 0;
 }
 
+/* Marks material points that other bodies have come near. */
+static void approach(struct engine *e)
+{
+    engine_mesh_sync_points(e, NULL, 0);
+    approach_mark(&e->part, e->scene->bodies, e->rigid, e->scene->rigids, APPROACH_REACH * e->scene->spacing);
+}
+
+/* Material points that become peridynamic, and what follows from them and from broken bonds: the active set, partial
+ * stresses, the interface zone, partial cells. */
+static void convert_points(struct engine *e, struct step *now)
+{
+    if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
+    if (e->coupling.approaches && e->clock.step % APPROACH_STEPS == 0) approach(e);
+    engine_breaks(e, now->broken);
+    const struct conversion_sync sync = {engine_mesh_sync_points, e};
+    now->converted = convert(&e->coupling.conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
+                             e->coupling.uses_partial ? &e->coupling.partial : NULL, &sync, e->clock.t);
+    if (now->converted > 0) engine_interface_make(e), e->mpm.sort_needed = true;
+    renew_partial(e, now->broken > 0 || now->converted > 0);
+    engine_mesh_follow(e, now->converted);
+    lap(&e->report.laps, LAP_CONVERT);
+}
+
 /* Particles that revert, the velocities of a sample, the cells of material points, the first half of the interface
  * damping. */
 static status prepare(struct engine *e, struct step *now)
@@ -189,6 +291,7 @@ static status prepare(struct engine *e, struct step *now)
     now->middle = e->clock.t + 0.5 * e->clock.dt;
     now->dt_velocity = e->clock.step == 0 ? 0.5 * e->clock.dt : e->clock.dt;
     e->mpm.transfer.dt_velocity = now->dt_velocity;
+    if (e->coupling.approaches && e->clock.step == 0) convert_points(e, now);    /* bodies that touch at the start */
     engine_revert(e);
     contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
                    e->diagnostics.bonds_broken, e->coupling.conversion.converted + e->coupling.conversion.reverted);
@@ -242,24 +345,10 @@ static void move(struct engine *e, struct step *now)
     else step_without_grid(e);
     if (now->damps) e->coupling.damped += interface_damp_end(&e->coupling.zone, p);
     engine_mesh_move(e, now->middle, now->dt_velocity);
-    loads_hold(&e->loads, &e->mpm.grid, p, now->middle, e->clock.dt, now->dt_velocity);
+    for (int k = 0; k < e->mpm.fields; k++) loads_react(&e->loads, &e->mpm.field[k].grid, now->dt_velocity);
+    loads_hold(&e->loads, p, now->middle, e->clock.dt);
     loads_mirror(&e->loads, p);
     lap(&e->report.laps, LAP_GRID);
-}
-
-/* Material points that become peridynamic, and what follows from them and from broken bonds: the active set, partial
- * stresses, the interface zone, partial cells. */
-static void convert_points(struct engine *e, struct step *now)
-{
-    if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
-    engine_breaks(e, now->broken);
-    const struct conversion_sync sync = {engine_mesh_sync_points, e};
-    now->converted = convert(&e->coupling.conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
-                             e->coupling.uses_partial ? &e->coupling.partial : NULL, &sync, e->clock.t);
-    if (now->converted > 0) engine_interface_make(e), e->mpm.sort_needed = true;
-    renew_partial(e, now->broken > 0 || now->converted > 0);
-    engine_mesh_follow(e, now->converted);
-    lap(&e->report.laps, LAP_CONVERT);
 }
 
 /* The line of history.csv of a sample, at t_n; then t and the step advance. */

@@ -107,6 +107,7 @@ status engine_archive(void *engine, struct archive *a)
     for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid[k], k, a));
     TRY(contact_archive(&e->contact, &e->part, a));
     if (!a->saving && e->contact.made) contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
+    if (e->mpm.fields > 1) TRY(grid_contact_archive(&e->mpm.contact, a));
     TRY(solver_archive(&e->solver, a));
     TRY(conversion_archive(&e->coupling.conversion, a));
     TRY(diagnostics_archive(&e->diagnostics, a));

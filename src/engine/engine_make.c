@@ -155,7 +155,8 @@ void engine_partial_make(struct engine *e)
 static void make_interface_damping_share(struct engine *e)
 {
     e->coupling.damping_share =
-        real_min(e->scene->interface_damping * e->tables.wave_speed * e->clock.dt / e->mpm.grid.h, DAMPING_SHARE_MOST);
+        real_min(e->scene->interface_damping * e->tables.wave_speed * e->clock.dt / e->mpm.field[0].grid.h,
+                 DAMPING_SHARE_MOST);
 }
 
 /* ---- grid -------------------------------------------------------------------------------------------------------- */
@@ -173,33 +174,72 @@ static real node_place(const struct scene *s, int axis, real corner)
 /* The anchor, moved by at most half a spacing to lie midway between particles of a lattice [m]. */
 static real between_particles(const struct scene *s, const struct particles *p, const struct grid_method *mpm, int axis)
 {
-    const real steps = (p->X[axis][0] - mpm->grid.anchor[axis]) / s->spacing - 0.5;
-    return mpm->grid.anchor[axis] + (steps - nearbyint(steps)) * s->spacing;
+    const real steps = (p->X[axis][0] - mpm->field[0].grid.anchor[axis]) / s->spacing - 0.5;
+    return mpm->field[0].grid.anchor[axis] + (steps - nearbyint(steps)) * s->spacing;
 }
 
 /* The lower corner of the body is that of the first shape, or of the particles of a list. */
+/* Number of the body that comes k-th, those that are joined counted as one; -1: there is none. */
+static int engine_make_body(const struct scene *s, int k)
+{
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined == b && k-- == 0) return b;
+    return -1;
+}
+
+/* A grid for each body where material points of several meet, else one. */
+static void make_fields(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    const bool meet = s->solver == SOLVER_EXPLICIT && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
+                      !coupling_moves_by_grid(s->coupling);
+    e->mpm.fields = 1;
+    while (meet && engine_make_body(s, e->mpm.fields) >= 0) e->mpm.fields++;
+    e->mpm.field = NEW("engine.fields", e->mpm.fields, struct grid_field);
+}
+
+/* How far shapes reach beyond the neighbours of their cell [m]. */
+static real shape_reach(const struct scene *s)
+{
+    const real cell = s->cell * s->spacing;
+    return s->shape == SHAPE_LINEAR ? 0 : s->shape == SHAPE_CUBIC ? cell : s->shape == SHAPE_QUADRATIC ? 0.5 * cell
+                                                                                                : 0.5 * s->spacing;
+}
+
 void engine_grid_make(struct engine *e)
 {
     const struct scene *s = e->scene;
     real from[DIM_MAX], to[DIM_MAX];
-    e->mpm.grid.dim = s->dim;
-    e->mpm.grid.h = s->cell * s->spacing;
+    if (!e->mpm.field) make_fields(e);
+    struct grid *g = &e->mpm.field[0].grid;
+    g->dim = s->dim;
+    g->h = s->cell * s->spacing;
     bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
     for (int d = 0; d < s->dim; d++) {
         if (!bounded) {
             particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
             from[d] -= 0.5 * s->spacing;
         }
-        e->mpm.grid.anchor[d] = node_place(s, d, from[d]);
-        if (engine_has_mesh(e) && e->mpm.grid.anchor[d] == from[d])
-            e->mpm.grid.anchor[d] = between_particles(e->scene, &e->part, &e->mpm, d);
+        g->anchor[d] = node_place(s, d, from[d]);
+        if (engine_has_mesh(e) && g->anchor[d] == from[d])
+            g->anchor[d] = between_particles(e->scene, &e->part, &e->mpm, d);
     }
     real section = scene_section(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real smallest = s->solver == SOLVER_EXPLICIT ? GRID_MASS_SMALLEST : GRID_MASS_STATIC;
-    const real full = lightest * pow(e->mpm.grid.h, s->dim) * section;
+    const real full = lightest * pow(g->h, s->dim) * section;
     e->mpm.smallest_mass = smallest * full;
-    e->mpm.grid.light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
+    g->light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
+    for (int k = 0; k < e->mpm.fields && e->mpm.fields > 1; k++) {
+        e->mpm.field[k].grid = *g;
+        e->mpm.field[k].grid.body = 1 + engine_make_body(s, k);
+    }
+    e->mpm.contact = (struct grid_contact){.friction = s->contact_friction,
+                                           .spacing = s->spacing,
+                                           .half_width = shape_reach(s),
+                                           .smallest_mass = e->mpm.smallest_mass,
+                                           .began = NAN,
+                                           .ended = NAN};
     e->mpm.sort_needed = true;
 }
 
@@ -291,7 +331,7 @@ struct observed engine_observed(const struct engine *e)
         .cells = &e->cells,
         .bonds = &e->bonds,
         .loads = &e->loads,
-        .grid = &e->mpm.grid,
+        .grid = &e->mpm.field[0].grid,
         .tips = &e->fracture.tips,
         .material = s->material,
         .partial = &e->coupling.partial,
@@ -385,9 +425,11 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     engine_stability_check_make(e);
     TRY(named(s, engine_time_make(e)));
     make_interface_damping_share(e);
+    e->coupling.approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE && s->contact_convert &&
+                             engine_make_body(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
     e->mpm.transfer = (struct transfer_data){
-        &e->mpm.order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt, false,
-        NULL};
+        &e->mpm.field[0].order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
+        false, NULL};
     e->probing.strain_stress = largest_stress(&e->part);
     for (int64_t i = 0; i < e->part.n; i++) e->stability.mass += e->part.mass[i];
     tips_make(&e->fracture.tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
@@ -412,10 +454,16 @@ void engine_free(struct engine *e)
     partial_stress_free(&e->coupling.partial);
     interface_zone_free(&e->coupling.zone);
     memory_free(e->coupling.bonded);
-    transfer_order_free(&e->mpm.order);
     active_points_free(&e->mpm.active);
     grid_coupled_free(&e->coupling.grid_coupled);
-    grid_free(&e->mpm.grid);
+    for (int k = 0; k < e->mpm.fields; k++) {
+        struct grid_field *f = &e->mpm.field[k];
+        grid_free(&f->grid);
+        transfer_order_free(&f->order);
+        memory_free(f->held.held), memory_free(f->list);
+    }
+    memory_free(e->mpm.field);
+    grid_contact_free(&e->mpm.contact);
     bonds_free(&e->bonds);
     contact_free(&e->contact);
     memory_free(e->rigid);

@@ -14,7 +14,7 @@
  * one lattice, with particles midway in the halves of cells. */
 static const char *doubt(const struct particles *p, const struct grid_method *mpm)
 {
-    const int64_t pieces = mesh_pieces(p, &mpm->grid);
+    const int64_t pieces = mesh_pieces(p, &mpm->field[0].grid);
     if (pieces == 0)
         return "its particles do not lie two a cell and direction; mpm.origin or a mirror puts the nodes elsewhere";
     return pieces > 1 ? "it is in pieces, which meet on the grid of frame current only" : NULL;
@@ -55,7 +55,7 @@ status engine_frames(struct engine *e)
 
 bool engine_frame_allowed(const struct engine *e, int body)
 {
-    return !scene_frame_not_default(e->scene, body) && mesh_pieces(&e->part, &e->mpm.grid) == 1;
+    return !scene_frame_not_default(e->scene, body) && mesh_pieces(&e->part, &e->mpm.field[0].grid) == 1;
 }
 
 bool engine_has_mesh(const struct engine *e)
@@ -101,7 +101,7 @@ static void engine_mesh_follow_points(struct engine *e)
 status engine_mesh_make(struct engine *e)
 {
     make_constants(e);
-    TRY(mesh_make(&e->reference.mesh, &e->part, &e->mpm.grid, &e->reference.source));
+    TRY(mesh_make(&e->reference.mesh, &e->part, &e->mpm.field[0].grid, &e->reference.source));
     /* a mesh made anew after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
     engine_mesh_follow_points(e);

@@ -28,7 +28,7 @@ static void motion_block(const void *context, int64_t first, int64_t end, real *
 static void node_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid_method *mpm = context;
-    const struct grid *g = &mpm->grid;
+    const struct grid *g = &mpm->field[0].grid;
     for (int d = 0; d < g->dim; d++)
         for (int64_t I = first; I < end; I++)
             sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
@@ -63,7 +63,8 @@ static void estimate(struct engine *e, bool *done)
                         diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial);
     team_sums(e->part.n, 2, motion_block, &e->part, motion);
     s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->clock.dt, 1) : 0;
-    if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0) team_sums(e->mpm.grid.n, 1, node_block, &e->mpm, &nodes);
+    if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0)
+        team_sums(e->mpm.field[0].grid.n, 1, node_block, &e->mpm, &nodes);
     team_sums(e->part.n, 1, particle_block, &e->part, &particles);
     solver_scale(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
     *done = e->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&

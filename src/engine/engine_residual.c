@@ -34,7 +34,7 @@ void engine_residual(struct engine *e)
     const struct particles *p = &e->part;
     real x[DIM_MAX], *most = &e->probing.residual_step0;
     if (!wants_residual(e->scene, &e->clock)) return;
-    engine_residual_of(e, &e->mpm.grid);
+    for (int k = 0; k < e->mpm.fields; k++) engine_residual_of(e, &e->mpm.field[k].grid);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         int32_t i = p->list[KIND_PD][k];
         if (particle_on_grid(p, i)) continue;

@@ -202,10 +202,11 @@ static bool velocity_jumps(const struct scene *s)
 
 /* Twice the excess of the start [J]: leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the
  * start. 0 where the first step changes velocities by more than forces do and the two cannot be separated: with APIC,
- * and for points beside driven ones. */
+ * for points beside driven ones, and for bodies that meet. */
 static real start_excess(const struct engine *e)
 {
-    const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !velocity_jumps(e->scene));
+    const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !velocity_jumps(e->scene) &&
+                                              e->mpm.contact.touching == 0);
     return kept ? 2 * kick_now(e) : 0;
 }
 
@@ -221,6 +222,7 @@ void engine_sample_end(struct engine *e)
         return;
     }
     real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, &e->reference)) - kick_now(e);
+    sampling->energy.damped += e->mpm.contact.begun;
     const struct rigid_energy rigid = engine_rigid_energy(e);
     sample_write(e, e->clock.t + 0.5 * e->clock.dt, kinetic + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
@@ -280,6 +282,7 @@ void engine_sample_last(struct engine *e)
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, &e->reference);
     if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * e->clock.dt * power_last(e, &held);
+    e->report.sampling.energy.damped += e->mpm.contact.begun;
     const struct rigid_energy rigid = engine_rigid_energy(e);
     sample_write(e, e->clock.t - 0.5 * e->clock.dt, kinetic + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);

@@ -51,7 +51,7 @@ static real engine_time_fastest(const struct scene *s, const struct particles *p
 static real critical_of_points(const struct engine *e)
 {
     if (e->part.n_free + e->part.n_grid_coupled == 0) return INFINITY;
-    return points_share(e->scene) * volume_share(e->scene, &e->tables, &e->part) * e->mpm.grid.h /
+    return points_share(e->scene) * volume_share(e->scene, &e->tables, &e->part) * e->mpm.field[0].grid.h /
            (e->tables.wave_speed + engine_time_fastest(e->scene, &e->part, &e->stability));
 }
 

@@ -98,7 +98,7 @@ static void warn_of_mirrors(const struct scene *s, const struct grid_method *mpm
 {
     for (int b = 0; b < s->boundaries; b++)
         if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
-            !mirror_on_nodes(&s->boundary[b], &mpm->grid, s->spacing))
+            !mirror_on_nodes(&s->boundary[b], &mpm->field[0].grid, s->spacing))
             warnings_add(to, "the mirror of boundary %s stands neither on a node of the grid nor half-way between "
                          "two: errors of 15 to 20 %%, and refinement helps little; mpm.origin or mpm.cell can move the "
                          "nodes",
@@ -133,7 +133,7 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
     warnings_add(
         to,
         "%s %s in the reference frame and meet%s no other body: they pass through each other; in mpm.frame current "
-        "bodies meet on the grid, and stick",
+        "bodies meet",
         names.text, names.all > 1 ? "are" : "is", names.all > 1 ? "" : "s");
 }
 
@@ -143,16 +143,15 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
 {
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
-    if (!scene_bodies_meet(s)) return;
+    if (!scene_bodies_meet(s) || coupling->approaches) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || s->solver != SOLVER_EXPLICIT)) return;
     if (s->method == METHOD_PD)
         warnings_add(to, "peridynamic bodies pass through each other%s without contact.between: bodies or all",
                      s->rigids > 0 ? " (rigid ones they meet)" : "");
     else warn_of_reference(s, reference, to);
-    if (s->method == METHOD_ADAPTIVE && current && !coupling_unified(coupling->kind))
-        warnings_add(
-            to, "what is or becomes peridynamic meets no other body and passes through it; material points meet on "
-                "the grid, and stick");
+    if (s->method == METHOD_ADAPTIVE && current)
+        warnings_add(to, "peridynamic particles pass through material points of other bodies: that takes "
+                         "contact.convert and the coupling partial stress or handshake");
 }
 
 /* True if two particles start with one velocity, as parts of joined bodies; bodies about to collide do not. */
@@ -206,9 +205,9 @@ static void warn_of_touch(const struct engine *e, struct warnings *to)
     if (names.all > 0)
         warnings_add(to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s",
                      names.text,
-                     s->method == METHOD_PD ? ""
-                                            : "; on the grid of mpm.frame current they stick until a gap of two cells "
-                                              "opens");
+                     s->method == METHOD_PD || e->mpm.fields > 1
+                         ? ""
+                         : "; on the grid of mpm.frame current they stick until a gap of two cells opens");
 }
 
 void engine_warn(struct engine *e)

@@ -161,12 +161,18 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
 }
 
 /* Pairs in contact at once and their largest overlap, in a run with contact. */
-static void put_contact(struct json *j, const struct contact *c)
+static void put_contact(struct json *j, const struct contact *c, const struct grid_method *mpm)
 {
-    if (c->law.between == CONTACT_NONE) return;
+    const struct grid_contact *g = &mpm->contact;
+    if (c->law.between == CONTACT_NONE && mpm->fields < 2) return;
     json_open(j, "contact", '{');
-    json_real(j, "began", c->began);
-    json_real(j, "ended", c->ended);
+    json_real(j, "began", fmin(c->began, g->began));
+    json_real(j, "ended", fmax(c->ended, g->ended));
+    if (mpm->fields > 1) json_count(j, "nodes_max", g->nodes_most);
+    if (c->law.between == CONTACT_NONE) {
+        json_close(j, '}');
+        return;
+    }
     json_count(j, "pairs_max", c->pairs_most);
     json_real(j, "friction_work", contact_friction_work(c));
     json_real(j, "overlap_max", c->overlap_most / c->law.spacing);
@@ -362,7 +368,7 @@ static void summary_print(FILE *file, const struct engine *e, const struct fragm
     put_solver(&j, e);
     put_choice(&j, &e->scene->choice);
     put_energy_balance(&j, &e->diagnostics.now);
-    put_contact(&j, &e->contact);
+    put_contact(&j, &e->contact, &e->mpm);
     put_rigid(&j, e);
     if (has_fragments(e)) put_fragments(&j, fragments);
     put_crack(&j, e);

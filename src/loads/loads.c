@@ -65,7 +65,6 @@ void loads_free(struct loads *l)
     memory_free(l->list);
     memory_free(l->image);
     memory_free(l->share);
-    memory_free(l->held.held);
     memory_free(l->constrained_mesh.held);
     memset(l, 0, sizeof *l);
 }
@@ -181,9 +180,8 @@ void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
             l->load[g->mirror_node[q].load].reaction[d] += g->mirror_node[q].reaction[d] / dt_velocity;
 }
 
-void loads_hold(struct loads *l, struct grid *g, struct particles *p, real t, real dt, real dt_velocity)
+void loads_hold(struct loads *l, struct particles *p, real t, real dt)
 {
-    loads_react(l, g, dt_velocity);
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         real factor = time_function_at(&load->boundary->time, t);

@@ -111,6 +111,11 @@ static bool constrained_is_current(const struct constrained_set *s, const struct
     return true;
 }
 
+static bool point_is_on(const struct grid *g, const struct particles *p, int32_t i)
+{
+    return particle_on_grid(p, i) && !(p->flag[i] & FLAG_MESHED) && (g->body == 0 || g->body == p->body[i] + 1);
+}
+
 /* Maps the mass of a load's driven material points to the nodes, into l->share [kg]; returns the number of these
  * points. */
 static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
@@ -120,7 +125,7 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
     real *mass = NEW("loads.driven_mass", load->n, real);
     int64_t n = 0;
     for (int64_t q = 0; q < load->n; q++)
-        if (particle_on_grid(p, load->particle[q]) && !(p->flag[load->particle[q]] & FLAG_MESHED)) {
+        if (point_is_on(g, p, load->particle[q])) {
             list[n] = load->particle[q];
             mass[n++] = p->mass[load->particle[q]];
         }
@@ -171,15 +176,15 @@ static void constrained_walls(const struct loads *l, const struct constrained_se
     }
 }
 
-void loads_walls(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k, real half_width,
-                 real t, real dt)
+void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
+                 const struct kernels *k, real half_width, real t, real dt)
 {
     real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
     g->walls = 0;
     if (l->n == 0) return;
-    if (!constrained_is_current(&l->held, g)) constrained_find(l, &l->held, g);
+    if (!constrained_is_current(held, g)) constrained_find(l, held, g);
     sif_bench_at(l, t, dt, velocity, change);
-    constrained_walls(l, &l->held, g, velocity, change);
+    constrained_walls(l, held, g, velocity, change);
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
             driven_walls(l, b, g, velocity[b], change[b]);

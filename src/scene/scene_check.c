@@ -103,9 +103,9 @@ status resolve_contact(struct reader *r, const struct node *root)
     struct scene *s = r->scene;
     const struct node *between = scene_check_below(root, "contact", "between");
     const struct node *friction = scene_check_below(root, "contact", "friction");
-    const bool bonds = s->method != METHOD_MPM && s->solver == SOLVER_EXPLICIT;
-    const bool faces = s->bodies + s->rigids > 1 || scene_cracks(s);
-    if (!between) s->contact_between = bonds && faces ? CONTACT_ALL : CONTACT_NONE;
+    const bool faces = s->bodies + s->rigids > 1 || (scene_cracks(s) && s->method != METHOD_MPM);
+    const bool meet = s->solver == SOLVER_EXPLICIT && faces;
+    if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
                      "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");

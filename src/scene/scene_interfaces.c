@@ -78,7 +78,8 @@ status read_interfaces(struct reader *r, const struct node *root)
     for (int b = 0; b < s->bodies; b++) s->body[b].joined = b;
     if (!list) return OK;
     TRY(expect_list(r, key_find("", "interfaces"), list));
-    if (s->method != METHOD_PD) return fault(r, list, "bodies are joined by bonds; method: pd is expected");
+    if (s->method == METHOD_ADAPTIVE)
+        return fault(r, list, "bodies are joined by bonds, or by their grid; method: pd or mpm is expected");
     s->interface = NEW("interfaces", list->n, struct scene_interface);
     s->interfaces = list->n;
     const struct node *n = list->first;
@@ -88,6 +89,8 @@ status read_interfaces(struct reader *r, const struct node *root)
         TRY(interface_bodies(r, n, face));
         if (!face->joined && node_find(n, "energy_release_rate"))
             return fault(r, node_find(n, "energy_release_rate"), "only of bodies that are joined");
+        if (s->method == METHOD_MPM && node_find(n, "energy_release_rate"))
+            return fault(r, node_find(n, "energy_release_rate"), "the grid does not break; method: pd is expected");
         if (!face->joined) continue;
         TRY(interface_strength(r, n, face));
         join_bodies(s, face->body[0], face->body[1]);

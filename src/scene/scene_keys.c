@@ -182,6 +182,9 @@ const struct key keys[] = {
         "contact.law: pair: a spacing, no more than in the reference state; or the rule of LAMMPS' peri/pmb, for "
         "comparison: the least of 0.9 of that and 1.35 spacings, also between particles that a bond joins",
         .words = "spacing|lammps"),
+    KEY("contact.convert", KEY_FLAG, UNIT_NONE, AT(scene, contact_convert), ANY, "true",
+        "method: adaptive: material points within three spacings of another body become peridynamic, and meet it as "
+        "particles do"),
     KEY("contact.friction", KEY_REAL, UNIT_NONE, AT(scene, contact_friction), BETWEEN(0, 100), "0",
         "coefficient of Coulomb's friction between all that meets (contact.law: surface)"),
     KEY("contact.stiffness", KEY_REAL, UNIT_NONE, AT(scene, contact_stiffness), INSIDE(0, 4.001), "1",

@@ -147,7 +147,8 @@ output: {frames: 0, samples: 1}
 END
 two=$work/two.yaml apart="-s bodies.right.shape.box.from=[10mm,0]"
 through="left and right are in the reference frame and meet no other body: they pass through"
-says "the grid lets bodies meet" '^contact .*stick' "$two" $apart
+says "bodies meet on the grid" '^contact .*left, right with each other, on a grid for each' "$two" $apart
+says "on one grid they stick" '^contact .*stick' "$two" $apart -s contact.between=none
 silent "the grid lets bodies meet" '^warning' "$two" $apart
 warned "reference frame" "$through" "$two" $apart -s mpm.frame=reference
 silent "reference frame: none meets" '^contact' "$two" $apart -s mpm.frame=reference
@@ -155,9 +156,11 @@ says "one of two in the reference frame" 'left is in the reference frame and mee
 warned "bonds" 'peridynamic bodies pass through each other without contact' "$two" $apart -s method=pd -s contact.between=none
 says "bodies of bonds meet" '^contact .*left, right with each other and with itself' "$two" $apart -s method=pd
 silent "bonds that meet" 'pass through' "$two" $apart -s method=pd -s contact.between=bodies
-warned "adaptive" 'becomes peridynamic meets no other body' "$two" $apart -s method=adaptive
+warned "adaptive" 'pass through material points of other bodies' "$two" $apart -s method=adaptive -s contact.convert=false
+silent "adaptive, which converts what comes near" 'pass through' "$two" $apart -s method=adaptive
 warned "side by side" 'touch at the start (left with right) and are not joined' "$two" -s method=pd
-says "side by side on the grid" '(left with right) and are not joined: .* they stick until' "$two"
+says "side by side on the grid" '(left with right) and are not joined' "$two"
+says "side by side on one grid" '(left with right) and are not joined: .* they stick until' "$two" -s contact.between=none
 silent "side by side, about to hit" 'touch at the start' "$two" -s bodies.left.velocity=[1,0]
 silent "two spacings apart" 'touch at the start' "$two" -s bodies.right.shape.box.from=[7mm,0]
 warned "a published coupling" 'coupling pgg .* no energy' inputs/plate_crack.yaml -s coupling=pgg -s duration=1us

@@ -123,7 +123,8 @@ static void same_bits(const struct engine *a, const struct engine *b)
 static real sleeping(const struct engine *e)
 {
     const struct transfer_order *active = e->mpm.transfer.order;
-    const real points = e->mpm.order.n > 0 && active != &e->mpm.order ? 1 - (real)active->n / (real)e->mpm.order.n : 0;
+    const struct transfer_order *all = &e->mpm.field[0].order;
+    const real points = all->n > 0 && active != all ? 1 - (real)active->n / (real)all->n : 0;
     return real_max(engine_inactive_share(e), points);
 }
 

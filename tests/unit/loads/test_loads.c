@@ -44,8 +44,7 @@ static void test_sine(void **state)
             p->x[d][i] += way;
             work += way * p->f[d][i];
         }
-    struct grid none = {0};
-    loads_hold(&l, &none, p, 1, dt, dt);                 /* as if the step's middle were at t = 1 */
+    loads_hold(&l, p, 1, dt);                 /* as if the step's middle were at t = 1 */
     assert_close(l.work, work, 1e-8);                /* ways of 1e-6 of positions near 1e-2, to 1e-18 */
     assert_true(fabs(work) > 1e-9);
     loads_free(&l);
@@ -76,7 +75,6 @@ static void check_together(int threads, bool together, real *impulse, real *work
         {.name = "first", .kind = BOUNDARY_BODY_FORCE, .body = 1, .value = {-4e6, 4e6}},
         {.name = "face", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 2e6}, .face = 1, .side = 1}};
     struct cloud c;
-    struct grid none = {0};
     struct loads l;
     team_make(threads);
     cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {71, 53}, .horizon = 3});
@@ -89,7 +87,7 @@ static void check_together(int threads, bool together, real *impulse, real *work
         loads_apply(&l, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
-        loads_hold(&l, &none, &c.p, 1, dt, dt);
+        loads_hold(&l, &c.p, 1, dt);
         for (int d = 0; d < 2; d++) impulse[d] += l.impulse[d];
         *work += l.work;
         for (int d = 0; d < 2; d++)

@@ -220,6 +220,7 @@ struct points {
     struct partial_stress partial;
     struct transfer_data t;
     struct loads loads;
+    struct constrained_set held;
 };
 
 static const struct elastic steel = {.c11 = 2e11, .c12 = 7e10, .shear = 6.5e10, .trigger = INFINITY};
@@ -272,7 +273,7 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     transfer_order_sort(&s->order, s->p, s->p->list[KIND_MPM], s->p->n, &s->g);
     grid_clear(&s->g);
     k.p2g(&s->g, s->p, &s->t);
-    loads_walls(&s->loads, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
+    loads_walls(&s->loads, &s->held, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
     grid_move(&s->g, transfer, s->t.dt_velocity, 1e-30, s->loads.impulse, &work);
     if (transfer == TRANSFER_FLIP) {
         k.remap(&s->g, s->p, &s->t);
@@ -280,7 +281,8 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     }
     k.g2p(&s->g, s->p, &s->t);
     for (int b = 0; b < s->loads.n; b++) memset(s->loads.load[b].reaction, 0, sizeof s->loads.load[b].reaction);
-    loads_hold(&s->loads, &s->g, s->p, 0, s->t.dt, s->t.dt_velocity);
+    loads_react(&s->loads, &s->g, s->t.dt_velocity);
+    loads_hold(&s->loads, s->p, 0, s->t.dt);
 }
 
 static void points_free(struct points *s)

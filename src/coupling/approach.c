@@ -1,0 +1,118 @@
+/* Search of particles near other bodies: by the boxes of bodies first, then by cells of what lies in two of them. */
+#include "coupling/approach.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "data/cells.h"
+
+struct body_box { real from[DIM_MAX], to[DIM_MAX]; };
+
+/* Boxes of the particles of each body, [bodies]. */
+static struct body_box *body_boxes(const struct particles *p, int bodies)
+{
+    struct body_box *all = NEW("approach.boxes", bodies, struct body_box);
+    for (int b = 0; b < bodies; b++)
+        for (int d = 0; d < DIM_MAX; d++) all[b].from[d] = INFINITY, all[b].to[d] = -INFINITY;
+#pragma omp parallel
+    {
+        struct body_box *own = BARE("approach.boxes", bodies, struct body_box);
+#pragma omp critical
+        memcpy(own, all, (size_t)bodies * sizeof *own);
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < p->n; i++)
+            for (int d = 0; d < p->dim; d++) {
+                struct body_box *b = &own[p->body[i]];
+                b->from[d] = real_min(b->from[d], p->x[d][i]), b->to[d] = real_max(b->to[d], p->x[d][i]);
+            }
+#pragma omp critical
+        for (int b = 0; b < bodies; b++)
+            for (int d = 0; d < p->dim; d++) {
+                all[b].from[d] = real_min(all[b].from[d], own[b].from[d]);
+                all[b].to[d] = real_max(all[b].to[d], own[b].to[d]);
+            }
+        memory_free(own);
+    }
+    return all;
+}
+
+/* Is particle i within `reach` of the box of another body? */
+static bool in_foreign_box(const struct particles *p, const struct body_box *box, int bodies, int64_t i, real reach)
+{
+    for (int b = 0; b < bodies; b++) {
+        bool inside = b != p->body[i];
+        for (int d = 0; d < p->dim && inside; d++)
+            inside = p->x[d][i] >= box[b].from[d] - reach && p->x[d][i] <= box[b].to[d] + reach;
+        if (inside) return true;
+    }
+    return false;
+}
+
+static bool near_rigid(const struct particles *p, const struct rigid_body *rigid, int rigids, int64_t i, real reach)
+{
+    real x[DIM_MAX] = {0}, normal[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
+    for (int k = 0; k < rigids; k++) {
+        real far2 = 0;
+        for (int d = 0; d < p->dim; d++) far2 += square(x[d] - rigid[k].x[d]);
+        if (rigid[k].motion != RIGID_FIXED && far2 > square(rigid[k].radius + reach)) continue;
+        if (rigid_distance(&rigid[k], x, normal) < reach) return true;
+    }
+    return false;
+}
+
+static void mark(struct particles *p, int64_t i)
+{
+    if (p->kind[i] == KIND_MPM) p->flag[i] |= FLAG_NEAR;
+    else if (p->low_since) p->low_since[i] = INFINITY;
+}
+
+/* Marks those of the n listed that are near one of another body. */
+static void mark_listed(struct particles *p, const int32_t *list, int64_t n, real reach)
+{
+    struct particles places = {.n = n, .n_all = n, .dim = p->dim};
+    struct cells cells;
+    for (int d = 0; d < p->dim; d++) {
+        places.X[d] = BARE("approach.place", n, real);
+        for (int64_t k = 0; k < n; k++) places.X[d][k] = p->x[d][list[k]];
+    }
+    cells_make(&cells, &places, reach);
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < n; k++) {
+            bool foreign = false;
+            near_find(&near, &cells, &places, k, reach, false);
+            for (int q = 0; q < near.n && !foreign; q++) foreign = p->body[list[near.at[q]]] != p->body[list[k]];
+            if (foreign) mark(p, list[k]);
+        }
+        memory_free(near.at);
+    }
+    cells_free(&cells);
+    for (int d = 0; d < p->dim; d++) memory_free(places.X[d]);
+}
+
+void approach_mark(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach)
+{
+    struct body_box *box = bodies > 1 ? body_boxes(p, bodies) : NULL;
+    uint8_t *close = NEW("approach.close", p->n, uint8_t);
+    int64_t n = 0;
+#pragma omp parallel for schedule(static) reduction(+ : n)
+    for (int64_t i = 0; i < p->n; i++) {
+        if (rigids > 0 && near_rigid(p, rigid, rigids, i, reach)) mark(p, i);
+        close[i] = box && in_foreign_box(p, box, bodies, i, reach);
+        n += close[i];
+    }
+    if (n > 0) {
+        int32_t *list = BARE("approach.list", n, int32_t);
+        int64_t k = 0;
+        for (int64_t i = 0; i < p->n; i++)
+            if (close[i]) list[k++] = (int32_t)i;
+        mark_listed(p, list, n, reach);
+        memory_free(list);
+    }
+    memory_free(close);
+    memory_free(box);
+}
