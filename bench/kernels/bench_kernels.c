@@ -13,7 +13,8 @@
 #define DIM_JOBS(D)                                                                                                    \
     {PD_MOVE, D, .variant = "-"}, {GRID_CLEAR, D, .variant = "-"}, {GRID_MOVE, D, .variant = "-"},                     \
         {GRID_REMAPPED, D, .variant = "-"}, {MESH_CLEAR, D, .variant = "-"}, {MESH_MOVE, D, .variant = "-"},           \
-        {MESH_FORCE, D, .variant = "SMALL"}, {MESH_FORCE, D, .variant = "FINITE", .finite = true},
+        {MESH_FORCE, D, .variant = "SMALL"}, {MESH_FORCE, D, .variant = "FINITE", .finite = true},                     \
+        {CONTACT_SEARCH, D, .variant = "faces pressed"}, {CONTACT_FORCE, D, .variant = "faces pressed"},
 #define SHAPE_JOBS(D, S)                                                                                               \
     {REMAP, D, .shape = SHAPE_##S, .variant = #S " FLIP"}, {SPREAD, D, .shape = SHAPE_##S, .variant = #S},
 #define TRANSFER_JOB(D, S, T)                                                                                          \
@@ -28,7 +29,7 @@ static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
 static status kernels_body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model,
-                                const char *mpm, bool yields)
+                                const char *mpm, const char *more, bool yields)
 {
     static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
                                                    "solid"};
@@ -40,9 +41,9 @@ static status kernels_body_make(struct engine *e, struct scene *s, int dim, cons
              "name: bench\nspace: %s\nduration: 1 us\nmethod: %s\nmodel: %s\nmaterial: {name: steel, young: 190 GPa, "
              "%sdensity: 7800%s}\n"
              "body:\n  - box: {from: %s, to: %s}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
-             "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {active_set: false}\n",
+             "mpm: {%s}\noutput: {samples: 1, frames: 0}\ntime: {active_set: false}\n%s",
              space[dim], method, model, poisson[dim], yields ? ", yield_stress: 1 GPa" : "", corner[dim], size[dim],
-             mpm);
+             mpm, more);
     TRY(bench_engine_make(e, s, "bench", text, NULL, 0));
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < e->part.n; i++) {
@@ -52,14 +53,30 @@ static status kernels_body_make(struct engine *e, struct scene *s, int dim, cons
     return bench_engine_run(e, 1, NULL); /* sorts the points and covers them with a grid */
 }
 
+/* Moves one half of a cut body by 0.02 spacings against the other. */
+static void faces_press(struct engine *e)
+{
+    real low, high;
+    particles_extent(&e->part, e->part.n, 0, &low, &high);
+    for (int64_t i = 0; i < e->part.n; i++)
+        if (e->part.X[0][i] < 0.5 * (low + high)) e->part.x[0][i] += 0.02 * e->scene->spacing;
+}
+
 static status ground_make(struct ground *g, int dim)
 {
+    static const char *const cut[DIM_MAX + 1] = {
+        NULL, "cracks: [{at: [20 m]}]\n", "cracks: [{from: [50 mm, -1 mm], to: [50 mm, 201 mm]}]\n",
+        "cracks: [{polygon: [[10 mm, -1 mm, -1 mm], [10 mm, 21 mm, -1 mm], [10 mm, 21 mm, 26 mm], "
+        "[10 mm, -1 mm, 26 mm]]}]\n"};
     static const char points_of[] = "shape: cpgimp, transfer: apic", mesh[] = "frame: reference";
-    TRY(kernels_body_make(&g->engine[BONDS], &g->scene[BONDS], dim, "pd", "bond", points_of, false));
-    TRY(kernels_body_make(&g->engine[YIELDING], &g->scene[YIELDING], dim, "pd", "bond", points_of, true));
-    TRY(kernels_body_make(&g->engine[POINTS], &g->scene[POINTS], dim, "mpm", "bond", points_of, false));
-    if (dim > 1) TRY(kernels_body_make(&g->engine[STATES], &g->scene[STATES], dim, "pd", "mospd", points_of, false));
-    TRY(kernels_body_make(&g->engine[MESH], &g->scene[MESH], dim, "mpm", "bond", mesh, false));
+    TRY(kernels_body_make(&g->engine[BONDS], &g->scene[BONDS], dim, "pd", "bond", points_of, "", false));
+    TRY(kernels_body_make(&g->engine[YIELDING], &g->scene[YIELDING], dim, "pd", "bond", points_of, "", true));
+    TRY(kernels_body_make(&g->engine[POINTS], &g->scene[POINTS], dim, "mpm", "bond", points_of, "", false));
+    if (dim > 1)
+        TRY(kernels_body_make(&g->engine[STATES], &g->scene[STATES], dim, "pd", "mospd", points_of, "", false));
+    TRY(kernels_body_make(&g->engine[MESH], &g->scene[MESH], dim, "mpm", "bond", mesh, "", false));
+    TRY(kernels_body_make(&g->engine[CUT], &g->scene[CUT], dim, "pd", "bond", points_of, cut[dim], false));
+    faces_press(&g->engine[CUT]);
     struct engine *points = &g->engine[POINTS];
     points->mpm.transfer.dt = points->mpm.transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
     g->list = NEW("bench.list", points->part.n, int32_t);
@@ -86,7 +103,7 @@ static struct engine *bonds_of(const struct job *j, struct ground *g)
 
 static void job_call(const struct job *j, struct ground *g)
 {
-    struct engine *pd = bonds_of(j, g), *e = &g->engine[POINTS], *m = &g->engine[MESH];
+    struct engine *pd = bonds_of(j, g), *e = &g->engine[POINTS], *m = &g->engine[MESH], *cut = &g->engine[CUT];
     struct kernels k;
     kernels_choose(&k, j->dim, j->model, j->shape, j->transfer);
     real impulse[DIM_MAX] = {0}, work = 0;
@@ -131,6 +148,15 @@ static void job_call(const struct job *j, struct ground *g)
         break;
     case MESH_MOVE:
         mesh_move(&m->reference.mesh, 1e-12, 1e-12, impulse, &work);
+        break;
+    case CONTACT_SEARCH:
+        contact_update(&cut->contact, &cut->part, &cut->bonds, &cut->loads, &cut->source.family, 0, cut->contact.broken,
+                       cut->contact.changed + 1);
+        break;
+    case CONTACT_FORCE:
+        contact_update(&cut->contact, &cut->part, &cut->bonds, &cut->loads, &cut->source.family, 0, cut->contact.broken,
+                       cut->contact.changed);
+        contact_force(&cut->contact, &cut->part, 0);
         break;
     default:
         grid_remapped(&e->mpm.field[0].grid, e->mpm.smallest_mass);
@@ -184,6 +210,14 @@ static double column_bytes(const struct bonds *b)
     return sum / (double)b->columns;
 }
 
+/* Of a particle near a face: its pairs twice, what it feels, its account; its place and force. */
+static double contact_bytes(const struct engine *e)
+{
+    const struct contact *c = &e->contact;
+    return 8.0 * (double)c->pairs / (double)c->rows + 2 * sizeof *c->face + 2 * sizeof *c->balance +
+           3 * sizeof(real) * (double)e->part.dim;
+}
+
 /* Bytes that a kernel must move a particle, counted from the arrays it reads and writes once; nodes shared among the
  * points of their cell. */
 static double job_bytes(const struct job *j, struct ground *g)
@@ -226,6 +260,10 @@ static double job_bytes(const struct job *j, struct ground *g)
         return mesh_node * 3 * dim; /* u; f read and written */
     case MESH_MOVE:
         return mesh_node * (1 + 5 * dim);
+    case CONTACT_SEARCH:
+        return contact_bytes(&g->engine[CUT]) + r * 6 * dim; /* places, cells; reference places of bonds */
+    case CONTACT_FORCE:
+        return contact_bytes(&g->engine[CUT]);
     default:
         return node * (1 + 2 * dim);
     }

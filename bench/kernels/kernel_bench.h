@@ -21,6 +21,8 @@ enum job_kind {
     MESH_CLEAR,
     MESH_FORCE,
     MESH_MOVE,
+    CONTACT_SEARCH,
+    CONTACT_FORCE,
     JOB_KINDS
 };
 
@@ -38,7 +40,7 @@ struct job {
 };
 
 /* What is timed on, for each dimension; state-based particles not in 1D. */
-enum { BONDS, POINTS, STATES, MESH, YIELDING, GROUNDS };
+enum { BONDS, POINTS, STATES, MESH, YIELDING, CUT, GROUNDS };
 struct ground {
     struct scene scene[GROUNDS];
     struct engine engine[GROUNDS];
@@ -60,8 +62,10 @@ struct kernel_bench {
 
 static inline bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
 
+/* Of contact: those near a face. */
 static inline int64_t job_particles(const struct job *j, const struct ground *g)
 {
+    if (j->kind >= CONTACT_SEARCH) return g->engine[CUT].contact.rows;
     return g->engine[j->kind >= MESH_CLEAR ? MESH : j->kind > PD_MOVE ? POINTS : BONDS].part.n;
 }
 

@@ -29,17 +29,20 @@ static void say_frames(const struct engine *e)
                (long long)e->reference.mesh.points);
 }
 
-/* Names of bodies from one to end, those of them that are joined in brackets. */
+/* Names of the first few bodies from one to end, joined ones as a+b, and how many more there are. */
 static void say_names(const struct scene *s, int from, int end)
 {
+    enum { NAMED = 6 };
     const char *between = "";
+    int n = 0;
     for (int b = from; b < end; b++) {
-        if (b < s->bodies && s->body[b].joined != b) continue;
+        if ((b < s->bodies && s->body[b].joined != b) || ++n > NAMED) continue;
         printf("%s%s", between, s->body[b].name);
         for (int k = b + 1; k < s->bodies && b < s->bodies; k++)
             if (s->body[k].joined == b) printf("+%s", s->body[k].name);
         between = ", ";
     }
+    if (n > NAMED) printf(" and %d more", n - NAMED);
 }
 
 /* Which peridynamic particles meet, and by which law. */
