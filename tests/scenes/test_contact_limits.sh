@@ -62,6 +62,19 @@ refused "contact without time" "$work/no" "knows no contact" "$work/plate.yaml" 
 says=$("$cleave" check "$work/plate.yaml" -t 1 2>&1)
 case $says in *"a with itself"*"rigid p;"*"near a face"*) pass ;; *) fail "check does not say who meets: $says" ;; esac
 
+# ---- scenes of inputs/ -------------------------------------------------------------------------------------------------
+
+start slide slope
+start bounce hertz_3d
+wait
+between "slope: momentum, over m g (sin - mu cos) t" "$(compute "$(f slide probes.block.x) / 0.03932")" 0.95 1.05
+between "slope: what the floor bears" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == "floor_force_y") at = k } }
+    $1 > 3e-4 { sum -= $at; n++ } END { print sum / n }' "$work/slide/history.csv")" 181 213
+between "a ball on a plane: contact" "$(compute "$(f bounce contact.ended) - $(f bounce contact.began)")" 24e-6 28e-6
+between "a ball on a plane: force" "$(f bounce rigid.0.force_max)" 2.2e5 2.7e5
+between "a ball on a plane: it leaves" "$(f bounce probes.ball.z)" 1.59 1.70
+for run in slide bounce; do between "$run: momentum" "$(f $run momentum_error)" 0 1e-12; done
+
 # ---- interfaces --------------------------------------------------------------------------------------------------------
 
 pair() { echo "bodies=[{name: a, velocity: [20 m/s, 0], shape: {box: {from: [0, 0], to: [10 mm, 10 mm]}}}, {name: b, shape: {box: {from: [$1 mm, 0], to: [20 mm, 10 mm]}}}]"; }
