@@ -144,6 +144,8 @@ void contact_clock(struct contact *c, real t);
 
 /* Energy of all pairs where they are now [J]; half of that of pairs with an image. */
 real contact_energy(const struct contact *c, const struct particles *p);
+/* Width of what touches rigid body `body`: diagonal of the box round the particles that it pushes [m]; 0: none. */
+real contact_patch(const struct contact *c, const struct particles *p, int body);
 /* Work that friction has taken so far [J]. */
 real contact_friction_work(const struct contact *c);
 

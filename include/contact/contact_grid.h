@@ -30,18 +30,22 @@ struct grid_contact {
     int64_t nodes, room;
     struct grid_contact_node *node;      /* [nodes] of this step */
     real begun;                          /* work over the velocities before the step, half of it [J] */
+    int sides;
+    real *taken;                         /* [sides^2] energy that contact of two bodies has taken so far [J] */
     int64_t touching, nodes_most;        /* in touch: in the last step, most so far */
     real began, ended;                   /* of all contact so far, NAN: none yet [s] */
 };
 
+/* An account for each two of so many sides. */
+void grid_contact_make(struct grid_contact *c, int sides);
 void grid_side_make(struct grid_side *a, int number, struct grid *g, const struct transfer_order *order,
                     const struct particles *p);
 /* Nodes at which any two sides may meet in this step, by masses and points. */
 void grid_contact_find(struct grid_contact *c, const struct grid_side *side, int sides, const struct particles *p);
 /* Exchanges momentum where they touch and approach: of the velocities that points receive, and their change. Returns
  * the energy taken [J]; remapped: what FLIP takes beyond that, whose points have the velocities of the second map. */
-real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side, int sides);
-real grid_contact_remapped(const struct grid_contact *c, const struct grid_side *side);
+real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side);
+real grid_contact_remapped(struct grid_contact *c, const struct grid_side *side);
 /* Notes that the time is t [s]. */
 void grid_contact_clock(struct grid_contact *c, real t);
 status grid_contact_archive(struct grid_contact *c, struct archive *a);

@@ -151,6 +151,13 @@ static void points_reach(struct grid_contact *c, const struct shared *s, const s
 
 /* ---- the list of a step ------------------------------------------------------------------------------------------ */
 
+void grid_contact_make(struct grid_contact *c, int sides)
+{
+    memory_free(c->taken);
+    c->sides = sides;
+    c->taken = NEW("contact.taken", sides * sides, real);
+}
+
 void grid_side_make(struct grid_side *a, int number, struct grid *g, const struct transfer_order *order,
                     const struct particles *p)
 {
@@ -187,13 +194,17 @@ void grid_contact_find(struct grid_contact *c, const struct grid_side *side, int
 
 /* Points of FLIP do not take all of what nodes get: the work of an impulse is over the mean of the velocities before
  * and after the step, of which the second is only smoothed. Where nodes part before the step, an impulse that just
- * stopped their approach would give energy; it leaves them this share of their parting speed as approach. */
+ * stopped their approach would give energy; it leaves them this share of their parting speed as approach. That is no
+ * proof: while contact of two bodies has given more energy than taken, impulses act on what approaches before the step,
+ * too, which only takes. */
 #define RETURNED 1.3
 
 /* Speed along the direction `along` that an impulse may take, by the relative velocities before and now [m/s]. */
-static real speed_taken(const real *before, const real *now, const real *along, int dim)
+static real speed_taken(const real *before, const real *now, const real *along, bool strict, int dim)
 {
-    return real_max(0, dot(now, along, dim) + RETURNED * real_min(0, dot(before, along, dim)));
+    const real parting = dot(before, along, dim);
+    if (strict && parting < 0) return 0;
+    return real_max(0, dot(now, along, dim) + RETURNED * real_min(0, parting));
 }
 
 /* Impulse per reduced mass that takes the approach and rubs [m/s]; false: they part, or do not touch. */
@@ -202,7 +213,8 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
 {
     real slide[DIM_MAX] = {0}, speed = 0;
     if (node->reach[1] - node->reach[0] - c->spacing > 0) return false;
-    const real approach = speed_taken(before, now, node->normal, dim), along = dot(now, node->normal, dim);
+    const bool strict = c->taken[node->side[0] * c->sides + node->side[1]] < 0;
+    const real approach = speed_taken(before, now, node->normal, strict, dim), along = dot(now, node->normal, dim);
     if (!(approach > 0)) return false;
     for (int d = 0; d < dim; d++) {
         slide[d] = now[d] - along * node->normal[d];
@@ -210,7 +222,7 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
     }
     speed = sqrt(speed);
     for (int d = 0; d < dim && speed > 0; d++) slide[d] /= speed;
-    const real rubbed = speed > 0 ? real_min(c->friction * approach, speed_taken(before, now, slide, dim)) : 0;
+    const real rubbed = speed > 0 ? real_min(c->friction * approach, speed_taken(before, now, slide, strict, dim)) : 0;
     for (int d = 0; d < dim; d++) taken[d] = approach * node->normal[d] + rubbed * slide[d];
     return true;
 }
@@ -236,11 +248,11 @@ static real mass_against(const struct grid *g, int64_t I, const real *normal, re
     return held2 > 0.5 ? INFINITY : g->mass[I];
 }
 
-real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side, int sides)
+real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side)
 {
     real lost = 0;
     c->touching = 0, c->begun = 0;
-    walls_mark(side, sides, 1);
+    walls_mark(side, c->sides, 1);
     for (int64_t k = 0; k < c->nodes; k++) {
         struct grid_contact_node *node = &c->node[k];
         struct grid *g[2] = {side[node->side[0]].grid, side[node->side[1]].grid};
@@ -258,7 +270,8 @@ real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side,
         c->touching++;
         for (int d = 0; d < dim; d++) {
             node->impulse[d] = reduced * taken[d];
-            lost += 0.5 * node->impulse[d] * (before[d] + relative[d] - taken[d]);
+            const real own = 0.5 * node->impulse[d] * (before[d] + relative[d] - taken[d]);
+            lost += own, c->taken[node->side[0] * c->sides + node->side[1]] += own;
             c->begun += 0.5 * node->impulse[d] * before[d];
             node->after[d] = relative[d] - taken[d];
             for (int s = 0; s < 2; s++) {
@@ -267,12 +280,12 @@ real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side,
             }
         }
     }
-    walls_mark(side, sides, 0);
+    walls_mark(side, c->sides, 0);
     c->nodes_most = c->touching > c->nodes_most ? c->touching : c->nodes_most;
     return lost;
 }
 
-real grid_contact_remapped(const struct grid_contact *c, const struct grid_side *side)
+real grid_contact_remapped(struct grid_contact *c, const struct grid_side *side)
 {
     real lost = 0;
     for (int64_t k = 0; k < c->nodes; k++) {
@@ -280,7 +293,8 @@ real grid_contact_remapped(const struct grid_contact *c, const struct grid_side 
         const struct grid *g[2] = {side[node->side[0]].grid, side[node->side[1]].grid};
         for (int d = 0; d < g[0]->dim; d++) {
             const real mapped = g[0]->momentum[d][node->at[0]] - g[1]->momentum[d][node->at[1]];
-            lost += 0.5 * node->impulse[d] * (mapped - node->after[d]);
+            const real own = 0.5 * node->impulse[d] * (mapped - node->after[d]);
+            lost += own, c->taken[node->side[0] * c->sides + node->side[1]] += own;
         }
     }
     return lost;
@@ -298,7 +312,11 @@ status grid_contact_archive(struct grid_contact *c, struct archive *a)
     ARCHIVE_VALUE(a, "contact/grid_began", c->began);
     ARCHIVE_VALUE(a, "contact/grid_ended", c->ended);
     ARCHIVE_VALUE(a, "contact/grid_most", c->nodes_most);
-    return OK;
+    return a->exchange(a, "contact/grid_taken", c->taken, (size_t)(c->sides * c->sides) * sizeof *c->taken);
 }
 
-void grid_contact_free(struct grid_contact *c) { memory_free(c->node); }
+void grid_contact_free(struct grid_contact *c)
+{
+    memory_free(c->node);
+    memory_free(c->taken);
+}

@@ -123,6 +123,19 @@ static real overlap_of(const struct contact *c, const struct particles *p, int b
     return real_max(0, depth_of(c, p, body, q, normal));
 }
 
+real contact_patch(const struct contact *c, const struct particles *p, int body)
+{
+    real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX], width2 = 0;
+    for (int d = 0; d < DIM_MAX; d++) low[d] = INFINITY, high[d] = -INFINITY;
+    for (int64_t q = 0; c->near && q < c->near[body].n; q++) {
+        const int32_t i = c->particle[c->near[body].row[q]];
+        if (!(overlap_of(c, p, body, q, normal) > 0)) continue;
+        for (int d = 0; d < p->dim; d++) low[d] = real_min(low[d], p->x[d][i]), high[d] = real_max(high[d], p->x[d][i]);
+    }
+    for (int d = 0; d < p->dim && high[d] >= low[d]; d++) width2 += square(high[d] - low[d]);
+    return sqrt(width2);
+}
+
 /* After a step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {

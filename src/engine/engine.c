@@ -140,7 +140,7 @@ static void grids_move(struct engine *e, const struct grid_side *side, real midd
                     e->clock.dt);
         grid_advance(&f->grid, transfer, dt, mpm->smallest_mass);
     }
-    if (side) e->coupling.damped += grid_contact_exchange(&mpm->contact, side, mpm->fields);
+    if (side) e->coupling.damped += grid_contact_exchange(&mpm->contact, side);
     for (int k = 0; k < mpm->fields; k++)
         grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
 }
@@ -173,9 +173,9 @@ static void step_grid(struct engine *e, real middle)
     engine_residual(e);
     struct grid_side *side = meeting_find(e);
     grids_move(e, side, middle, e->mpm.transfer.dt_velocity);               /* 3: nodes move */
-    if (side) grid_contact_clock(&e->mpm.contact, e->clock.t);
     lap(&e->report.laps, LAP_GRID);
     if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side);          /* 4, 6: velocity; momentum back to nodes */
+    if (side) grid_contact_clock(&e->mpm.contact, e->clock.t);
     for (int k = 0; k < e->mpm.fields; k++) {                               /* 4, 7: position, strain, stress */
         const struct transfer_data own = field_data(&e->mpm, k);
         moved += e->kernels.g2p(&e->mpm.field[k].grid, p, &own);

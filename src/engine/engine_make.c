@@ -234,12 +234,14 @@ void engine_grid_make(struct engine *e)
         e->mpm.field[k].grid = *g;
         e->mpm.field[k].grid.body = 1 + engine_make_body(s, k);
     }
+    grid_contact_free(&e->mpm.contact);
     e->mpm.contact = (struct grid_contact){.friction = s->contact_friction,
                                            .spacing = s->spacing,
                                            .half_width = shape_reach(s),
                                            .smallest_mass = e->mpm.smallest_mass,
                                            .began = NAN,
                                            .ended = NAN};
+    grid_contact_make(&e->mpm.contact, e->mpm.fields);
     e->mpm.sort_needed = true;
 }
 

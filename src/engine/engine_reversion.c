@@ -48,6 +48,7 @@ static void bonded_make(struct engine *e)
 void engine_interface_make(struct engine *e)
 {
     bonded_make(e);
+    if (e->part.n_free == 0) interface_zone_free(&e->coupling.zone);
     if (e->coupling.kind == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0)
         interface_zone_make(&e->coupling.zone, &e->part, &e->source);
 }

@@ -150,7 +150,7 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
                      s->rigids > 0 ? " (rigid ones they meet)" : "");
     else warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current)
-        warnings_add(to, "peridynamic particles pass through material points of other bodies: that takes "
+        warnings_add(to, "what becomes peridynamic passes through material points of other bodies: that takes "
                          "contact.convert and the coupling partial stress or handshake");
 }
 

@@ -192,6 +192,7 @@ static void put_rigid(struct json *j, const struct engine *e)
         json_point(j, "", r->x, r->dim);
         for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], r->v[d]);
         json_real(j, "force_max", r->force_most);
+        json_real(j, "patch", contact_patch(&e->contact, &e->part, k));
         json_close(j, '}');
     }
     json_close(j, ']');

@@ -73,8 +73,17 @@ static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I
     return image != I;
 }
 
+/* Where bodies have a grid each a region holds those that have particles in it. */
+static bool load_holds(const struct load *load, const struct grid *g, const struct particles *p)
+{
+    bool holds = g->body == 0 || load->boundary->kind != BOUNDARY_VELOCITY;
+    for (int64_t q = 0; q < load->n && !holds; q++) holds = p->body[load->particle[q]] + 1 == g->body;
+    return holds;
+}
+
 /* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. */
-static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g)
+static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g,
+                             const struct particles *p)
 {
     struct mirror_node mirror_node;
     s->n = 0;
@@ -89,7 +98,8 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
         for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
         for (int b = 0; b < l->n; b++)
             for (int d = 0; d < g->dim; d++)
-                if (node_constrained(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d))
+                if (load_holds(&l->load[b], g, p) &&
+                    node_constrained(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d))
                     constrained_add(s, I, d, b);
     }
 }
@@ -182,7 +192,7 @@ void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, 
     real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
     g->walls = 0;
     if (l->n == 0) return;
-    if (!constrained_is_current(held, g)) constrained_find(l, held, g);
+    if (!constrained_is_current(held, g)) constrained_find(l, held, g, p);
     sif_bench_at(l, t, dt, velocity, change);
     constrained_walls(l, held, g, velocity, change);
     for (int b = 0; b < l->n; b++)
@@ -216,7 +226,7 @@ void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles 
     if (mesh->points == 0) return;
     /* regions and mirrors are constant; driven nodes depend on masses */
     if (!constrained_is_current(&l->constrained_mesh, &mesh->grid)) {
-        constrained_find(l, &l->constrained_mesh, &mesh->grid);
+        constrained_find(l, &l->constrained_mesh, &mesh->grid, p);
         l->constrained_mesh.lasting = l->constrained_mesh.n;
     }
     l->constrained_mesh.n = l->constrained_mesh.lasting;

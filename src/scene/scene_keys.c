@@ -103,7 +103,7 @@ const struct key keys[] = {
         "rigid, with a velocity that it keeps: until then the velocity grows in proportion"),
 
     KEY("interfaces", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
-        "what lies between two bodies of method pd; without, they meet by contact"),
+        "what lies between two bodies, of method pd or mpm; without, they meet by contact"),
     KEY("interfaces.bodies", KEY_HAND, UNIT_NONE, NOWHERE, ANY, REQUIRED, "which two", .words = "list of two names"),
     KEY("interfaces.joined", KEY_FLAG, UNIT_NONE, AT(scene_interface, joined), ANY, "true",
         "bonds go from one to the other where they touch: one body of two materials, the first one's number in frames"),

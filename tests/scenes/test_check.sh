@@ -156,7 +156,7 @@ says "one of two in the reference frame" 'left is in the reference frame and mee
 warned "bonds" 'peridynamic bodies pass through each other without contact' "$two" $apart -s method=pd -s contact.between=none
 says "bodies of bonds meet" '^contact .*left, right with each other and with itself' "$two" $apart -s method=pd
 silent "bonds that meet" 'pass through' "$two" $apart -s method=pd -s contact.between=bodies
-warned "adaptive" 'pass through material points of other bodies' "$two" $apart -s method=adaptive -s contact.convert=false
+warned "adaptive" 'passes through material points of other bodies' "$two" $apart -s method=adaptive -s contact.convert=false
 silent "adaptive, which converts what comes near" 'pass through' "$two" $apart -s method=adaptive
 warned "side by side" 'touch at the start (left with right) and are not joined' "$two" -s method=pd
 says "side by side on the grid" '(left with right) and are not joined' "$two"

@@ -66,14 +66,20 @@ case $says in *"a with itself"*"rigid p;"*"near a face"*) pass ;; *) fail "check
 
 start slide slope
 start bounce hertz_3d
+start squeezed hertz_2d
 wait
 between "slope: momentum, over m g (sin - mu cos) t" "$(compute "$(f slide probes.block.x) / 0.03932")" 0.95 1.05
 between "slope: what the floor bears" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == "floor_force_y") at = k } }
     $1 > 3e-4 { sum -= $at; n++ } END { print sum / n }' "$work/slide/history.csv")" 181 213
+# half of the patch less sqrt(4 F R/(pi t E)), over the spacing
+force=$(last squeezed lower_force_y)
+between "a disc between planes: half width" "$(awk -v f="$force" -v w="$(f squeezed rigid.0.patch)" 'BEGIN { f = f < 0 ? -f : f
+    print (w / 2 - sqrt(4 * f * 20e-3 / (3.14159265 * 1e-3 * 200e9))) / 0.5e-3 }')" -1 1
+between "a disc between planes: the force" "$(compute "-($force) / 1000")" 40 100
 between "a ball on a plane: contact" "$(compute "$(f bounce contact.ended) - $(f bounce contact.began)")" 24e-6 28e-6
 between "a ball on a plane: force" "$(f bounce rigid.0.force_max)" 2.2e5 2.7e5
 between "a ball on a plane: it leaves" "$(f bounce probes.ball.z)" 1.59 1.70
-for run in slide bounce; do between "$run: momentum" "$(f $run momentum_error)" 0 1e-12; done
+for run in slide bounce squeezed; do between "$run: momentum" "$(f $run momentum_error)" 0 1e-12; done
 
 # ---- interfaces --------------------------------------------------------------------------------------------------------
 
