@@ -8,7 +8,6 @@
 
 /* The grid of a body, its points, and the nodes that they can reach, counted from the anchor. */
 struct grid_side {
-    int number;
     struct grid *grid;
     const struct transfer_order *order;
     int64_t from[DIM_MAX], to[DIM_MAX];
@@ -38,10 +37,9 @@ struct grid_contact {
 
 /* An account for each two of so many sides. */
 void grid_contact_make(struct grid_contact *c, int sides);
-void grid_side_make(struct grid_side *a, int number, struct grid *g, const struct transfer_order *order,
-                    const struct particles *p);
-/* Nodes at which any two sides may meet in this step, by masses and points. */
-void grid_contact_find(struct grid_contact *c, const struct grid_side *side, int sides, const struct particles *p);
+void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_order *order, const struct particles *p);
+/* Nodes at which any two of the sides, [c->sides], may meet in this step, by masses and points. */
+void grid_contact_find(struct grid_contact *c, const struct grid_side *side, const struct particles *p);
 /* Exchanges momentum where they touch and approach: of the velocities that points receive, and their change. Returns
  * the energy taken [J]; remapped: what FLIP takes beyond that, whose points have the velocities of the second map. */
 real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side);

@@ -40,6 +40,14 @@ struct rigid_body {
 status rigid_make(struct rigid_body *r, const struct region *shape, int dim, real mass, const real *velocity,
                   real spacing);
 
+/* May a point within `reach` of x be in it? A quick answer [m]. */
+static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, real reach)
+{
+    real far2 = 0;
+    for (int d = 0; d < r->dim; d++) far2 += square(x[d] - r->x[d]);
+    return r->motion == RIGID_FIXED || far2 <= square(r->radius + reach);
+}
+
 /* Distance of the point x from its surface, negative inside [m]; outward unit normal there. */
 real rigid_distance(const struct rigid_body *r, const real *x, real *normal);
 

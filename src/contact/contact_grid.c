@@ -71,17 +71,17 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
 }
 
 /* Lists nodes with mass of both from `first` on, and where each stands: place[shared node], -1: not listed. */
-static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_side *a,
-                              const struct grid_side *b, int32_t *place)
+static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_side *side, int a,
+                              int b, int32_t *place)
 {
-    const struct grid *g = a->grid, *h = b->grid;
+    const struct grid *g = side[a].grid, *h = side[b].grid;
     const real least = real_max(c->smallest_mass, g->light_mass);
     for (int64_t k = 0; k < s->n; k++) {
         const int64_t I = shared_node(s, g, k), J = shared_node(s, h, k);
         place[k] = -1;
         if (!(g->mass[I] > least && h->mass[J] > least)) continue;
         struct grid_contact_node *node = node_add(c);
-        node->side[0] = a->number, node->side[1] = b->number, node->at[0] = I, node->at[1] = J;
+        node->side[0] = a, node->side[1] = b, node->at[0] = I, node->at[1] = J;
         leaning_find(node, g, h);
         place[k] = (int32_t)(c->nodes - 1);
     }
@@ -158,10 +158,9 @@ void grid_contact_make(struct grid_contact *c, int sides)
     c->taken = NEW("contact.taken", sides * sides, real);
 }
 
-void grid_side_make(struct grid_side *a, int number, struct grid *g, const struct transfer_order *order,
-                    const struct particles *p)
+void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_order *order, const struct particles *p)
 {
-    *a = (struct grid_side){.number = number, .grid = g, .order = order};
+    *a = (struct grid_side){.grid = g, .order = order};
     for (int d = 0; d < DIM_MAX; d++) a->from[d] = INT32_MAX, a->to[d] = INT32_MIN;    /* nothing yet */
     for (int32_t cell = 0; cell < order->cells; cell++)
         for (int d = 0; d < g->dim; d++) {
@@ -171,16 +170,16 @@ void grid_side_make(struct grid_side *a, int number, struct grid *g, const struc
         }
 }
 
-void grid_contact_find(struct grid_contact *c, const struct grid_side *side, int sides, const struct particles *p)
+void grid_contact_find(struct grid_contact *c, const struct grid_side *side, const struct particles *p)
 {
     c->nodes = 0;
-    for (int a = 0; a < sides; a++)
-        for (int b = a + 1; b < sides; b++) {
+    for (int a = 0; a < c->sides; a++)
+        for (int b = a + 1; b < c->sides; b++) {
             struct shared s;
             const int64_t before = c->nodes;
             if (!shared_find(&s, &side[a], &side[b])) continue;
             int32_t *place = BARE("contact.place", s.n, int32_t);
-            shared_nodes_find(c, &s, &side[a], &side[b], place);
+            shared_nodes_find(c, &s, side, a, b, place);
             if (c->nodes > before) {
                 normals_find(c, &s, side[a].grid->dim, place);
                 points_reach(c, &s, &side[a], p, 0, place);

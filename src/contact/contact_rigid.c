@@ -36,10 +36,9 @@ static real gap_of(const struct contact *c, const struct particles *p, const str
 static bool is_near(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                     real skin)
 {
-    real far2 = 0, normal[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) far2 += square(p->x[d][c->particle[row]] - r->x[d]);
-    if (r->motion != RIGID_FIXED && far2 > square(r->radius + c->size[row] + skin)) return false;
-    return gap_of(c, p, r, row, normal) < skin;
+    real x[DIM_MAX] = {0}, normal[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) x[d] = p->x[d][c->particle[row]];
+    return rigid_may_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
 /* Its entry in the list before, -1: none. */

@@ -124,8 +124,8 @@ static struct grid_side *meeting_find(struct engine *e)
     if (mpm->fields < 2) return NULL;
     struct grid_side *side = NEW("engine.sides", mpm->fields, struct grid_side);
     for (int k = 0; k < mpm->fields; k++)
-        grid_side_make(&side[k], k, &mpm->field[k].grid, &mpm->field[k].order, &e->part);
-    grid_contact_find(&mpm->contact, side, mpm->fields, &e->part);
+        grid_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, &e->part);
+    grid_contact_find(&mpm->contact, side, &e->part);
     return side;
 }
 

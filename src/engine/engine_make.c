@@ -178,9 +178,8 @@ static real between_particles(const struct scene *s, const struct particles *p, 
     return mpm->field[0].grid.anchor[axis] + (steps - nearbyint(steps)) * s->spacing;
 }
 
-/* The lower corner of the body is that of the first shape, or of the particles of a list. */
 /* Number of the body that comes k-th, those that are joined counted as one; -1: there is none. */
-static int engine_make_body(const struct scene *s, int k)
+static int body_apart(const struct scene *s, int k)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined == b && k-- == 0) return b;
@@ -194,7 +193,7 @@ static void make_fields(struct engine *e)
     const bool meet = s->solver == SOLVER_EXPLICIT && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
                       !coupling_moves_by_grid(s->coupling);
     e->mpm.fields = 1;
-    while (meet && engine_make_body(s, e->mpm.fields) >= 0) e->mpm.fields++;
+    while (meet && body_apart(s, e->mpm.fields) >= 0) e->mpm.fields++;
     e->mpm.field = NEW("engine.fields", e->mpm.fields, struct grid_field);
 }
 
@@ -206,6 +205,7 @@ static real shape_reach(const struct scene *s)
                                                                                                 : 0.5 * s->spacing;
 }
 
+/* The lower corner of the body is that of the first shape, or of the particles of a list. */
 void engine_grid_make(struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -232,7 +232,7 @@ void engine_grid_make(struct engine *e)
     g->light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
     for (int k = 0; k < e->mpm.fields && e->mpm.fields > 1; k++) {
         e->mpm.field[k].grid = *g;
-        e->mpm.field[k].grid.body = 1 + engine_make_body(s, k);
+        e->mpm.field[k].grid.body = 1 + body_apart(s, k);
     }
     grid_contact_free(&e->mpm.contact);
     e->mpm.contact = (struct grid_contact){.friction = s->contact_friction,
@@ -428,7 +428,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     TRY(named(s, engine_time_make(e)));
     make_interface_damping_share(e);
     e->coupling.approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE && s->contact_convert &&
-                             engine_make_body(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
+                             body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
     e->mpm.transfer = (struct transfer_data){
         &e->mpm.field[0].order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
         false, NULL};
