@@ -222,6 +222,15 @@ KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, 
 /* FLAG_STRESSED for points past their trigger, in the partial cells and runs that mesh_force marked. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 
+/* Marks the whole cells, in the runs that mesh_force marked (`all`: in all runs), of which a point may have a principal
+ * stress above `share` of the trigger: mark [grid.n] = 1. */
+KERNEL(void, mesh_cells_mark, (const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark,
+                               bool finite));
+
+/* Meshes of coarse cells: the velocities `to` [dim][grid.n] of nodes whose momentum over mass is `from`
+ * (mesh_inertia.c). */
+KERNEL(void, mesh_velocity, (const struct mesh *mesh, real *const *from, real *const *to));
+
 /* Sum of 1/2 m v^2 of the nodes, and of 1/4 (dt f)^2/m [J]. */
 KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));

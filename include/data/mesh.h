@@ -45,7 +45,9 @@ struct mesh {
     real *displacement[DIM_MAX];         /* of the nodes [m] */
     real *inverse_mass;                  /* of the nodes; 0 where there is no mass [1/kg] */
     int32_t *point;                      /* [grid.n << dim] particle of a place of a cell, -1 without */
-    uint8_t *kind;                       /* [grid.n] of cells: empty, whole or partial */
+    uint8_t *kind;                       /* [grid.n] of cells: empty, whole, partial, or part of a coarser cell */
+    const uint8_t *level;                /* [grid.n] of cells: 0, or the level of the coarser cell that they are part
+                                            of (mesh/levels.h); NULL: there are none */
     int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh */
     real volume;                         /* of a point in the reference frame [m^3] */
 
@@ -72,6 +74,13 @@ struct mesh {
     struct active_set active;            /* of blocks of nodes */
     int64_t segments;                    /* blocks in a row of nodes */
     real rounding;                       /* displacements are rounded to multiples of it [m] */
+
+    /* Of a mesh of coarse cells (mesh/levels.h), which has no points; else NULL. There grid.momentum is the momentum
+     * of a node over its mass, from which its velocity follows (kernels/mesh/mesh_inertia.c) [m/s]. */
+    uint8_t *material;                   /* [grid.n] of cells */
+    real *cell_mass;                     /* [materials] of a cell [kg] */
+    uint8_t *matched;                    /* [grid.n] bit c: the cell of which the node is corner c is matched */
+    real match;                          /* share of consistent inertia that is taken from matched cells [1] */
 };
 
 /* Modes of a cell that store energy: its mean strain, and its bending. */

@@ -20,6 +20,7 @@
 #include "data/grid.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
+#include "mesh/levels.h"
 #include "mesh/mesh_make.h"
 #include "output/output.h"
 #include "data/particles.h"
@@ -38,6 +39,7 @@
 struct run_clock {
     real t, dt, dt_critical;             /* [s] */
     int64_t step, steps;                 /* done; of the whole run */
+    int stride;                          /* steps after which all levels of cells are at one time: samples, frames */
 };
 
 /* Constants by material, and the arrays that `source` of the bonds points to. */
@@ -82,6 +84,8 @@ struct reference_frame {
     struct mesh mesh;
     struct mesh_source source;
     struct elastic *elastic;             /* [materials] constants of its cells */
+    struct mesh_levels levels;           /* coarse cells */
+    struct elastic *coarse;              /* [materials] of coarse cells, which split at less than the trigger */
     real speed;                          /* largest component of a nodal velocity [m/s] */
 };
 
@@ -237,6 +241,15 @@ void engine_mesh_sync(struct engine *e);
 void engine_mesh_sync_points(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
 void engine_mesh_insert(struct engine *e, const int32_t *list, int64_t n);
+/* Coarse cells (engine_levels.c): their number of levels; made once the time step is known, with the levels of the
+ * start unless `restored`; before a step they follow cracks and stress; before conversion, points near coarse cells
+ * wait. Energy of all nodes of the mesh [J]. */
+int engine_levels_number(const struct engine *e);
+status engine_levels_make(struct engine *e, bool restored);
+void engine_levels_follow(struct engine *e);
+void engine_levels_guard(struct engine *e);
+real engine_mesh_kinetic(const struct reference_frame *reference);
+real engine_mesh_strain(struct engine *e);
 /* Reversion to material points (engine_reversion.c): refuses scenes that do not allow it; reverts what is due before a
  * step; remakes the interface zone and the list of material points that have bonds. */
 status engine_reversion_check(const struct scene *s);

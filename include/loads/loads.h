@@ -169,6 +169,9 @@ void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, 
 /* The same for the mesh: found once, and again whenever it has lost points; their velocities in every step. */
 void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p);
 void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
+/* The same for nodes of coarse cells, by place alone: those in driven regions and on mirrors. */
+void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p);
+void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt);
 
 /* After the gather: driven material points take their velocity exactly; books the work of applied forces. */
 void loads_hold(struct loads *l, struct particles *p, real t, real dt);

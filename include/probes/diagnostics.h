@@ -59,7 +59,7 @@ real diagnostics_kick(const struct particles *p, real *const *before, real dt);
 
 /* Momentum of p, and of the nodes of a mesh for its points (NULL: none), beside the impulse [N s] of loads and
  * supports up to the same velocities. */
-void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *mesh,
+void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse);
 
 /* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After diagnostics_momentum. */

@@ -1,17 +1,19 @@
 /* Kinetic and elastic energy of the mesh, for the energy balance. */
+#include "mesh_inertia.h"
 #include "mesh_partial.h"
 #include "mesh_run.h"
 #include "base/team.h"
 
-/* Adds 1/2 m v^2 of nodes first .. end - 1 [J]. */
+/* Adds 1/2 m v^2 of nodes first .. end - 1 [J]; of coarse cells half their momentum times their velocity. */
 static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct grid *g = context;
+    const struct mesh *mesh = context;
+    const struct grid *g = &mesh->grid;
     for (int d = 0; d < g->dim; d++) {
-        const real *mass = g->mass, *v = g->velocity[d];
+        const real *mass = g->mass, *v = g->velocity[d], *momentum = mesh->matched ? g->momentum[d] : v;
         real total = 0;
 #pragma omp simd reduction(+ : total)
-        for (int64_t I = first; I < end; I++) total += mass[I] * square(v[I]);
+        for (int64_t I = first; I < end; I++) total += mass[I] * momentum[I] * v[I];
         sum[0] += 0.5 * total;
     }
 }
@@ -19,11 +21,11 @@ static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_
 real mesh_kinetic(const struct mesh *mesh)
 {
     real sum = 0;
-    if (mesh->points > 0) team_sums(mesh->grid.n, 1, mesh_energy_kinetic_block, &mesh->grid, &sum);
+    if (mesh->points > 0) team_sums(mesh->grid.n, 1, mesh_energy_kinetic_block, mesh, &sum);
     return sum;
 }
 
-/* Adds 1/4 f^2/m of nodes first .. end - 1, the kick energy over dt^2 [J/s^2]. */
+/* Adds 1/4 f^2/m of nodes first .. end - 1, the kick energy over dt^2 [J/s^2]; of coarse cells with their inertia. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -34,6 +36,8 @@ static void mesh_energy_kick_block(const void *context, int64_t first, int64_t e
         for (int64_t I = first; I < end; I++) total += square(force[I]) * inverse_mass[I];
         sum[0] += 0.25 * total;
     }
+    for (int64_t I = first; I < end && mesh->matched; I++)
+        if (mesh->matched[I] & 1) sum[0] += 0.25 * mesh_matched_form(mesh, I);
 }
 
 real mesh_kick(const struct mesh *mesh, real dt)

@@ -38,6 +38,7 @@ static void walls_move(struct mesh *mesh, real dt)
         real *velocity = &g->velocity[w->component][w->node];
         mesh->displacement[w->component][w->node] += dt * (w->velocity - *velocity);
         *velocity = w->velocity;
+        if (mesh->matched) g->momentum[w->component][w->node] = w->velocity;     /* no matched cell has held nodes */
     }
 }
 
@@ -121,11 +122,27 @@ static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
     }
 }
 
+/* Momentum over mass of the nodes of a mesh of coarse cells, and their velocities. */
+static void momentum_move(struct mesh *mesh, real dt_velocity)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t r = 0; r < mesh->rows; r++)
+        for (int d = 0; d < mesh->grid.dim; d++) {
+            real *momentum = mesh->grid.momentum[d];
+            const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
+            for (int64_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I += LANES)
+                lanes_store(momentum + I, lanes_load(momentum + I) +
+                                              dt_velocity * lanes_load(inverse + I) * lanes_load(force + I));
+        }
+    mesh_velocity(mesh, mesh->grid.momentum, mesh->grid.velocity);
+}
+
 real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     real most = 0;
     mesh_mirror_nodes_gather(mesh, dt_velocity);
     walls_force(mesh, dt_velocity, impulse, work);
+    if (mesh->matched) momentum_move(mesh, dt_velocity), dt_velocity = 0;    /* velocities are those of the momentum */
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t r = 0; r < mesh->rows; r++)
         most = real_max(most, row_move(mesh, r, dt, dt_velocity));

@@ -323,6 +323,22 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
     }
 }
 
+/* Marks the cells of a run of which a point may be beyond `share` of the trigger. */
+static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
+                                         real share, uint8_t *mark, const int dim, const bool finite)
+{
+    const struct elastic *own = &m[run->material];
+    for (int64_t k = 0; k < run->cells; k += LANES) {
+        struct mesh_cell s;
+        lanes u[CORNERS_MAX][3];
+        mesh_run_load(mesh, run, k, u, dim);
+        cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+        const lanes tension = cells_tension(own, &s, NULL, dim);
+        for (int64_t l = 0; l < LANES && l < run->cells - k; l++)
+            if (tension[l] > share * own->trigger) mark[run->cell + k + l] = 1;
+    }
+}
+
 /* Marks the points past their trigger in a group of partial cells; a bound by the material of the cell decides which
  * cells are tested point by point, and mixed cells always are. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
@@ -361,6 +377,12 @@ static inline bool group_stressed(const struct mesh *mesh, int64_t group)
             if (group_stressed(mesh, k)) group_mark(mesh, p, m, k, D, FINITE);                                         \
         for (int64_t r = 0; r < mesh->runs; r++)                                                                       \
             if (mesh->run[r].stressed) run_mark(mesh, p, m, &mesh->run[r], D, FINITE);                                 \
+    }                                                                                                                  \
+    static void cells_mark_only_##D##_##FINITE(const struct mesh *mesh, const struct elastic *m, real share, bool all, \
+                                               uint8_t *mark)                                                          \
+    {                                                                                                                  \
+        for (int64_t r = 0; r < mesh->runs; r++)                                                                       \
+            if (all || mesh->run[r].stressed) run_mark_cells(mesh, m, &mesh->run[r], share, mark, D, FINITE);          \
     }
 MARK(1, false)
 MARK(2, false)
@@ -373,4 +395,12 @@ void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct
     if (p->dim == 1) cells_mark_1_false(mesh, p, m);
     else if (p->dim == 2) (finite ? cells_mark_2_true : cells_mark_2_false)(mesh, p, m);
     else (finite ? cells_mark_3_true : cells_mark_3_false)(mesh, p, m);
+}
+
+void mesh_cells_mark(const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark, bool finite)
+{
+    if (mesh->grid.dim == 1) cells_mark_only_1_false(mesh, m, share, all, mark);
+    else if (mesh->grid.dim == 2)
+        (finite ? cells_mark_only_2_true : cells_mark_only_2_false)(mesh, m, share, all, mark);
+    else (finite ? cells_mark_only_3_true : cells_mark_only_3_false)(mesh, m, share, all, mark);
 }

@@ -27,6 +27,10 @@ static void say_frames(const struct engine *e)
     if (e->reference.mesh.points > 0)
         printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n",
                (long long)e->reference.mesh.points);
+    const struct mesh_levels *l = &e->reference.levels;
+    for (int level = 0; level <= l->n && l->n > 0; level++)
+        printf("%s%lld cells of %d spacings%s", level == 0 ? "levels         " : ", ",
+               (long long)levels_cells(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
 /* Names of the first few bodies from one to end, joined ones as a+b, and how many more there are. */

@@ -276,6 +276,7 @@ static void convert_points(struct engine *e, struct step *now)
     if (e->coupling.approaches && e->clock.step % APPROACH_STEPS == 0) approach(e);
     engine_breaks(e, now->broken);
     const struct conversion_sync sync = {engine_mesh_sync_points, e};
+    engine_levels_guard(e);
     now->converted = convert(&e->coupling.conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
                              e->coupling.uses_partial ? &e->coupling.partial : NULL, &sync, e->clock.t);
     if (now->converted > 0) engine_interface_make(e), e->mpm.sort_needed = true;
@@ -288,6 +289,7 @@ static void convert_points(struct engine *e, struct step *now)
  * damping. */
 static status prepare(struct engine *e, struct step *now)
 {
+    engine_levels_follow(e);
     now->middle = e->clock.t + 0.5 * e->clock.dt;
     now->dt_velocity = e->clock.step == 0 ? 0.5 * e->clock.dt : e->clock.dt;
     e->mpm.transfer.dt_velocity = now->dt_velocity;

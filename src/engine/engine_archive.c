@@ -84,11 +84,14 @@ status engine_archive(void *engine, struct archive *a)
     if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source);
     if (!a->saving) {
         engine_partial_make(e);
+        levels_free(&e->reference.levels);
         mesh_free(&e->reference.mesh);
         memory_free(e->reference.elastic);
         TRY(engine_mesh_make(e));
+        TRY(engine_levels_make(e, true));
     }
     TRY(mesh_archive(&e->reference.mesh, a));
+    TRY(levels_archive(&e->reference.levels, &e->part, &e->reference.source, a));
     if (!a->saving) engine_ends_update(e);
     ARCHIVE_VALUE(a, "engine/t", e->clock.t);
     ARCHIVE_VALUE(a, "engine/step", e->clock.step);

@@ -426,6 +426,8 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     engine_ends_update(e);
     engine_stability_check_make(e);
     TRY(named(s, engine_time_make(e)));
+    for (int64_t i = 0; i < e->part.n; i++) e->stability.mass += e->part.mass[i];
+    TRY(named(s, engine_levels_make(e, false)));
     make_interface_damping_share(e);
     e->coupling.approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE && s->contact_convert &&
                              body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
@@ -433,7 +435,6 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
         &e->mpm.field[0].order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
         false, NULL};
     e->probing.strain_stress = largest_stress(&e->part);
-    for (int64_t i = 0; i < e->part.n; i++) e->stability.mass += e->part.mass[i];
     tips_make(&e->fracture.tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     e->fracture.growth = NEW("engine.growth", s->growths, struct growth);
     for (int k = 0; k < s->growths; k++) growth_make(&e->fracture.growth[k], &s->growth[k]);
@@ -485,7 +486,9 @@ void engine_free(struct engine *e)
     surface_free(&e->tables.surface);
     memory_free(e->tables.elastic);
     memory_free(e->reference.elastic);
+    memory_free(e->reference.coarse);
     memory_free(e->reference.choice);
+    levels_free(&e->reference.levels);
     mesh_free(&e->reference.mesh);
     memory_free(e->report.record);
     memory_free(e->probing.pulse);

@@ -139,9 +139,28 @@ void engine_ends_update(struct engine *e)
 
 void engine_nodes_force(struct engine *e)
 {
+    const bool finite = !e->scene->small_strain;
+    struct mesh_levels *levels = &e->reference.levels;
     mesh_clear(&e->reference.mesh);
     mesh_exposed_force(&e->reference.mesh, &e->part);
-    mesh_force(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain);
+    mesh_force(&e->reference.mesh, &e->part, e->reference.elastic, finite);
+    levels_force(levels, &e->part, e->reference.coarse, finite, levels_due(levels, e->clock.step));
+}
+
+/* Walls of the mesh and of the coarse cells that move in this step. */
+static void nodes_walls(struct engine *e, real middle, int due)
+{
+    struct mesh_levels *levels = &e->reference.levels;
+    loads_mesh_walls(&e->loads, &e->reference.mesh, middle, e->clock.dt);
+    for (int level = 1; level <= due; level++)
+        loads_level_walls(&e->loads, &levels->at[level].held, &levels->at[level].mesh.grid, middle, e->clock.dt);
+}
+
+static void nodes_react(struct engine *e, real dt_velocity, int due)
+{
+    loads_react(&e->loads, &e->reference.mesh.grid, dt_velocity);
+    for (int level = 1; level <= due; level++)
+        loads_react(&e->loads, &e->reference.levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
 void engine_forces(struct engine *e)
@@ -157,21 +176,27 @@ void engine_forces(struct engine *e)
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
 {
     struct mesh *mesh = &e->reference.mesh;
+    struct mesh_levels *levels = &e->reference.levels;
     const bool finite = !e->scene->small_strain;
+    const int due = levels_due(levels, e->clock.step);
     if (mesh->points == 0) return;
     engine_nodes_force(e);
     engine_residual_of(e, &mesh->grid);
     if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->reference.elastic, finite);
-    loads_mesh_walls(&e->loads, mesh, middle, e->clock.dt);
-    e->reference.speed = mesh_move(mesh, e->clock.dt, dt_velocity, e->loads.impulse, &e->loads.constraint_work);
-    loads_react(&e->loads, &mesh->grid, dt_velocity);
+    nodes_walls(e, middle, due);
+    e->reference.speed =
+        levels->n > 0
+            ? levels_move(levels, e->clock.dt, dt_velocity, due, e->loads.impulse, &e->loads.constraint_work)
+            : mesh_move(mesh, e->clock.dt, dt_velocity, e->loads.impulse, &e->loads.constraint_work);
+    nodes_react(e, dt_velocity, due);
     exposed_follow(e->scene, &e->part, &e->reference);
-    if (e->scene->active_set) active_nodes_update(mesh, &e->loads);
+    if (e->scene->active_set && levels->n == 0) active_nodes_update(mesh, &e->loads);
 }
 
 void engine_mesh_sync(struct engine *e)
 {
     if (e->reference.mesh.points == 0) return;
+    levels_prolong(&e->reference.levels);
     mesh_points_move(&e->reference.mesh, &e->part);
     mesh_points_stress(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain);
     loads_mirror(&e->loads, &e->part);
@@ -182,7 +207,7 @@ void engine_mesh_sync_points(void *engine, const int32_t *list, int64_t n)
     struct engine *e = engine;
     if (e->reference.mesh.points == 0) return;
     if (list) mesh_listed_move(&e->reference.mesh, &e->part, list, n);
-    else mesh_points_move(&e->reference.mesh, &e->part);
+    else levels_prolong(&e->reference.levels), mesh_points_move(&e->reference.mesh, &e->part);
     loads_mirror(&e->loads, &e->part);
 }
 

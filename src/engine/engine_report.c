@@ -15,10 +15,16 @@
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
+/* The nearest step at which all levels of cells are at one time. */
+static int64_t common_step(const struct run_clock *clock, int64_t step)
+{
+    return (step + clock->stride / 2) / clock->stride * clock->stride;
+}
+
 /* Step of event k of n evenly spread over the run. */
 static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
 {
-    return n > 0 ? (k * clock->steps + n / 2) / n : clock->steps;
+    return n > 0 ? common_step(clock, (k * clock->steps + n / 2) / n) : clock->steps;
 }
 
 /* Step of frame k after the one at t = 0: nearest to its time, or evenly spread. A step writes one frame at the most,
@@ -29,12 +35,12 @@ static int64_t frame_step(const struct scene *s, const struct run_clock *clock, 
     if (times->n == 0 || k < 1) return due_step(clock, k, n);
     int64_t step = k <= n ? (int64_t)floor(times->value[k - 1] / clock->dt + 0.5) : clock->steps,
             last = clock->steps - (n - k);
-    return step < k ? k : step > last ? last : step;
+    return common_step(clock, step < k ? k : step > last ? last : step);
 }
 
 bool engine_sample_due(const struct scene *s, const struct run_clock *clock)
 {
-    const int64_t n = s->samples < clock->steps ? s->samples : clock->steps;
+    const int64_t most = clock->steps / clock->stride, n = s->samples < most ? s->samples : most;
     if (s->solver != SOLVER_EXPLICIT) return clock->step == 0;    /* and the equilibrium, at the end */
     return due_step(clock, (clock->step * n + clock->steps / 2) / clock->steps, n) == clock->step;
 }
@@ -65,7 +71,7 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
 static bool frame_due(const struct engine *e, int64_t step)
 {
     const struct scene *s = e->scene;
-    const int64_t n = s->frames < e->clock.steps ? s->frames : e->clock.steps;
+    const int64_t most = e->clock.steps / e->clock.stride, n = s->frames < most ? s->frames : most;
     if (!e->report.out || (s->solver != SOLVER_EXPLICIT && step < e->clock.steps)) return false;
     return e->report.out->frames <= n && step >= frame_step(s, &e->clock, e->report.out->frames, n);
 }

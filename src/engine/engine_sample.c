@@ -103,14 +103,17 @@ static void sync_probes(struct engine *e)
 
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
 {
-    return diagnostics_kinetic(p) + mesh_kinetic(&reference->mesh);
+    return diagnostics_kinetic(p) + engine_mesh_kinetic(reference);
 }
 
 /* Samples all quantities but energies: stress, momentum, tips, probes. */
 static void sample_state(struct engine *e)
 {
     if (wants_stress(e->scene)) engine_stress(e);
-    diagnostics_momentum(&e->diagnostics, &e->part, &e->reference.mesh.grid, e->loads.impulse);
+    const struct mesh_levels *levels = &e->reference.levels;
+    const struct grid *nodes[LEVELS_MAX + 1] = {&e->reference.mesh.grid};
+    for (int level = 1; level <= levels->n; level++) nodes[level] = &levels->at[level].mesh.grid;
+    diagnostics_momentum(&e->diagnostics, &e->part, nodes, 1 + levels->n, e->loads.impulse);
     tips_sample(&e->fracture.tips, &e->part, &e->cells, e->clock.t);
     struct observed o = engine_observed(e);
     probes_sample(&e->probing.probes, &o);
@@ -122,7 +125,7 @@ static void sample_energies(struct engine *e)
     const struct material *m = e->scene->material;
     e->report.sampling.energy = (struct energy){
         .strain = e->kernels.bond_energy(&e->bonds, &e->part) + diagnostics_strain(&e->part, m, &e->coupling.partial) +
-                  mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain),
+                  engine_mesh_strain(e),
         .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling.partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .contact = contact_energy(&e->contact, &e->part),
@@ -163,7 +166,8 @@ static real kick_now(const struct engine *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling.kind);
     const real dt = e->mpm.transfer.dt_velocity;
-    return diagnostics_kick(&e->part, grid ? e->report.sampling.before : NULL, dt) + mesh_kick(&e->reference.mesh, dt);
+    return diagnostics_kick(&e->part, grid ? e->report.sampling.before : NULL, dt) + mesh_kick(&e->reference.mesh, dt) +
+           levels_kick(&e->reference.levels, dt);
 }
 
 void engine_sample_begin(struct engine *e)
@@ -246,7 +250,7 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     }
     for (int64_t I = 0; I < g->n && reference->mesh.points > 0; I++)
         for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
-    return power;
+    return power + levels_power(&reference->levels);
 }
 
 /* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of

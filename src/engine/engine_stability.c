@@ -75,7 +75,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
 /* True if initial energy and work of loads are at least LOAD_SHARE_LEAST times the kinetic energy. */
 static bool loads_explain_motion(const struct engine *e)
 {
-    const real kinetic = diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh);
+    const real kinetic = diagnostics_kinetic(&e->part) + engine_mesh_kinetic(&e->reference);
     const real given = e->diagnostics.energy_start + e->loads.work + e->loads.constraint_work;
     return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
@@ -253,7 +253,8 @@ static status inversion_check(const struct run_clock *clock, const struct partic
 {
     if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps))
         return OK;
-    const int64_t i = mesh_inverted(&reference->mesh, p);
+    int64_t i = mesh_inverted(&reference->mesh, p);
+    if (i == p->n) i = levels_inverted(&reference->levels, p);
     if (i == p->n) return OK;
     return status_set(FAILED,
                       "inverted at step %lld, t = %.3g s: at particle %d, from (%.6g, %.6g, %.6g) m, the mesh of the "
@@ -300,7 +301,7 @@ status engine_stability_check(struct engine *e)
 {
     const bool diverged =
         e->reference.mesh.points > 0 && !(e->reference.speed <= e->tables.wave_speed / sqrt(e->part.dim));
-    if (diverged) mesh_points_move(&e->reference.mesh, &e->part);
+    if (diverged) engine_mesh_sync_points(e, NULL, 0);
     TRY(engine_divergence_check(e, e->stability.diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, &e->reference));
     TRY(overlap_check(e));

@@ -133,6 +133,7 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
                           s->duration / dt, dt);
     clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a little less: round-off adds no step */
     if (clock->steps < 1) clock->steps = 1;
+    clock->steps += (clock->stride - clock->steps % clock->stride) % clock->stride;
     clock->dt = s->duration / (real)clock->steps;
     return OK;
 }
@@ -162,8 +163,14 @@ status engine_time_make(struct engine *e)
     e->clock.dt_critical =
         real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
     const real contact = contact_critical_step(&e->contact, &e->part, s->material, e->clock.dt_critical);
-    const real automatic = real_min(s->safety * e->clock.dt_critical, contact_safety(s) * contact);
+    const real safety = engine_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
+    const real automatic = real_min(safety * e->clock.dt_critical, contact_safety(s) * contact);
     const real dt = s->time_step > 0 ? s->time_step : automatic;
+    e->clock.stride = 1 << engine_levels_number(e);
+    if (e->clock.stride > 1 && dt > LEVELS_STEP_MOST * e->clock.dt_critical * (1 + 1e-9))
+        return status_set(REFUSED,
+                          "time.step: %.4g s is more than mpm.levels above 0 bears, %.4g s (%.2f of the critical step)",
+                          dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
     if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e->scene, &e->clock, dt));
     else e->clock.steps = s->solver_steps, e->clock.dt = dt;
     e->source.limit.dt = e->clock.dt;

@@ -105,6 +105,19 @@ static void put_run(struct json *j, const struct engine *e, status s, const char
     json_count(j, "bonds_peak", e->coupling.conversion.peak_bonds);
 }
 
+/* Coarse cells, by level, and how often they have changed. */
+static void put_levels(struct json *j, const struct engine *e)
+{
+    const struct mesh_levels *l = &e->reference.levels;
+    if (l->n == 0) return;
+    json_open(j, "levels", '{');
+    json_open(j, "cells", '[');
+    for (int level = 0; level <= l->n; level++) json_count(j, NULL, levels_cells(l, level));
+    json_close(j, ']');
+    json_count(j, "changes", l->changes);
+    json_close(j, '}');
+}
+
 static void put_warnings(struct json *j, const struct warnings *w)
 {
     json_open(j, "warnings", '[');
@@ -374,6 +387,7 @@ static void summary_print(FILE *file, const struct engine *e, const struct fragm
     if (has_fragments(e)) put_fragments(&j, fragments);
     put_crack(&j, e);
     put_conversion(&j, e);
+    put_levels(&j, e);
     put_probes(&j, e);
     put_machine(&j, e, threads, wall_seconds);
     fputs("\n}\n", file);

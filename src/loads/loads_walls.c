@@ -234,10 +234,20 @@ void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles 
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY) mesh_driven(l, b, mesh, p);
 }
 
-void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
+void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p)
+{
+    if (!constrained_is_current(held, g)) constrained_find(l, held, g, p);
+}
+
+void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt)
 {
     real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
-    mesh->grid.walls = 0;
+    g->walls = 0;
     sif_bench_at(l, t, dt, velocity, change);
-    constrained_walls(l, &l->constrained_mesh, &mesh->grid, velocity, change);
+    constrained_walls(l, held, g, velocity, change);
+}
+
+void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
+{
+    loads_level_walls(l, &l->constrained_mesh, &mesh->grid, t, dt);
 }

@@ -68,7 +68,8 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
     real mass = 0;
     for (int c = (1 << dim) - 1; c >= 0; c--) {
         const int64_t cell = I - mesh->corner[c];
-        for (int q = 0; q < 1 << dim && cell >= 0; q++) {
+        if (cell < 0 || (mesh->level && mesh->level[cell] > 0)) continue;
+        for (int q = 0; q < 1 << dim; q++) {
             const int32_t i = mesh->point[(cell << dim) + q];
             if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
         }
@@ -107,6 +108,7 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
     const int dim = p->dim;
     int there = 0;
     bool alike = true;
+    if (mesh->level && mesh->level[I] > 0) return CELL_COARSE;
     const int32_t *point = &mesh->point[I << dim];
     for (int q = 0; q < 1 << dim; q++) {
         if (point[q] < 0) continue;
@@ -137,7 +139,7 @@ static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
 
 /* Finds the span of nodes with mass in each row of nodes. */
-static void rows_span(struct mesh *mesh)
+void mesh_spans_make(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
 #pragma omp parallel for schedule(static)
@@ -147,6 +149,12 @@ static void rows_span(struct mesh *mesh)
         while (end > first && g->mass[end - 1] == 0) end--;
         mesh->span[2 * r] = (int32_t)first, mesh->span[2 * r + 1] = (int32_t)end;
     }
+}
+
+/* Material of whole cell I; p: particles of the mesh, NULL without. */
+static uint8_t material_of(const struct mesh *mesh, const struct particles *p, int64_t I)
+{
+    return p ? p->material[mesh->point[I << mesh->grid.dim]] : mesh->material[I];
 }
 
 /* Makes the runs of whole cells, band by band, and the list of partial cells. */
@@ -161,7 +169,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
         const int64_t from = g->dim == 1 ? 0 : layer * g->stride[last], to = g->dim == 1 ? g->n : end * g->stride[last];
         mesh->band[mesh->bands] = mesh->runs;
         for (int64_t I = from; I < to; I++) {
-            if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, p->material[mesh->point[I << g->dim]]);
+            if (mesh->kind[I] == CELL_WHOLE) run_add(mesh, I, material_of(mesh, p, I));
             if (mesh->kind[I] == CELL_PARTIAL) mesh_partial_add(mesh, I);
         }
         mesh->bands++;
@@ -177,40 +185,73 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++)
         if (!dirty || dirty[I]) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
-    rows_span(mesh);
+    mesh_spans_make(mesh);
     cells_list(mesh, p);
     mesh_partial_make(mesh, p, s, dirty, &old);
 }
 
+void mesh_blocks_activate(struct mesh *mesh)
+{
+    struct active_set *r = &mesh->active;
+    memset(r->level, 0, (size_t)r->blocks);
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        for (int c = 0; c < 1 << mesh->grid.dim && (mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL); c++)
+            r->level[mesh_block(mesh, I + mesh->corner[c])] = 1;
+    active_set_list(r);
+    r->empty = r->blocks - r->active;
+}
+
+void mesh_runs_make(struct mesh *mesh)
+{
+    mesh_spans_make(mesh);
+    cells_list(mesh, NULL);
+    mesh_blocks_activate(mesh);
+}
+
+void mesh_cells_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_weigh(mesh, p, I);
+    cells_sort_out(mesh, p, s, dirty);
+}
+
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Makes the nodes and all arrays of the mesh. */
-static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like)
+status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to)
 {
     struct grid *g = &mesh->grid;
-    real from[DIM_MAX], to[DIM_MAX];
+    const int dim = like->dim;
+    real high[DIM_MAX] = {0};
     bool changed;
-    g->dim = p->dim, g->h = like->h;
-    for (int d = 0; d < p->dim; d++) {
-        g->anchor[d] = like->anchor[d];
-        particles_extent(p, p->n, d, &from[d], &to[d]);
-    }
-    to[0] += LANES * g->h;                    /* whole vectors are read and added to beyond the last cell of a row */
-    TRY(grid_cover(g, from, to, INT32_MAX >> p->dim, &changed));
-    for (int d = 0; d < p->dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
+    g->dim = dim, g->h = like->h;
+    for (int d = 0; d < dim; d++) g->anchor[d] = like->anchor[d], high[d] = to[d];
+    high[0] += LANES * g->h;                  /* whole vectors are read and added to beyond the last cell of a row */
+    TRY(grid_cover(g, from, high, INT32_MAX >> dim, &changed));
+    for (int d = 0; d < dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
     mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
-    for (int c = 0; c < 1 << p->dim; c++)
-        for (int d = 0; d < p->dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
-    mesh->point = NEW("mesh.point", g->n << p->dim, int32_t);
-    for (int64_t k = 0; k < g->n << p->dim; k++) mesh->point[k] = -1;
+    for (int c = 0; c < 1 << dim; c++)
+        for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
     mesh->kind = NEW("mesh.kind", g->n, uint8_t);
-    mesh->place = NEW("mesh.place", p->n, int32_t);
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
     active_set_make(&mesh->active, mesh->rows * mesh->segments);
     mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
-    mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
+    mesh->band = NEW("mesh.band", g->count[dim - 1] + 2, int64_t);
+    return OK;
+}
+
+/* Makes the nodes of the mesh, and the places of its points. */
+static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    struct grid own = *like;
+    own.dim = p->dim;
+    for (int d = 0; d < p->dim; d++) particles_extent(p, p->n, d, &from[d], &to[d]);
+    TRY(mesh_box_make(mesh, &own, from, to));
+    mesh->point = NEW("mesh.point", mesh->grid.n << p->dim, int32_t);
+    for (int64_t k = 0; k < mesh->grid.n << p->dim; k++) mesh->point[k] = -1;
+    mesh->place = NEW("mesh.place", p->n, int32_t);
     return OK;
 }
 
@@ -260,6 +301,9 @@ void mesh_free(struct mesh *mesh)
     mesh_partial_free(mesh);
     memory_free(mesh->exposed_list);
     memory_free(mesh->span);
+    memory_free(mesh->material);
+    memory_free(mesh->cell_mass);
+    memory_free(mesh->matched);
     active_set_free(&mesh->active);
     memset(mesh, 0, sizeof *mesh);
 }

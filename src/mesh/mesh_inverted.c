@@ -1,6 +1,6 @@
 /* Search for inverted cells of the mesh: a linear stress law does not prevent a cell from being compressed through zero
  * volume. */
-#include "mesh/mesh_make.h"
+#include "mesh_parts.h"
 
 /* Current over reference volume at a place: the determinant of 1 + sum u_c (x) grad N_c [1]. */
 static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
@@ -41,12 +41,22 @@ static int64_t inverted_in(const struct mesh *mesh, int64_t cell, int dim, int64
     return first;
 }
 
+bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell)
+{
+    const int dim = mesh->grid.dim;
+    bool inverted = false;
+    for (int q = 0; q < 1 << dim && may_invert(mesh, cell, dim); q++)
+        inverted |= !(volume_ratio(mesh, (int32_t)((cell << dim) + q), dim) > 0);
+    return inverted;
+}
+
 int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p)
 {
     int64_t first = p->n;
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t row = 0; row < mesh->rows; row++)
         for (int64_t cell = mesh->span[2 * row]; cell < mesh->span[2 * row + 1]; cell++)
-            if (mesh->kind[cell] && may_invert(mesh, cell, p->dim)) first = inverted_in(mesh, cell, p->dim, first);
+            if (mesh->kind[cell] && mesh->kind[cell] != CELL_COARSE && may_invert(mesh, cell, p->dim))
+                first = inverted_in(mesh, cell, p->dim, first);
     return first;
 }

@@ -4,7 +4,7 @@
 
 #include "mesh/mesh_make.h"
 
-enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL };
+enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
 /* Partial cells with their stiffness (mesh_partial.c). mesh_partial_keep takes them off the mesh before cells are
  * sorted out anew; mesh_partial_make puts the stiffness of unchanged cells back and makes that of all others (`dirty`
@@ -30,7 +30,21 @@ void mesh_project_near(const struct mesh *mesh, const struct particles *p, real 
 /* Cell and place of particle i, (cell << dim) + place, or -1 where it is not at a quarter or three quarters of each
  * edge. */
 int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_t i);
-/* Computes the mass and inverse mass of node I anew, from the points around it. */
+/* Computes the mass and inverse mass of node I anew, from the points around it that are in no coarser cell. */
 void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I);
+
+/* Makes kinds, runs, partial cells and masses anew after mesh->level has changed in the cells marked in `dirty`
+ * [grid.n]. */
+void mesh_cells_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
+/* Runs, spans and active blocks of a mesh without points, from its kinds and materials of cells and masses of nodes. */
+void mesh_runs_make(struct mesh *mesh);
+/* Spans of nodes with mass in the rows. */
+void mesh_spans_make(struct mesh *mesh);
+/* Blocks of nodes with cells around them become active, all others inactive. */
+void mesh_blocks_activate(struct mesh *mesh);
+/* Is a cell squeezed to nothing or through itself at one of its places? */
+bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
+/* All arrays of a mesh of the box `from` .. `to` [m] with cells like those of `like`, without points or cells. */
+status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to);
 
 #endif

@@ -218,16 +218,16 @@ real diagnostics_plastic(const struct particles *p, const struct material *m, co
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
 /* The error is the momentum, of particles and nodes, that was neither present at the start nor supplied since. */
-void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *mesh,
+void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse)
 {
     const struct movers m = diagnostics_movers_of(p);
-    real sum[DIM_MAX + 1], nodes[DIM_MAX + 1], missing2 = 0;
+    real sum[DIM_MAX + 1], more[DIM_MAX + 1], missing2 = 0;
     team_sums(p->n, p->dim + 1, momentum_block, &m, sum);
-    if (mesh && mesh->n > 0) {
-        const struct movers n = {mesh->dim, mesh->mass, mesh->velocity, NULL};
-        team_sums(mesh->n, p->dim + 1, momentum_block, &n, nodes);
-        for (int k = 0; k <= p->dim; k++) sum[k] += nodes[k];
+    for (int g = 0; g < grids && nodes[g]->n > 0; g++) {
+        const struct movers n = {nodes[g]->dim, nodes[g]->mass, nodes[g]->velocity, NULL};
+        team_sums(nodes[g]->n, p->dim + 1, momentum_block, &n, more);
+        for (int k = 0; k <= p->dim; k++) sum[k] += more[k];
     }
     for (int d = 0; d < p->dim; d++) {
         w->now.momentum[d] = sum[d];

@@ -217,6 +217,11 @@ const struct key keys[] = {
         "not "
         "quite isotropic",
         .words = "isotropic|lattice"),
+    KEY("mpm.levels", KEY_CHOICE, UNIT_NONE, AT(scene, levels), ANY, "auto",
+        "frame reference: levels of coarse cells, of 4, 8, 16, 32 spacings, away from bonds, loads and high stress, "
+        "each with twice the time step of the one before; 0: cells of 2 spacings everywhere; auto: as many as the size "
+        "of the body and the rise of the loads allow",
+        .words = "0|1|2|3|4|auto"),
     KEY("mpm.origin", KEY_POINT, UNIT_LENGTH, AT(scene, grid_origin), ANY,
         "(on the first mirror across each axis, else at the first body's lower corner)", "a node of the grid",
         .has = FLAG(scene, has_grid_origin)),

@@ -21,7 +21,7 @@ static void ledger_of_a_known_field(void **state)
     diagnostics_make(&w);
     assert_near(diagnostics_kinetic(&b.p), kinetic, kinetic * ROUND_OFF);
     real none[DIM_MAX] = {0};
-    diagnostics_momentum(&w, &b.p, NULL, none);
+    diagnostics_momentum(&w, &b.p, NULL, 0, none);
     diagnostics_balance(&w, 0, &(struct energy){kinetic, 0, 0, 0, 0}, 0);
     assert_near(w.now.momentum[0], 1600 * 3 * 2, 1e-9);
     assert_near(w.now.momentum[1], -1600 * 3, 1e-9);
@@ -31,20 +31,20 @@ static void ledger_of_a_known_field(void **state)
     /* a kick and the work of a spring, both booked by the loads */
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[1][i] = 1;
     real impulse[DIM_MAX] = {0, 1600 * 3 * 2, 0};
-    diagnostics_momentum(&w, &b.p, NULL, impulse);
+    diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
     diagnostics_balance(&w, 1, &(struct energy){kinetic, 2, 3, 0, 0}, 5);
     assert_true(w.now.momentum_error < 1e-13);
     assert_true(fabs(w.now.balance_error) < ROUND_OFF);
 
     /* momentum from nowhere shows, and stays on record; so does energy from nowhere */
     impulse[1] -= 0.01 * moving;
-    diagnostics_momentum(&w, &b.p, NULL, impulse);
+    diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
     diagnostics_balance(&w, 2,
                         &(struct energy){kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.01 * kinetic}, 0);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, 0.1 / 1.1, 1e-12);
     impulse[1] += 0.01 * moving;
-    diagnostics_momentum(&w, &b.p, NULL, impulse);
+    diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
     diagnostics_balance(&w, 3, &(struct energy){kinetic, 0, 0, 0, 0}, 0.2 * kinetic);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, -0.2 / 1.1, 1e-12);
@@ -80,10 +80,10 @@ static void ledger_survives_a_restart(void **state)
     diagnostics_make(&w);
     diagnostics_make(&restored);
     for (int i = 0; i < 2; i++) b.p.mass[i] = 1, b.p.v[0][i] = i == 0 ? 10 : -10;
-    diagnostics_momentum(&w, &b.p, NULL, none);
+    diagnostics_momentum(&w, &b.p, NULL, 0, none);
     diagnostics_balance(&w, 0, &(struct energy){100, 0, 0, 0, 0}, 0);
     for (int i = 0; i < 2; i++) b.p.v[0][i] *= 0.1;
-    diagnostics_momentum(&w, &b.p, NULL, none);
+    diagnostics_momentum(&w, &b.p, NULL, 0, none);
     diagnostics_balance(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
     assert_int_equal(diagnostics_archive(&w, &out), OK);
     in.saving = false, tape.used = 0;
@@ -91,7 +91,7 @@ static void ledger_survives_a_restart(void **state)
     b.p.v[0][0] += 2;
     for (int k = 0; k < 2; k++) {
         struct diagnostics *either = k == 0 ? &w : &restored;
-        diagnostics_momentum(either, &b.p, NULL, none);
+        diagnostics_momentum(either, &b.p, NULL, 0, none);
         diagnostics_balance(either, 2, &(struct energy){1, 49, 0, 0, 0}, 0);
         assert_near(either->now.momentum_error, 2.0 / 20, 1e-15);
         assert_near(either->now.balance_error, -0.5, 1e-15);

@@ -1,0 +1,269 @@
+/* Coarse cells in a run: how many levels, where, and when they follow cracks and stress. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "engine/engine.h"
+
+/* Cells of level 0 round peridynamic particles: beyond LEVELS_ROOMY, so that cracks run some way between two changes.
+ * Cells merge later than they split. */
+enum { ZONE = 10, ZONE_LATE = 13, AROUND_STRESS = 4 };
+#define SPLITS 0.5                       /* of the stress at which points convert */
+#define MERGES 0.25
+#define ROUGH 0.01                       /* of the mean energy per mass: motion that a coarser cell would lose */
+enum { LOOK_STEPS = 64, CALM_LOOKS = 4 };        /* steps between looks for cells to merge; looks that a cell is calm */
+
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
+
+int engine_levels_number(const struct engine *e)
+{
+    if (e->reference.mesh.points == 0 || e->scene->solver != SOLVER_EXPLICIT) return 0;
+    return e->scene->levels == LEVELS_AUTO ? 0 : e->scene->levels;
+}
+
+/* Edge of a lumped cell that disperses waves along an axis as bonds of the lattice do [m]: h^2 = sum xi^6/r^3 over sum
+ * xi^4/r^3; without bonds that of the cells of level 0. */
+static real alike_edge(const struct scene *s)
+{
+    const int reach = (int)s->horizon, planes = s->dim > 1 ? reach : 0, layers = s->dim > 2 ? reach : 0;
+    real above = 0, below = 0;
+    if (s->method == METHOD_MPM) return 2 * s->spacing;
+    for (int k = -layers; k <= layers; k++)
+        for (int j = -planes; j <= planes; j++)
+            for (int i = -reach; i <= reach; i++) {
+                const real r2 = i * i + j * j + k * k;
+                if (r2 == 0 || r2 > square(s->horizon)) continue;
+                above += pow(i, 6) / (r2 * sqrt(r2));
+                below += pow(i, 4) / (r2 * sqrt(r2));
+            }
+    return s->spacing * sqrt(above / below);
+}
+
+/* Cell of level 0 of particle i. */
+static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64_t i)
+{
+    int64_t I = 0;
+    if (mesh->place[i] >= 0) return mesh->place[i] >> p->dim;
+    for (int d = 0; d < p->dim; d++)
+        I += (grid_cell(&mesh->grid, d, p->X[d][i]) - mesh->grid.first[d]) * mesh->grid.stride[d];
+    return I;
+}
+
+/* Marks the cells beside mirrors that are not on nodes of all levels. */
+static void demand_mirrors(const struct engine *e, uint8_t *demand)
+{
+    const struct mesh_levels *l = &e->reference.levels;
+    const struct grid *g = &l->fine->grid;
+    for (int b = 0; b < e->loads.n; b++) {
+        const struct boundary *mirror = e->loads.load[b].boundary;
+        const int a = mirror->axis;
+        if (mirror->kind != BOUNDARY_MIRROR) continue;
+        const real at = (mirror->at - grid_position(g, a, l->offset[0][a])) / (g->h * (real)levels_stride(l));
+        if (fabs(at - nearbyint(at)) < 1e-6) continue;
+        for (int64_t I = 0; I < g->n; I++) {
+            const real x = grid_position(g, a, I / g->stride[a] % g->count[a]);
+            if (fabs(x + 0.5 * g->h - mirror->at) < 1.6 * g->h) demand[I] = 1;
+        }
+    }
+}
+
+/* Cells of level 0 that must stay so: near peridynamic particles and where something is wanted, and what loads act on.
+ */
+static uint8_t *demand_make(const struct engine *e, int zone)
+{
+    const struct mesh_levels *l = &e->reference.levels;
+    const struct particles *p = &e->part;
+    uint8_t *demand = NEW("levels.demand", l->fine->grid.n, uint8_t);
+    memcpy(demand, l->wanted, (size_t)l->fine->grid.n);
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
+    levels_dilate(l, demand, zone);
+    for (int b = 0; b < e->loads.n; b++)
+        for (int64_t k = 0; k < e->loads.load[b].n; k++) demand[cell_of(l->fine, p, e->loads.load[b].particle[k])] = 1;
+    demand_mirrors(e, demand);
+    return demand;
+}
+
+/* Marks the cells of level 0 in the marked cells of a level, and those around them. */
+static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
+{
+    const struct grid *fine = &l->fine->grid, *g = &level_mesh_of(l, level)->grid;
+    uint8_t *own = NEW("levels.stressed", fine->n, uint8_t);
+    for (int64_t I = 0; I < fine->n; I++) {
+        int64_t J = 0;
+        if (l->level[I] != level) continue;
+        for (int d = 0; d < g->dim; d++)
+            J += (((I / fine->stride[d] % fine->count[d] - l->offset[0][d]) >> level) + l->offset[level][d]) *
+                 g->stride[d];
+        own[I] = mark[J];
+    }
+    levels_dilate(l, own, AROUND_STRESS);
+    for (int64_t I = 0; I < fine->n; I++) demand[I] |= own[I];
+    memory_free(own);
+}
+
+/* Marks [fine->grid.n] the cells whose stress exceeds `share` of that at which they convert, with those around them:
+ * coarse ones, or all; NULL: there are none. The caller frees them. */
+static uint8_t *stressed_cells(const struct engine *e, real share, bool all)
+{
+    const struct mesh_levels *l = &e->reference.levels;
+    uint8_t *cells = NULL;
+    for (int level = all ? 0 : 1; level <= l->n; level++) {
+        const struct mesh *mesh = level_mesh_of(l, level);
+        uint8_t *mark = NEW("levels.mark", mesh->grid.n, uint8_t);
+        mesh_cells_mark(mesh, e->reference.elastic, share, all, mark, !e->scene->small_strain);
+        if (memchr(mark, 1, (size_t)mesh->grid.n)) {
+            if (!cells) cells = NEW("levels.cells", l->fine->grid.n, uint8_t);
+            demand_add(l, level, mark, cells);
+        }
+        memory_free(mark);
+    }
+    return cells;
+}
+
+/* Adds marks to others; NULL: there are none. */
+static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
+{
+    for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
+}
+
+/* The levels that cells may have next, of which coarser ones than now hold the motion there is. Changes limit. */
+static void next_levels(struct engine *e, const uint8_t *demand, uint8_t *limit, uint8_t *level)
+{
+    struct mesh_levels *l = &e->reference.levels;
+    const real most = ROUGH * (engine_mesh_kinetic(&e->reference) + engine_mesh_strain(e)) / e->stability.mass;
+    do levels_map(l, &e->part, demand, limit, level);
+    while (levels_limit_rough(l, level, most, limit));
+}
+
+/* Changes the levels; what that does to the energy is booked as damped. */
+static void change(struct engine *e, const uint8_t *level)
+{
+    struct reference_frame *r = &e->reference;
+    const bool finite = !e->scene->small_strain;
+    const real dt = e->clock.step > 0 ? e->clock.dt : 0;     /* at first velocities are those of the same time */
+    levels_half_kick(&r->levels, &e->part, r->elastic, finite, dt);
+    const real before = engine_mesh_kinetic(r) + engine_mesh_strain(e);
+    levels_change(&r->levels, &e->part, &r->source, level);
+    for (int k = 1; k <= r->levels.n; k++)
+        loads_level_find(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
+    mesh_find_exposed(&r->mesh, &e->part, &e->bonds, &e->loads);
+    loads_mesh_find(&e->loads, &r->mesh, &e->part);
+    e->coupling.damped += before - engine_mesh_kinetic(r) - engine_mesh_strain(e);
+    levels_half_kick(&r->levels, &e->part, r->elastic, finite, -dt);
+}
+
+status engine_levels_make(struct engine *e, bool restored)
+{
+    struct reference_frame *r = &e->reference;
+    const struct scene *s = e->scene;
+    real density[UINT8_MAX], fastest = 0;
+    for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
+    TRY(levels_make(&r->levels, engine_levels_number(e), &r->mesh, &r->source, density));
+    memory_free(r->coarse);
+    r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
+    for (int m = 0; m < s->materials; m++) {
+        r->coarse[m] = r->elastic[m];
+        r->coarse[m].trigger *= SPLITS;
+        fastest = real_max(fastest, s->material[m].wave_speed);
+    }
+    if (r->levels.n == 0) return OK;
+    levels_match(&r->levels, alike_edge(s), fastest, e->clock.dt);
+    for (int k = 1; k <= r->levels.n; k++)
+        loads_level_find(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
+    if (restored) return OK;
+    uint8_t *demand = demand_make(e, ZONE), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
+    uint8_t *stressed = stressed_cells(e, SPLITS, true);
+    marks_add(&r->levels, stressed, demand);
+    uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
+    memset(limit, r->levels.n, (size_t)r->mesh.grid.n);
+    next_levels(e, demand, limit, level);
+    change(e, level);
+    memory_free(limit);
+    e->coupling.damped = 0;                      /* the run begins with what the coarse cells have */
+    memory_free(demand);
+    memory_free(stressed);
+    memory_free(level);
+    return OK;
+}
+
+/* ---- in a run ---------------------------------------------------------------------------------------------------- */
+
+/* True if a coarse cell may have a point beyond SPLITS of the stress that converts. */
+static bool any_stressed(const struct mesh_levels *l)
+{
+    bool any = false;
+    for (int level = 1; level <= l->n; level++)
+        for (int64_t r = 0; r < l->at[level].mesh.runs; r++) any |= l->at[level].mesh.run[r].stressed;
+    return any;
+}
+
+/* Bounds of the levels at the next change: cells become finer at once, and coarser where they have been calm. */
+static void limits_find(struct engine *e, bool looks, uint8_t *limit)
+{
+    struct mesh_levels *l = &e->reference.levels;
+    const int64_t n = l->fine->grid.n;
+    memcpy(limit, l->level, (size_t)n);
+    if (!looks) return;
+    uint8_t *late = demand_make(e, ZONE_LATE), *stressed = stressed_cells(e, MERGES, true);
+    marks_add(l, stressed, late);
+    for (int64_t I = 0; I < n; I++) {
+        l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_LOOKS ? l->calm[I] + 1 : CALM_LOOKS;
+        if (l->calm[I] == CALM_LOOKS) limit[I] = (uint8_t)l->n;
+    }
+    memory_free(late);
+    memory_free(stressed);
+}
+
+void engine_levels_follow(struct engine *e)
+{
+    struct mesh_levels *l = &e->reference.levels;
+    if (l->n == 0 || e->clock.step == 0 || e->clock.step % levels_stride(l) != 0) return;
+    const bool looks = e->clock.step % LOOK_STEPS == 0;
+    uint8_t *stressed = any_stressed(l) ? stressed_cells(e, SPLITS, false) : NULL;
+    if (!looks && !stressed && !l->any_wanted) return;
+    const int64_t n = l->fine->grid.n;
+    uint8_t *demand = demand_make(e, ZONE), *limit = NEW("levels.limit", 2 * n, uint8_t), *level = limit + n;
+    levels_prolong(l);
+    marks_add(l, stressed, demand);
+    limits_find(e, looks, limit);
+    next_levels(e, demand, limit, level);
+    if (memcmp(level, l->level, (size_t)n) != 0) change(e, level);
+    if (l->any_wanted) memset(l->wanted, 0, (size_t)n);
+    l->any_wanted = false;
+    memory_free(demand);
+    memory_free(limit);
+    memory_free(stressed);
+}
+
+void engine_levels_guard(struct engine *e)
+{
+    struct mesh_levels *l = &e->reference.levels;
+    struct particles *p = &e->part;
+    const unsigned waits = FLAG_STRESSED | FLAG_NEAR;
+    if (l->n == 0 || !convert_due(p)) return;
+    for (int64_t first = 0; first < p->n; first += LANES) {
+        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(waits | FLAG_LOST_BOND))) continue;
+        for (int64_t i = first; i < first + LANES && i < p->n; i++) {
+            if (!(p->flag[i] & (waits | FLAG_LOST_BOND))) continue;
+            const int64_t cell = cell_of(l->fine, p, i);
+            if (l->safe[cell] == DISTANCE_ROOMY) continue;
+            l->wanted[cell] = 1, l->any_wanted = true;
+            if (l->safe[cell] == DISTANCE_UNSAFE) p->flag[i] &= (uint8_t)~waits;     /* until the next change */
+        }
+    }
+}
+
+/* ---- energies ---------------------------------------------------------------------------------------------------- */
+
+real engine_mesh_kinetic(const struct reference_frame *reference)
+{
+    return mesh_kinetic(&reference->mesh) + levels_kinetic(&reference->levels);
+}
+
+real engine_mesh_strain(struct engine *e)
+{
+    struct reference_frame *r = &e->reference;
+    const bool finite = !e->scene->small_strain;
+    return mesh_strain(&r->mesh, &e->part, r->elastic, finite) +
+           levels_strain(&r->levels, &e->part, r->elastic, finite);
+}

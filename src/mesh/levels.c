@@ -1,0 +1,186 @@
+/* Coarse cells: set-up, prolongation to points, sums, checkpoints. */
+#include "levels_parts.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mesh/active_nodes.h"
+
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
+
+/* Lower corner of the body: the lowest indices of a cell with points, along each axis. */
+static void corner_find(struct mesh_levels *l)
+{
+    const struct mesh *fine = l->fine;
+    int64_t k[DIM_MAX];
+    for (int d = 0; d < DIM_MAX; d++) l->offset[0][d] = INT64_MAX;
+    for (int64_t I = 0; I < fine->grid.n; I++) {
+        if (fine->kind[I] == CELL_EMPTY) continue;
+        walk_at(&fine->grid, I, k);
+        for (int d = 0; d < fine->grid.dim; d++)
+            if (k[d] < l->offset[0][d]) l->offset[0][d] = k[d];
+    }
+}
+
+/* The empty mesh of a level, with the nodes that its cells may have. */
+static status level_make(struct mesh_levels *l, int level, const struct mesh_source *source, const real *density)
+{
+    struct mesh *mesh = &l->at[level].mesh;
+    const struct grid *fine = &l->fine->grid;
+    struct grid like = {.dim = fine->dim, .h = fine->h * (real)(1 << level)};
+    real to[DIM_MAX];
+    for (int d = 0; d < fine->dim; d++) {
+        like.anchor[d] = grid_position(fine, d, l->offset[0][d]);
+        to[d] = grid_position(fine, d, fine->count[d]);
+    }
+    TRY(mesh_box_make(mesh, &like, like.anchor, to));
+    for (int d = 0; d < fine->dim; d++) l->offset[level][d] = -mesh->grid.first[d];
+    mesh->volume = l->fine->volume * (real)(1 << fine->dim * level);
+    mesh->material = NEW("levels.material", mesh->grid.n, uint8_t);
+    mesh->matched = NEW("levels.matched", mesh->grid.n + LANES, uint8_t);
+    mesh->cell_mass = NEW("levels.cell_mass", source->materials, real);
+    for (int m = 0; m < source->materials; m++)
+        mesh->cell_mass[m] = density[m] * mesh->volume * (real)(1 << fine->dim);
+    return OK;
+}
+
+status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct mesh_source *source,
+                   const real *density)
+{
+    memset(l, 0, sizeof *l);
+    if (n == 0 || fine->points == 0) return OK;
+    l->n = n, l->fine = fine;
+    corner_find(l);
+    l->level = NEW("levels.level", fine->grid.n, uint8_t);
+    l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
+    l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
+    l->safe = NEW("levels.safe", fine->grid.n, uint8_t);
+    fine->level = l->level;
+    for (int level = 1; level <= n; level++) TRY(level_make(l, level, source, density));
+    levels_find_safe(l);
+    return OK;
+}
+
+void levels_free(struct mesh_levels *l)
+{
+    for (int level = 1; level <= l->n; level++) {
+        mesh_free(&l->at[level].mesh);
+        memory_free(l->at[level].held.held);
+        memory_free(l->at[level].ghost);
+        memory_free(l->at[level].hanging);
+    }
+    if (l->fine) l->fine->level = NULL;
+    memory_free(l->level);
+    memory_free(l->calm);
+    memory_free(l->wanted);
+    memory_free(l->safe);
+    memset(l, 0, sizeof *l);
+}
+
+/* ---- points of coarse cells -------------------------------------------------------------------------------------- */
+
+void levels_sync(struct mesh_levels *l)
+{
+    for (int level = 1; level <= l->n; level++) levels_ghosts_follow(l, level);
+}
+
+void levels_prolong(struct mesh_levels *l)
+{
+    levels_sync(l);
+    if (l->n > 0) levels_interpolate(l);
+}
+
+int64_t levels_inverted(const struct mesh_levels *l, const struct particles *p)
+{
+    int64_t first = p->n, k[DIM_MAX];
+    for (int level = 1; level <= l->n; level++) {
+        const struct mesh *mesh = &l->at[level].mesh;
+        for (int64_t I = 0; I < mesh->grid.n && first == p->n; I++) {
+            if (mesh->kind[I] != CELL_WHOLE || !mesh_cell_inverted(mesh, I)) continue;
+            walk_at(&mesh->grid, I, k);
+            first = l->fine->point[fine_node(l, level, k) << mesh->grid.dim];
+        }
+    }
+    return first;
+}
+
+int64_t levels_cells(const struct mesh_levels *l, int level)
+{
+    int64_t cells = 0;
+    if (level > 0) return l->at[level].cells;
+    for (int64_t I = 0; I < l->fine->grid.n; I++) cells += cell_acts(l->fine, I);
+    return cells;
+}
+
+/* ---- sums -------------------------------------------------------------------------------------------------------- */
+
+real levels_kinetic(const struct mesh_levels *l)
+{
+    real sum = 0;
+    for (int level = 1; level <= l->n; level++) sum += mesh_kinetic(&l->at[level].mesh);
+    return sum;
+}
+
+real levels_strain(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite)
+{
+    real sum = 0;
+    levels_sync(l);
+    for (int level = 1; level <= l->n; level++) sum += mesh_strain(&l->at[level].mesh, p, m, finite);
+    return sum;
+}
+
+real levels_kick(const struct mesh_levels *l, real dt)
+{
+    real sum = 0;
+    for (int level = 1; level <= l->n; level++) sum += mesh_kick(&l->at[level].mesh, dt * (real)(1 << level));
+    return sum;
+}
+
+real levels_power(const struct mesh_levels *l)
+{
+    real power = 0;
+    for (int level = 1; level <= l->n; level++) {
+        const struct grid *g = &l->at[level].mesh.grid;
+        for (int64_t I = 0; I < g->n; I++)
+            for (int d = 0; d < g->dim; d++) power += (real)(1 << level) * g->velocity[d][I] * g->force[d][I];
+    }
+    return power;
+}
+
+/* ---- checkpoints ------------------------------------------------------------------------------------------------- */
+
+/* The fields of the nodes of a level. */
+static status level_archive(struct mesh *mesh, int level, struct archive *a)
+{
+    real *const *field[] = {mesh->displacement, mesh->grid.velocity, mesh->grid.momentum};
+    for (size_t f = 0; f < COUNT_OF(field); f++)
+        for (int d = 0; d < mesh->grid.dim; d++) {
+            char name[48];
+            snprintf(name, sizeof name, "levels/%d_%zu_%d", level, f, d);
+            TRY(a->exchange(a, name, field[f][d], (size_t)mesh->grid.n * sizeof(real)));
+        }
+    return OK;
+}
+
+status levels_archive(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                      struct archive *a)
+{
+    if (l->n == 0) return OK;
+    const size_t cells = (size_t)l->fine->grid.n;
+    TRY(a->exchange(a, "levels/level", l->level, cells));
+    TRY(a->exchange(a, "levels/calm", l->calm, cells));
+    TRY(a->exchange(a, "levels/wanted", l->wanted, cells));
+    ARCHIVE_VALUE(a, "levels/any_wanted", l->any_wanted);
+    ARCHIVE_VALUE(a, "levels/changes", l->changes);
+    if (!a->saving) {
+        if (!levels_sound(l, p)) return status_set(FAILED, "cannot resume: the levels of the checkpoint are no mesh");
+        mesh_cells_again(l->fine, p, source, l->level);
+        levels_cells_make(l, p);
+        levels_link(l);
+        levels_fold(l, false);
+        levels_runs_make(l);
+    }
+    for (int level = 1; level <= l->n; level++) TRY(level_archive(&l->at[level].mesh, level, a));
+    return OK;
+}

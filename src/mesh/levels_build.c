@@ -1,0 +1,201 @@
+/* The meshes of coarse cells from the levels of cells: cells, masses, ghosts, hanging nodes, matched inertia. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "levels_parts.h"
+
+/* ---- cells ------------------------------------------------------------------------------------------------------- */
+
+void levels_cells_make(struct mesh_levels *l, const struct particles *p)
+{
+    const struct mesh *fine = l->fine;
+    const int corners = 1 << fine->grid.dim;
+    int64_t k[DIM_MAX] = {0};
+    for (int level = 1; level <= l->n; level++) {
+        struct mesh *mesh = &l->at[level].mesh;
+        memset(mesh->kind, CELL_EMPTY, (size_t)mesh->grid.n);
+        memset(mesh->grid.mass, 0, (size_t)mesh->grid.n * sizeof(real));
+        l->at[level].cells = 0;
+    }
+    for (int64_t I = 0; I < fine->grid.n; I++, walk_on(&fine->grid, k)) {
+        const int level = l->level[I];
+        if (level == 0 || !is_lowest(l, level, k)) continue;
+        struct mesh *mesh = &l->at[level].mesh;
+        const int64_t J = coarse_cell(l, level, k, NULL);
+        mesh->kind[J] = CELL_WHOLE;
+        mesh->material[J] = p->material[fine->point[I * corners]];
+        for (int c = 0; c < corners; c++)
+            mesh->grid.mass[J + mesh->corner[c]] += mesh->cell_mass[mesh->material[J]] / corners;
+        l->at[level].cells++;
+    }
+    for (int level = 1; level <= l->n; level++) l->at[level].mesh.points = l->at[level].cells * corners;
+}
+
+/* ---- where levels meet ------------------------------------------------------------------------------------------- */
+
+/* Has any cell round node I of the mesh forces? */
+static bool node_acts(const struct mesh *mesh, int64_t I)
+{
+    bool acts = false;
+    for (int c = 0; c < 1 << mesh->grid.dim && !acts; c++) {
+        const int64_t cell = I - mesh->corner[c];
+        acts = cell >= 0 && cell_acts(mesh, cell);
+    }
+    return acts;
+}
+
+/* Is a cell of `level` beside the node of the level below that lies `at` nodes from the lower corner of the body? */
+static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t *at)
+{
+    const struct mesh *mesh = &l->at[level].mesh;
+    const int dim = mesh->grid.dim;
+    for (int c = 0; c < 1 << dim; c++) {
+        int64_t J = 0;
+        bool twice = false;                      /* the cells below and above an odd place are the same */
+        for (int d = 0; d < dim; d++) {
+            const bool below = c >> d & 1, odd = at[d] & 1;
+            twice = twice || (below && odd);
+            J += ((at[d] >> 1) - (below && !odd) + l->offset[level][d]) * mesh->grid.stride[d];
+        }
+        if (!twice && J >= 0 && J < mesh->grid.n && cell_acts(mesh, J)) return true;
+    }
+    return false;
+}
+
+static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
+{
+    if (m->ghosts == m->ghosts_room) {
+        const int64_t room = m->ghosts_room ? 2 * m->ghosts_room : 64;
+        m->ghost = memory_resize("levels.ghost", m->ghost, m->ghosts_room, room, sizeof *m->ghost);
+        m->ghosts_room = room;
+    }
+    m->ghost[m->ghosts++] = (struct mesh_ghost){(int32_t)coarse, (int32_t)fine};
+}
+
+/* Adds node I of `mesh`, in the middle of an edge or face along the axes `odd`. */
+static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I, unsigned odd)
+{
+    struct mesh_hanging h = {.node = (int32_t)I};
+    if (m->hangings == m->hangings_room) {
+        const int64_t room = m->hangings_room ? 2 * m->hangings_room : 64;
+        m->hanging = memory_resize("levels.hanging", m->hanging, m->hangings_room, room, sizeof *m->hanging);
+        m->hangings_room = room;
+    }
+    for (unsigned c = 0; c < 1u << mesh->grid.dim; c++) {
+        int64_t J = I;
+        if (c & ~odd) continue;
+        for (int d = 0; d < mesh->grid.dim; d++)
+            if (odd >> d & 1) J += c >> d & 1 ? mesh->grid.stride[d] : -mesh->grid.stride[d];
+        h.master[h.masters++] = (int32_t)J;
+    }
+    m->hanging[m->hangings++] = h;
+}
+
+/* Finds the ghosts of `level` and the hanging nodes of the level below. */
+static void interface_find(struct mesh_levels *l, int level)
+{
+    struct mesh_level *m = &l->at[level];
+    const struct mesh *below = level_mesh_of(l, level - 1);
+    int64_t k[DIM_MAX] = {0}, at[DIM_MAX];
+    m->ghosts = m->hangings = 0;
+    for (int64_t I = 0; I < below->grid.n; I++, walk_on(&below->grid, k)) {
+        unsigned odd = 0;
+        int64_t J = 0;
+        if (!node_acts(below, I)) continue;
+        for (int d = 0; d < below->grid.dim; d++) {
+            at[d] = k[d] - l->offset[level - 1][d];
+            odd |= (unsigned)(at[d] & 1) << d;
+            J += ((at[d] >> 1) + l->offset[level][d]) * m->mesh.grid.stride[d];
+        }
+        if (!coarse_beside(l, level, at)) continue;
+        if (odd) hanging_add(m, below, I, odd);
+        else ghost_add(m, J, I);
+    }
+}
+
+/* Marks the cells of which all cells around are of the same level and material, at their nodes. */
+static void matched_find(struct mesh *mesh)
+{
+    const struct grid *g = &mesh->grid;
+    const int dim = g->dim, around = dim == 1 ? 3 : dim == 2 ? 9 : 27;
+    memset(mesh->matched, 0, (size_t)g->n);
+    for (int64_t I = 0; I < g->n; I++) {
+        bool alike = mesh->kind[I] == CELL_WHOLE;
+        for (int q = 0; q < around && alike; q++) {
+            int64_t J = I;
+            for (int d = 0, left = q; d < dim; d++, left /= 3) J += (left % 3 - 1) * g->stride[d];
+            alike = mesh->kind[J] == CELL_WHOLE && mesh->material[J] == mesh->material[I];
+        }
+        for (int c = 0; c < 1 << dim && alike; c++) mesh->matched[I + mesh->corner[c]] |= (uint8_t)(1u << c);
+    }
+}
+
+void levels_link(struct mesh_levels *l)
+{
+    for (int level = 1; level <= l->n; level++) {
+        interface_find(l, level);
+        matched_find(&l->at[level].mesh);
+    }
+}
+
+/* Adds a share of what node `from` of one mesh has in a field to node `to` of another. */
+static inline void give(const real *from, int64_t i, real *to, int64_t k, real share) { to[k] += share * from[i]; }
+
+/* Momentum of a hanging node to its masters: of the share of its mass that each takes, with the velocity of the master,
+ * and equal parts of the rest, which is nothing where velocities are linear. */
+static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
+{
+    const real *velocity = g->velocity[d], share = g->mass[h->node] / h->masters;
+    real rest = velocity[h->node];
+    for (int q = 0; q < h->masters; q++) rest -= velocity[h->master[q]] / h->masters;
+    for (int q = 0; q < h->masters; q++) g->momentum[d][h->master[q]] += share * (velocity[h->master[q]] + rest);
+    g->momentum[d][h->node] = 0;
+}
+
+void levels_fold(struct mesh_levels *l, bool momenta)
+{
+    for (int level = 1; level <= l->n; level++) {
+        struct mesh_level *m = &l->at[level];
+        struct grid *coarse = &m->mesh.grid, *fine = &level_mesh(l, level - 1)->grid;
+        for (int64_t k = 0; k < m->ghosts; k++) {
+            const struct mesh_ghost s = m->ghost[k];
+            give(coarse->mass, s.coarse, fine->mass, s.fine, 1);
+            coarse->mass[s.coarse] = 0;
+            for (int d = 0; d < fine->dim && momenta; d++) {
+                give(coarse->momentum[d], s.coarse, fine->momentum[d], s.fine, 1);
+                coarse->momentum[d][s.coarse] = 0;
+            }
+        }
+        for (int64_t k = 0; k < m->hangings; k++) {
+            const struct mesh_hanging *h = &m->hanging[k];
+            for (int d = 0; d < fine->dim && momenta; d++) hanging_give(fine, h, d);
+            for (int q = 0; q < h->masters; q++)
+                give(fine->mass, h->node, fine->mass, h->master[q], 1.0 / h->masters);
+            fine->mass[h->node] = 0;
+        }
+    }
+    for (int level = 0; level <= l->n; level++) {
+        struct mesh *mesh = level_mesh(l, level);
+        for (int64_t I = 0; I < mesh->grid.n; I++)
+            mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
+    }
+}
+
+void levels_runs_make(struct mesh_levels *l)
+{
+    for (int level = 1; level <= l->n; level++) mesh_runs_make(&l->at[level].mesh);
+    mesh_spans_make(l->fine);
+    mesh_blocks_activate(l->fine);
+}
+
+void levels_match(struct mesh_levels *l, real edge, real wave_speed, real dt)
+{
+    l->wave_speed = wave_speed;
+    for (int level = 1; level <= l->n; level++) {
+        struct mesh *mesh = &l->at[level].mesh;
+        const real longer = (real)(1 << level);
+        const real share = 0.5 * (1 - (square(edge) + (square(longer) - 1) * square(wave_speed * dt)) /
+                                          square(mesh->grid.h));
+        mesh->match = real_max(0, share);
+    }
+}

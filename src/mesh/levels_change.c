@@ -1,0 +1,211 @@
+/* Levels that change: what nodes of the new cells take from the old ones. Displacements and velocities are sampled;
+ * what a merged cell had more or less of momentum goes to its corners in equal parts, which is nothing where
+ * velocities are linear. A split loses kinetic energy, as velocities inside a coarse cell are bilinear; a merged cell
+ * has that of its corners, which levels_rough.c keeps near that of its parts. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "levels_parts.h"
+
+/* ---- from coarse cells to nodes of level 0 ----------------------------------------------------------------------- */
+
+/* A coarse cell round a node of level 0 that no cell of level 0 has, and the place in it: level 0 if there is none. */
+struct cell_around { int level; int64_t cell; real t[DIM_MAX]; };
+
+static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I)
+{
+    const struct mesh *fine = l->fine;
+    const int dim = fine->grid.dim;
+    struct cell_around a = {0};
+    int64_t k[DIM_MAX], own[DIM_MAX], q[DIM_MAX], cell = -1;
+    for (int c = (1 << dim) - 1; c >= 0; c--) {              /* at last the cell that the node is the lowest of */
+        const int64_t J = I - fine->corner[c];
+        if (J < 0 || fine->kind[J] == CELL_EMPTY) continue;
+        if (fine->kind[J] != CELL_COARSE) return (struct cell_around){0};
+        cell = J;
+    }
+    if (cell < 0) return a;
+    a.level = l->level[cell];
+    walk_at(&fine->grid, I, k);
+    walk_at(&fine->grid, cell, own);
+    a.cell = coarse_cell(l, a.level, own, q);
+    for (int d = 0; d < dim; d++)
+        a.t[d] = (real)(k[d] - l->offset[0][d] - ((q[d] - l->offset[a.level][d]) << a.level)) / (real)(1 << a.level);
+    return a;
+}
+
+/* Value of a nodal field of the coarse cell at that place. */
+static real field_at(const struct mesh *mesh, const struct cell_around *a, const real *field)
+{
+    real value = 0;
+    for (int c = 0; c < 1 << mesh->grid.dim; c++) {
+        real share = 1;
+        for (int d = 0; d < mesh->grid.dim; d++) share *= c >> d & 1 ? a->t[d] : 1 - a->t[d];
+        if (share > 0) value += share * field[a->cell + mesh->corner[c]];
+    }
+    return value;
+}
+
+void levels_interpolate(struct mesh_levels *l)
+{
+    struct mesh *fine = l->fine;
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < fine->grid.n; I++) {
+        const struct cell_around a = coarse_around(l, I);
+        if (a.level == 0) continue;
+        const struct mesh *mesh = &l->at[a.level].mesh;
+        for (int d = 0; d < fine->grid.dim; d++) {
+            fine->displacement[d][I] = field_at(mesh, &a, mesh->displacement[d]);
+            fine->grid.velocity[d][I] = field_at(mesh, &a, mesh->grid.velocity[d]);
+        }
+    }
+}
+
+/* ---- to the nodes of new cells ----------------------------------------------------------------------------------- */
+
+/* Lumped mass times velocity of every node, before any gives its own away, and displacement, from those at the places
+ * of nodes of level 0. */
+static void nodes_sample(struct mesh_levels *l)
+{
+    struct mesh *fine = l->fine;
+    for (int d = 0; d < fine->grid.dim; d++)
+        for (int64_t I = 0; I < fine->grid.n; I++)
+            fine->grid.momentum[d][I] = fine->grid.mass[I] * fine->grid.velocity[d][I];
+    for (int level = 1; level <= l->n; level++) {
+        struct mesh *mesh = &l->at[level].mesh;
+        int64_t k[DIM_MAX] = {0};
+        for (int64_t J = 0; J < mesh->grid.n; J++, walk_on(&mesh->grid, k)) {
+            const real mass = mesh->grid.mass[J];
+            const int64_t I = mass > 0 ? fine_node(l, level, k) : 0;
+            for (int d = 0; d < fine->grid.dim; d++) {
+                mesh->displacement[d][J] = mass > 0 ? fine->displacement[d][I] : 0;
+                mesh->grid.velocity[d][J] = mass > 0 ? fine->grid.velocity[d][I] : 0;
+                mesh->grid.momentum[d][J] = mass * mesh->grid.velocity[d][J];
+                mesh->grid.force[d][J] = 0;
+            }
+        }
+    }
+}
+
+/* Mean of a field of level 0 over the corners of the cells of level 0 in a cell of `level`, `first` the lowest. */
+static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
+{
+    const int dim = l->fine->grid.dim, parts = parts_of(l, level);
+    real sum = 0;
+    for (int part = 0; part < parts; part++)
+        for (int c = 0; c < 1 << dim; c++) sum += field[part_at(l, level, first, part) + l->fine->corner[c]];
+    return sum / (real)(parts << dim);
+}
+
+/* Momentum that a merged cell has beyond that of its sampled corners, to its corners. */
+static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
+{
+    struct mesh *mesh = &l->at[level].mesh;
+    const int dim = mesh->grid.dim, corners = 1 << dim;
+    const real mass = mesh->cell_mass[mesh->material[J]];
+    for (int d = 0; d < dim; d++) {
+        const real *velocity = l->fine->grid.velocity[d];
+        real mean = 0;
+        for (int c = 0; c < corners; c++) {
+            int64_t at[DIM_MAX];
+            for (int b = 0; b < DIM_MAX; b++) at[b] = b < dim ? q[b] + (c >> b & 1) : 0;
+            mean += velocity[fine_node(l, level, at)] / corners;
+        }
+        const real missing = mass / corners * (cell_mean(l, level, fine_node(l, level, q), velocity) - mean);
+        for (int c = 0; c < corners; c++) mesh->grid.momentum[d][J + mesh->corner[c]] += missing;
+    }
+}
+
+static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
+{
+    for (int level = 1; level <= l->n; level++) {
+        const struct mesh *mesh = &l->at[level].mesh;
+        int64_t q[DIM_MAX] = {0};
+        for (int64_t J = 0; J < mesh->grid.n; J++, walk_on(&mesh->grid, q)) {
+            if (mesh->kind[J] != CELL_WHOLE) continue;
+            if (any_below(l, level, fine_node(l, level, q), before)) merged_correct(l, level, J, q);
+        }
+    }
+}
+
+/* Velocities of all nodes that have mass; forces are 0. */
+static void velocities_make(struct mesh_levels *l)
+{
+    for (int level = 0; level <= l->n; level++) {
+        struct mesh *mesh = level_mesh(l, level);
+        for (int d = 0; d < mesh->grid.dim; d++)
+            for (int64_t I = 0; I < mesh->grid.n; I++) {
+                mesh->grid.velocity[d][I] = mesh->grid.momentum[d][I] * mesh->inverse_mass[I];
+                mesh->grid.momentum[d][I] = mesh->grid.force[d][I] = 0;
+            }
+    }
+    levels_momenta_find(l);
+}
+
+/* B w = v (kernels/mesh/mesh_inertia.h) by w <- w + v - B w: eigenvalues of B - 1 are below 0.48, as match is at most
+ * 1/2 and those of consistent mass over lumped mass are at least 1/27. */
+enum { MOMENTA_ROUNDS = 52 };
+
+void levels_momenta_find(struct mesh_levels *l)
+{
+    for (int level = 1; level <= l->n; level++) {
+        struct grid *g = &l->at[level].mesh.grid;
+        real *now[DIM_MAX];                      /* B w; nothing else uses momenta of level 0 or forces now */
+        for (int d = 0; d < g->dim; d++) {
+            memcpy(g->momentum[d], g->velocity[d], (size_t)g->n * sizeof(real));
+            now[d] = g->force[d];
+        }
+        for (int round = 0; round < MOMENTA_ROUNDS; round++) {
+            mesh_velocity(&l->at[level].mesh, g->momentum, now);
+            for (int d = 0; d < g->dim; d++)
+                for (int64_t J = 0; J < g->n; J++)
+                    if (g->mass[J] > 0) g->momentum[d][J] += g->velocity[d][J] - now[d][J];
+        }
+        mesh_velocity(&l->at[level].mesh, g->momentum, g->velocity);
+        for (int d = 0; d < g->dim; d++) memset(now[d], 0, (size_t)g->n * sizeof(real));
+    }
+}
+
+void levels_half_kick(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, real dt)
+{
+    mesh_clear(l->fine);
+    mesh_force(l->fine, p, m, finite);
+    levels_force(l, p, m, finite, l->n);
+    for (int level = 0; level <= l->n; level++) {
+        struct mesh *mesh = level_mesh(l, level);
+        const real half = 0.5 * dt * (real)(1 << level);
+        for (int d = 0; d < mesh->grid.dim; d++) {
+            real *moved = level > 0 ? mesh->grid.momentum[d] : mesh->grid.velocity[d];
+            for (int64_t I = 0; I < mesh->grid.n; I++)
+                moved[I] += half * mesh->inverse_mass[I] * mesh->grid.force[d][I];
+        }
+        if (level > 0) mesh_velocity(mesh, mesh->grid.momentum, mesh->grid.velocity);
+    }
+    for (int level = 1; level <= l->n; level++) levels_hanging_follow(l, level);
+    levels_sync(l);
+}
+
+void levels_change(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
+                   const uint8_t *level)
+{
+    const size_t cells = (size_t)l->fine->grid.n;
+    uint8_t *before = NEW("levels.before", 2 * l->fine->grid.n, uint8_t), *dirty = before + cells;
+    levels_sync(l);
+    levels_interpolate(l);
+    memcpy(before, l->level, cells);
+    for (size_t I = 0; I < cells; I++) dirty[I] = before[I] != level[I];
+    memcpy(l->level, level, cells);
+    mesh_cells_again(l->fine, p, source, dirty);
+    levels_cells_make(l, p);
+    levels_link(l);
+    nodes_sample(l);
+    merged_cells_correct(l, before);
+    levels_fold(l, true);
+    levels_runs_make(l);
+    velocities_make(l);
+    for (int k = 1; k <= l->n; k++) levels_hanging_follow(l, k);
+    levels_sync(l);
+    levels_find_safe(l);
+    l->changes++;
+    memory_free(before);
+}

@@ -1,0 +1,147 @@
+/* Which cells may be coarse: from marks on cells of level 0 to a balanced mesh of levels. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "levels_parts.h"
+
+/* What is known of the cells of a level, [nodes of its grid] each. */
+struct level_map {
+    uint8_t *ok;                         /* a cell of this level, or a part of a coarser one, may be here */
+    uint8_t *some, *all;                 /* cells of level 0 with points: some are here, all are here */
+    uint8_t *limit, *material;           /* of them: the smallest limit; the material */
+};
+
+static struct level_map level_map_make(int64_t n)
+{
+    uint8_t *base = NEW("levels.map", 5 * n, uint8_t);
+    return (struct level_map){base, base + n, base + 2 * n, base + 3 * n, base + 4 * n};
+}
+
+/* Cells of level 0. */
+static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
+                     const uint8_t *demand, const uint8_t *limit)
+{
+    const struct mesh *fine = l->fine;
+    for (int64_t I = 0; I < fine->grid.n; I++) {
+        const bool whole = fine->kind[I] == CELL_WHOLE || fine->kind[I] == CELL_COARSE;
+        to->some[I] = to->all[I] = fine->kind[I] != CELL_EMPTY;
+        to->ok[I] = whole && !demand[I];
+        to->limit[I] = limit ? limit[I] : (uint8_t)l->n;
+        to->material[I] = whole ? p->material[fine->point[I << fine->grid.dim]] : 0;
+    }
+}
+
+/* Gathers what is known of the 2^dim cells of the level below that cell I of `level`, with indices k, consists of. */
+static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
+{
+    const struct grid *below = &level_mesh_of(l, level - 1)->grid;
+    const struct level_map *from = &map[level - 1];
+    struct level_map *to = &map[level];
+    to->ok[I] = to->all[I] = 1, to->some[I] = 0, to->limit[I] = UINT8_MAX;
+    for (int c = 0; c < 1 << below->dim; c++) {
+        int64_t J = 0;
+        for (int d = 0; d < below->dim; d++)
+            J += (2 * (k[d] - l->offset[level][d]) + (c >> d & 1) + l->offset[level - 1][d]) * below->stride[d];
+        if (c == 0) to->material[I] = from->material[J];
+        to->ok[I] &= from->ok[J] && from->material[J] == to->material[I];
+        to->some[I] |= from->some[J], to->all[I] &= from->all[J];
+        if (from->limit[J] < to->limit[I]) to->limit[I] = from->limit[J];
+    }
+    to->ok[I] &= to->limit[I] >= level;
+}
+
+/* Do the cells round cell I of `level`, with indices k, allow it? Those of the level below must be allowed themselves;
+ * beside cells of level 0 that a coarser cell would not cover, a node of it would have no finer one. */
+static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
+{
+    const int on = level > 1 ? level - 1 : 1, across = level > 1 ? 4 : 3;
+    const struct grid *g = &level_mesh_of(l, on)->grid;
+    const int around = g->dim == 1 ? across : g->dim == 2 ? across * across : across * across * across;
+    for (int q = 0; q < around; q++) {
+        int64_t J = 0;
+        for (int d = 0, left = q; d < g->dim; d++, left /= across) {
+            const int64_t first = level > 1 ? 2 * (k[d] - l->offset[level][d]) + l->offset[on][d] : k[d];
+            J += (first + left % across - 1) * g->stride[d];
+        }
+        if (level > 1 ? map[on].some[J] && !map[on].ok[J] : map[on].some[J] != map[on].all[J]) return false;
+    }
+    return true;
+}
+
+static void level_map_find(struct level_map *map, const struct mesh_levels *l, int level)
+{
+    const struct grid *g = &level_mesh_of(l, level)->grid;
+    int64_t k[DIM_MAX] = {0}, q[DIM_MAX] = {0};
+    uint8_t *good = NEW("levels.good", g->n, uint8_t);
+    bool *inside = NEW("levels.inside", g->n, bool);
+    for (int64_t I = 0; I < l->fine->grid.n; I++, walk_on(&l->fine->grid, k))
+        if (l->fine->kind[I] != CELL_EMPTY) inside[coarse_cell(l, level, k, NULL)] = true;
+    for (int64_t I = 0; I < g->n; I++, walk_on(g, q))
+        if (inside[I]) gather_parts(map, l, level, I, q);
+    for (int64_t I = 0; I < g->n; I++, walk_on(g, q)) good[I] = map[level].ok[I] && ring_allows(map, l, level, q);
+    memcpy(map[level].ok, good, (size_t)g->n);
+    memory_free(good);
+    memory_free(inside);
+}
+
+void levels_map(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand, const uint8_t *limit,
+                uint8_t *to)
+{
+    struct level_map map[LEVELS_MAX + 1];
+    int64_t k[DIM_MAX] = {0};
+    for (int level = 0; level <= l->n; level++) map[level] = level_map_make(level_mesh_of(l, level)->grid.n);
+    base_map(&map[0], l, p, demand, limit);
+    for (int level = 1; level <= l->n; level++) level_map_find(map, l, level);
+    for (int64_t I = 0; I < l->fine->grid.n; I++, walk_on(&l->fine->grid, k)) {
+        to[I] = 0;
+        while (map[0].ok[I] && to[I] < l->n && map[to[I] + 1].ok[coarse_cell(l, to[I] + 1, k, NULL)]) to[I]++;
+    }
+    for (int level = 0; level <= l->n; level++) memory_free(map[level].ok);
+}
+
+bool levels_sound(const struct mesh_levels *l, const struct particles *p)
+{
+    const size_t cells = (size_t)l->fine->grid.n;
+    uint8_t *demand = NEW("levels.demand", 2 * l->fine->grid.n, uint8_t), *to = demand + cells;
+    for (size_t I = 0; I < cells; I++) demand[I] = l->level[I] == 0;
+    levels_map(l, p, demand, l->level, to);
+    const bool sound = memcmp(to, l->level, cells) == 0;
+    memory_free(demand);
+    return sound;
+}
+
+/* Marks what is within `reach` of a mark along a line of n cells, `stride` apart. */
+static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
+{
+    int64_t last = -reach - 1;
+    for (int64_t k = 0; k < n; k++) {                         /* bit 1: marked from below */
+        if (mark[k * stride] & 1) last = k;
+        if (k - last <= reach) mark[k * stride] |= 2;
+    }
+    last = n + reach + 1;
+    for (int64_t k = n - 1; k >= 0; k--) {
+        if (mark[k * stride] & 1) last = k;
+        mark[k * stride] = last - k <= reach || mark[k * stride] & 2;
+    }
+}
+
+void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
+{
+    const struct grid *g = &l->fine->grid;
+    for (int d = 0; d < g->dim; d++)             /* lines begin in blocks of one stride, a line's length apart */
+        for (int64_t first = 0; first < g->n; first += g->stride[d] * g->count[d])
+            for (int64_t I = first; I < first + g->stride[d]; I++)
+                line_dilate(mark + I, g->count[d], g->stride[d], reach);
+}
+
+void levels_find_safe(struct mesh_levels *l)
+{
+    const int64_t n = l->fine->grid.n;
+    uint8_t *near = NEW("levels.near", n, uint8_t);
+    for (int64_t I = 0; I < n; I++) l->safe[I] = near[I] = l->level[I] > 0;
+    levels_dilate(l, l->safe, LEVELS_SAFE);
+    levels_dilate(l, near, LEVELS_ROOMY);
+    for (int64_t I = 0; I < n; I++)
+        l->safe[I] = l->safe[I] ? DISTANCE_UNSAFE : near[I] ? DISTANCE_SAFE : DISTANCE_ROOMY;
+    memory_free(near);
+}

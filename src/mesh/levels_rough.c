@@ -1,0 +1,56 @@
+/* Motion that cells would lose as parts of coarser ones. */
+#include <math.h>
+
+#include "levels_parts.h"
+
+/* Mean energy per mass of what the nodes of level 0 in the cell of `level` with indices q depart from the motion of its
+ * corners [J/kg], and what the squares of velocities at its corners depart from those of its parts: where velocities
+ * change much from corner to corner, lumped masses have another kinetic energy. Displacements count by the strain that
+ * they are over half the cell. */
+static real departure(const struct mesh_levels *l, int level, const int64_t *q)
+{
+    const struct mesh *fine = l->fine;
+    const int dim = fine->grid.dim, edge = 1 << level, side = edge + 1, corners = 1 << dim;
+    const int nodes = dim == 1 ? side : dim == 2 ? side * side : side * side * side;
+    const int64_t first = fine_node(l, level, q);
+    const real stiff = l->wave_speed / (0.5 * level_mesh_of(l, level)->grid.h);
+    real sum = 0, squares = 0;
+    for (int node = 0; node < nodes; node++) {
+        int64_t I = first;
+        real share[CORNERS_MAX], lump = 1;
+        for (int c = 0; c < corners; c++) share[c] = 1;
+        for (int d = 0, left = node; d < dim; d++, left /= side) {
+            const real t = (real)(left % side) / edge;
+            I += left % side * fine->grid.stride[d];
+            lump *= t > 0 && t < 1 ? 1.0 / edge : 0.5 / edge;
+            for (int c = 0; c < corners; c++) share[c] *= c >> d & 1 ? t : 1 - t;
+        }
+        for (int d = 0; d < dim; d++) {
+            real u = fine->displacement[d][I], v = fine->grid.velocity[d][I], v2 = lump * square(v);
+            for (int c = 0; c < corners; c++) {
+                int64_t J = first;
+                for (int b = 0; b < dim; b++) J += (c >> b & 1) * edge * fine->grid.stride[b];
+                u -= share[c] * fine->displacement[d][J], v -= share[c] * fine->grid.velocity[d][J];
+                if (node == 0) squares -= square(fine->grid.velocity[d][J]) / corners;
+            }
+            squares += v2;
+            sum += 0.5 * (square(v) + square(stiff * u));
+        }
+    }
+    return real_max(sum / nodes, 0.5 * fabs(squares));
+}
+
+bool levels_limit_rough(const struct mesh_levels *l, const uint8_t *level, real most, uint8_t *limit)
+{
+    const struct grid *g = &l->fine->grid;
+    int64_t k[DIM_MAX] = {0}, q[DIM_MAX];
+    bool any = false;
+    for (int64_t I = 0; I < g->n; I++, walk_on(g, k)) {
+        if (level[I] == 0 || !is_lowest(l, level[I], k) || !any_below(l, level[I], I, l->level)) continue;
+        coarse_cell(l, level[I], k, q);
+        if (!(departure(l, level[I], q) > most)) continue;
+        any = true;
+        for (int part = 0; part < parts_of(l, level[I]); part++) limit[part_at(l, level[I], I, part)] = level[I] - 1;
+    }
+    return any;
+}

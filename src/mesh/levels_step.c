@@ -1,0 +1,102 @@
+/* Forces and motion of coarse cells in a step. */
+#include <math.h>
+
+#include "levels_parts.h"
+
+int levels_due(const struct mesh_levels *l, int64_t step)
+{
+    int due = 0;
+    while (due < l->n && step % ((int64_t)2 << due) == 0) due++;
+    return due;
+}
+
+/* Displacements of ghosts, which the forces of their cells need. */
+static void ghosts_displace(struct mesh_levels *l, int level)
+{
+    const struct mesh_level *m = &l->at[level];
+    const struct mesh *fine = level_mesh(l, level - 1);
+    for (int d = 0; d < fine->grid.dim; d++)
+        for (int64_t k = 0; k < m->ghosts; k++)
+            m->mesh.displacement[d][m->ghost[k].coarse] = fine->displacement[d][m->ghost[k].fine];
+}
+
+void levels_ghosts_follow(struct mesh_levels *l, int level)
+{
+    const struct mesh_level *m = &l->at[level];
+    const struct mesh *fine = level_mesh(l, level - 1);
+    ghosts_displace(l, level);
+    for (int d = 0; d < fine->grid.dim; d++)
+        for (int64_t k = 0; k < m->ghosts; k++)
+            m->mesh.grid.velocity[d][m->ghost[k].coarse] = fine->grid.velocity[d][m->ghost[k].fine];
+}
+
+static real mean_of(const struct mesh_hanging *h, const real *field)
+{
+    real sum = 0;
+    for (int q = 0; q < h->masters; q++) sum += field[h->master[q]];
+    return sum / h->masters;
+}
+
+void levels_hanging_follow(struct mesh_levels *l, int level)
+{
+    const struct mesh_level *m = &l->at[level];
+    struct mesh *fine = level_mesh(l, level - 1);
+    for (int d = 0; d < fine->grid.dim; d++)
+        for (int64_t k = 0; k < m->hangings; k++) {
+            const struct mesh_hanging *h = &m->hanging[k];
+            fine->displacement[d][h->node] = mean_of(h, fine->displacement[d]);
+            fine->grid.velocity[d][h->node] = mean_of(h, fine->grid.velocity[d]);
+        }
+}
+
+/* Forces on hanging nodes go to their masters. */
+static void hanging_fold(struct mesh_levels *l, int level)
+{
+    const struct mesh_level *m = &l->at[level];
+    struct grid *fine = &level_mesh(l, level - 1)->grid;
+    for (int d = 0; d < fine->dim; d++)
+        for (int64_t k = 0; k < m->hangings; k++) {
+            const struct mesh_hanging *h = &m->hanging[k];
+            for (int q = 0; q < h->masters; q++)
+                fine->force[d][h->master[q]] += fine->force[d][h->node] * (1.0 / h->masters);
+            fine->force[d][h->node] = 0;
+        }
+}
+
+/* Forces of coarse cells on ghosts act on the nodes of the finer level: twice, as its steps are half as long. */
+static void ghosts_fold(struct mesh_levels *l, int level)
+{
+    const struct mesh_level *m = &l->at[level];
+    struct grid *coarse = &l->at[level].mesh.grid, *fine = &level_mesh(l, level - 1)->grid;
+    for (int d = 0; d < fine->dim; d++)
+        for (int64_t k = 0; k < m->ghosts; k++) {
+            fine->force[d][m->ghost[k].fine] += 2 * coarse->force[d][m->ghost[k].coarse];
+            coarse->force[d][m->ghost[k].coarse] = 0;
+        }
+}
+
+void levels_force(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, int due)
+{
+    for (int level = 1; level <= due; level++) {
+        struct mesh *mesh = &l->at[level].mesh;
+        if (mesh->points == 0) continue;
+        ghosts_displace(l, level);
+        mesh_clear(mesh);
+        mesh_force(mesh, p, m, finite);
+    }
+    for (int level = 1; level <= due + 1 && level <= l->n; level++) hanging_fold(l, level);
+    for (int level = 1; level <= due; level++) ghosts_fold(l, level);
+}
+
+real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int due, real impulse[DIM_MAX], real *work)
+{
+    real most = 0;
+    for (int level = 0; level <= due; level++) {
+        struct mesh *mesh = level_mesh(l, level);
+        const real longer = (real)(1 << level);
+        if (mesh->points == 0) continue;
+        most = real_max(most, mesh_move(mesh, longer * dt, longer * dt_velocity, impulse, work));
+        if (level < l->n) levels_hanging_follow(l, level + 1);
+    }
+    return most;
+}
