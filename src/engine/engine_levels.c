@@ -11,7 +11,7 @@ enum { ZONE = 10, ZONE_LATE = 13, AROUND_STRESS = 4 };
 #define SPLITS 0.5                       /* of the stress at which points convert */
 #define MERGES 0.25
 #define ROUGH 0.01                       /* of the mean energy per mass: motion that a coarser cell would lose */
-enum { LOOK_STEPS = 64, CALM_LOOKS = 4 };        /* steps between looks for cells to merge; looks that a cell is calm */
+enum { LOOK_STEPS = 256, CALM_LOOKS = 2 };       /* steps between looks for cells to merge; looks that a cell is calm */
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
@@ -126,13 +126,23 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
+/* Is a cell coarser in `level` than now? */
+static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
+{
+    bool any = false;
+    for (int64_t I = 0; I < l->fine->grid.n; I++) any |= level[I] > l->level[I];
+    return any;
+}
+
 /* The levels that cells may have next, of which coarser ones than now hold the motion there is. Changes limit. */
 static void next_levels(struct engine *e, const uint8_t *demand, uint8_t *limit, uint8_t *level)
 {
     struct mesh_levels *l = &e->reference.levels;
+    levels_map(l, &e->part, demand, limit, level);
+    if (!any_merges(l, level)) return;
     const real most = ROUGH * (engine_mesh_kinetic(&e->reference) + engine_mesh_strain(e)) / e->stability.mass;
-    do levels_map(l, &e->part, demand, limit, level);
-    while (levels_limit_rough(l, level, most, limit));
+    levels_prolong(l);
+    while (levels_limit_rough(l, level, most, limit)) levels_map(l, &e->part, demand, limit, level);
 }
 
 /* Changes the levels; what that does to the energy is booked as damped. */
@@ -223,7 +233,6 @@ void engine_levels_follow(struct engine *e)
     if (!looks && !stressed && !l->any_wanted) return;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = demand_make(e, ZONE), *limit = NEW("levels.limit", 2 * n, uint8_t), *level = limit + n;
-    levels_prolong(l);
     marks_add(l, stressed, demand);
     limits_find(e, looks, limit);
     next_levels(e, demand, limit, level);
