@@ -229,6 +229,7 @@ void engine_levels_follow(struct engine *e)
     struct mesh_levels *l = &e->reference.levels;
     if (l->n == 0 || e->clock.step == 0 || e->clock.step % levels_stride(l) != 0) return;
     const bool looks = e->clock.step % LOOK_STEPS == 0;
+    levels_sync(l);
     uint8_t *stressed = any_stressed(l) ? stressed_cells(e, SPLITS, false) : NULL;
     if (!looks && !stressed && !l->any_wanted) return;
     const int64_t n = l->fine->grid.n;

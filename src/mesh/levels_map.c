@@ -7,14 +7,14 @@
 /* What is known of the cells of a level, [nodes of its grid] each. */
 struct level_map {
     uint8_t *ok;                         /* a cell of this level, or a part of a coarser one, may be here */
-    uint8_t *some, *all;                 /* cells of level 0 with points: some are here, all are here */
+    uint8_t *some;                       /* a cell of level 0 with points is here */
     uint8_t *limit, *material;           /* of them: the smallest limit; the material */
 };
 
 static struct level_map level_map_make(int64_t n)
 {
-    uint8_t *base = NEW("levels.map", 5 * n, uint8_t);
-    return (struct level_map){base, base + n, base + 2 * n, base + 3 * n, base + 4 * n};
+    uint8_t *base = NEW("levels.map", 4 * n, uint8_t);
+    return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
 /* Cells of level 0. */
@@ -24,7 +24,7 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
     const struct mesh *fine = l->fine;
     for (int64_t I = 0; I < fine->grid.n; I++) {
         const bool whole = fine->kind[I] == CELL_WHOLE || fine->kind[I] == CELL_COARSE;
-        to->some[I] = to->all[I] = fine->kind[I] != CELL_EMPTY;
+        to->some[I] = fine->kind[I] != CELL_EMPTY;
         to->ok[I] = whole && !demand[I];
         to->limit[I] = limit ? limit[I] : (uint8_t)l->n;
         to->material[I] = whole ? p->material[fine->point[I << fine->grid.dim]] : 0;
@@ -37,33 +37,66 @@ static void gather_parts(struct level_map *map, const struct mesh_levels *l, int
     const struct grid *below = &level_mesh_of(l, level - 1)->grid;
     const struct level_map *from = &map[level - 1];
     struct level_map *to = &map[level];
-    to->ok[I] = to->all[I] = 1, to->some[I] = 0, to->limit[I] = UINT8_MAX;
+    to->ok[I] = 1, to->some[I] = 0, to->limit[I] = UINT8_MAX;
     for (int c = 0; c < 1 << below->dim; c++) {
         int64_t J = 0;
         for (int d = 0; d < below->dim; d++)
             J += (2 * (k[d] - l->offset[level][d]) + (c >> d & 1) + l->offset[level - 1][d]) * below->stride[d];
         if (c == 0) to->material[I] = from->material[J];
         to->ok[I] &= from->ok[J] && from->material[J] == to->material[I];
-        to->some[I] |= from->some[J], to->all[I] &= from->all[J];
+        to->some[I] |= from->some[J];
         if (from->limit[J] < to->limit[I]) to->limit[I] = from->limit[J];
     }
     to->ok[I] &= to->limit[I] >= level;
 }
 
-/* Do the cells round cell I of `level`, with indices k, allow it? Those of the level below must be allowed themselves;
- * beside cells of level 0 that a coarser cell would not cover, a node of it would have no finer one. */
+/* Of the cells of level 0 in the block of 2^dim beside that with lower corner `first` that touch it, do all hold points,
+ * or none? Otherwise a node at the end of an edge of a coarse cell would have no finer one. `beside`: -1, 0 or 1 along
+ * each axis. */
+static bool touching_alike(const struct level_map *map, const struct grid *g, const int64_t *first, const int *beside)
+{
+    int some = 0, all = 0;
+    for (int c = 0; c < 1 << g->dim; c++) {
+        int64_t J = 0;
+        bool touches = true;
+        for (int d = 0; d < g->dim; d++) {
+            const int upper = c >> d & 1;
+            touches = touches && (beside[d] == 0 || upper == (beside[d] < 0));
+            J += (first[d] + 2 * beside[d] + upper) * g->stride[d];
+        }
+        if (touches) all++, some += map[0].some[J];
+    }
+    return some == 0 || some == all;
+}
+
+/* Do the cells round the cell of level 1 with indices k allow it? */
+static bool ring_of_first(const struct level_map *map, const struct mesh_levels *l, const int64_t *k)
+{
+    const struct grid *g = &l->fine->grid;
+    const int around = g->dim == 1 ? 3 : g->dim == 2 ? 9 : 27;
+    int64_t first[DIM_MAX];
+    bool allows = true;
+    for (int d = 0; d < g->dim; d++) first[d] = 2 * (k[d] - l->offset[1][d]) + l->offset[0][d];
+    for (int q = 0; q < around && allows; q++) {
+        int beside[DIM_MAX];
+        for (int d = 0, left = q; d < DIM_MAX; d++, left /= 3) beside[d] = d < g->dim ? left % 3 - 1 : 0;
+        allows = touching_alike(map, g, first, beside);
+    }
+    return allows;
+}
+
+/* Do the cells round the cell of `level` > 1 with indices k allow it? Those of the level below must be allowed
+ * themselves. */
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
-    const int on = level > 1 ? level - 1 : 1, across = level > 1 ? 4 : 3;
+    const int on = level - 1;
     const struct grid *g = &level_mesh_of(l, on)->grid;
-    const int around = g->dim == 1 ? across : g->dim == 2 ? across * across : across * across * across;
+    const int around = g->dim == 1 ? 4 : g->dim == 2 ? 16 : 64;
     for (int q = 0; q < around; q++) {
         int64_t J = 0;
-        for (int d = 0, left = q; d < g->dim; d++, left /= across) {
-            const int64_t first = level > 1 ? 2 * (k[d] - l->offset[level][d]) + l->offset[on][d] : k[d];
-            J += (first + left % across - 1) * g->stride[d];
-        }
-        if (level > 1 ? map[on].some[J] && !map[on].ok[J] : map[on].some[J] != map[on].all[J]) return false;
+        for (int d = 0; d < g->dim; d++)
+            J += (2 * (k[d] - l->offset[level][d]) + l->offset[on][d] + (q >> 2 * d & 3) - 1) * g->stride[d];
+        if (map[on].some[J] && !map[on].ok[J]) return false;
     }
     return true;
 }
@@ -78,7 +111,8 @@ static void level_map_find(struct level_map *map, const struct mesh_levels *l, i
         if (l->fine->kind[I] != CELL_EMPTY) inside[coarse_cell(l, level, k, NULL)] = true;
     for (int64_t I = 0; I < g->n; I++, walk_on(g, q))
         if (inside[I]) gather_parts(map, l, level, I, q);
-    for (int64_t I = 0; I < g->n; I++, walk_on(g, q)) good[I] = map[level].ok[I] && ring_allows(map, l, level, q);
+    for (int64_t I = 0; I < g->n; I++, walk_on(g, q))
+        good[I] = map[level].ok[I] && (level > 1 ? ring_allows(map, l, level, q) : ring_of_first(map, l, q));
     memcpy(map[level].ok, good, (size_t)g->n);
     memory_free(good);
     memory_free(inside);
