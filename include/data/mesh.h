@@ -38,6 +38,26 @@ struct mesh_exposed { int32_t cell; uint8_t places; };
 /* A material point at the end of state-based bonds, and the lane of its cell in the group of partial cells. */
 struct mesh_end { int32_t point, lane; };
 
+/* Slits: free surfaces between cells (mesh_slits.c). Around a node that a slit passes the cells fall into groups; one
+ * group keeps the node of the grid, each other one has an extra node of its own. Extra nodes lie in rows behind those of
+ * the box: whatever works on all nodes works on them. A cell that touches one is partial and says its corners itself.
+ * All this follows from where particles and slits are in the reference state, and stays. */
+struct mesh_slits {
+    int64_t nodes, first;                /* number of extra nodes; first node behind the box, grid.n without slits */
+    int32_t *base;                       /* [grid.n - first] node of the grid at the same place, -1: no extra node */
+    int32_t *cell;                       /* [grid.n] number of a cell in `corner`, -1: corners of the grid. NULL: no
+                                          * slits */
+    int64_t cells;
+    int32_t *corner;                     /* [cells][2^dim] nodes at the corners */
+    uint8_t *lean;                       /* [grid.n] bit 2 d (2 d + 1): the node has lost its cells below (above) in
+                                          * direction d to others at the same place */
+    int32_t *group;                      /* [groups] of partial cells: number in `lane`, -1: corners of the grid */
+    int32_t *lane;                       /* [numbers][2^dim][LANES] nodes at the corners of the cells of a group */
+    int64_t links;                       /* blocks of extra nodes and of nodes at the same places: */
+    struct mesh_link { int32_t extra, base; } *link;   /* [links] */
+    uint8_t *linked;                     /* [blocks] 1: it stands in a link */
+};
+
 struct mesh {
     struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused */
     int64_t points;                      /* particles in the mesh; 0: there is no mesh */
@@ -72,7 +92,43 @@ struct mesh {
     struct active_set active;            /* of blocks of nodes */
     int64_t segments;                    /* blocks in a row of nodes */
     real rounding;                       /* displacements are rounded to multiples of it [m] */
+    struct mesh_slits slits;
 };
+
+/* Nodes at the corners of cell I, if they are not all of the grid; else NULL. */
+static inline const int32_t *mesh_own_corners(const struct mesh *mesh, int64_t I)
+{
+    const struct mesh_slits *s = &mesh->slits;
+    return s->cell && s->cell[I] >= 0 ? s->corner + ((int64_t)s->cell[I] << mesh->grid.dim) : NULL;
+}
+
+/* Node at corner c of cell I. */
+static inline int64_t mesh_node(const struct mesh *mesh, int64_t I, int c)
+{
+    const int32_t *own = mesh_own_corners(mesh, I);
+    return own ? own[c] : I + mesh->corner[c];
+}
+
+/* Nodes [2^dim][LANES] at the corners of a group of partial cells, if they are not all of the grid; else NULL. */
+static inline const int32_t *mesh_group_corners(const struct mesh *mesh, int64_t group, const int dim)
+{
+    const struct mesh_slits *s = &mesh->slits;
+    return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
+}
+
+/* Node of the grid at the place of node I. */
+static inline int64_t mesh_base(const struct mesh *mesh, int64_t I)
+{
+    const struct mesh_slits *s = &mesh->slits;
+    return s->cell && I >= s->first && s->base[I - s->first] >= 0 ? s->base[I - s->first] : I;
+}
+
+/* Cell of which node I is corner c; -1: there is none. */
+static inline int64_t mesh_cell_at(const struct mesh *mesh, int64_t I, int c)
+{
+    const int64_t cell = mesh_base(mesh, I) - mesh->corner[c];
+    return cell >= 0 && mesh_node(mesh, cell, c) == I ? cell : -1;
+}
 
 /* Modes of a cell that store energy: its mean strain, and its bending. */
 static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }

@@ -67,7 +67,7 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
     const int dim = p->dim;
     real mass = 0;
     for (int c = (1 << dim) - 1; c >= 0; c--) {
-        const int64_t cell = I - mesh->corner[c];
+        const int64_t cell = mesh_cell_at(mesh, I, c);
         for (int q = 0; q < 1 << dim && cell >= 0; q++) {
             const int32_t i = mesh->point[(cell << dim) + q];
             if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
@@ -89,7 +89,7 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
     status s = OK;
     for (int64_t i = 0; i < p->n && s == OK; i++)
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
-            uint8_t *owner = &body[(mesh->place[i] >> p->dim) + mesh->corner[c]];
+            uint8_t *owner = &body[mesh_node(mesh, mesh->place[i] >> p->dim, c)];
             if (*owner != 0 && *owner != p->body[i] + 1)
                 s = meshed_body(p, i, "shares a node with another body, which would move with it");
             *owner = (uint8_t)(p->body[i] + 1);
@@ -100,13 +100,13 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Whole: all points exist, of one material, and none leaves stress to bonds. */
+/* Whole: all points exist, of one material, none leaves stress to bonds, and all corners are nodes of the grid. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
     const int dim = p->dim;
     int there = 0;
-    bool alike = true;
+    bool alike = !mesh_own_corners(mesh, I);
     const int32_t *point = &mesh->point[I << dim];
     for (int q = 0; q < 1 << dim; q++) {
         if (point[q] < 0) continue;
@@ -185,7 +185,8 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
 /* Makes the nodes and all arrays of the mesh. */
-static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like)
+static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like,
+                         const struct mesh_source *source)
 {
     struct grid *g = &mesh->grid;
     real from[DIM_MAX], to[DIM_MAX];
@@ -197,10 +198,11 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     }
     to[0] += LANES * g->h;                    /* whole vectors are read and added to beyond the last cell of a row */
     TRY(grid_cover(g, from, to, INT32_MAX >> p->dim, &changed));
-    for (int d = 0; d < p->dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
-    mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
     for (int c = 0; c < 1 << p->dim; c++)
         for (int d = 0; d < p->dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
+    TRY(mesh_slits_make(mesh, p, source, from, to));
+    for (int d = 0; d < p->dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
+    mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
     mesh->point = NEW("mesh.point", g->n << p->dim, int32_t);
     for (int64_t k = 0; k < g->n << p->dim; k++) mesh->point[k] = -1;
     mesh->kind = NEW("mesh.kind", g->n, uint8_t);
@@ -209,6 +211,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
     active_set_make(&mesh->active, mesh->rows * mesh->segments);
+    mesh_slits_link(mesh);
     mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->band = NEW("mesh.band", g->count[p->dim - 1] + 2, int64_t);
     return OK;
@@ -237,7 +240,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
     }
     particles_list(p);
     if (meshed == 0) return OK;
-    TRY(nodes_make(mesh, p, like));
+    TRY(nodes_make(mesh, p, like, source));
     TRY(points_place(mesh, p));
     TRY(bodies_apart(mesh, p));
 #pragma omp parallel for schedule(static)
@@ -260,6 +263,7 @@ void mesh_free(struct mesh *mesh)
     mesh_partial_free(mesh);
     memory_free(mesh->exposed_list);
     memory_free(mesh->span);
+    mesh_slits_free(&mesh->slits);
     active_set_free(&mesh->active);
     memset(mesh, 0, sizeof *mesh);
 }
@@ -274,7 +278,7 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
     for (int d = 0; d < p->dim; d++) {
         for (int c = 0; c < 1 << p->dim; c++)
             energy += 0.5 * p->mass[i] * mesh_weight(p->dim, c, place & ((1 << p->dim) - 1)) *
-                      square(mesh->grid.velocity[d][(place >> p->dim) + mesh->corner[c]]);
+                      square(mesh->grid.velocity[d][mesh_node(mesh, place >> p->dim, c)]);
         energy -= 0.5 * p->mass[i] * square(p->v[d][i]);
     }
     mesh->place[i] = -1;
@@ -290,7 +294,7 @@ static void nodes_lighten(struct mesh *mesh, const struct particles *p, const ui
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);
     for (int64_t cell = 0; cell < mesh->grid.n; cell++)
         for (int c = 0; c < 1 << p->dim && left[cell]; c++) {
-            const int64_t I = cell + mesh->corner[c];
+            const int64_t I = mesh_node(mesh, cell, c);
             if (done[I]) continue;
             done[I] = 1;
             mesh_node_weigh(mesh, p, I);

@@ -19,6 +19,15 @@ void mesh_partial_again(struct mesh *mesh, const struct particles *p, const stru
                         const uint8_t *dirty);
 void mesh_partial_free(struct mesh *mesh);
 
+/* Slits (mesh_slits.c). Finds the nodes that they double, and extends the box of nodes, which covers from..to [m], by
+ * rows for the extra ones; then the links between blocks, once blocks are known; the corners of groups, once these are
+ * known. */
+status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const real *from,
+                       const real *to);
+void mesh_slits_link(struct mesh *mesh);
+void mesh_slits_groups(struct mesh *mesh);
+void mesh_slits_free(struct mesh_slits *s);
+
 /* Nodal values `node` [dim][nodes] of a field that the points sample as `value` [dim][particles]: least squares
  * weighted by mass, started from the lumped projection. */
 void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);
