@@ -38,22 +38,25 @@ struct mesh_exposed { int32_t cell; uint8_t places; };
 /* A material point at the end of state-based bonds, and the lane of its cell in the group of partial cells. */
 struct mesh_end { int32_t point, lane; };
 
-/* Slits: free surfaces between cells (mesh_slits.c). Around a node that a slit passes the cells fall into groups; one
- * group keeps the node of the grid, each other one has an extra node of its own. Extra nodes lie in rows behind those of
- * the box: whatever works on all nodes works on them. A cell that touches one is partial and says its corners itself.
- * All this follows from where particles and slits are in the reference state, and stays. */
+/* Slits: free surfaces between points (mesh_slits.c). A cell that a slit divides becomes several, each with the points on
+ * one side: one keeps the index of the cell, the others have indices behind those of the box. Around a node that a slit
+ * passes the cells fall into groups: one keeps the node of the grid, each other has an extra node of its own. Extra nodes
+ * lie in rows behind those of the box: whatever works on all nodes works on them. A cell that touches one is partial and
+ * says its corners itself. All this follows from where particles and slits are in the reference state, and stays. */
 struct mesh_slits {
-    int64_t nodes, first;                /* number of extra nodes; first node behind the box, grid.n without slits */
+    int64_t nodes, first;                /* number of extra nodes; first node and cell behind the box */
     int32_t *base;                       /* [grid.n - first] node of the grid at the same place, -1: no extra node */
+    uint8_t *split;                      /* [grid.n] 1: other nodes are at the same place */
     int32_t *cell;                       /* [grid.n] number of a cell in `corner`, -1: corners of the grid. NULL: no
                                           * slits */
     int64_t cells;
     int32_t *corner;                     /* [cells][2^dim] nodes at the corners */
-    uint8_t *lean;                       /* [grid.n] bit 2 d (2 d + 1): the node has lost its cells below (above) in
-                                          * direction d to others at the same place */
+    int32_t *next;                       /* [grid.n] next cell of those that a cell was divided into, -1: none */
+    int32_t *cut;                        /* [grid.n] number of a divided cell of the grid in `home`, -1: it is whole */
+    int32_t *home;                       /* [numbers][2^dim] cell of the point at each of its places */
     int32_t *group;                      /* [groups] of partial cells: number in `lane`, -1: corners of the grid */
     int32_t *lane;                       /* [numbers][2^dim][LANES] nodes at the corners of the cells of a group */
-    int64_t links;                       /* blocks of extra nodes and of nodes at the same places: */
+    int64_t links;                       /* blocks of extra nodes or cells, and of what is at the same places: */
     struct mesh_link { int32_t extra, base; } *link;   /* [links] */
     uint8_t *linked;                     /* [blocks] 1: it stands in a link */
 };
@@ -123,11 +126,15 @@ static inline int64_t mesh_base(const struct mesh *mesh, int64_t I)
     return s->cell && I >= s->first && s->base[I - s->first] >= 0 ? s->base[I - s->first] : I;
 }
 
-/* Cell of which node I is corner c; -1: there is none. */
+/* First cell of which node I may be corner c, -1: none; then the next one after `cell`. Whether it is: mesh_node. */
 static inline int64_t mesh_cell_at(const struct mesh *mesh, int64_t I, int c)
 {
     const int64_t cell = mesh_base(mesh, I) - mesh->corner[c];
-    return cell >= 0 && mesh_node(mesh, cell, c) == I ? cell : -1;
+    return cell >= 0 ? cell : -1;
+}
+static inline int64_t mesh_cell_next(const struct mesh *mesh, int64_t cell)
+{
+    return mesh->slits.next ? mesh->slits.next[cell] : -1;
 }
 
 /* Modes of a cell that store energy: its mean strain, and its bending. */

@@ -38,6 +38,8 @@ int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_
         cell += k * g->stride[d];
         q |= upper << d;
     }
+    const struct mesh_slits *s = &mesh->slits;
+    if (s->cut && s->cut[cell] >= 0) cell = s->home[((int64_t)s->cut[cell] << p->dim) + q];
     return (cell << p->dim) + q;
 }
 
@@ -66,13 +68,12 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
 {
     const int dim = p->dim;
     real mass = 0;
-    for (int c = (1 << dim) - 1; c >= 0; c--) {
-        const int64_t cell = mesh_cell_at(mesh, I, c);
-        for (int q = 0; q < 1 << dim && cell >= 0; q++) {
-            const int32_t i = mesh->point[(cell << dim) + q];
-            if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
-        }
-    }
+    for (int c = (1 << dim) - 1; c >= 0; c--)
+        for (int64_t cell = mesh_cell_at(mesh, I, c); cell >= 0; cell = mesh_cell_next(mesh, cell))
+            for (int q = 0; q < 1 << dim && mesh_node(mesh, cell, c) == I; q++) {
+                const int32_t i = mesh->point[(cell << dim) + q];
+                if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
+            }
     return mass;
 }
 

@@ -89,20 +89,20 @@ static bool is_unknown(const struct projection *m, int64_t I)
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
     real sum = 0;
-    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++) {
-        const int64_t cell = mesh_cell_at(m->mesh, I, c);
-        if (cell >= 0) sum += cell_sum(m, cell, c, value, dim);
-    }
+    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
+        for (int64_t cell = mesh_cell_at(m->mesh, I, c); cell >= 0; cell = mesh_cell_next(m->mesh, cell))
+            if (mesh_node(m->mesh, cell, c) == I) sum += cell_sum(m, cell, c, value, dim);
     return sum;
 }
 
-/* Does a cell around node I have extra nodes of a slit? */
+/* Does a slit divide a cell around node I, or give it extra nodes? */
 static bool beside_slit(const struct mesh *mesh, int64_t I)
 {
-    const int64_t base = mesh_base(mesh, I);
-    bool beside = base != I;
-    for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.cell && !beside; c++)
-        beside = base >= mesh->corner[c] && mesh->slits.cell[base - mesh->corner[c]] >= 0;
+    bool beside = false;
+    for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.cell && !beside; c++) {
+        const int64_t cell = mesh_cell_at(mesh, I, c);
+        beside = cell >= 0 && (mesh->slits.cell[cell] >= 0 || mesh->slits.cut[cell] >= 0);
+    }
     return beside;
 }
 
@@ -110,16 +110,15 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
 static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, const real *from, const int dim)
 {
     real sum = 0;
-    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++) {
-        const int64_t cell = mesh_cell_at(m->mesh, I, c);
-        for (int q = 0; q < 1 << dim && cell >= 0; q++) {
-            const int32_t i = m->mesh->point[(cell << dim) + q];
-            real value = 0;
-            for (int k = 0; k < 1 << dim && i >= 0; k++)
-                value += mesh_weight(dim, k, q) * from[mesh_node(m->mesh, cell, k)];
-            if (i >= 0) sum += m->p->mass[i] * mesh_weight(dim, c, q) * value;
-        }
-    }
+    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
+        for (int64_t cell = mesh_cell_at(m->mesh, I, c); cell >= 0; cell = mesh_cell_next(m->mesh, cell))
+            for (int q = 0; q < 1 << dim && mesh_node(m->mesh, cell, c) == I; q++) {
+                const int32_t i = m->mesh->point[(cell << dim) + q];
+                real value = 0;
+                for (int k = 0; k < 1 << dim && i >= 0; k++)
+                    value += mesh_weight(dim, k, q) * from[mesh_node(m->mesh, cell, k)];
+                if (i >= 0) sum += m->p->mass[i] * mesh_weight(dim, c, q) * value;
+            }
     return sum;
 }
 
