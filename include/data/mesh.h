@@ -38,10 +38,10 @@ struct mesh_exposed { int32_t cell; uint8_t places; };
 /* A material point at the end of state-based bonds, and the lane of its cell in the group of partial cells. */
 struct mesh_end { int32_t point, lane; };
 
-/* Slits: free surfaces between points (mesh_slits.c). A cell that a slit divides becomes several, each with the points on
- * one side: one keeps the index of the cell, the others have indices behind those of the box. Around a node that a slit
- * passes the cells fall into groups: one keeps the node of the grid, each other has an extra node of its own. Extra nodes
- * lie in rows behind those of the box: whatever works on all nodes works on them. A cell that touches one is partial and
+/* Slits: free surfaces between points (mesh_slits.c). A cell that a slit divides becomes several, each with the points
+ * on one side: one keeps the index of the cell, the others have indices behind those of the box. Around a node that a
+ * slit passes the cells fall into groups: one keeps the node of the grid, each other has an extra node. Extra nodes lie
+ * in rows behind those of the box: whatever works on all nodes works on them. A cell that touches one is partial and
  * says its corners itself. All this follows from where particles and slits are in the reference state, and stays. */
 struct mesh_slits {
     int64_t nodes, first;                /* number of extra nodes; first node and cell behind the box */

@@ -233,8 +233,9 @@ bool engine_frame_allowed(const struct engine *e, int body);
 /* Sets origin and node distance of the grid, by the frames. */
 void engine_grid_make(struct engine *e);
 status engine_mesh_make(struct engine *e);
-/* Pre-cracks as slits of the mesh (engine_notch.c): the choice, REFUSED where the scene wants what cannot be, and the peridynamic particles of the
- * start; before the first sample of tips; in a step, faces that meet; one line for each kind of pre-crack. */
+/* Pre-cracks as slits of the mesh (engine_notch.c): the choice, REFUSED where the scene wants what cannot be, and the
+ * peridynamic particles of the start; before the first sample of tips; in a step, faces that meet; what stands for a
+ * pre-crack, in words. */
 status engine_notch_convert(struct engine *e);
 void engine_notch_tips(struct engine *e);
 void engine_notch_approach(struct engine *e);

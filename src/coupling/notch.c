@@ -15,7 +15,7 @@ enum { EDGE_PARTS = 16 };                /* places of an edge at which the body 
 /* ---- ends -------------------------------------------------------------------------------------------------------- */
 
 /* Edges that a crack may grow from: of a segment its ends. Corners of edge e. */
-static void edge_of(const struct crack *c, int e, int dim, const real **from, const real **to)
+static void crack_end_of(const struct crack *c, int e, int dim, const real **from, const real **to)
 {
     *from = c->corner[e];
     *to = dim == 3 ? c->corner[(e + 1) % c->n] : c->corner[e];
@@ -26,7 +26,7 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
 {
     real middle[DIM_MAX] = {0};
     const real *from, *to;
-    edge_of(c, e, p->dim, &from, &to);
+    crack_end_of(c, e, p->dim, &from, &to);
     for (int k = 0; k < c->n; k++)
         for (int d = 0; d < p->dim; d++) middle[d] += c->corner[k][d] / c->n;
     for (int part = 0; part < (p->dim == 3 ? EDGE_PARTS : 1); part++) {
@@ -71,7 +71,7 @@ static bool in_zone(const struct look *look, const struct particles *p, int64_t 
     particle_place(p, i, X);
     for (int e = 0; e < look->crack->n && look->edges >> e; e++) {
         const real *from, *to;
-        edge_of(look->crack, e, p->dim, &from, &to);
+        crack_end_of(look->crack, e, p->dim, &from, &to);
         if (look->edges >> e & 1 && distance_from(from, to, X, p->dim) <= look->radius) return true;
     }
     return false;

@@ -43,8 +43,8 @@ static status notches_check(const struct scene *s, const struct notches *n)
 {
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)
         if (!n->notch[k].slit)
-            return status_set(REFUSED, "conversion.notch: crack %d cannot be a slit: %s; auto or bonds can do it", k + 1,
-                              n->notch[k].reason);
+            return status_set(REFUSED, "conversion.notch: crack %d cannot be a slit: %s; auto and bonds can do it",
+                              k + 1, n->notch[k].reason);
     return OK;
 }
 

@@ -95,8 +95,8 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
     return mesh && mesh->slits.split && mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
 }
 
-/* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. Extra nodes of a
- * mesh mirror no others: there are none where a mirror lies between nodes. */
+/* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. Extra nodes of
+ * a mesh mirror no others: there are none where a mirror lies between nodes. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p)
 {
@@ -127,7 +127,8 @@ static bool constrained_by_region(const struct loads *l, const struct load *load
 {
     real x[DIM_MAX];
     node_at(&mesh->grid, mesh, I, x);
-    return !place_misleads(mesh, load, I) && node_constrained(load, x, mesh->grid.dim, LOADS_TOLERANCE * l->spacing, component);
+    return !place_misleads(mesh, load, I) &&
+           node_constrained(load, x, mesh->grid.dim, LOADS_TOLERANCE * l->spacing, component);
 }
 
 /* Was the set found for the present box of nodes? */

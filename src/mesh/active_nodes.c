@@ -19,7 +19,7 @@ static int64_t nodes_end(const struct mesh *mesh, int64_t block)
 
 static bool nodes_empty(const struct mesh *mesh, int64_t block)
 {
-    if (mesh->slits.linked && mesh->slits.linked[block]) return false;     /* it may be that of cells with extra nodes */
+    if (mesh->slits.linked && mesh->slits.linked[block]) return false;      /* cells there may have extra nodes */
     for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
         if (mesh->inverse_mass[I] != 0) return false;
     return true;

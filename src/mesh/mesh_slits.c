@@ -1,7 +1,7 @@
 /* Slits of the mesh: cells and nodes that free surfaces between points divide (struct mesh_slits in data/mesh.h).
  *
- * Two points are together if no slit passes between them. The points of a cell fall into pieces, each of which becomes a
- * cell; around a node pieces are together if a point of one and a point of the other are, or if others join them. Where
+ * Two points are together if no slit passes between them. The points of a cell fall into pieces, each of which becomes
+ * a cell; around a node pieces are together if a point of one and a point of the other are, or if others join them. Where
  * there are no points nothing joins: a slit that ends at a face of the body opens there, one that ends inside does
  * not. */
 #include <math.h>
@@ -228,7 +228,7 @@ static int32_t *none_make(const char *label, int64_t n)
 }
 
 /* Puts what is extra behind the box, whose nodes were s->first in number. */
-static void tables_make(struct mesh *mesh, const struct slit_maker *m)
+static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
     const int64_t n = mesh->grid.n;
@@ -272,7 +272,7 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
     m.split = NEW("slits.split", n, uint8_t);
     slits_divide(&m);
     if (m.node.n > 0) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
-    if (m.node.n > 0 && result == OK) tables_make(mesh, &m);
+    if (m.node.n > 0 && result == OK) slits_tables_make(mesh, &m);
     memory_free(m.point);
     memory_free(m.piece);
     memory_free(m.pieces);

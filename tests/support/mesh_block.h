@@ -143,8 +143,8 @@ static real largest_force(const struct block *b)
 }
 
 /* Partial stress of every point: any symmetric T up to `most` of the shear modulus, M = T C^-1. */
-static inline void partial_of(struct partial_stress *partial, const struct particles *p, const struct material *material,
-                       real most)
+static inline void partial_of(struct partial_stress *partial, const struct particles *p,
+                              const struct material *material, real most)
 {
     const int n = symmetric_count(p->dim);
     uint64_t seed = 17;
