@@ -53,7 +53,7 @@ status engine_notch_convert(struct engine *e)
     const struct scene *s = e->scene;
     struct notches *n = &e->coupling.notches;
     const real tips = s->conversion.tips * e->source.family.horizon;
-    const real radius = tips > 0 ? real_max(tips, e->source.family.horizon) : NOTCH_ZONE * s->spacing;
+    const real radius = tips > 0 ? real_max(tips, NOTCH_ZONE_LEAST * s->spacing) : NOTCH_ZONE * s->spacing;
     notches_make(n, &e->part, &e->source, radius, obstacle_of(e));
     TRY(notches_check(s, n));
     struct bond_source cut = e->source;

@@ -1,9 +1,9 @@
 /* Slits of the mesh: cells and nodes that free surfaces between points divide (struct mesh_slits in data/mesh.h).
  *
- * Two points are together if no slit passes between them. The points of a cell fall into pieces, each of which becomes
- * a cell; around a node pieces are together if a point of one and a point of the other are, or if others join them. Where
- * there are no points nothing joins: a slit that ends at a face of the body opens there, one that ends inside does
- * not. */
+ * Two points are together if no slit passes between them. The points of a cell fall into pieces, each of which is then
+ * a cell; around a node pieces are together if a point of one and a point of the other are, or if others join them.
+ * Where there are no points nothing joins: a slit that ends at a face of the body opens there, one that ends inside
+ * does not. */
 #include <math.h>
 #include <string.h>
 
