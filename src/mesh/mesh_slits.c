@@ -89,16 +89,36 @@ static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
     return I - m->mesh->corner[bit / CORNERS_MAX];
 }
 
-/* Is a point of one piece around node I together with one of the other? */
+/* Do places q and r of cells of which a node is corners c and k face each other across what the cells share? The node is
+ * a lower corner of the cell above it. */
+static bool places_face(int q, int r, int c, int k)
+{
+    const int apart = c ^ k;                             /* directions in which the cells follow each other */
+    return ((q ^ r) & ~apart) == 0 && (q & apart) == (c & apart) && (r & apart) == (k & apart);
+}
+
+/* Point of piece `bit` around node I at place q, -1: none. */
+static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q)
+{
+    const int64_t place = (cell_of_bit(m, I, bit) << m->p->dim) + q;
+    return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
+}
+
+/* Is a point of one piece around node I together with one of the other? Of points that face each other; where there are
+ * none, of any. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
-    const int corners = 1 << m->p->dim;
-    const int64_t a = cell_of_bit(m, I, one) * corners, b = cell_of_bit(m, I, other) * corners;
-    for (int q = 0; q < corners && a != b; q++)
-        for (int r = 0; r < corners; r++)
-            if (m->point[a + q] >= 0 && m->piece[a + q] == one % CORNERS_MAX && m->point[b + r] >= 0 &&
-                m->piece[b + r] == other % CORNERS_MAX && !points_parted(m, m->point[a + q], m->point[b + r]))
-                return true;
+    const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
+    bool faced = false;
+    for (int pass = 0; pass < 2 && !faced && c != k; pass++)
+        for (int q = 0; q < corners; q++)
+            for (int r = 0; r < corners; r++) {
+                if (pass == 0 && !places_face(q, r, c, k)) continue;
+                const int32_t i = piece_point(m, I, one, q), j = piece_point(m, I, other, r);
+                if (i < 0 || j < 0) continue;
+                if (!points_parted(m, i, j)) return true;
+                faced = faced || pass == 0;
+            }
     return false;
 }
 
