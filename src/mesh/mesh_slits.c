@@ -89,8 +89,8 @@ static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
     return I - m->mesh->corner[bit / CORNERS_MAX];
 }
 
-/* Do places q and r of cells of which a node is corners c and k face each other across what the cells share? The node is
- * a lower corner of the cell above it. */
+/* Do places q and r of cells of which a node is corners c and k face each other across what the cells share? The node
+ * is a lower corner of the cell above it. */
 static bool places_face(int q, int r, int c, int k)
 {
     const int apart = c ^ k;                             /* directions in which the cells follow each other */
