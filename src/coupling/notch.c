@@ -69,7 +69,7 @@ static bool in_zone(const struct look *look, const struct particles *p, int64_t 
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
-    for (int e = 0; e < look->crack->n && look->edges >> e; e++) {
+    for (int e = 0; e < look->crack->n && e < EDGES_MAX; e++) {
         const real *from, *to;
         crack_end_of(look->crack, e, p->dim, &from, &to);
         if (look->edges >> e & 1 && distance_from(from, to, X, p->dim) <= look->radius) return true;
@@ -136,6 +136,7 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
 {
     const struct look look = look_of(c, p, s, radius);
     if (p->dim == 1) return "a cut parts a line";
+    if (c->n > EDGES_MAX) return "its polygon has more than 64 corners";
     if (look.edges == 0) return "no end of it lies in the body, which it may part";
     const struct flanks f = flanks_of(&look, p, s);
     if (f.particles == 0) return "the zones round its ends hold all of it";
