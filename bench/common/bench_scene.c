@@ -71,7 +71,8 @@ void bench_engine_start(struct engine *e, bench_field *field, const void *contex
     }
     for (int64_t I = 0; e->reference.mesh.points > 0 && I < g->n; I++) {
         if (!(e->reference.mesh.inverse_mass[I] > 0)) continue;
-        for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+        const int64_t at = mesh_base(&e->reference.mesh, I);
+        for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
         field(context, X, v);
         for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
     }

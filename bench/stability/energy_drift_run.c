@@ -25,13 +25,13 @@ static struct mover mover_at(const struct engine *e, int64_t k)
     const struct particles *p = &e->part;
     const struct grid *g = &e->reference.mesh.grid;
     struct mover a = {0};
-    const int64_t I = k - p->n;
+    const int64_t I = k - p->n, at = I < 0 ? I : mesh_base(&e->reference.mesh, I);
     if (I < 0) a.m = p->flag[k] & FLAG_MESHED ? 0 : p->mass[k];
     else a.m = g->mass[I];
     for (int d = 0; d < p->dim; d++) {
         a.v[d] = I < 0 ? &p->v[d][k] : &g->velocity[d][I];
         a.x[d] = I < 0 ? p->x[d][k]
-                       : grid_position(g, d, I / g->stride[d] % g->count[d]) + e->reference.mesh.displacement[d][I];
+                       : grid_position(g, d, at / g->stride[d] % g->count[d]) + e->reference.mesh.displacement[d][I];
     }
     return a;
 }

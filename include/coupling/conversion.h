@@ -18,6 +18,8 @@ enum coupling {
                                             the interface; with linear and with GIMP shapes                     */
     COUPLING_PMG, COUPLING_PGG           /* the same on one unified grid, which moves everything                 */
 };
+/* What stands for pre-cracks in the reference frame (notch.h). */
+enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
 enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
 
 struct conversion_rule {
@@ -26,6 +28,7 @@ struct conversion_rule {
     real alpha;                          /* share of it that triggers */
     bool block;                          /* the triggered particle takes its horizon neighbours along */
     real tips;                           /* peridynamic from the start round ends of pre-cracks [horizons] */
+    enum notch_rule notch;
     bool reverts;                        /* particles revert to material points (reversion.h) */
     real hold_time;                      /* after a stress that was low for so long [horizon/c] */
     real low_stress;                     /* low: share of the stress that converts */

@@ -38,6 +38,29 @@ struct mesh_exposed { int32_t cell; uint8_t places; };
 /* A material point at the end of state-based bonds, and the lane of its cell in the group of partial cells. */
 struct mesh_end { int32_t point, lane; };
 
+/* Slits: free surfaces between points (mesh_slits.c). A cell that a slit divides becomes several, each with the points
+ * on one side: one keeps the index of the cell, the others have indices behind those of the box. Around a node that a
+ * slit passes the cells fall into groups: one keeps the node of the grid, each other has an extra node. Extra nodes lie
+ * in rows behind those of the box: whatever works on all nodes works on them. A cell that touches one is partial and
+ * says its corners itself. All this follows from where particles and slits are in the reference state, and stays. */
+struct mesh_slits {
+    int64_t nodes, first;                /* number of extra nodes; first node and cell behind the box */
+    int32_t *base;                       /* [grid.n - first] node of the grid at the same place, -1: no extra node */
+    uint8_t *split;                      /* [grid.n] 1: other nodes are at the same place */
+    int32_t *cell;                       /* [grid.n] number of a cell in `corner`, -1: corners of the grid. NULL: no
+                                          * slits */
+    int64_t cells;
+    int32_t *corner;                     /* [cells][2^dim] nodes at the corners */
+    int32_t *next;                       /* [grid.n] next cell of those that a cell was divided into, -1: none */
+    int32_t *cut;                        /* [grid.n] number of a divided cell of the grid in `home`, -1: it is whole */
+    int32_t *home;                       /* [numbers][2^dim] cell of the point at each of its places */
+    int32_t *group;                      /* [groups] of partial cells: number in `lane`, -1: corners of the grid */
+    int32_t *lane;                       /* [numbers][2^dim][LANES] nodes at the corners of the cells of a group */
+    int64_t links;                       /* blocks of extra nodes or cells, and of what is at the same places: */
+    struct mesh_link { int32_t extra, base; } *link;   /* [links] */
+    uint8_t *linked;                     /* [blocks] 1: it stands in a link */
+};
+
 struct mesh {
     struct grid grid;                    /* nodes: mass, force, velocity; its momentum is unused */
     int64_t points;                      /* particles in the mesh; 0: there is no mesh */
@@ -74,6 +97,7 @@ struct mesh {
     struct active_set active;            /* of blocks of nodes */
     int64_t segments;                    /* blocks in a row of nodes */
     real rounding;                       /* displacements are rounded to multiples of it [m] */
+    struct mesh_slits slits;
 
     /* Of a mesh of coarse cells (mesh/levels.h), which has no points; else NULL. There grid.momentum is the momentum
      * of a node over its mass, from which its velocity follows (kernels/mesh/mesh_inertia.c) [m/s]. */
@@ -82,6 +106,45 @@ struct mesh {
     uint8_t *matched;                    /* [grid.n] bit c: the cell of which the node is corner c is matched */
     real match;                          /* share of consistent inertia that is taken from matched cells [1] */
 };
+
+/* Nodes at the corners of cell I, if they are not all of the grid; else NULL. */
+static inline const int32_t *mesh_own_corners(const struct mesh *mesh, int64_t I)
+{
+    const struct mesh_slits *s = &mesh->slits;
+    return s->cell && s->cell[I] >= 0 ? s->corner + ((int64_t)s->cell[I] << mesh->grid.dim) : NULL;
+}
+
+/* Node at corner c of cell I. */
+static inline int64_t mesh_node(const struct mesh *mesh, int64_t I, int c)
+{
+    const int32_t *own = mesh_own_corners(mesh, I);
+    return own ? own[c] : I + mesh->corner[c];
+}
+
+/* Nodes [2^dim][LANES] at the corners of a group of partial cells, if they are not all of the grid; else NULL. */
+static inline const int32_t *mesh_group_corners(const struct mesh *mesh, int64_t group, const int dim)
+{
+    const struct mesh_slits *s = &mesh->slits;
+    return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
+}
+
+/* Node of the grid at the place of node I. */
+static inline int64_t mesh_base(const struct mesh *mesh, int64_t I)
+{
+    const struct mesh_slits *s = &mesh->slits;
+    return s->cell && I >= s->first && s->base[I - s->first] >= 0 ? s->base[I - s->first] : I;
+}
+
+/* First cell of which node I may be corner c, -1: none; then the next one after `cell`. Whether it is: mesh_node. */
+static inline int64_t mesh_cell_at(const struct mesh *mesh, int64_t I, int c)
+{
+    const int64_t cell = mesh_base(mesh, I) - mesh->corner[c];
+    return cell >= 0 ? cell : -1;
+}
+static inline int64_t mesh_cell_next(const struct mesh *mesh, int64_t cell)
+{
+    return mesh->slits.next ? mesh->slits.next[cell] : -1;
+}
 
 /* Modes of a cell that store energy: its mean strain, and its bending. */
 static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }

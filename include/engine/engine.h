@@ -15,6 +15,7 @@
 #include "data/cells.h"
 #include "coupling/approach.h"
 #include "coupling/conversion.h"
+#include "coupling/notch.h"
 #include "critical_step.h"
 #include "scene/fill.h"
 #include "data/grid.h"
@@ -101,6 +102,7 @@ struct coupling_state {
     real damping_share;                  /* of the zone in a step; 0: not at all */
     real damped;                         /* energy that this damping, and conversion of moving cells, took [J] */
     struct conversion conversion;
+    struct notches notches;              /* what stands for pre-cracks */
     struct region start_region;          /* peridynamic from the start; no solid: none */
 };
 
@@ -235,6 +237,13 @@ bool engine_frame_allowed(const struct engine *e, int body);
 /* Sets origin and node distance of the grid, by the frames. */
 void engine_grid_make(struct engine *e);
 status engine_mesh_make(struct engine *e);
+/* Pre-cracks as slits of the mesh (engine_notch.c): the choice, REFUSED where the scene wants what cannot be, and the
+ * peridynamic particles of the start; before the first sample of tips; in a step, faces that meet; what stands for a
+ * pre-crack, in words. */
+status engine_notch_convert(struct engine *e);
+void engine_notch_tips(struct engine *e);
+void engine_notch_approach(struct engine *e);
+void engine_notch_text(const struct engine *e, int crack, char *text, size_t room);
 real engine_mesh_critical_step(const struct engine *e);
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity);
 void engine_mesh_sync(struct engine *e);

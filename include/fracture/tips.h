@@ -47,6 +47,9 @@ struct tips {
     real *growth;                        /* [samples][TIPS_MAX], without `joined` */
 };
 
+/* Particles whose share `lost` [particles] of damage pre-cracks alone would make, once they have bonds, belong to no
+ * crack either. */
+void tips_before(struct tips *t, const real *lost);
 /* Needs damage of the pre-cracks already on the particles. window [s] of the speed. */
 void tips_make(struct tips *t, const struct particles *p, const struct cells *c, const struct crack *crack, int cracks,
                real spacing, real window);

@@ -18,6 +18,8 @@ struct mesh_source {
     const struct elastic *isotropic;     /* [materials] those that partial stress rests on */
     int materials;
     const struct partial_stress *partial; /* NULL, or what points leave to bonds */
+    const struct crack *slit;            /* [slits] free surfaces between cells, borrowed */
+    int slits;
 };
 
 /* A mesh of all particles with FLAG_MESHED, nodes where the anchor and node distance of `like` put them; nodes take

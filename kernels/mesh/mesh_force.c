@@ -127,13 +127,15 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
         const int64_t left = mesh->partial_cells - group * LANES;
         const lanes *f = (const lanes *)mesh->partial_force + group * (1 << dim) * dim;
         if (partial_inactive(mesh, group)) continue;
-        const bool in_line = list_together(cell);
+        const int32_t *own = mesh_group_corners(mesh, group, dim);
+        const bool in_line = !own && list_together(cell);
         for (int c = 0; c < 1 << dim; c++)
             for (int i = 0; i < dim; i++) {
-                real *to = mesh->grid.force[i] + mesh->corner[c];
+                real *to = mesh->grid.force[i] + (own ? 0 : mesh->corner[c]);
+                const int32_t *at = own ? own + c * LANES : cell;
                 if (in_line) lanes_store(to + cell[0], lanes_load(to + cell[0]) + f[c * dim + i]);
                 else
-                    for (int l = 0; l < LANES && l < left; l++) to[cell[l]] += f[c * dim + i][l];
+                    for (int l = 0; l < LANES && l < left; l++) to[at[l]] += f[c * dim + i][l];
             }
     }
 }

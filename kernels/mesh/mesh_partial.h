@@ -13,8 +13,11 @@
 static ALWAYS_INLINE void mesh_partial_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
                                             const int dim)
 {
-    const int32_t *cell = mesh->partial_cell + group * LANES;
+    const int32_t *cell = mesh->partial_cell + group * LANES, *own = mesh_group_corners(mesh, group, dim);
     const int32_t first = cell[LANES - 1] - cell[0] == LANES - 1 ? cell[0] : -1;
+    for (int c = 0; c < 1 << dim && own; c++)
+        for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i], -1, own + c * LANES);
+    if (own) return;
     for (int c = 0; c < 1 << dim; c++)
         for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i] + mesh->corner[c], first, cell);
 }

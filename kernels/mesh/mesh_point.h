@@ -43,7 +43,8 @@ static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
 /* Values of a nodal field at the corners of cell I. */
 static ALWAYS_INLINE void mesh_corners(const struct mesh *mesh, const real *field, int64_t I, real *v, const int dim)
 {
-    for (int c = 0; c < 1 << dim; c++) v[c] = field[I + mesh->corner[c]];
+    const int32_t *own = mesh_own_corners(mesh, I);
+    for (int c = 0; c < 1 << dim; c++) v[c] = field[own ? own[c] : I + mesh->corner[c]];
 }
 
 /* Gradients of the displacement at the places of cell I, row major [1]. */

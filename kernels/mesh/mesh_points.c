@@ -164,7 +164,7 @@ static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p
         real f[CORNERS_MAX];
         for (int q = 0; q < 1 << dim; q++) f[q] = places >> q & 1 ? p->f[a][point[q]] : 0;
         mesh_places(f, dim);
-        for (int c = 0; c < 1 << dim; c++) mesh->grid.force[a][I + mesh->corner[c]] += f[c];
+        for (int c = 0; c < 1 << dim; c++) mesh->grid.force[a][mesh_node(mesh, I, c)] += f[c];
     }
 }
 

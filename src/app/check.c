@@ -101,6 +101,19 @@ static void say_contact(const struct engine *e)
     }
 }
 
+/* What stands for the first few pre-cracks. */
+static void say_notches(const struct engine *e)
+{
+    enum { SAID = 6 };
+    const int n = e->coupling.notches.n;
+    char text[256];
+    for (int k = 0; k < n && k < SAID; k++) {
+        engine_notch_text(e, k, text, sizeof text);
+        printf("notch          crack %d: %s\n", k + 1, text);
+    }
+    if (n > SAID) printf("notch          and %d more\n", n - SAID);
+}
+
 static void say_time_step(const struct engine *e)
 {
     if (e->scene->solver != SOLVER_EXPLICIT)
@@ -170,6 +183,7 @@ status command_check(int argc, char **argv)
         say_particles(&e);
         say_materials(&e);
         say_frames(&e);
+        say_notches(&e);
         say_time_step(&e);
         say_contact(&e);
         engine_warn(&e);

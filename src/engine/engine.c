@@ -274,6 +274,7 @@ static void convert_points(struct engine *e, struct step *now)
 {
     if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
     if (e->coupling.approaches && e->clock.step % APPROACH_STEPS == 0) approach(e);
+    engine_notch_approach(e);
     engine_breaks(e, now->broken);
     const struct conversion_sync sync = {engine_mesh_sync_points, e};
     engine_levels_guard(e);

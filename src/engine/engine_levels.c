@@ -67,19 +67,37 @@ static void demand_mirrors(const struct engine *e, uint8_t *demand)
     }
 }
 
-/* Cells of level 0 that must stay so: near peridynamic particles and where something is wanted, and what loads act on.
- */
+/* Marks the cells beside slits, whose nodes coarse cells do not know. */
+static void demand_slits(const struct mesh *mesh, uint8_t *demand)
+{
+    for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
+        for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
+}
+
+/* Adds marks to others; NULL: there are none. */
+static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
+{
+    for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
+}
+
+/* Cells of level 0 that must stay so: within `zone` cells of peridynamic particles and where something is wanted, and
+ * within one of what loads act on, of mirrors and of slits. The caller frees them. */
 static uint8_t *demand_make(const struct engine *e, int zone)
 {
     const struct mesh_levels *l = &e->reference.levels;
     const struct particles *p = &e->part;
-    uint8_t *demand = NEW("levels.demand", l->fine->grid.n, uint8_t);
-    memcpy(demand, l->wanted, (size_t)l->fine->grid.n);
+    const int64_t n = l->fine->grid.n;
+    uint8_t *demand = NEW("levels.demand", n, uint8_t), *fixed = NEW("levels.fixed", n, uint8_t);
+    memcpy(demand, l->wanted, (size_t)n);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
     levels_dilate(l, demand, zone);
     for (int b = 0; b < e->loads.n; b++)
-        for (int64_t k = 0; k < e->loads.load[b].n; k++) demand[cell_of(l->fine, p, e->loads.load[b].particle[k])] = 1;
-    demand_mirrors(e, demand);
+        for (int64_t k = 0; k < e->loads.load[b].n; k++) fixed[cell_of(l->fine, p, e->loads.load[b].particle[k])] = 1;
+    demand_mirrors(e, fixed);
+    demand_slits(l->fine, fixed);
+    levels_dilate(l, fixed, 1);
+    marks_add(l, fixed, demand);
+    memory_free(fixed);
     return demand;
 }
 
@@ -118,12 +136,6 @@ static uint8_t *stressed_cells(const struct engine *e, real share, bool all)
         memory_free(mark);
     }
     return cells;
-}
-
-/* Adds marks to others; NULL: there are none. */
-static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
-{
-    for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
 /* Is a cell coarser in `level` than now? */

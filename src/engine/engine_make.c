@@ -129,11 +129,7 @@ static status make_bonds(struct engine *e)
         TRY(surface_make(&e->tables.surface, &e->part, &e->source, e->source.rotates));
         e->source.surface = &e->tables.surface;
     }
-    if (s->method == METHOD_ADAPTIVE) {
-        convert_region(&e->coupling.start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
-                       s->conversion.tips * e->source.family.horizon);
-        convert_start(&e->part, &e->source, e->coupling.start_region.n > 0 ? &e->coupling.start_region : NULL);
-    }
+    if (s->method == METHOD_ADAPTIVE) TRY(engine_notch_convert(e));
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     e->coupling.conversion.first_time = NAN;
     e->coupling.conversion.start = e->coupling.conversion.peak = e->part.n_of[KIND_PD];
@@ -436,6 +432,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
         false, NULL};
     e->probing.strain_stress = largest_stress(&e->part);
     tips_make(&e->fracture.tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
+    engine_notch_tips(e);
     e->fracture.growth = NEW("engine.growth", s->growths, struct growth);
     for (int k = 0; k < s->growths; k++) growth_make(&e->fracture.growth[k], &s->growth[k]);
     if (s->solver != SOLVER_EXPLICIT) TRY(named(s, engine_solver_make(e)));
@@ -475,6 +472,7 @@ void engine_free(struct engine *e)
     loads_free(&e->loads);
     particles_free(&e->part);
     memory_free(e->coupling.start_region.solid);
+    notches_free(&e->coupling.notches);
     solver_free(&e->solver);
     memory_free(e->boundary);
     memory_free(e->tables.pair_stretch);

@@ -87,7 +87,9 @@ static void make_constants(struct engine *e)
     e->reference.source = (struct mesh_source){.elastic = e->reference.elastic,
                                           .isotropic = e->tables.elastic,
                                           .materials = s->materials,
-                                          .partial = e->coupling.uses_partial ? &e->coupling.partial : NULL};
+                                          .partial = e->coupling.uses_partial ? &e->coupling.partial : NULL,
+                                          .slit = e->coupling.notches.slit,
+                                          .slits = e->coupling.notches.slits};
 }
 
 /* Updates exposed points and loads after the points of the mesh have changed. */

@@ -23,7 +23,8 @@ void engine_residual_of(struct engine *e, const struct grid *g)
     real x[DIM_MAX], *most = &e->probing.residual_step0;
     if (!wants_residual(e->scene, &e->clock)) return;
     for (int64_t I = 0; I < g->n; I++) {
-        for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+        const int64_t at = g == &e->reference.mesh.grid ? mesh_base(&e->reference.mesh, I) : I;
+        for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
         for (int d = 0; d < g->dim; d++)
             if (in_patch(e->scene, x)) *most = real_max(*most, fabs(g->force[d][I]));
     }

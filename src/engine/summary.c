@@ -307,6 +307,20 @@ static int reversions_most(const struct particles *p)
     return most;
 }
 
+/* What stands for each of the first pre-cracks. */
+static void put_notches(struct json *j, const struct engine *e)
+{
+    enum { SAID = 16 };
+    char text[256];
+    if (e->coupling.notches.n == 0) return;
+    json_open(j, "notches", '[');
+    for (int k = 0; k < e->coupling.notches.n && k < SAID; k++) {
+        engine_notch_text(e, k, text, sizeof text);
+        json_text(j, NULL, text);
+    }
+    json_close(j, ']');
+}
+
 static void put_conversion(struct json *j, const struct engine *e)
 {
     const struct conversion *c = &e->coupling.conversion;
@@ -319,6 +333,7 @@ static void put_conversion(struct json *j, const struct engine *e)
     json_real(j, "pd_share_start", start);
     json_real(j, "pd_share_end", end);
     json_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
+    put_notches(j, e);
     if (e->part.low_since) {
         json_count(j, "converted", c->converted);
         json_count(j, "returned", c->reverted);

@@ -150,3 +150,9 @@ void tips_make(struct tips *t, const struct particles *p, const struct cells *c,
         }
     memory_free(s.found);
 }
+
+void tips_before(struct tips *t, const real *lost)
+{
+    for (int64_t i = 0; i < t->count; i++)
+        if (lost[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;
+}

@@ -81,8 +81,23 @@ static bool load_holds(const struct load *load, const struct grid *g, const stru
     return holds;
 }
 
-/* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. */
-static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g,
+/* Place of node I [m]. `mesh`: that of the grid, NULL: it has none. */
+static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, real *x)
+{
+    const int64_t at = mesh ? mesh_base(mesh, I) : I;
+    for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
+}
+
+/* Is the place of node I no guide to what its cells hold? Of nodes that slits have doubled each holds other material:
+ * only that says whether it is driven. */
+static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
+{
+    return mesh && mesh->slits.split && mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
+}
+
+/* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. Extra nodes of
+ * a mesh mirror no others: there are none where a mirror lies between nodes. */
+static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p)
 {
     struct mirror_node mirror_node;
@@ -91,26 +106,29 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     for (int d = 0; d < g->dim; d++) s->first[d] = g->first[d], s->count[d] = g->count[d];
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
-        if (node_mirrored(l, g, I, &mirror_node)) {
+        const bool behind = mesh && I >= mesh->slits.first;
+        if (behind && mesh_base(mesh, I) == I) continue;             /* no node */
+        if (!behind && node_mirrored(l, g, I, &mirror_node)) {
             grid_add_mirror_node(g, &mirror_node);
             continue;
         }
-        for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+        node_at(g, mesh, I, x);
         for (int b = 0; b < l->n; b++)
             for (int d = 0; d < g->dim; d++)
-                if (load_holds(&l->load[b], g, p) &&
+                if (load_holds(&l->load[b], g, p) && !place_misleads(mesh, &l->load[b], I) &&
                     node_constrained(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d))
                     constrained_add(s, I, d, b);
     }
 }
 
 /* Has constrained_find listed this component of node I already? */
-static bool constrained_by_region(const struct loads *l, const struct load *load, const struct grid *g, int64_t I,
+static bool constrained_by_region(const struct loads *l, const struct load *load, const struct mesh *mesh, int64_t I,
                                   int component)
 {
     real x[DIM_MAX];
-    for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
-    return node_constrained(load, x, g->dim, LOADS_TOLERANCE * l->spacing, component);
+    node_at(&mesh->grid, mesh, I, x);
+    return !place_misleads(mesh, load, I) &&
+           node_constrained(load, x, mesh->grid.dim, LOADS_TOLERANCE * l->spacing, component);
 }
 
 /* Was the set found for the present box of nodes? */
@@ -192,7 +210,7 @@ void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, 
     real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
     g->walls = 0;
     if (l->n == 0) return;
-    if (!constrained_is_current(held, g)) constrained_find(l, held, g, p);
+    if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p);
     sif_bench_at(l, t, dt, velocity, change);
     constrained_walls(l, held, g, velocity, change);
     for (int b = 0; b < l->n; b++)
@@ -210,13 +228,13 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
     for (int64_t k = 0; k < load->n; k++) {
         const int32_t i = load->particle[k];
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++)
-            share[(mesh->place[i] >> p->dim) + mesh->corner[c]] +=
+            share[mesh_node(mesh, mesh->place[i] >> p->dim, c)] +=
                 p->mass[i] * mesh_weight(p->dim, c, mesh->place[i] & ((1 << p->dim) - 1));
     }
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int d = 0; d < p->dim; d++)
             if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] &&
-                load->boundary->components >> d & 1 && !constrained_by_region(l, load, &mesh->grid, I, d))
+                load->boundary->components >> d & 1 && !constrained_by_region(l, load, mesh, I, d))
                 constrained_add(&l->constrained_mesh, I, d, which);
     memory_free(share);
 }
@@ -226,7 +244,7 @@ void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles 
     if (mesh->points == 0) return;
     /* regions and mirrors are constant; driven nodes depend on masses */
     if (!constrained_is_current(&l->constrained_mesh, &mesh->grid)) {
-        constrained_find(l, &l->constrained_mesh, &mesh->grid, p);
+        constrained_find(l, &l->constrained_mesh, &mesh->grid, mesh, p);
         l->constrained_mesh.lasting = l->constrained_mesh.n;
     }
     l->constrained_mesh.n = l->constrained_mesh.lasting;
@@ -236,7 +254,7 @@ void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles 
 
 void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p)
 {
-    if (!constrained_is_current(held, g)) constrained_find(l, held, g, p);
+    if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p);
 }
 
 void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt)

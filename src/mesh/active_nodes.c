@@ -19,9 +19,25 @@ static int64_t nodes_end(const struct mesh *mesh, int64_t block)
 
 static bool nodes_empty(const struct mesh *mesh, int64_t block)
 {
+    if (mesh->slits.linked && mesh->slits.linked[block]) return false;      /* cells there may have extra nodes */
     for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
         if (mesh->inverse_mass[I] != 0) return false;
     return true;
+}
+
+static void mesh_activate(struct mesh *mesh, int64_t block);
+
+/* Extra nodes of a slit are the neighbours of what is beside their place. Activates the blocks of those whose place is
+ * in block `near`; and where `near` itself is a block of extra nodes that moves, the blocks of their places. */
+static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
+{
+    const struct mesh_slits *s = &mesh->slits;
+    if (!s->linked || !s->linked[near]) return;
+    for (int64_t k = 0; k < s->links; k++) {
+        uint8_t *level = &mesh->active.level[s->link[k].extra];
+        if (s->link[k].base == near && *level == 0) *level = 1;
+        if (s->link[k].extra == near && moves) mesh_activate(mesh, s->link[k].base);
+    }
 }
 
 /* Activates a block that moves, and its neighbours that have nodes with mass. */
@@ -35,7 +51,9 @@ static void mesh_activate(struct mesh *mesh, int64_t block)
     for (int q = 0; q < (dim == 1 ? 3 : dim == 2 ? 9 : 27); q++) {
         int64_t near = block;
         for (int d = 0, active = q; d < dim; d++, active /= 3) near += (active % 3 - 1) * far[d];
-        if (near >= 0 && near < r->blocks && r->level[near] == 0 && !nodes_empty(mesh, near)) r->level[near] = 1;
+        if (near < 0 || near >= r->blocks) continue;
+        if (r->level[near] == 0 && !nodes_empty(mesh, near)) r->level[near] = 1;
+        slits_activate(mesh, near, near == block);
     }
 }
 
@@ -68,7 +86,7 @@ void active_nodes_add_exposed(struct mesh *mesh)
     const int dim = mesh->grid.dim;
     for (int64_t k = 0; k < mesh->exposed && mesh->active.is_current; k++)
         for (int c = 0; c < 1 << dim; c++)
-            mesh_activate(mesh, mesh_block(mesh, mesh->exposed_list[k].cell + mesh->corner[c]));
+            mesh_activate(mesh, mesh_block(mesh, mesh_node(mesh, mesh->exposed_list[k].cell, c)));
     active_set_list(&mesh->active);
 }
 

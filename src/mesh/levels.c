@@ -34,7 +34,7 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
         like.anchor[d] = grid_position(fine, d, l->offset[0][d]);
         to[d] = grid_position(fine, d, fine->count[d]);
     }
-    TRY(mesh_box_make(mesh, &like, like.anchor, to));
+    TRY(mesh_box_make(mesh, &like, like.anchor, to, NULL, NULL));
     for (int d = 0; d < fine->dim; d++) l->offset[level][d] = -mesh->grid.first[d];
     mesh->volume = l->fine->volume * (real)(1 << fine->dim * level);
     mesh->material = NEW("levels.material", mesh->grid.n, uint8_t);

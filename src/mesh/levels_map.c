@@ -50,7 +50,7 @@ static void gather_parts(struct level_map *map, const struct mesh_levels *l, int
     to->ok[I] &= to->limit[I] >= level;
 }
 
-/* Of the cells of level 0 in the block of 2^dim beside that with lower corner `first` that touch it, do all hold points,
+/* Of the cells of level 0 in the block beside that with lower corner `first` that touch it: do all hold points,
  * or none? Otherwise a node at the end of an edge of a coarse cell would have no finer one. `beside`: -1, 0 or 1 along
  * each axis. */
 static bool touching_alike(const struct level_map *map, const struct grid *g, const int64_t *first, const int *beside)

@@ -38,6 +38,8 @@ int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_
         cell += k * g->stride[d];
         q |= upper << d;
     }
+    const struct mesh_slits *s = &mesh->slits;
+    if (s->cut && s->cut[cell] >= 0) cell = s->home[((int64_t)s->cut[cell] << p->dim) + q];
     return (cell << p->dim) + q;
 }
 
@@ -66,14 +68,12 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
 {
     const int dim = p->dim;
     real mass = 0;
-    for (int c = (1 << dim) - 1; c >= 0; c--) {
-        const int64_t cell = I - mesh->corner[c];
-        if (cell < 0 || (mesh->level && mesh->level[cell] > 0)) continue;
-        for (int q = 0; q < 1 << dim; q++) {
-            const int32_t i = mesh->point[(cell << dim) + q];
-            if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
-        }
-    }
+    for (int c = (1 << dim) - 1; c >= 0; c--)
+        for (int64_t cell = mesh_cell_at(mesh, I, c); cell >= 0; cell = mesh_cell_next(mesh, cell))
+            for (int q = 0; q < 1 << dim && mesh_node(mesh, cell, c) == I && !cell_is_coarse(mesh, cell); q++) {
+                const int32_t i = mesh->point[(cell << dim) + q];
+                if (i >= 0) mass += p->mass[i] * mesh_weight(dim, c, q);
+            }
     return mass;
 }
 
@@ -90,7 +90,7 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
     status s = OK;
     for (int64_t i = 0; i < p->n && s == OK; i++)
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
-            uint8_t *owner = &body[(mesh->place[i] >> p->dim) + mesh->corner[c]];
+            uint8_t *owner = &body[mesh_node(mesh, mesh->place[i] >> p->dim, c)];
             if (*owner != 0 && *owner != p->body[i] + 1)
                 s = meshed_body(p, i, "shares a node with another body, which would move with it");
             *owner = (uint8_t)(p->body[i] + 1);
@@ -101,14 +101,14 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Whole: all points exist, of one material, and none leaves stress to bonds. */
+/* Whole: all points exist, of one material, none leaves stress to bonds, and all corners are nodes of the grid. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
     const int dim = p->dim;
     int there = 0;
-    bool alike = true;
-    if (mesh->level && mesh->level[I] > 0) return CELL_COARSE;
+    bool alike = !mesh_own_corners(mesh, I);
+    if (cell_is_coarse(mesh, I)) return CELL_COARSE;
     const int32_t *point = &mesh->point[I << dim];
     for (int q = 0; q < 1 << dim; q++) {
         if (point[q] < 0) continue;
@@ -196,7 +196,7 @@ void mesh_blocks_activate(struct mesh *mesh)
     memset(r->level, 0, (size_t)r->blocks);
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && (mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL); c++)
-            r->level[mesh_block(mesh, I + mesh->corner[c])] = 1;
+            r->level[mesh_block(mesh, mesh_node(mesh, I, c))] = 1;
     active_set_list(r);
     r->empty = r->blocks - r->active;
 }
@@ -217,7 +217,8 @@ void mesh_cells_again(struct mesh *mesh, const struct particles *p, const struct
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to)
+status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to,
+                     const struct particles *p, const struct mesh_source *source)
 {
     struct grid *g = &mesh->grid;
     const int dim = like->dim;
@@ -227,28 +228,31 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
     for (int d = 0; d < dim; d++) g->anchor[d] = like->anchor[d], high[d] = to[d];
     high[0] += LANES * g->h;                  /* whole vectors are read and added to beyond the last cell of a row */
     TRY(grid_cover(g, from, high, INT32_MAX >> dim, &changed));
-    for (int d = 0; d < dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
-    mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
     for (int c = 0; c < 1 << dim; c++)
         for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
+    if (p) TRY(mesh_slits_make(mesh, p, source, from, high));
+    for (int d = 0; d < dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
+    mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
     mesh->kind = NEW("mesh.kind", g->n, uint8_t);
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
     active_set_make(&mesh->active, mesh->rows * mesh->segments);
+    mesh_slits_link(mesh);
     mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->band = NEW("mesh.band", g->count[dim - 1] + 2, int64_t);
     return OK;
 }
 
 /* Makes the nodes of the mesh, and the places of its points. */
-static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like)
+static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like,
+                         const struct mesh_source *source)
 {
     real from[DIM_MAX], to[DIM_MAX];
     struct grid own = *like;
     own.dim = p->dim;
     for (int d = 0; d < p->dim; d++) particles_extent(p, p->n, d, &from[d], &to[d]);
-    TRY(mesh_box_make(mesh, &own, from, to));
+    TRY(mesh_box_make(mesh, &own, from, to, p, source));
     mesh->point = NEW("mesh.point", mesh->grid.n << p->dim, int32_t);
     for (int64_t k = 0; k < mesh->grid.n << p->dim; k++) mesh->point[k] = -1;
     mesh->place = NEW("mesh.place", p->n, int32_t);
@@ -278,7 +282,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
     }
     particles_list(p);
     if (meshed == 0) return OK;
-    TRY(nodes_make(mesh, p, like));
+    TRY(nodes_make(mesh, p, like, source));
     TRY(points_place(mesh, p));
     TRY(bodies_apart(mesh, p));
 #pragma omp parallel for schedule(static)
@@ -301,6 +305,7 @@ void mesh_free(struct mesh *mesh)
     mesh_partial_free(mesh);
     memory_free(mesh->exposed_list);
     memory_free(mesh->span);
+    mesh_slits_free(&mesh->slits);
     memory_free(mesh->material);
     memory_free(mesh->cell_mass);
     memory_free(mesh->matched);
@@ -318,7 +323,7 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
     for (int d = 0; d < p->dim; d++) {
         for (int c = 0; c < 1 << p->dim; c++)
             energy += 0.5 * p->mass[i] * mesh_weight(p->dim, c, place & ((1 << p->dim) - 1)) *
-                      square(mesh->grid.velocity[d][(place >> p->dim) + mesh->corner[c]]);
+                      square(mesh->grid.velocity[d][mesh_node(mesh, place >> p->dim, c)]);
         energy -= 0.5 * p->mass[i] * square(p->v[d][i]);
     }
     mesh->place[i] = -1;
@@ -334,7 +339,7 @@ static void nodes_lighten(struct mesh *mesh, const struct particles *p, const ui
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);
     for (int64_t cell = 0; cell < mesh->grid.n; cell++)
         for (int c = 0; c < 1 << p->dim && left[cell]; c++) {
-            const int64_t I = cell + mesh->corner[c];
+            const int64_t I = mesh_node(mesh, cell, c);
             if (done[I]) continue;
             done[I] = 1;
             mesh_node_weigh(mesh, p, I);

@@ -10,7 +10,7 @@ static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
     for (int c = 0; c < 1 << dim; c++)
         for (int b = 0; b < dim; b++) {
             const real slope = mesh_slope(dim, c, place & ((1 << dim) - 1), b) / mesh->grid.h;
-            for (int a = 0; a < dim; a++) F[a][b] += mesh->displacement[a][cell + mesh->corner[c]] * slope;
+            for (int a = 0; a < dim; a++) F[a][b] += mesh->displacement[a][mesh_node(mesh, cell, c)] * slope;
         }
     return F[0][0] * (F[1][1] * F[2][2] - F[1][2] * F[2][1]) - F[0][1] * (F[1][0] * F[2][2] - F[1][2] * F[2][0]) +
            F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
@@ -22,10 +22,12 @@ static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int d
 {
     real most = 0;
     for (int a = 0; a < dim; a++) {
-        const real *u = mesh->displacement[a] + cell;
-        real low = u[0], high = u[0];
-        for (int c = 1; c < 1 << dim; c++)
-            low = real_min(low, u[mesh->corner[c]]), high = real_max(high, u[mesh->corner[c]]);
+        const real *u = mesh->displacement[a];
+        real low = u[mesh_node(mesh, cell, 0)], high = low;
+        for (int c = 1; c < 1 << dim; c++) {
+            const real here = u[mesh_node(mesh, cell, c)];
+            low = real_min(low, here), high = real_max(high, here);
+        }
         most = real_max(most, high - low);
     }
     return !(dim * most < mesh->grid.h);
@@ -54,9 +56,14 @@ int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p)
 {
     int64_t first = p->n;
 #pragma omp parallel for schedule(static) reduction(min : first)
-    for (int64_t row = 0; row < mesh->rows; row++)
-        for (int64_t cell = mesh->span[2 * row]; cell < mesh->span[2 * row + 1]; cell++)
+    for (int64_t row = 0; row < mesh->rows; row++) {
+        const int64_t start = row * mesh->grid.count[0];
+        const bool box = start < mesh->slits.first;      /* behind it cells are not beside the nodes of their index */
+        const int64_t from = box ? mesh->span[2 * row] : start,
+                      end = box ? mesh->span[2 * row + 1] : start + mesh->grid.count[0];
+        for (int64_t cell = from; cell < end; cell++)
             if (mesh->kind[cell] && mesh->kind[cell] != CELL_COARSE && may_invert(mesh, cell, p->dim))
                 first = inverted_in(mesh, cell, p->dim, first);
+    }
     return first;
 }

@@ -342,6 +342,7 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
         else lane_copy(K, lane_of(old->stiffness, from[k], half), half);
     }
     alike_find(mesh, c.modes);
+    mesh_slits_groups(mesh);
     mesh_partial_ends_make(mesh, &c);
     memory_free(from);
     memory_free(c.whole);

@@ -19,6 +19,15 @@ void mesh_partial_again(struct mesh *mesh, const struct particles *p, const stru
                         const uint8_t *dirty);
 void mesh_partial_free(struct mesh *mesh);
 
+/* Slits (mesh_slits.c). Finds the nodes that they double, and extends the box of nodes, which covers from..to [m], by
+ * rows for the extra ones; then the links between blocks, once blocks are known; the corners of groups, once these are
+ * known. */
+status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const real *from,
+                       const real *to);
+void mesh_slits_link(struct mesh *mesh);
+void mesh_slits_groups(struct mesh *mesh);
+void mesh_slits_free(struct mesh_slits *s);
+
 /* Nodal values `node` [dim][nodes] of a field that the points sample as `value` [dim][particles]: least squares
  * weighted by mass, started from the lumped projection. */
 void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);
@@ -44,7 +53,11 @@ void mesh_spans_make(struct mesh *mesh);
 void mesh_blocks_activate(struct mesh *mesh);
 /* Is a cell squeezed to nothing or through itself at one of its places? */
 bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
-/* All arrays of a mesh of the box `from` .. `to` [m] with cells like those of `like`, without points or cells. */
-status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to);
+/* All arrays of a mesh of the box `from` .. `to` [m] with cells like those of `like`, without points or cells; slits of
+ * the source for particles p, NULL: none. */
+status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to,
+                     const struct particles *p, const struct mesh_source *source);
+/* Is cell I part of a coarser one? */
+static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I) { return mesh->level && mesh->level[I] > 0; }
 
 #endif

@@ -7,6 +7,7 @@
 #include "kernels/simd/variants.h"
 
 enum { ITERATIONS_MOST = 500 };
+enum { ROW_NONE = -1, ROW_BESIDE = -2 };
 #define TOLERANCE 1e-15                  /* of the largest nodal momentum */
 
 /* Data of a projection. `node`: marks the nodes that are unknown, all others stay; NULL: all nodes are unknown. */
@@ -15,7 +16,8 @@ struct projection {
     const struct particles *p;
     const uint8_t *node;
     real *mass;        /* [nodes] of one point, where a node has all its points and they are of one mass; else 0 [kg] */
-    int32_t *row_of;                     /* [nodes] row of all other unknown nodes, -1: none */
+    int32_t *row_of;                     /* [nodes] row of all other unknown nodes; ROW_NONE; ROW_BESIDE: beside a slit,
+                                          * where nodes around are not in line */
     real *row;                           /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };
 
@@ -87,7 +89,36 @@ static bool is_unknown(const struct projection *m, int64_t I)
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
     real sum = 0;
-    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++) sum += cell_sum(m, I - m->mesh->corner[c], c, value, dim);
+    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
+        for (int64_t cell = mesh_cell_at(m->mesh, I, c); cell >= 0; cell = mesh_cell_next(m->mesh, cell))
+            if (mesh_node(m->mesh, cell, c) == I) sum += cell_sum(m, cell, c, value, dim);
+    return sum;
+}
+
+/* Does a slit divide a cell around node I, or give it extra nodes? */
+static bool beside_slit(const struct mesh *mesh, int64_t I)
+{
+    bool beside = false;
+    for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.cell && !beside; c++) {
+        const int64_t cell = mesh_cell_at(mesh, I, c);
+        beside = cell >= 0 && (mesh->slits.cell[cell] >= 0 || mesh->slits.cut[cell] >= 0);
+    }
+    return beside;
+}
+
+/* Row of the mass matrix times nodal values beside a slit: point by point. */
+static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, const real *from, const int dim)
+{
+    real sum = 0;
+    for (int c = 0; c < 1 << dim && is_unknown(m, I); c++)
+        for (int64_t cell = mesh_cell_at(m->mesh, I, c); cell >= 0; cell = mesh_cell_next(m->mesh, cell))
+            for (int q = 0; q < 1 << dim && mesh_node(m->mesh, cell, c) == I; q++) {
+                const int32_t i = m->mesh->point[(cell << dim) + q];
+                real value = 0;
+                for (int k = 0; k < 1 << dim && i >= 0; k++)
+                    value += mesh_weight(dim, k, q) * from[mesh_node(m->mesh, cell, k)];
+                if (i >= 0) sum += m->p->mass[i] * mesh_weight(dim, c, q) * value;
+            }
     return sum;
 }
 
@@ -103,6 +134,7 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
     for (int64_t I = 0; I < n; I++) {
         if (value) to[I] = outer_sum(m, I, value, dim);
         else if (mass[I] > 0) to[I] = mass[I] * inner_product(from + I, across, layer, dim);
+        else if (m->row_of[I] == ROW_BESIDE) to[I] = slit_product(m, I, from, dim);
         else
             to[I] = m->row_of[I] < 0
                         ? 0
@@ -121,7 +153,7 @@ static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
     real mass = 0;
-    if (!is_unknown(m, I)) return 0;
+    if (!is_unknown(m, I) || beside_slit(m->mesh, I)) return 0;
     for (int c = 0; c < 1 << dim; c++)
         for (int q = 0; q < 1 << dim; q++) {
             const int32_t i = m->mesh->point[((I - m->mesh->corner[c]) << dim) + q];
@@ -145,7 +177,10 @@ static void mesh_project_rows_make(struct projection *m)
     const int each = nodes_around(m->p->dim);
     int32_t rows = 0;
     m->row_of = BARE("mesh.row_of", n, int32_t);
-    for (int64_t I = 0; I < n; I++) m->row_of[I] = is_unknown(m, I) && m->mass[I] == 0 ? rows++ : -1;
+    for (int64_t I = 0; I < n; I++) {
+        const bool without = is_unknown(m, I) && m->mass[I] == 0, beside = without && beside_slit(m->mesh, I);
+        m->row_of[I] = !without ? ROW_NONE : beside ? ROW_BESIDE : rows++;
+    }
     m->row = NEW("mesh.row", (int64_t)rows * each, real);
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < n; I++)

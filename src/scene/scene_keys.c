@@ -247,6 +247,11 @@ const struct key keys[] = {
     KEY("conversion.tips", KEY_REAL, UNIT_NONE, AT(scene, conversion.tips), BETWEEN(0, 1000), "0",
         "peridynamic from the start this many horizons round the ends of pre-cracks; 2 starts cracks when peridynamics "
         "does"),
+    KEY("conversion.notch", KEY_CHOICE, UNIT_NONE, AT(scene, conversion.notch), ANY, "auto",
+        "pre-cracks in the reference frame: free surfaces of the mesh, with cut bonds within eight spacings of their "
+        "ends (as far as tips says, where it does), or cut bonds all along; auto: slit where that can be, "
+        "`cleave check` says where",
+        .words = "auto|slit|bonds"),
     KEY("conversion.reversion", KEY_FLAG, UNIT_NONE, AT(scene, conversion.reverts), ANY, "false",
         "peridynamic particles become material points again where no bond within two horizons was ever broken and the "
         "stress "

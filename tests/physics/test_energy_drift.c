@@ -158,6 +158,21 @@ static void test_noise(void **state)
     assert_true(holds(&apic, 50000) && holds(&mesh, 50000));
 }
 
+/* A plate with a slit between its cells or inside them, which nothing breaks: 1e5 steps keep its energy as 1e4 do. */
+#define SLIT(height)                                                                                                   \
+    {.name = "slit at " height, .c = {.dim = 2, .text =                                                                \
+     "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: adaptive\n"                                           \
+     "material: {young: 72e9, density: 2440}\nbody: {box: {from: [0, 0], to: [14e-3, 10e-3]}}\n"                       \
+     "particles: {spacing: 1e-3, horizon: 2.015}\ncracks: [{from: [-1e-3, " height "], to: [9.3e-3, " height "]}]\n"   \
+     "conversion: {notch: slit, tips: 1}\ncontact: {between: none}\noutput: {frames: 0, samples: 1}\n"}}
+
+static void test_slit(void **state)
+{
+    (void)state;
+    static const struct drift_case slit[] = {SLIT("4e-3"), SLIT("5e-3")};
+    all_hold(slit, COUNT_OF(slit), 10000);
+}
+
 /* Scenes that grew once, as far as they needed to be stopped. */
 static void test_named(void **state)
 {
@@ -175,6 +190,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_seen),     cmocka_unit_test(test_meshed),
                                        cmocka_unit_test(test_held),     cmocka_unit_test(test_touching),
                                        cmocka_unit_test(test_current),  cmocka_unit_test(test_noise),
-                                       cmocka_unit_test(test_named)};
+                                       cmocka_unit_test(test_named),    cmocka_unit_test(test_slit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

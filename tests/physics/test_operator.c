@@ -179,6 +179,36 @@ static void test_cells(void **state)
     assert_int_equal(wrong, 0);
 }
 
+/* A block with a slit into it, between cells or inside them (5 spacings up), or oblique. In space through its depth. */
+#define SLIT(height, end, more)                                                                                        \
+    "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: adaptive\n"                                            \
+    "material: {young: 72e9, density: 2440}\nbody: {box: {from: [0, 0], to: [14e-3, 10e-3]}}\n"                        \
+    "particles: {spacing: 1e-3, horizon: 2.015}\ncracks: [{from: [-1e-3, " height "], to: [9.3e-3, " end "]}]\n"       \
+    "conversion: {notch: slit, tips: 1}\ncontact: {between: none}\noutput: {frames: 0, samples: 1}\n" more
+static const struct body slits[] = {
+    {"slit between cells", {.dim = 2, .text = SLIT("4e-3", "4e-3", "")}, 0},
+    {"slit inside cells", {.dim = 2, .text = SLIT("5e-3", "5e-3", "")}, 0},
+    {"slit oblique", {.dim = 2, .text = SLIT("4.2e-3", "7.4e-3", "")}, 0},
+    {"slit inside cells, small strain", {.dim = 2, .text = SLIT("5e-3", "5e-3", "mpm: {strain: small}\n")}, 0},
+    {"slit inside cells, ospd", {.dim = 2, .text = SLIT("5e-3", "5e-3", "model: ospd\n")}, 0},
+    {"slit in space",
+     {.dim = 3,
+      .text = "space: solid\nduration: 1\nmethod: adaptive\nmaterial: {young: 72e9, density: 2440}\n"
+              "body: {box: {from: [0, 0, 0], to: [10e-3, 6e-3, 3e-3]}}\nparticles: {spacing: 1e-3, horizon: 1.5}\n"
+              "cracks: [{polygon: [[-1e-3, 3e-3, -1e-3], [7.3e-3, 3e-3, -1e-3], [7.3e-3, 3e-3, 4e-3], [-1e-3, 3e-3, "
+              "4e-3]]}]\n"
+              "conversion: {notch: slit, tips: 1}\ncontact: {between: none}\noutput: {frames: 0, samples: 1}\n"},
+     0},
+};
+
+static void test_slits(void **state)
+{
+    (void)state;
+    begin();
+    check_all(slits, COUNT_OF(slits));
+    assert_int_equal(wrong, 0);
+}
+
 /* ---- both -------------------------------------------------------------------------------------------------------- */
 
 static const struct { const char *name; enum stability_region region; double offset;
@@ -305,7 +335,7 @@ int main(int n, char **words)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_tools),
                                        cmocka_unit_test(test_alone),
-                                       cmocka_unit_test(test_cells),
+                                       cmocka_unit_test(test_cells), cmocka_unit_test(test_slits),
                                        cmocka_unit_test(test_coupled),
                                        cmocka_unit_test(test_coupled_elsewhere),
                                        cmocka_unit_test(test_supports)};

@@ -79,7 +79,7 @@ holds "hole: the same history" cmp "$work/hole/history.csv" "$work/hole_never/hi
 # Two horizons of 3.015 mm round each, as a region says it; ends outside the body do not count. The first bond then breaks when it
 # does in peridynamics of the same kind (no correction of surfaces), 1.4 % later; without 11 %, whatever the criterion. It stays:
 # nobody returns there.
-kalthoff="kalthoff_winkler -s duration=24us -s output.frames=1"
+kalthoff="kalthoff_winkler -s duration=24us -s output.frames=1 -s conversion.notch=bonds"
 tip() { echo "{ball: {centre: [50 mm, $1 mm], radius: 6.03 mm}}"; }
 start pd $kalthoff -s method=pd -s pd.surface=none
 start tips $kalthoff -s conversion.tips=2 -s conversion.reversion=true

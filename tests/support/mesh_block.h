@@ -65,11 +65,11 @@ static void shake(struct block *b, real by, uint64_t seed)
 
 static real node_place(const struct mesh *mesh, int64_t I, int d)
 {
-    return grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
+    return grid_position(&mesh->grid, d, mesh_base(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
 /* u = (R - 1) X by an angle about z, then stretched along x. */
-static void rotation(struct block *b, real angle, real stretch)
+static inline void rotation(struct block *b, real angle, real stretch)
 {
     const int dim = b->c.p.dim;
     for (int64_t I = 0; I < b->mesh.grid.n; I++) {
@@ -102,8 +102,8 @@ static real point_energy(const struct block *b, int64_t i, bool finite)
                     slope *= d == k ? sign : c >> d & 1 ? xi : 1 - xi;
                     flat *= d == k ? sign : 0.5;
                 }
-                F[a * dim + k] += slope / mesh->grid.h * mesh->displacement[a][I + mesh->corner[c]];
-                mean[a * dim + k] += flat / mesh->grid.h * mesh->displacement[a][I + mesh->corner[c]];
+                F[a * dim + k] += slope / mesh->grid.h * mesh->displacement[a][mesh_node(mesh, I, c)];
+                mean[a * dim + k] += flat / mesh->grid.h * mesh->displacement[a][mesh_node(mesh, I, c)];
             }
         }
     for (int a = 0; a < dim * dim; a++) R[a] = a % (dim + 1) == 0;
@@ -143,8 +143,8 @@ static real largest_force(const struct block *b)
 }
 
 /* Partial stress of every point: any symmetric T up to `most` of the shear modulus, M = T C^-1. */
-static void partial_of(struct partial_stress *partial, const struct particles *p, const struct material *material,
-                       real most)
+static inline void partial_of(struct partial_stress *partial, const struct particles *p,
+                              const struct material *material, real most)
 {
     const int n = symmetric_count(p->dim);
     uint64_t seed = 17;

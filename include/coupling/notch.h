@@ -1,0 +1,41 @@
+/* What stands for the pre-cracks of a scene where material points are in the reference frame: cut bonds along all of a
+ * crack, or a slit of the mesh with cut bonds round its ends only. */
+#ifndef CLEAVE_NOTCH
+#define CLEAVE_NOTCH
+
+#include "bonds/bonds.h"
+
+/* Radius of the zone round the end of a slit where bonds are cut: that of conversion.tips, but no less; where it names
+ * none [spacings]. The first bond of kalthoff_winkler then breaks when it does with bonds cut all along, to 0.6 %. */
+#define NOTCH_ZONE_LEAST 6.0
+#define NOTCH_ZONE 8.0
+/* Faces of a slit become peridynamic before they are so much nearer than at the start [spacings]. */
+#define NOTCH_GAP 0.01
+
+struct notch { bool slit; const char *reason; };      /* reason: why it is none; NULL of slits */
+
+struct notches {
+    int n;
+    struct notch *notch;                 /* [n] of each pre-crack */
+    int slits, cuts;
+    struct crack *slit, *cut;            /* [slits] borrowed from the scene; [cuts] those that cut bonds all along */
+    real radius;                         /* of the zones round the ends of slits [m] */
+    real *lost;                          /* [particles] share of its family from which slits part a particle; NULL: no
+                                          * slits */
+    int64_t faces;
+    int32_t *face;                       /* [faces] particles beside a slit, ascending */
+};
+
+/* Decides for each pre-crack of the source: slits where it runs through material points of the mesh and ends in the
+ * body. `obstacle`: what keeps all of them from being slits; NULL: nothing. */
+void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real radius,
+                  const char *obstacle);
+/* Marks particles as peridynamic round the ends of slits, before step 0. */
+void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source);
+void notches_free(struct notches *n);
+
+/* Sets FLAG_NEAR of the material points beside slits whose faces come together within the time `ahead` [s]: nearer by
+ * more than NOTCH_GAP, or by the width of the notch less that. Positions of the faces are up to date. */
+void notches_approach(const struct notches *n, struct particles *p, real spacing, real ahead);
+
+#endif

@@ -1,0 +1,271 @@
+/* Pre-cracks as slits of the mesh: which can be, what is peridynamic round their ends, and faces that meet. */
+#include "src/bonds/bonds_parts.h"
+#include "coupling/notch.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#define AHEAD_REACH 1.2                  /* radius of the search for particles ahead of an end [spacings] */
+#define FACE_REACH 1.01                  /* particles that face each other across a slit [spacings] */
+#define MEET_REACH 1.5                   /* of the search for faces that meet [spacings] */
+enum { EDGE_PARTS = 16 };                /* places of an edge at which the body is looked for */
+
+/* ---- ends -------------------------------------------------------------------------------------------------------- */
+
+/* Edges that a crack may grow from: of a segment its ends. Corners of edge e. */
+static void crack_end_of(const struct crack *c, int e, int dim, const real **from, const real **to)
+{
+    *from = c->corner[e];
+    *to = dim == 3 ? c->corner[(e + 1) % c->n] : c->corner[e];
+}
+
+/* Does the body go on beyond edge e of a crack, away from the crack's middle? Beyond a mouth there is none of it. */
+static bool edge_inside(const struct crack *c, int e, const struct particles *p, const struct bond_source *s)
+{
+    real middle[DIM_MAX] = {0};
+    const real *from, *to;
+    crack_end_of(c, e, p->dim, &from, &to);
+    for (int k = 0; k < c->n; k++)
+        for (int d = 0; d < p->dim; d++) middle[d] += c->corner[k][d] / c->n;
+    for (int part = 0; part < (p->dim == 3 ? EDGE_PARTS : 1); part++) {
+        real X[DIM_MAX], away[DIM_MAX], length2 = 0;
+        for (int d = 0; d < p->dim; d++) {
+            X[d] = from[d] + (part + 0.5) / EDGE_PARTS * (to[d] - from[d]);
+            away[d] = 0.5 * (from[d] + to[d]) - middle[d];
+            length2 += square(away[d]);
+        }
+        for (int d = 0; d < p->dim && length2 > 0; d++) X[d] += s->family.spacing * away[d] / sqrt(length2);
+        if (cells_near(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2) return true;
+    }
+    return false;
+}
+
+/* Distance of X from the segment from..to [m]. */
+static real distance_from(const real *from, const real *to, const real *X, int dim)
+{
+    real along = 0, length2 = 0, r2 = 0;
+    for (int d = 0; d < dim; d++) along += (X[d] - from[d]) * (to[d] - from[d]), length2 += square(to[d] - from[d]);
+    along = length2 > 0 ? real_max(0, real_min(1, along / length2)) : 0;
+    for (int d = 0; d < dim; d++) r2 += square(X[d] - from[d] - along * (to[d] - from[d]));
+    return sqrt(r2);
+}
+
+/* A crack, and which of its edges lie in the body, one bit each. */
+struct look { const struct crack *crack; uint64_t edges; real radius; };
+
+enum { EDGES_MAX = 64 };
+
+static struct look look_of(const struct crack *c, const struct particles *p, const struct bond_source *s, real radius)
+{
+    struct look look = {c, 0, radius};
+    for (int e = 0; e < c->n && e < EDGES_MAX; e++) look.edges |= (uint64_t)edge_inside(c, e, p, s) << e;
+    return look;
+}
+
+/* Is particle i in the zone round an end of the crack? */
+static bool in_zone(const struct look *look, const struct particles *p, int64_t i)
+{
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    for (int e = 0; e < look->crack->n && e < EDGES_MAX; e++) {
+        const real *from, *to;
+        crack_end_of(look->crack, e, p->dim, &from, &to);
+        if (look->edges >> e & 1 && distance_from(from, to, X, p->dim) <= look->radius) return true;
+    }
+    return false;
+}
+
+/* ---- choice ------------------------------------------------------------------------------------------------------ */
+
+static bool parted(const struct crack *c, const struct particles *p, int64_t i, int64_t j)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    particle_place(p, i, a);
+    particle_place(p, j, b);
+    return crack_cuts(c, a, b, p->dim);
+}
+
+static bool near_crack(const struct crack *c, const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    real X[DIM_MAX];
+    particle_place(p, i, X);
+    return crack_near(c, X, s->family.cutoff, p->dim);
+}
+
+static real apart(const struct particles *p, int64_t i, int64_t j)
+{
+    real r2 = 0;
+    for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
+    return sqrt(r2);
+}
+
+/* What a crack does outside the zones round its ends: particles that lose bonds there; of these those in no mesh. */
+struct flanks { int64_t particles, elsewhere; };
+
+static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct near *near)
+{
+    for (int k = 0; k < near->n; k++)
+        if (p->body[near->at[k]] == p->body[i] && parted(c, p, i, near->at[k])) return true;
+    return false;
+}
+
+static struct flanks flanks_of(const struct look *look, const struct particles *p, const struct bond_source *s)
+{
+    int64_t particles = 0, elsewhere = 0;
+#pragma omp parallel reduction(+ : particles, elsewhere)
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) {
+            if (!near_crack(look->crack, p, s, i) || in_zone(look, p, i)) continue;
+            near_find(&near, s->cells, p, i, s->family.cutoff, false);
+            if (!loses_by(look->crack, p, i, &near)) continue;
+            particles++;
+            elsewhere += !(p->flag[i] & FLAG_MESHED);
+        }
+        memory_free(near.at);
+    }
+    return (struct flanks){particles, elsewhere};
+}
+
+/* Why a crack is no slit; NULL: it is one. */
+static const char *notch_obstacle(const struct crack *c, const struct particles *p, const struct bond_source *s,
+                                  real radius)
+{
+    const struct look look = look_of(c, p, s, radius);
+    if (p->dim == 1) return "a cut parts a line";
+    if (c->n > EDGES_MAX) return "its polygon has more than 64 corners";
+    if (look.edges == 0) return "no end of it lies in the body, which it may part";
+    const struct flanks f = flanks_of(&look, p, s);
+    if (f.particles == 0) return "the zones round its ends hold all of it";
+    if (f.elsewhere > 0) return "it is not in material points in the reference frame";
+    return NULL;
+}
+
+static bool near_slit(const struct notches *n, const struct particles *p, const struct bond_source *s, int64_t i)
+{
+    for (int k = 0; k < n->slits; k++)
+        if (near_crack(&n->slit[k], p, s, i)) return true;
+    return false;
+}
+
+/* Particles that slits part from some of their family: by what share; and those beside a slit. */
+static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
+{
+    uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
+    struct near near = {0};
+    n->lost = NEW("notch.lost", p->n, real);
+    for (int64_t i = 0; i < p->n; i++) {
+        real all = 0, lost = 0;
+        if (!near_slit(n, p, source, i)) continue;
+        near_find(&near, source->cells, p, i, source->family.cutoff, false);
+        for (int q = 0; q < near.n; q++) {
+            const int32_t j = near.at[q];
+            if (p->body[j] != p->body[i]) continue;
+            const bool cut = cracks_part(n->slit, n->slits, p, i, j);
+            all += p->volume0[j], lost += cut ? p->volume0[j] : 0;
+            faces[i] |= cut && apart(p, i, j) < FACE_REACH * source->family.spacing;
+        }
+        n->lost[i] = all > 0 ? lost / all : 0;
+        n->faces += faces[i];
+    }
+    memory_free(near.at);
+    n->face = NEW("notch.face", n->faces, int32_t);
+    n->faces = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (faces[i]) n->face[n->faces++] = (int32_t)i;
+    memory_free(faces);
+}
+
+void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real radius,
+                  const char *obstacle)
+{
+    *n = (struct notches){.n = source->cracks, .radius = radius};
+    n->notch = NEW("notch.notch", n->n, struct notch);
+    n->slit = NEW("notch.slit", n->n, struct crack);
+    n->cut = NEW("notch.cut", n->n, struct crack);
+    for (int k = 0; k < n->n; k++) {
+        const struct crack *c = &source->crack[k];
+        const char *why = obstacle ? obstacle : notch_obstacle(c, p, source, radius);
+        n->notch[k] = (struct notch){!why, why};
+        if (why) n->cut[n->cuts++] = *c;
+        else n->slit[n->slits++] = *c;
+    }
+    if (n->slits == 0) return;
+    faces_find(n, p, source);
+}
+
+void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source)
+{
+    for (int k = 0; k < n->slits; k++) {
+        const struct look look = look_of(&n->slit[k], p, source, n->radius);
+        for (int64_t i = 0; i < p->n; i++)
+            if (n->lost[i] > 0 && near_crack(&n->slit[k], p, source, i) && in_zone(&look, p, i)) p->kind[i] = KIND_PD;
+    }
+}
+
+void notches_free(struct notches *n)
+{
+    memory_free(n->notch);
+    memory_free(n->slit);
+    memory_free(n->cut);
+    memory_free(n->lost);
+    memory_free(n->face);
+    memset(n, 0, sizeof *n);
+}
+
+/* ---- faces that meet --------------------------------------------------------------------------------------------- */
+
+/* Distance below which particles i and j become peridynamic [m], 0: no slit is between them. */
+static real meeting_distance(const struct notches *n, const struct particles *p, int32_t i, int32_t j, real spacing)
+{
+    real width = -1;
+    for (int k = 0; k < n->slits; k++)
+        if (parted(&n->slit[k], p, i, j)) width = real_max(width, n->slit[k].width);
+    const real gap = NOTCH_GAP * spacing;
+    return width < 0 ? 0 : spacing - real_max(gap, width - gap);
+}
+
+/* Distance of particles i and j after the time `ahead`, if they come nearer [m]. */
+static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real ahead)
+{
+    real r2 = 0, rate = 0;
+    for (int d = 0; d < p->dim; d++) {
+        const real away = p->x[d][i] - p->x[d][j];
+        r2 += square(away), rate += away * (p->v[d][i] - p->v[d][j]);
+    }
+    const real r = sqrt(r2);
+    return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
+}
+
+void notches_approach(const struct notches *n, struct particles *p, real spacing, real ahead)
+{
+    struct particles places = {.n = n->faces, .n_all = n->faces, .dim = p->dim};
+    struct cells cells;
+    if (n->faces == 0) return;
+    for (int d = 0; d < p->dim; d++) {
+        places.X[d] = BARE("notch.place", n->faces, real);
+        for (int64_t k = 0; k < n->faces; k++) places.X[d][k] = p->x[d][n->face[k]];
+    }
+    cells_make(&cells, &places, MEET_REACH * spacing);
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t k = 0; k < n->faces; k++) {
+            const int32_t i = n->face[k];
+            if (p->kind[i] != KIND_MPM) continue;
+            near_find(&near, &cells, &places, k, MEET_REACH * spacing, false);
+            for (int q = 0; q < near.n && !(p->flag[i] & FLAG_NEAR); q++) {
+                const int32_t j = n->face[near.at[q]];
+                const real after = distance_ahead(p, i, j, ahead);
+                if (after < spacing && after < meeting_distance(n, p, i, j, spacing)) p->flag[i] |= FLAG_NEAR;
+            }
+        }
+        memory_free(near.at);
+    }
+    cells_free(&cells);
+    for (int d = 0; d < p->dim; d++) memory_free(places.X[d]);
+}

@@ -1,0 +1,88 @@
+/* Pre-cracks in the reference frame: slits of the mesh or cut bonds. */
+#include <math.h>
+#include <stdio.h>
+
+#include "coupling/approach.h"
+#include "engine/engine.h"
+
+/* ---- choice ------------------------------------------------------------------------------------------------------ */
+
+/* Why no pre-crack of the scene is a slit; NULL: some may be. */
+static const char *scene_obstacle(const struct scene *s)
+{
+    if (s->conversion.notch == NOTCH_BONDS) return "the scene says so";
+    if (s->growths > 0) return "growth lets bonds along cracks fade";
+    for (int k = 0; k < s->probes; k++)
+        if (s->probe[k].kind == PROBE_SIF) return "a sif probe looks at the bonds of its crack";
+    if (s->contact_between == CONTACT_ALL && !s->contact_convert)
+        return "with contact.convert false the faces of a slit would pass through each other";
+    return NULL;
+}
+
+/* Does a mirror lie between two nodes of the mesh? Nodes beyond it follow others one by one, extra nodes do not. */
+static bool mirror_between(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    const struct grid *g = &e->mpm.field[0].grid;
+    for (int b = 0; b < s->boundaries; b++) {
+        const real nodes = (s->boundary[b].at - g->anchor[s->boundary[b].axis]) / g->h;
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && fabs(nodes - nearbyint(nodes)) > 1e-6) return true;
+    }
+    return false;
+}
+
+static const char *obstacle_of(const struct engine *e)
+{
+    const char *why = scene_obstacle(e->scene);
+    if (!why && !engine_has_mesh(e)) why = "there are no material points in the reference frame";
+    if (!why && mirror_between(e)) why = "a mirror lies between two nodes of the mesh";
+    return why;
+}
+
+static status notches_check(const struct scene *s, const struct notches *n)
+{
+    for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)
+        if (!n->notch[k].slit)
+            return status_set(REFUSED, "conversion.notch: crack %d cannot be a slit: %s; auto and bonds can do it",
+                              k + 1, n->notch[k].reason);
+    return OK;
+}
+
+status engine_notch_convert(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    struct notches *n = &e->coupling.notches;
+    const real tips = s->conversion.tips * e->source.family.horizon;
+    const real radius = tips > 0 ? real_max(tips, NOTCH_ZONE_LEAST * s->spacing) : NOTCH_ZONE * s->spacing;
+    notches_make(n, &e->part, &e->source, radius, obstacle_of(e));
+    TRY(notches_check(s, n));
+    struct bond_source cut = e->source;
+    cut.crack = n->cut, cut.cracks = n->cuts;
+    convert_region(&e->coupling.start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source, tips);
+    notches_convert(n, &e->part, &e->source);
+    convert_start(&e->part, &cut, e->coupling.start_region.n > 0 ? &e->coupling.start_region : NULL);
+    return OK;
+}
+
+void engine_notch_text(const struct engine *e, int crack, char *text, size_t room)
+{
+    const struct notches *n = &e->coupling.notches;
+    if (n->notch[crack].slit)
+        snprintf(text, room, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / e->scene->spacing);
+    else snprintf(text, room, "cut bonds: %s", n->notch[crack].reason);
+}
+
+/* ---- in a run ---------------------------------------------------------------------------------------------------- */
+
+void engine_notch_tips(struct engine *e)
+{
+    if (e->coupling.notches.lost) tips_before(&e->fracture.tips, e->coupling.notches.lost);
+}
+
+void engine_notch_approach(struct engine *e)
+{
+    const struct notches *n = &e->coupling.notches;
+    if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return;
+    engine_mesh_sync_points(e, n->face, n->faces);
+    notches_approach(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+}

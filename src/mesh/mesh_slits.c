@@ -1,0 +1,368 @@
+/* Slits of the mesh: cells and nodes that free surfaces between points divide (struct mesh_slits in data/mesh.h).
+ *
+ * Two points are together if no slit passes between them. The points of a cell fall into pieces, each of which is then
+ * a cell; around a node pieces are together if a point of one and a point of the other are, or if others join them.
+ * Where there are no points nothing joins: a slit that ends at a face of the body opens there, one that ends inside
+ * does not. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mesh_parts.h"
+
+enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };    /* around a node: of 2^dim cells as many each */
+
+/* An extra node or cell in the making. Pieces around a node have bits 8 c + g: piece g of the cell of which the node is
+ * corner c; an extra cell has piece `piece` of cell `base`. */
+struct extra { int64_t base; uint64_t pieces; int piece; };
+struct extras { struct extra *at; int64_t n, room; };
+
+struct slit_maker {
+    const struct mesh *mesh;
+    const struct particles *p;
+    const struct mesh_source *source;
+    int32_t *point;                      /* [nodes << dim] particle at a place of a cell, -1: none */
+    uint8_t *piece;                      /* [nodes << dim] of its cell that it is in */
+    uint8_t *pieces;                     /* [nodes] of a cell with points near a slit, else 0 */
+    uint8_t *split;                      /* [nodes] as in struct mesh_slits */
+    struct extras node, cell;
+};
+
+static void extra_add(struct extras *to, struct extra one)
+{
+    if (to->n == to->room) {
+        const int64_t room = to->room ? 2 * to->room : 64;
+        to->at = memory_resize("slits.extra", to->at, to->room, room, sizeof *to->at);
+        to->room = room;
+    }
+    to->at[to->n++] = one;
+}
+
+/* ---- pieces of cells --------------------------------------------------------------------------------------------- */
+
+static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    particle_place(m->p, i, a);
+    particle_place(m->p, j, b);
+    for (int k = 0; k < m->source->slits; k++)
+        if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
+    return false;
+}
+
+/* Is some slit within two cells of node I? */
+static bool slit_near(const struct slit_maker *m, int64_t I)
+{
+    const struct grid *g = &m->mesh->grid;
+    real X[DIM_MAX];
+    for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
+    for (int k = 0; k < m->source->slits; k++)
+        if (crack_near(&m->source->slit[k], X, 2 * sqrt(g->dim) * g->h, g->dim)) return true;
+    return false;
+}
+
+/* Divides the points of cell I into pieces; all but the first become extra cells. */
+static void cell_divide(struct slit_maker *m, int64_t I)
+{
+    const int corners = 1 << m->p->dim;
+    const int32_t *point = m->point + I * corners;
+    uint8_t *piece = m->piece + I * corners;
+    unsigned open = 0;
+    for (int q = 0; q < corners; q++) open |= (unsigned)(point[q] >= 0) << q;
+    for (int n = 0; open; n++) {
+        m->pieces[I]++;
+        if (n > 0) extra_add(&m->cell, (struct extra){I, 0, n});
+        for (unsigned fresh = open & -open; fresh;) {
+            const int from = __builtin_ctz(fresh);
+            fresh &= fresh - 1, open &= ~(1u << from);
+            piece[from] = (uint8_t)n;
+            for (int q = 0; q < corners; q++)
+                if ((open & ~fresh) >> q & 1 && !points_parted(m, point[from], point[q])) fresh |= 1u << q;
+        }
+    }
+}
+
+/* ---- groups of pieces around a node ------------------------------------------------------------------------------ */
+
+static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
+{
+    return I - m->mesh->corner[bit / CORNERS_MAX];
+}
+
+/* Do places q and r of cells of which a node is corners c and k face each other across what the cells share? The node
+ * is a lower corner of the cell above it. */
+static bool places_face(int q, int r, int c, int k)
+{
+    const int apart = c ^ k;                             /* directions in which the cells follow each other */
+    return ((q ^ r) & ~apart) == 0 && (q & apart) == (c & apart) && (r & apart) == (k & apart);
+}
+
+/* Point of piece `bit` around node I at place q, -1: none. */
+static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q)
+{
+    const int64_t place = (cell_of_bit(m, I, bit) << m->p->dim) + q;
+    return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
+}
+
+/* Is a point of one piece around node I together with one of the other? Of points that face each other; where there are
+ * none, of any. */
+static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
+{
+    const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
+    bool faced = false;
+    for (int pass = 0; pass < 2 && !faced && c != k; pass++)
+        for (int q = 0; q < corners; q++)
+            for (int r = 0; r < corners; r++) {
+                if (pass == 0 && !places_face(q, r, c, k)) continue;
+                const int32_t i = piece_point(m, I, one, q), j = piece_point(m, I, other, r);
+                if (i < 0 || j < 0) continue;
+                if (!points_parted(m, i, j)) return true;
+                faced = faced || pass == 0;
+            }
+    return false;
+}
+
+/* Those of the pieces in `open` that are together with the lowest of them. */
+static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
+{
+    uint64_t group = open & -open;
+    for (uint64_t fresh = group; fresh;) {
+        const int from = __builtin_ctzll(fresh);
+        fresh &= fresh - 1;
+        for (uint64_t left = open & ~group; left; left &= left - 1) {
+            const int bit = __builtin_ctzll(left);
+            if (pieces_joined(m, I, from, bit)) group |= UINT64_C(1) << bit, fresh |= UINT64_C(1) << bit;
+        }
+    }
+    return group;
+}
+
+/* Divides the pieces around node I into groups; all but the first have an extra node. */
+static void node_divide(struct slit_maker *m, int64_t I)
+{
+    uint64_t open = 0;
+    for (int c = 0; c < 1 << m->p->dim; c++) {
+        const int64_t cell = I - m->mesh->corner[c];
+        for (int g = 0; cell >= 0 && g < m->pieces[cell]; g++) open |= UINT64_C(1) << (CORNERS_MAX * c + g);
+    }
+    const int64_t before = m->node.n;
+    for (bool first = true; open; first = false) {
+        const uint64_t group = group_grow(m, I, open);
+        if (!first) extra_add(&m->node, (struct extra){I, group, 0});
+        open &= ~group;
+    }
+    m->split[I] = m->node.n > before;
+}
+
+/* Finds the points of the cells near slits, and divides cells and nodes there. */
+static void slits_divide(struct slit_maker *m)
+{
+    const int64_t n = m->mesh->grid.n;
+    const int dim = m->p->dim;
+    for (int64_t k = 0; k < n << dim; k++) m->point[k] = -1;
+    for (int64_t i = 0; i < m->p->n; i++) {
+        const int64_t place = mesh_place_of(m->mesh, m->p, i);
+        if (place >= 0) m->point[place] = (int32_t)i;
+    }
+    for (int64_t I = 0; I < n; I++)
+        if (slit_near(m, I)) cell_divide(m, I);
+    for (int64_t I = 0; I < n; I++)
+        if (m->pieces[I] > 0 || slit_near(m, I)) node_divide(m, I);
+}
+
+/* ---- tables ------------------------------------------------------------------------------------------------------ */
+
+/* Extra nodes and cells fill rows but for their ends, beyond which whole vectors are read and written. */
+static int64_t row_room(const struct grid *g) { return g->count[0] - LANES; }
+
+/* Index of extra node or cell k. */
+static int64_t extra_place(const struct mesh *mesh, int64_t k)
+{
+    const struct grid *g = &mesh->grid;
+    return mesh->slits.first + k / row_room(g) * g->count[0] + k % row_room(g);
+}
+
+/* Corners of its own for cell I; `at`: the cell of the grid at its place. */
+static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
+{
+    struct mesh_slits *s = &mesh->slits;
+    const int corners = 1 << mesh->grid.dim;
+    if (s->cell[I] < 0) {
+        s->cell[I] = (int32_t)s->cells;
+        for (int c = 0; c < corners; c++) s->corner[s->cells * corners + c] = (int32_t)(at + mesh->corner[c]);
+        s->cells++;
+    }
+    return s->corner + (int64_t)s->cell[I] * corners;
+}
+
+/* Piece g of cell I, as a cell. */
+static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
+{
+    while (g-- > 0) I = mesh->slits.next[I];
+    return I;
+}
+
+/* Places of the extra cells: chains from the cells that they are pieces of, and the cells of their points. */
+static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
+{
+    struct mesh_slits *s = &mesh->slits;
+    const int corners = 1 << mesh->grid.dim;
+    int32_t cuts = 0;
+    for (int64_t k = 0; k < m->cell.n; k++) {
+        const int64_t base = m->cell.at[k].base, cell = extra_place(mesh, k);
+        s->next[piece_cell(mesh, base, m->cell.at[k].piece - 1)] = (int32_t)cell;
+        corners_of(mesh, cell, base);
+        if (s->cut[base] < 0) s->cut[base] = cuts++;
+    }
+    s->home = BARE("slits.home", (int64_t)cuts * corners, int32_t);
+    for (int64_t k = 0; k < m->cell.n; k++) {
+        const int64_t base = m->cell.at[k].base;
+        for (int q = 0; q < corners; q++)
+            s->home[(int64_t)s->cut[base] * corners + q] =
+                (int32_t)piece_cell(mesh, base, m->piece[base * corners + q]);
+    }
+}
+
+/* Places of the extra nodes, and the cells that have them as corners. */
+static void tables_nodes(struct mesh *mesh, const struct slit_maker *m)
+{
+    struct mesh_slits *s = &mesh->slits;
+    for (int64_t k = 0; k < m->node.n; k++) {
+        const struct extra *e = &m->node.at[k];
+        const int64_t I = extra_place(mesh, k);
+        s->base[I - s->first] = (int32_t)e->base;
+        s->split[I] = 1;
+        for (uint64_t left = e->pieces; left; left &= left - 1) {
+            const int bit = __builtin_ctzll(left);
+            const int64_t at = cell_of_bit(m, e->base, bit);
+            corners_of(mesh, piece_cell(mesh, at, bit % CORNERS_MAX), at)[bit / CORNERS_MAX] = (int32_t)I;
+        }
+    }
+}
+
+static int32_t *none_make(const char *label, int64_t n)
+{
+    int32_t *all = BARE(label, n, int32_t);
+    for (int64_t k = 0; k < n; k++) all[k] = -1;
+    return all;
+}
+
+/* Puts what is extra behind the box, whose nodes were s->first in number. */
+static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
+{
+    struct mesh_slits *s = &mesh->slits;
+    const int64_t n = mesh->grid.n;
+    int64_t most = m->cell.n;
+    for (int64_t k = 0; k < m->node.n; k++) most += __builtin_popcountll(m->node.at[k].pieces);
+    s->nodes = m->node.n;
+    s->base = none_make("slits.base", n - s->first);
+    s->cell = none_make("slits.cell", n);
+    s->next = none_make("slits.next", n);
+    s->cut = none_make("slits.cut", n);
+    s->split = NEW("slits.split", n, uint8_t);
+    s->corner = BARE("slits.corner", most << mesh->grid.dim, int32_t);
+    memcpy(s->split, m->split, (size_t)s->first);
+    tables_cells(mesh, m);
+    tables_nodes(mesh, m);
+}
+
+/* Extends the box of nodes by rows in the slowest direction for n extra nodes or cells. */
+static status box_extend(struct grid *g, const real *from, const real *to, int64_t n)
+{
+    const int last = g->dim - 1;
+    const int64_t rows = n / row_room(g) + 1, layers = last == 1 ? rows : rows / g->count[1] + 1;
+    real far[DIM_MAX];
+    bool changed;
+    for (int d = 0; d < g->dim; d++) far[d] = to[d];
+    far[last] += g->h * (real)(layers + 4);              /* a box grows by steps of four nodes (grid_cover) */
+    return grid_cover(g, from, far, INT32_MAX >> g->dim, &changed);
+}
+
+status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const real *from,
+                       const real *to)
+{
+    const int64_t n = mesh->grid.n;
+    status result = OK;
+    mesh->slits = (struct mesh_slits){.first = n};
+    if (source->slits == 0 || p->dim == 1) return OK;
+    struct slit_maker m = {.mesh = mesh, .p = p, .source = source};
+    m.point = BARE("slits.point", n << p->dim, int32_t);
+    m.piece = NEW("slits.piece", n << p->dim, uint8_t);
+    m.pieces = NEW("slits.pieces", n, uint8_t);
+    m.split = NEW("slits.split", n, uint8_t);
+    slits_divide(&m);
+    if (m.node.n > 0) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
+    if (m.node.n > 0 && result == OK) slits_tables_make(mesh, &m);
+    memory_free(m.point);
+    memory_free(m.piece);
+    memory_free(m.pieces);
+    memory_free(m.split);
+    memory_free(m.node.at);
+    memory_free(m.cell.at);
+    return result;
+}
+
+/* ---- blocks and groups ------------------------------------------------------------------------------------------- */
+
+static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
+{
+    struct mesh_slits *s = &mesh->slits;
+    const struct mesh_link link = {(int32_t)mesh_block(mesh, extra), (int32_t)mesh_block(mesh, base)};
+    s->linked[link.extra] = s->linked[link.base] = 1;
+    if (s->links > 0 && memcmp(&s->link[s->links - 1], &link, sizeof link) == 0) return;
+    s->link[s->links++] = link;
+}
+
+void mesh_slits_link(struct mesh *mesh)
+{
+    struct mesh_slits *s = &mesh->slits;
+    int64_t extras = s->nodes;
+    if (!s->cell) return;
+    for (int64_t I = 0; I < mesh->grid.n; I++) extras += s->next[I] >= 0;
+    s->links = 0;
+    s->link = BARE("slits.link", extras, struct mesh_link);
+    s->linked = NEW("slits.linked", mesh->active.blocks, uint8_t);
+    for (int64_t I = s->first; I < mesh->grid.n; I++)
+        if (s->base[I - s->first] >= 0) link_add(mesh, I, mesh_base(mesh, I));
+    for (int64_t I = 0; I < s->first; I++)
+        for (int64_t cell = s->next[I]; cell >= 0; cell = s->next[cell]) link_add(mesh, cell, I);
+}
+
+void mesh_slits_groups(struct mesh *mesh)
+{
+    struct mesh_slits *s = &mesh->slits;
+    const int corners = 1 << mesh->grid.dim;
+    const int64_t groups = mesh_groups(mesh);
+    int32_t n = 0;
+    if (!s->cell) return;
+    memory_free(s->group);
+    memory_free(s->lane);
+    s->group = BARE("slits.group", groups, int32_t);
+    for (int64_t g = 0; g < groups; g++) {
+        bool own = false;
+        for (int l = 0; l < LANES; l++) own |= s->cell[mesh->partial_cell[g * LANES + l]] >= 0;
+        s->group[g] = own ? n++ : -1;
+    }
+    s->lane = BARE("slits.lane", (int64_t)n * corners * LANES, int32_t);
+    for (int64_t g = 0; g < groups; g++)
+        for (int c = 0; c < corners && s->group[g] >= 0; c++)
+            for (int l = 0; l < LANES; l++)
+                s->lane[((int64_t)s->group[g] * corners + c) * LANES + l] =
+                    (int32_t)mesh_node(mesh, mesh->partial_cell[g * LANES + l], c);
+}
+
+void mesh_slits_free(struct mesh_slits *s)
+{
+    memory_free(s->base);
+    memory_free(s->cell);
+    memory_free(s->corner);
+    memory_free(s->split);
+    memory_free(s->next);
+    memory_free(s->cut);
+    memory_free(s->home);
+    memory_free(s->group);
+    memory_free(s->lane);
+    memory_free(s->link);
+    memory_free(s->linked);
+    memset(s, 0, sizeof *s);
+}
