@@ -216,63 +216,6 @@ static int64_t rows_pass(const struct rows_pass *pass)
     return made;
 }
 
-/* Row blocks write all of their columns, padding included, or none: on a lattice most. */
-static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
-{
-    void *(*make)(const char *, int64_t, size_t) = sparse ? memory_sparse : memory_bare;
-    b->first = make("bonds.first", b->room, sizeof *b->first);
-    b->nbr = make("bonds.nbr", b->room * LANES, sizeof *b->nbr);
-    b->inverse_length = make("bonds.inverse_length", b->room * LANES, sizeof *b->inverse_length);
-    b->w = make("bonds.w", b->room * LANES, sizeof *b->w);
-    b->common = make("bonds.common", b->room, sizeof *b->common);
-    if (!s->yield.stretch) return;
-    b->yield = s->yield;
-    b->plastic_stretch = NEW("bonds.plastic_stretch", b->room * LANES, real);
-    b->plastic_path = NEW("bonds.plastic_path", b->room * LANES, real);
-    b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
-}
-
-/* Is there room behind what old rows have stored for all row blocks that they do not have? Plastic strain stays in
- * the order of its row blocks (bonds_archive.c). */
-static bool columns_fit(const struct bonds *b, const struct bonds *old, const int64_t *kept)
-{
-    if (!old || old->plastic_stretch) return false;
-    int64_t made = 0;
-    for (int64_t g = 0; g < b->row_blocks; g++) made += kept[g] < 0 ? b->column_count[g] : 0;
-    return made <= old->room - old->used;
-}
-
-/* Where each row block is stored: kept ones where they are, others behind them; or all anew, side by side, and where
- * that will happen again, with room for as much. Until old rows are left they and the new ones share what was taken
- * over. */
-static void columns_place(struct bonds *b, const struct rows_pass *pass)
-{
-    const struct bonds *old = pass->maker.old;
-    const bool fit = columns_fit(b, old, pass->kept);
-    if (fit) {
-        b->used = old->used, b->room = old->room;
-        b->first = old->first, b->nbr = old->nbr, b->inverse_length = old->inverse_length, b->w = old->w,
-        b->common = old->common;
-    }
-    for (int64_t g = 0; g < b->row_blocks; g++) {
-        const bool stays = fit && pass->kept[g] >= 0;
-        b->column[g] = stays ? old->column[pass->kept[g]] : b->used;
-        b->used += stays ? 0 : b->column_count[g];
-        b->columns += b->column_count[g];
-    }
-    shell_lengths(b, pass->maker.source->family.spacing);
-    if (fit) return;
-    b->room = old ? 2 * b->columns : b->columns;
-    columns_arrays(b, pass->maker.source, pass->maker.map->at != NULL);
-}
-
-/* Detaches from `old` the arrays that the new rows reuse. */
-static void columns_leave(struct bonds *old, const struct bonds *b)
-{
-    if (!old || old->w != b->w) return;
-    old->first = old->nbr = NULL, old->inverse_length = old->w = NULL, old->common = NULL;
-}
-
 /* With old rows few row blocks change, and what is searched for them is kept. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
@@ -284,7 +227,7 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
                              .kept = maker.old ? BARE("bonds.kept", b->row_blocks, int64_t) : NULL,
                              .found = maker.old ? NEW("bonds.found", b->row_blocks, struct row_block_found *) : NULL};
     rows_pass(&pass);
-    columns_place(b, &pass);
+    columns_place(b, &pass.maker, pass.kept);
     pass.count = false;
     b->n = rows_pass(&pass);
     for (int64_t g = 0; g < b->row_blocks && pass.found; g++) memory_free(pass.found[g]);
@@ -379,6 +322,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->stencil);
     memory_free(b->implicit);
     memory_free(b->changed);
+    memory_free(b->holes.hole);
     stencils_free(b->stencils);
     site_map_leave(b->site_map);
     memory_free(b->plastic_stretch);
