@@ -136,6 +136,7 @@ struct bonds {
     int32_t reach;                       /* row blocks: no bond leads to a row farther on */
     int32_t *particle;                   /* [row blocks 8] particle of a row; padding rows repeat the last */
     int32_t *row_of;                     /* [n_all] row of a particle, -1 without */
+    int32_t *no_rows;                    /* [n_all] -1: what row_of begins as when rows are made anew; or NULL */
     int64_t *column;                     /* [row blocks] first column of a row block */
     int32_t *column_count;               /* [row blocks] its columns */
     uint8_t *whole;                      /* [row blocks 8] the row of a peridynamic particle: the whole family */

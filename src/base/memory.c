@@ -192,7 +192,7 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
     return grown;
 }
 
-/* The system gives the pages of large arrays another place: nothing is copied, and what was never written is not now. */
+/* The system gives the pages of large arrays another place: nothing is copied, and what was never written stays so. */
 static bool pages_extend(struct block *block, char **pointer, size_t length)
 {
 #ifdef MREMAP_MAYMOVE

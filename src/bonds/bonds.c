@@ -27,37 +27,39 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Eight particles of consecutive numbers have rows together: a row block holds the same eight particles for as long
- * as it exists, is written as whole vectors, and on a lattice its neighbours are consecutive, too. Rows that were
- * not marked have no bonds. */
-static void rows_complete(uint8_t *wanted, int64_t n)
+/* Marks the rows of one peridynamic particle or image: its own and those of all within its reach. */
+static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
+                        int32_t *found, int room, uint8_t *wanted, uint8_t *fresh)
 {
-    for (int64_t first = 0; first < n; first += LANES)
-        if (eight_bytes(wanted + first)) memset(wanted + first, 1, (size_t)eight_at(first, n));
+    const int n = family_of(map, s, p, (int32_t)i, found, room);
+    if (i < p->n) wanted[i / LANES] = fresh[i] = 1;
+    for (int k = 0; k < n; k++)
+        if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
 }
 
-/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` marks those
- * to be searched anew: particles that have become peridynamic and all within their reach. */
+/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Eight particles of consecutive numbers
+ * have rows together: a row block holds the same eight particles for as long as it exists, is written as whole vectors,
+ * and on a lattice its neighbours are consecutive, too. Rows that were not marked have no bonds. Marks eights in
+ * `wanted`; `fresh` marks those to be searched anew: particles that have become peridynamic and all within their
+ * reach. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int room, uint8_t *wanted, uint8_t *fresh)
 {
     const bool last = rows_reusable(old, p);
     if (!last) memset(fresh, 1, (size_t)p->n);
     if (p->n_of[KIND_PD] == p->n && !last) {
-        memset(wanted, 1, (size_t)p->n);
+        memset(wanted, 1, (size_t)(p->n + LANES - 1) / LANES);
         return;
     }
-    for (int64_t r = 0; last && r < old->rows; r++) wanted[old->particle[r]] = 1;
+    for (int64_t r = 0; last && r < old->rows; r += LANES) wanted[old->particle[r] / LANES] = 1;
     int32_t *found = NEW("bonds.found", room, int32_t);
-    for (int64_t i = 0; i < p->n_all; i++) {
-        if (p->kind[i] != KIND_PD || (last && was_whole_row(old, s, p, i))) continue;
-        if (i < p->n) wanted[i] = fresh[i] = 1;
-        int n = family_of(map, s, p, (int32_t)i, found, room);
-        for (int k = 0; k < n; k++)
-            if (found[k] < p->n) wanted[found[k]] = fresh[found[k]] = 1;
-    }
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)
+        if (!last || !was_whole_row(old, s, p, p->list[KIND_PD][k]))
+            mark_family(s, p, map, p->list[KIND_PD][k], found, room, wanted, fresh);
+    for (int64_t i = p->n; i < p->n_all; i++)
+        if (p->kind[i] == KIND_PD && !(last && was_whole_row(old, s, p, i)))
+            mark_family(s, p, map, i, found, room, wanted, fresh);
     memory_free(found);
-    rows_complete(wanted, p->n);
 }
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
@@ -76,20 +78,32 @@ struct pair_table pairs_make(const struct bond_source *s)
     return t;
 }
 
-/* All of eight, or none (rows_complete). */
-static void rows_list(struct bonds *b, const struct particles *p, const uint8_t *wanted)
+/* Row of each particle, -1: none. */
+static int32_t *row_of_make(struct bonds *old, int64_t n)
 {
+    int32_t *row_of = old ? old->no_rows : NULL;
+    if (row_of) {
+        old->no_rows = NULL;
+        return row_of;
+    }
+    row_of = BARE("bonds.row_of", n, int32_t);
+    memset(row_of, 0xff, (size_t)n * sizeof *row_of);
+    return row_of;
+}
+
+/* All of eight particles that are marked, or none. */
+static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
+{
+    const int64_t eights = (p->n + LANES - 1) / LANES;
     int32_t row = 0;
     b->rows = 0;
-    for (int64_t first = 0; first < p->n; first += LANES)
-        if (eight_bytes(wanted + first)) b->rows += eight_at(first, p->n);
+    for (int64_t e = 0; e < eights; e++) b->rows += wanted[e] ? eight_at(e * LANES, p->n) : 0;
     b->row_blocks = (b->rows + LANES - 1) / LANES;
     b->particle = NEW("bonds.particle", b->row_blocks * LANES, int32_t);
-    b->row_of = BARE("bonds.row_of", p->n_all, int32_t);
-    memset(b->row_of, 0xff, (size_t)p->n_all * sizeof *b->row_of);                                      /* -1: none */
-    for (int64_t first = 0; first < p->n; first += LANES)
-        for (int l = 0; eight_bytes(wanted + first) && l < eight_at(first, p->n); l++, row++)
-            b->particle[row] = (int32_t)first + l, b->row_of[first + l] = row;
+    b->row_of = row_of_make(old, p->n_all);
+    for (int64_t e = 0; e < eights; e++)
+        for (int l = 0; wanted[e] && l < eight_at(e * LANES, p->n); l++, row++)
+            b->particle[row] = (int32_t)(e * LANES) + l, b->row_of[e * LANES + l] = row;
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
 
@@ -254,10 +268,10 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     b->stencils = stencils_make(old ? old->stencils : NULL);
     struct site_map *map = site_map_keep(old ? old->site_map : NULL, s, p);
     int most = bonds_room(s);
-    uint8_t *wanted = NEW("bonds.wanted", p->n + LANES, uint8_t); /* particles behind the body are not marked */
+    uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
     mark_rows(s, p, old, map, most, wanted, fresh);
-    rows_list(b, p, wanted);
+    rows_list(b, old, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
     state_start(b, s);
@@ -300,7 +314,9 @@ void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source 
     for (int64_t row = 0; row < old.rows; row++) {
         const int32_t i = old.particle[row];
         for (int d = 0; d < p->dim && b->row_of[i] < 0; d++) p->f[d][i] = 0;
+        old.row_of[i] = -1;
     }
+    b->no_rows = old.row_of, old.row_of = NULL;      /* the next rows need no other */
     bonds_free(&old);
 }
 
@@ -308,6 +324,7 @@ void bonds_free(struct bonds *b)
 {
     memory_free(b->particle);
     memory_free(b->row_of);
+    memory_free(b->no_rows);
     memory_free(b->column);
     memory_free(b->column_count);
     memory_free(b->made);

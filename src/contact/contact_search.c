@@ -125,17 +125,6 @@ struct contact_search {
     real reach;                          /* [m] */
 };
 
-/* A bit for each particle, of those that one row is near to. */
-static void near_mark(uint64_t *marks, int32_t i) { marks[i / 64] |= (uint64_t)1 << i % 64; }
-static void near_unmark(uint64_t *marks, int32_t i) { marks[i / 64] &= ~((uint64_t)1 << i % 64); }
-static bool is_near_marked(const uint64_t *marks, int32_t i) { return marks[i / 64] >> i % 64 & 1; }
-
-static void bonded_unmark(const struct bonds *b, int32_t i, uint64_t *marks)
-{
-    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
-        if (it.bond.w != 0) near_unmark(marks, it.bond.nbr);
-}
-
 /* Pairs of consecutive rows, as a thread finds them. */
 struct pair_list { int64_t n, room; int32_t *other; };
 
@@ -149,7 +138,7 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Adds the pairs of row k; no particle is marked before and after. */
+/* Adds the pairs of row k; marks: a bit for each particle, clear before and after. */
 static void row_pairs(const struct contact_search *s, struct near *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {
@@ -158,12 +147,12 @@ static void row_pairs(const struct contact_search *s, struct near *near, uint64_
     if (s->law->between == CONTACT_NONE) return;
     near_find(near, &s->cells, &s->places, k, s->reach, false);
     if (near->n == 0) return;
-    for (int q = 0; q < near->n; q++) near_mark(marks, s->particle[near->at[q]]);
-    if (s->law->distance == DISTANCE_SPACING) bonded_unmark(s->b, i, marks);
+    for (int q = 0; q < near->n; q++) bit_set(marks, s->particle[near->at[q]]);
+    if (s->law->distance == DISTANCE_SPACING) bonds_unmark(s->b, s->b->row_of[i], marks);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = s->particle[near->at[q]];
-        if (!is_near_marked(marks, j)) continue;
-        near_unmark(marks, j);
+        if (!bit_is_set(marks, j)) continue;
+        bit_clear(marks, j);
         if (s->law->between != CONTACT_BODIES || p->body[i] != p->body[j]) pair_add(to, near->at[q]);
     }
 }
