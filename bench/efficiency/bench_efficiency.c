@@ -24,6 +24,7 @@ struct run {
     double stepping[REPETITIONS]; /* of them without samples: the step's own work */
     /* of them without conversion: what kernels alone take, as if rows and partial cells came for nothing */
     double steady[REPETITIONS];
+    double rest[REPETITIONS]; /* share of them that is neither bonds nor material points: conversion, samples [1] */
     struct crack_ends ends;
     double time[SAMPLES + 1], share[SAMPLES + 1];
 };
@@ -36,6 +37,7 @@ struct result {
     double t[WAYS], t_r[WAYS];                                                    /* [s] [1] */
     double t_r_stepping[WAYS];                                                    /* the same of the steps alone [1] */
     double t_r_bound[WAYS];                                                   /* the same if conversion were free [1] */
+    double rest_share[WAYS];                                                  /* neither bonds nor points [1] */
     double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS];    /* [m] [degree] [s] */
     double angle[WAYS];                                                           /* of the longest crack [degree] */
 };
@@ -76,6 +78,8 @@ static status efficiency_run_once(struct result *x, int way, int repetition)
     r->seconds[repetition] = e.report.loop_seconds;
     r->stepping[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_SAMPLE];
     r->steady[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_CONVERT];
+    r->rest[repetition] =
+        (e.report.laps.spent[LAP_CONVERT] + e.report.laps.spent[LAP_SAMPLE]) / e.report.loop_seconds;
     x->particles = e.part.n, x->steps = e.clock.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);
     bench_engine_free(&e, &s);
@@ -129,6 +133,7 @@ static status scene_measure(struct result *x, int repetitions)
         x->t_r_stepping[way] =
             1 - median_of(x->run[way].stepping, repetitions) / median_of(x->run[0].stepping, repetitions);
         x->t_r_bound[way] = 1 - median_of(x->run[way].steady, repetitions) / x->t[0];
+        x->rest_share[way] = median_of(x->run[way].rest, repetitions);
         compare_tips(x, way, dim);
     }
     return OK;
@@ -140,9 +145,9 @@ static void efficiency_print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
-    printf("  %-30s %-6s %-10s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s\n", "", "model", "levers",
+    printf("  %-30s %-6s %-10s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s %10s\n", "", "model", "levers",
            "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips", "angles",
-           "starts", "PD share");
+           "starts", "PD share", "rest_share");
 }
 
 static void print_way(const struct result *x, int way)
@@ -153,9 +158,10 @@ static void print_way(const struct result *x, int way)
            efficiency_title(x->scene, title, sizeof title), x->scene->model, efficiency_way[way].levers,
            (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way], x->t_r_stepping[way],
            x->t_r_bound[way], paper, 1e3 * x->tip_distance[way]);
-    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %%\n", x->angle[0], x->angle[way],
+    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %% %8.1f %%\n", x->angle[0], x->angle[way],
            1e6 * x->run[0].ends.start, 1e6 * x->run[way].ends.start, 100 * x->run[way].share[0],
-           100 * x->run[way].share[SAMPLES]);
+           100 * x->run[way].share[SAMPLES],
+           100 * x->rest_share[way]);
     fflush(stdout);
 }
 
@@ -180,7 +186,8 @@ static void print_marks(const struct efficiency *all)
     printf(
         "  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples;\n"
         "  bound: if rows, partial stress and partial cells of a conversion came for nothing, what kernels alone "
-        "allow\n");
+        "allow;\n  rest_share: part of the loop that is neither bonds nor material points, but conversion, contact "
+        "searches and samples\n");
 }
 
 /* Rows of one adaptive run in the tables of figures, shares and runs. */
@@ -190,7 +197,7 @@ static void add_way(struct bench_table *table, const struct result *x, int way)
                            x->start_difference[way]};
     const double run[] = {(double)x->particles, (double)x->steps,       x->dt,       x->scene->paper_t_r,
                           x->run[0].ends.start, x->run[way].ends.start, x->angle[0], x->angle[way],
-                          x->t_r_stepping[way], x->t_r_bound[way]};
+                          x->t_r_stepping[way], x->t_r_bound[way],    x->rest_share[way]};
     char title[48];
     efficiency_title(x->scene, title, sizeof title);
     bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
@@ -214,7 +221,7 @@ static status efficiency_write_tables(const struct efficiency *all)
     bench_table_make(&table[1], "share", "scene,model,levers,time,pd_share");
     bench_table_make(&table[2], "runs",
                      "scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,"
-                     "angle_adaptive_deg,t_r_stepping,t_r_bound");
+                     "angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share");
     for (int k = 0; k < all->n; k++)
         for (int way = 1; way < WAYS; way++)
             if (efficiency_is_run(all->result[k].scene, way)) add_way(table, &all->result[k], way);

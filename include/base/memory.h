@@ -19,6 +19,9 @@ void *memory_sparse(const char *label, int64_t count, size_t size);
  * `pointer` may be NULL. */
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
+/* Grows an array of memory_sparse or memory_bare; new elements are not written. */
+void *memory_extend(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
+
 /* Frees; NULL is allowed. */
 void memory_free(void *pointer);
 

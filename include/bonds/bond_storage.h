@@ -22,8 +22,8 @@
  * stencil, read from the nearest cache, and store nothing of their own (they are implicit) until one of their bonds
  * is written. Room for all columns is kept, but only what is written takes memory.
  *
- * Rows made anew leave row blocks that have not changed where they are stored, and put others behind all that is:
- * between them lie columns of row blocks that are no more, until there is no room and all move together.
+ * Rows made anew leave row blocks that have not changed where they are stored, and put others into the holes that row
+ * blocks have left which are no more, or behind all that is stored.
  *
  * Invariants (bonds_fault, which builds with -DCLEAVE_ASSERT call whenever rows are made):
  *     rows ascend by particle, and row_of is the inverse of `particle`;
@@ -125,6 +125,10 @@ struct stencil {
 struct stencils;                         /* all of them (bonds_stencils.c) */
 struct site_map;                         /* particle at each site of a lattice (bonds_site_map.c) */
 
+/* Columns of row blocks that are no more: room for others when rows are made anew. */
+struct bond_hole { int64_t column; int32_t columns; };
+struct bond_holes { int64_t n, room; struct bond_hole *hole; };
+
 struct bonds {
     int64_t rows, row_blocks, columns;
     int64_t used, room;                  /* columns of which something is or was stored; that there is room for */
@@ -132,6 +136,7 @@ struct bonds {
     int32_t reach;                       /* row blocks: no bond leads to a row farther on */
     int32_t *particle;                   /* [row blocks 8] particle of a row; padding rows repeat the last */
     int32_t *row_of;                     /* [n_all] row of a particle, -1 without */
+    int32_t *no_rows;                    /* [n_all] -1: what row_of begins as when rows are made anew; or NULL */
     int64_t *column;                     /* [row blocks] first column of a row block */
     int32_t *column_count;               /* [row blocks] its columns */
     uint8_t *whole;                      /* [row blocks 8] the row of a peridynamic particle: the whole family */
@@ -148,6 +153,7 @@ struct bonds {
     const struct stencil **stencil;      /* [row blocks] what a row block follows, NULL: nothing */
     uint8_t *implicit;                   /* [row blocks] its columns are not written */
     uint8_t *changed;                    /* [row blocks] weights are not those it was made with: no stencil */
+    struct bond_holes holes;
     struct stencils *stencils;
     struct site_map *site_map;           /* kept where there are material points; else NULL */
     real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL where none yields [1] */

@@ -92,6 +92,9 @@ static inline bool bonds_has(const struct bonds *b, int64_t i)
     return row >= 0 && bonds_intact(b, row / LANES) >> row % LANES & 1;
 }
 
+/* Clears the bits of the particles and images to which a row has intact bonds; row -1: none. */
+void bonds_unmark(const struct bonds *b, int64_t row, uint64_t *marks);
+
 /* Directed bonds of a row block, broken ones included. */
 static inline int32_t row_block_bonds(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 

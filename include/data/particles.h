@@ -85,6 +85,11 @@ static inline uint64_t eight_bytes(const uint8_t *from)
 #define EIGHT_TIMES(byte) ((uint64_t)(byte) * 0x0101010101010101)
 static inline bool eight_same(const uint8_t *from) { return eight_bytes(from) == EIGHT_TIMES(from[0]); }
 
+/* Marks of one bit a particle. */
+static inline void bit_set(uint64_t *marks, int64_t i) { marks[i / 64] |= (uint64_t)1 << i % 64; }
+static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((uint64_t)1 << i % 64); }
+static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i / 64] >> i % 64 & 1; }
+
 /* How many of the eight from `first` on are below n. */
 static inline int eight_at(int64_t first, int64_t n) { return n - first < LANES ? (int)(n - first) : LANES; }
 

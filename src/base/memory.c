@@ -192,6 +192,40 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
     return grown;
 }
 
+/* The system gives the pages of large arrays another place: nothing is copied, and what was never written stays so. */
+static bool pages_extend(struct block *block, char **pointer, size_t length)
+{
+#ifdef MREMAP_MAYMOVE
+    const size_t ahead = (size_t)(*pointer - (char *)block->whole), room = room_of(ahead + length);
+    if (block->mapped >= ahead + length) return true;
+    void *pages = block->mapped > 0 ? mremap(block->whole, block->mapped, room, MREMAP_MAYMOVE) : MAP_FAILED;
+    if (pages == MAP_FAILED) return false;
+    *block = (struct block){pages, room};
+    *pointer = (char *)pages + ahead;
+    memcpy(*pointer - sizeof *block, block, sizeof *block);
+    return true;
+#else
+    (void)block, (void)pointer, (void)length;
+    return false;
+#endif
+}
+
+void *memory_extend(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
+{
+    struct block block;
+    char *array = pointer;
+    size_t length;
+    assert(pointer && old_count <= count);
+    memcpy(&block, array - sizeof block, sizeof block);
+    if (__builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
+        out_of_memory(label, count, size);
+    if (pages_extend(&block, &array, (length / ALIGNMENT + 1) * ALIGNMENT)) return array;
+    array = memory_sparse(label, count, size);
+    memcpy(array, pointer, (size_t)old_count * size);
+    memory_free(pointer);
+    return array;
+}
+
 void memory_free(void *pointer)
 {
     struct block block;

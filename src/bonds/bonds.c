@@ -27,37 +27,39 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Eight particles of consecutive numbers have rows together: a row block holds the same eight particles for as long
- * as it exists, is written as whole vectors, and on a lattice its neighbours are consecutive, too. Rows that were
- * not marked have no bonds. */
-static void rows_complete(uint8_t *wanted, int64_t n)
+/* Marks the rows of one peridynamic particle or image: its own and those of all within its reach. */
+static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
+                        int32_t *found, int room, uint8_t *wanted, uint8_t *fresh)
 {
-    for (int64_t first = 0; first < n; first += LANES)
-        if (eight_bytes(wanted + first)) memset(wanted + first, 1, (size_t)eight_at(first, n));
+    const int n = family_of(map, s, p, (int32_t)i, found, room);
+    if (i < p->n) wanted[i / LANES] = fresh[i] = 1;
+    for (int k = 0; k < n; k++)
+        if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
 }
 
-/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Marks `wanted`; `fresh` marks those
- * to be searched anew: particles that have become peridynamic and all within their reach. */
+/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Eight particles of consecutive numbers
+ * have rows together: a row block holds the same eight particles for as long as it exists, is written as whole vectors,
+ * and on a lattice its neighbours are consecutive, too. Rows that were not marked have no bonds. Marks eights in
+ * `wanted`; `fresh` marks those to be searched anew: particles that have become peridynamic and all within their
+ * reach. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int room, uint8_t *wanted, uint8_t *fresh)
 {
     const bool last = rows_reusable(old, p);
     if (!last) memset(fresh, 1, (size_t)p->n);
     if (p->n_of[KIND_PD] == p->n && !last) {
-        memset(wanted, 1, (size_t)p->n);
+        memset(wanted, 1, (size_t)(p->n + LANES - 1) / LANES);
         return;
     }
-    for (int64_t r = 0; last && r < old->rows; r++) wanted[old->particle[r]] = 1;
+    for (int64_t r = 0; last && r < old->rows; r += LANES) wanted[old->particle[r] / LANES] = 1;
     int32_t *found = NEW("bonds.found", room, int32_t);
-    for (int64_t i = 0; i < p->n_all; i++) {
-        if (p->kind[i] != KIND_PD || (last && was_whole_row(old, s, p, i))) continue;
-        if (i < p->n) wanted[i] = fresh[i] = 1;
-        int n = family_of(map, s, p, (int32_t)i, found, room);
-        for (int k = 0; k < n; k++)
-            if (found[k] < p->n) wanted[found[k]] = fresh[found[k]] = 1;
-    }
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)
+        if (!last || !was_whole_row(old, s, p, p->list[KIND_PD][k]))
+            mark_family(s, p, map, p->list[KIND_PD][k], found, room, wanted, fresh);
+    for (int64_t i = p->n; i < p->n_all; i++)
+        if (p->kind[i] == KIND_PD && !(last && was_whole_row(old, s, p, i)))
+            mark_family(s, p, map, i, found, room, wanted, fresh);
     memory_free(found);
-    rows_complete(wanted, p->n);
 }
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
@@ -76,20 +78,32 @@ struct pair_table pairs_make(const struct bond_source *s)
     return t;
 }
 
-/* All of eight, or none (rows_complete). */
-static void rows_list(struct bonds *b, const struct particles *p, const uint8_t *wanted)
+/* Row of each particle, -1: none. */
+static int32_t *row_of_make(struct bonds *old, int64_t n)
 {
+    int32_t *row_of = old ? old->no_rows : NULL;
+    if (row_of) {
+        old->no_rows = NULL;
+        return row_of;
+    }
+    row_of = BARE("bonds.row_of", n, int32_t);
+    memset(row_of, 0xff, (size_t)n * sizeof *row_of);
+    return row_of;
+}
+
+/* All of eight particles that are marked, or none. */
+static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
+{
+    const int64_t eights = (p->n + LANES - 1) / LANES;
     int32_t row = 0;
     b->rows = 0;
-    for (int64_t first = 0; first < p->n; first += LANES)
-        if (eight_bytes(wanted + first)) b->rows += eight_at(first, p->n);
+    for (int64_t e = 0; e < eights; e++) b->rows += wanted[e] ? eight_at(e * LANES, p->n) : 0;
     b->row_blocks = (b->rows + LANES - 1) / LANES;
     b->particle = NEW("bonds.particle", b->row_blocks * LANES, int32_t);
-    b->row_of = BARE("bonds.row_of", p->n_all, int32_t);
-    memset(b->row_of, 0xff, (size_t)p->n_all * sizeof *b->row_of);                                      /* -1: none */
-    for (int64_t first = 0; first < p->n; first += LANES)
-        for (int l = 0; eight_bytes(wanted + first) && l < eight_at(first, p->n); l++, row++)
-            b->particle[row] = (int32_t)first + l, b->row_of[first + l] = row;
+    b->row_of = row_of_make(old, p->n_all);
+    for (int64_t e = 0; e < eights; e++)
+        for (int l = 0; wanted[e] && l < eight_at(e * LANES, p->n); l++, row++)
+            b->particle[row] = (int32_t)(e * LANES) + l, b->row_of[e * LANES + l] = row;
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
 
@@ -216,63 +230,6 @@ static int64_t rows_pass(const struct rows_pass *pass)
     return made;
 }
 
-/* Row blocks write all of their columns, padding included, or none: on a lattice most. */
-static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
-{
-    void *(*make)(const char *, int64_t, size_t) = sparse ? memory_sparse : memory_bare;
-    b->first = make("bonds.first", b->room, sizeof *b->first);
-    b->nbr = make("bonds.nbr", b->room * LANES, sizeof *b->nbr);
-    b->inverse_length = make("bonds.inverse_length", b->room * LANES, sizeof *b->inverse_length);
-    b->w = make("bonds.w", b->room * LANES, sizeof *b->w);
-    b->common = make("bonds.common", b->room, sizeof *b->common);
-    if (!s->yield.stretch) return;
-    b->yield = s->yield;
-    b->plastic_stretch = NEW("bonds.plastic_stretch", b->room * LANES, real);
-    b->plastic_path = NEW("bonds.plastic_path", b->room * LANES, real);
-    b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
-}
-
-/* Is there room behind what old rows have stored for all row blocks that they do not have? Plastic strain stays in
- * the order of its row blocks (bonds_archive.c). */
-static bool columns_fit(const struct bonds *b, const struct bonds *old, const int64_t *kept)
-{
-    if (!old || old->plastic_stretch) return false;
-    int64_t made = 0;
-    for (int64_t g = 0; g < b->row_blocks; g++) made += kept[g] < 0 ? b->column_count[g] : 0;
-    return made <= old->room - old->used;
-}
-
-/* Where each row block is stored: kept ones where they are, others behind them; or all anew, side by side, and where
- * that will happen again, with room for as much. Until old rows are left they and the new ones share what was taken
- * over. */
-static void columns_place(struct bonds *b, const struct rows_pass *pass)
-{
-    const struct bonds *old = pass->maker.old;
-    const bool fit = columns_fit(b, old, pass->kept);
-    if (fit) {
-        b->used = old->used, b->room = old->room;
-        b->first = old->first, b->nbr = old->nbr, b->inverse_length = old->inverse_length, b->w = old->w,
-        b->common = old->common;
-    }
-    for (int64_t g = 0; g < b->row_blocks; g++) {
-        const bool stays = fit && pass->kept[g] >= 0;
-        b->column[g] = stays ? old->column[pass->kept[g]] : b->used;
-        b->used += stays ? 0 : b->column_count[g];
-        b->columns += b->column_count[g];
-    }
-    shell_lengths(b, pass->maker.source->family.spacing);
-    if (fit) return;
-    b->room = old ? 2 * b->columns : b->columns;
-    columns_arrays(b, pass->maker.source, pass->maker.map->at != NULL);
-}
-
-/* Detaches from `old` the arrays that the new rows reuse. */
-static void columns_leave(struct bonds *old, const struct bonds *b)
-{
-    if (!old || old->w != b->w) return;
-    old->first = old->nbr = NULL, old->inverse_length = old->w = NULL, old->common = NULL;
-}
-
 /* With old rows few row blocks change, and what is searched for them is kept. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
@@ -284,7 +241,7 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
                              .kept = maker.old ? BARE("bonds.kept", b->row_blocks, int64_t) : NULL,
                              .found = maker.old ? NEW("bonds.found", b->row_blocks, struct row_block_found *) : NULL};
     rows_pass(&pass);
-    columns_place(b, &pass);
+    columns_place(b, &pass.maker, pass.kept);
     pass.count = false;
     b->n = rows_pass(&pass);
     for (int64_t g = 0; g < b->row_blocks && pass.found; g++) memory_free(pass.found[g]);
@@ -311,10 +268,10 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     b->stencils = stencils_make(old ? old->stencils : NULL);
     struct site_map *map = site_map_keep(old ? old->site_map : NULL, s, p);
     int most = bonds_room(s);
-    uint8_t *wanted = NEW("bonds.wanted", p->n + LANES, uint8_t); /* particles behind the body are not marked */
+    uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
     mark_rows(s, p, old, map, most, wanted, fresh);
-    rows_list(b, p, wanted);
+    rows_list(b, old, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
     state_start(b, s);
@@ -357,7 +314,9 @@ void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source 
     for (int64_t row = 0; row < old.rows; row++) {
         const int32_t i = old.particle[row];
         for (int d = 0; d < p->dim && b->row_of[i] < 0; d++) p->f[d][i] = 0;
+        old.row_of[i] = -1;
     }
+    b->no_rows = old.row_of, old.row_of = NULL;      /* the next rows need no other */
     bonds_free(&old);
 }
 
@@ -365,6 +324,7 @@ void bonds_free(struct bonds *b)
 {
     memory_free(b->particle);
     memory_free(b->row_of);
+    memory_free(b->no_rows);
     memory_free(b->column);
     memory_free(b->column_count);
     memory_free(b->made);
@@ -379,6 +339,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->stencil);
     memory_free(b->implicit);
     memory_free(b->changed);
+    memory_free(b->holes.hole);
     stencils_free(b->stencils);
     site_map_leave(b->site_map);
     memory_free(b->plastic_stretch);

@@ -30,7 +30,7 @@ int family_of(const struct site_map *l, const struct bond_source *s, const struc
 
 /* What rows are made of. `fresh`: particles whose neighbours may differ from those in `old`. */
 struct row_maker {
-    const struct bonds *old;             /* NULL: none before */
+    struct bonds *old;                   /* NULL: none before */
     const struct bond_source *source;
     const struct particles *p;
     const struct pair_table *pairs;
@@ -57,6 +57,11 @@ void row_block_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t
 struct row_block_found { real family_volume[LANES]; int32_t n[LANES], nbr[]; };
 struct row_block_found *row_block_found_make(const struct row *row, int rows);
 void row_block_found_take(const struct row_block_found *found, struct row *row, int rows);
+
+/* Where each row block is stored, and the arrays: old row block kept[g], -1: made anew, stays where it is if there is
+ * room for the others. Then old rows leave what the new ones have taken over (bonds_columns.c). */
+void columns_place(struct bonds *b, const struct row_maker *m, const int64_t *kept);
+void columns_leave(struct bonds *old, const struct bonds *b);
 
 /* Can a crack cut any bond of particle i? */
 bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i);

@@ -160,6 +160,21 @@ void column_read(struct column_copy *to, const struct bonds *b, int64_t row_bloc
         to->nbr[l] = to->first + l, to->inverse_length[l] = to->w[l] == 0 ? 0 : of->inverse_length;
 }
 
+void bonds_unmark(const struct bonds *b, int64_t row, uint64_t *marks)
+{
+    if (row < 0) return;
+    const int64_t row_block = row / LANES, from = b->column[row_block];
+    const int lane = (int)(row % LANES);
+    const struct stencil *stencil = b->stencil[row_block];
+    const int32_t first = b->particle[row_block * LANES] + lane;
+    for (int k = 0; stencil && k < stencil->columns; k++)
+        if (stencil->column[k].intact >> lane & 1) bit_clear(marks, first + stencil->column[k].offset);
+    for (int64_t column = from; !stencil && column < from + b->column_count[row_block]; column++) {
+        const struct bond_column *c = &b->common[column];
+        if (c->intact >> lane & 1) bit_clear(marks, c->first >= 0 ? c->first + lane : b->nbr[column * LANES + lane]);
+    }
+}
+
 void column_write(const struct bonds *b, int64_t column, const struct column_copy *from)
 {
     b->first[column] = from->first;

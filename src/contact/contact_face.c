@@ -191,18 +191,29 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
+/* Has a row the pairs that it had as row `was` of the list before? Then it feels the same. */
+static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
+{
+    const int64_t n = c->first[row + 1] - c->first[row];
+    const int32_t *now = c->other + c->first[row], *then = before->other + before->first[was];
+    bool same = before->first[was + 1] - before->first[was] == n;
+    for (int64_t q = 0; q < n && same; q++) same = c->particle[now[q]] == before->particle[then[q]];
+    return same;
+}
+
 /* In contact, the overlap stays such that the energy does; else contact begins where the surfaces of the scene meet, or
  * later where the reference state or the state now is closer. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row)
 {
     struct contact_face *face = &c->face[row];
-    const struct felt now = felt_by(c, p, p->x, row), reference = felt_by(c, p, p->X, row);
+    const bool pairs = c->first[row + 1] > c->first[row];
+    const struct felt now = felt_by(c, p, p->x, row), reference = pairs ? felt_by(c, p, p->X, row) : now;
     real slope, overlap = 0;
     face->stiffness = face_stiffness(c, p, row);
     face->push = face->lift = 0, face->mean = now.mean;
     if (was >= 0) {
-        const struct felt then = felt_by(before, p, p->x, was);
+        const struct felt then = same_pairs(c, before, was, row) ? now : felt_by(before, p, p->x, was);
         overlap = real_max(0, before->face[was].zero - height_of(before, &then, &slope));
         overlap *= sqrt(before->face[was].stiffness / face->stiffness);
     }

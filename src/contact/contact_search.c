@@ -87,37 +87,34 @@ void contact_list_describe(struct contact *c, const struct particles *p)
     }
 }
 
-/* Lists them, and images of them. */
+/* Lists them, and images of them: the peridynamic particles alone are looked at. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
     const bool everywhere = c->law.distance == DISTANCE_LAMMPS;
-    uint8_t *exposed = BARE("contact.exposed", p->n_all, uint8_t);
-#pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) exposed[i] = is_exposed(p, b, least_volume, everywhere, i);
-    for (int64_t i = p->n; i < p->n_all; i++) exposed[i] = exposed[image_root(p, c->law.image, i)];
-    c->n = c->rows = 0;
-    for (int64_t i = 0; i < p->n_all; i++) c->n += exposed[i];
+    int64_t most = p->n_of[KIND_PD];
+    for (int64_t i = p->n; i < p->n_all; i++) most += p->kind[i] == KIND_PD;
     memory_free(c->particle);
-    c->particle = BARE("contact.particle", c->n, int32_t);
-    int64_t k = 0;
-    for (int64_t i = 0; i < p->n_all; i++) {
-        if (!exposed[i]) continue;
-        c->particle[k++] = (int32_t)i;
-        c->rows += i < p->n;
-    }
-    memory_free(exposed);
+    c->particle = BARE("contact.particle", most, int32_t);
+    c->n = 0;
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)
+        if (is_exposed(p, b, least_volume, everywhere, p->list[KIND_PD][k]))
+            c->particle[c->n++] = p->list[KIND_PD][k];
+    c->rows = c->n;
+    for (int64_t i = p->n; i < p->n_all; i++)
+        if (p->kind[i] == KIND_PD && is_exposed(p, b, least_volume, everywhere, image_root(p, c->law.image, i)))
+            c->particle[c->n++] = (int32_t)i;
     for (int d = 0; d < p->dim; d++) {
         memory_free(c->at[d]);
         c->at[d] = BARE("contact.at", c->n, real);
-        for (k = 0; k < c->n; k++) c->at[d][k] = p->x[d][c->particle[k]];
+        for (int64_t k = 0; k < c->n; k++) c->at[d][k] = p->x[d][c->particle[k]];
     }
     contact_list_describe(c, p);
 }
 
 /* ---- pairs ------------------------------------------------------------------------------------------------------- */
 
-/* One row in the making: neighbours found, those with an intact bond marked by the row's number. */
+/* What the pairs of rows are found from. */
 struct contact_search {
     const struct contact_law *law;
     const struct particles *p;
@@ -127,12 +124,6 @@ struct contact_search {
     const int32_t *particle;
     real reach;                          /* [m] */
 };
-
-static void mark_bonded(const struct bonds *b, int32_t i, int64_t *mark, int64_t row)
-{
-    for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
-        if (it.bond.w != 0) mark[it.bond.nbr] = row;
-}
 
 /* Pairs of consecutive rows, as a thread finds them. */
 struct pair_list { int64_t n, room; int32_t *other; };
@@ -147,19 +138,22 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Adds the pairs of row k. */
-static void row_pairs(const struct contact_search *s, struct near *near, int64_t *mark, int64_t k, struct pair_list *to)
+/* Adds the pairs of row k; marks: a bit for each particle, clear before and after. */
+static void row_pairs(const struct contact_search *s, struct near *near, uint64_t *marks, int64_t k,
+                      struct pair_list *to)
 {
     const struct particles *p = s->p;
     const int32_t i = s->particle[k];
     if (s->law->between == CONTACT_NONE) return;
     near_find(near, &s->cells, &s->places, k, s->reach, false);
     if (near->n == 0) return;
-    if (s->law->distance == DISTANCE_SPACING) mark_bonded(s->b, i, mark, k);
+    for (int q = 0; q < near->n; q++) bit_set(marks, s->particle[near->at[q]]);
+    if (s->law->distance == DISTANCE_SPACING) bonds_unmark(s->b, s->b->row_of[i], marks);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = s->particle[near->at[q]];
-        if (mark[j] == k || (s->law->between == CONTACT_BODIES && p->body[i] == p->body[j])) continue;
-        pair_add(to, near->at[q]);
+        if (!bit_is_set(marks, j)) continue;
+        bit_clear(marks, j);
+        if (s->law->between != CONTACT_BODIES || p->body[i] != p->body[j]) pair_add(to, near->at[q]);
     }
 }
 
@@ -179,12 +173,12 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
     {
         struct near near = {0};
         struct pair_list own = {0};
-        int64_t *mark = BARE("contact.mark", s->p->n_all, int64_t), put = 0;
-        for (int64_t i = 0; i < s->p->n_all; i++) mark[i] = -1;
+        uint64_t *marks = NEW("contact.marks", s->p->n_all / 64 + 1, uint64_t);
+        int64_t put = 0;
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < c->rows; k++) {
             const int64_t before = own.n;
-            row_pairs(s, &near, mark, k, &own);
+            row_pairs(s, &near, marks, k, &own);
             c->first[k + 1] = own.n - before;
         }
 #pragma omp single
@@ -197,7 +191,7 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
         }
         memory_free(near.at);
         memory_free(own.other);
-        memory_free(mark);
+        memory_free(marks);
     }
 }
 

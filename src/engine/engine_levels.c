@@ -39,11 +39,11 @@ static real alike_edge(const struct scene *s)
     return s->spacing * sqrt(above / below);
 }
 
-/* Cell of level 0 of particle i. */
+/* Cell of the box of level 0 in which particle i is in the reference state; mesh->place may name one beside a slit,
+ * behind the box. */
 static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     int64_t I = 0;
-    if (mesh->place[i] >= 0) return mesh->place[i] >> p->dim;
     for (int d = 0; d < p->dim; d++)
         I += (grid_cell(&mesh->grid, d, p->X[d][i]) - mesh->grid.first[d]) * mesh->grid.stride[d];
     return I;

@@ -37,51 +37,66 @@ static bool can_belong(const struct tips *t, const struct particles *p, int64_t 
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
 }
 
-/* Most particles are neither damaged nor part of a crack, and are skipped a block at a time: next_damaged and
- * next_of_crack return the start of the next block from `first` on that has such a particle, n if there is none. */
-enum { BLOCK = 64 };
+/* Peridynamic particles alone lose bonds, and stay peridynamic once they have: only their list is looked at. Most of
+ * them are neither damaged nor part of a crack, and are skipped a piece of the list at a time: next_damaged and
+ * next_of_crack return the start of the next piece from `first` on that has such a particle, the list's end if there is
+ * none. */
+enum { PIECE = 64 };
 
-static int64_t block_end(const struct particles *p, int64_t first)
+static int64_t piece_end(const struct particles *p, int64_t first)
 {
-    return first + BLOCK < p->n ? first + BLOCK : p->n;
+    return first + PIECE < p->n_of[KIND_PD] ? first + PIECE : p->n_of[KIND_PD];
 }
 
-/* True if one of particles first .. end - 1 has lost a bond. The test is on bits, not on numbers. */
-static bool any_damage(const struct particles *p, int64_t first, int64_t end)
+/* Are n listed particles consecutive, as most are? Then eight are looked at at a time. */
+static bool piece_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
+
+static uint64_t damage_bits(const struct particles *p, int64_t i)
+{
+    uint64_t bits;
+    memcpy(&bits, p->damage + i, sizeof bits);
+    return bits;
+}
+
+/* True if one of n listed particles has lost a bond. The test is on bits, not on numbers. */
+static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
     uint64_t any = 0;
-    for (int64_t i = first; i < end; i++) {
-        uint64_t bits;
-        memcpy(&bits, p->damage + i, sizeof bits);
-        any |= bits;
-    }
+    if (piece_consecutive(at, n))
+        for (int64_t k = 0; k < n; k++) any |= damage_bits(p, at[0] + k);
+    else
+        for (int64_t k = 0; k < n; k++) any |= damage_bits(p, at[k]);
     return any != 0;
 }
 
 static int64_t next_damaged(const struct particles *p, int64_t first)
 {
-    for (; first < p->n; first += BLOCK) {
-        const int64_t end = block_end(p, first);
+    for (; first < p->n_of[KIND_PD]; first += PIECE) {
+        const int32_t *at = p->list[KIND_PD] + first;
+        const int64_t n = piece_end(p, first) - first;
         real most = 0;
-        if (!any_damage(p, first, end)) continue;
-#pragma omp simd reduction(max : most)
-        for (int64_t i = first; i < end; i++) most = real_max(most, p->damage[i]);
+        if (!any_damage(p, at, n)) continue;
+        for (int64_t k = 0; k < n; k++) most = real_max(most, p->damage[at[k]]);
         if (most > TIP_DAMAGE) return first;
     }
-    return p->n;
+    return p->n_of[KIND_PD];
 }
 
 static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
 
 static int64_t next_of_crack(const struct tips *t, const struct particles *p, int64_t first)
 {
-    for (; first < p->n; first += BLOCK) {
-        const int64_t end = block_end(p, first);
+    for (; first < p->n_of[KIND_PD]; first += PIECE) {
+        const int32_t *at = p->list[KIND_PD] + first;
+        const int64_t n = piece_end(p, first) - first;
         uint8_t any = 0;
-        for (int64_t i = first; i < end; i++) any |= is_of_crack(t->label[i]);
+        if (piece_consecutive(at, n))
+            for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[0] + k]);
+        else
+            for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[k]]);
         if (any) return first;
     }
-    return p->n;
+    return p->n_of[KIND_PD];
 }
 
 static void flood_label(struct flood *f, int32_t i, int tip)
@@ -222,15 +237,17 @@ static void flood_close_ranks(struct flood *f)
 /* Lists the newly damaged particles. */
 static void flood_make(struct flood *f, struct tips *t, const struct particles *p, const struct cells *c)
 {
+    const int32_t *list = p->list[KIND_PD];
+    const int64_t n = p->n_of[KIND_PD];
     *f = (struct flood){.t = t, .search = {.p = p, .c = c}};
-    for (int64_t b = next_damaged(p, 0); b < p->n; b = next_damaged(p, b + BLOCK))
-        for (int64_t i = b; i < block_end(p, b); i++) f->n_fresh += can_belong(t, p, i);
+    for (int64_t b = next_damaged(p, 0); b < n; b = next_damaged(p, b + PIECE))
+        for (int64_t k = b; k < piece_end(p, b); k++) f->n_fresh += can_belong(t, p, list[k]);
     f->fresh = NEW("tips.fresh", f->n_fresh, int32_t);
     f->queue = NEW("tips.queue", f->n_fresh, int32_t);
-    int64_t k = 0;
-    for (int64_t b = next_damaged(p, 0); b < p->n && k < f->n_fresh; b = next_damaged(p, b + BLOCK))
-        for (int64_t i = b; i < block_end(p, b); i++)
-            if (can_belong(t, p, i)) f->fresh[k++] = (int32_t)i;
+    int64_t fresh = 0;
+    for (int64_t b = next_damaged(p, 0); b < n && fresh < f->n_fresh; b = next_damaged(p, b + PIECE))
+        for (int64_t k = b; k < piece_end(p, b); k++)
+            if (can_belong(t, p, list[k])) f->fresh[fresh++] = list[k];
     for (int m = 0; m < t->n; m++) f->into[m] = m;
 }
 
@@ -277,15 +294,18 @@ struct reach { real farthest, place[DIM_MAX]; int64_t equals, particles; };
  * distance. */
 static void reach_measure(const struct tips *t, const struct particles *p, struct reach *reach)
 {
-    for (int64_t b = next_of_crack(t, p, 0); b < p->n; b = next_of_crack(t, p, b + BLOCK))
-        for (int64_t i = b; i < block_end(p, b); i++) {
-            if (!is_of_crack(t->label[i])) continue;
-            struct reach *r = &reach[t->label[i] - 1];
+    const int32_t *list = p->list[KIND_PD];
+    const int64_t n = p->n_of[KIND_PD];
+    for (int64_t b = next_of_crack(t, p, 0); b < n; b = next_of_crack(t, p, b + PIECE))
+        for (int64_t k = b; k < piece_end(p, b); k++) {
+            if (!is_of_crack(t->label[list[k]])) continue;
+            struct reach *r = &reach[t->label[list[k]] - 1];
             r->particles++;
-            r->farthest = real_max(r->farthest, tips_reach_of(t, p, i));
+            r->farthest = real_max(r->farthest, tips_reach_of(t, p, list[k]));
         }
-    for (int64_t b = next_of_crack(t, p, 0); b < p->n; b = next_of_crack(t, p, b + BLOCK))
-        for (int64_t i = b; i < block_end(p, b); i++) {
+    for (int64_t b = next_of_crack(t, p, 0); b < n; b = next_of_crack(t, p, b + PIECE))
+        for (int64_t k = b; k < piece_end(p, b); k++) {
+            const int32_t i = list[k];
             if (!is_of_crack(t->label[i])) continue;
             struct reach *r = &reach[t->label[i] - 1];
             if (r->farthest <= 0 || tips_reach_of(t, p, i) < r->farthest - EQUAL * t->spacing) continue;

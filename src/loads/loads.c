@@ -42,18 +42,24 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     return OK;
 }
 
+/* Both lists ascend, and so does the new one; what nothing loads any more is left out. */
 void loads_touch(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
     if (!l->loaded) l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
-    for (int64_t i = 0; i < p->n; i++) l->loaded[i] &= (uint8_t)~TOUCHES;
-    for (int64_t k = 0; k < n; k++) l->loaded[list[k]] |= TOUCHES;
+    const int32_t *old = l->list;
+    const int64_t had = l->listed;
+    int32_t *all = BARE("loads.list", had + n, int32_t);
     l->listed = 0;
-    for (int64_t i = 0; i < p->n; i++) l->listed += l->loaded[i] != 0;
+    for (int64_t k = 0; k < had; k++) l->loaded[old[k]] &= (uint8_t)~TOUCHES;
+    for (int64_t k = 0; k < n; k++) l->loaded[list[k]] |= TOUCHES;
+    for (int64_t k = 0, m = 0; k < had || m < n;) {
+        const int32_t i = m == n || (k < had && old[k] < list[m]) ? old[k] : list[m];
+        k += k < had && old[k] == i, m += m < n && list[m] == i;
+        if (l->loaded[i]) all[l->listed++] = i;
+    }
     memory_free(l->list);
-    l->list = BARE("loads.list", l->listed, int32_t);
-    for (int64_t i = 0, k = 0; i < p->n; i++)
-        if (l->loaded[i]) l->list[k++] = (int32_t)i;
+    l->list = all;
 }
 
 void loads_free(struct loads *l)

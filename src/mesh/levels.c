@@ -52,7 +52,7 @@ status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct
     if (n == 0 || fine->points == 0) return OK;
     l->n = n, l->fine = fine;
     corner_find(l);
-    l->level = NEW("levels.level", fine->grid.n, uint8_t);
+    l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t);     /* also marks: mesh_cells_again */
     l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
     l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
     l->safe = NEW("levels.safe", fine->grid.n, uint8_t);

@@ -189,7 +189,7 @@ void levels_change(struct mesh_levels *l, const struct particles *p, const struc
                    const uint8_t *level)
 {
     const size_t cells = (size_t)l->fine->grid.n;
-    uint8_t *before = NEW("levels.before", 2 * l->fine->grid.n, uint8_t), *dirty = before + cells;
+    uint8_t *before = NEW("levels.before", 2 * l->fine->grid.n + LANES, uint8_t), *dirty = before + cells;
     levels_sync(l);
     levels_interpolate(l);
     memcpy(before, l->level, cells);

@@ -101,6 +101,21 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
+/* The next of n marks that is set, from `first` on; n: there is none. Most are not, and eight are skipped at a time:
+ * behind the last mark there are LANES more, not set. */
+static int64_t next_marked(const uint8_t *mark, int64_t first, int64_t n)
+{
+    while (first < n && !mark[first])
+        if (eight_bytes(mark + first)) first++;
+        else first += LANES;
+    return first < n ? first : n;
+}
+
+static uint8_t *cells_mark(const char *label, const struct mesh *mesh)
+{
+    return NEW(label, mesh->grid.n + LANES, uint8_t);
+}
+
 /* Whole: all points exist, of one material, none leaves stress to bonds, and all corners are nodes of the grid. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
@@ -182,9 +197,13 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
                            const uint8_t *dirty)
 {
     struct mesh_partial old = mesh_partial_keep(mesh);
+    if (!dirty) {
 #pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < mesh->grid.n; I++)
-        if (!dirty || dirty[I]) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
+        for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
+    } else
+        for (int64_t I = next_marked(dirty, 0, mesh->grid.n); I < mesh->grid.n;
+             I = next_marked(dirty, I + 1, mesh->grid.n))
+            mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     mesh_spans_make(mesh);
     cells_list(mesh, p);
     mesh_partial_make(mesh, p, s, dirty, &old);
@@ -337,8 +356,9 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
 static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
 {
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);
-    for (int64_t cell = 0; cell < mesh->grid.n; cell++)
-        for (int c = 0; c < 1 << p->dim && left[cell]; c++) {
+    for (int64_t cell = next_marked(left, 0, mesh->grid.n); cell < mesh->grid.n;
+         cell = next_marked(left, cell + 1, mesh->grid.n))
+        for (int c = 0; c < 1 << p->dim; c++) {
             const int64_t I = mesh_node(mesh, cell, c);
             if (done[I]) continue;
             done[I] = 1;
@@ -354,18 +374,18 @@ real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_sourc
 {
     real energy = 0;
     if (!mesh->place) return 0;
-    uint8_t *left = NEW("mesh.left", mesh->grid.n, uint8_t),
-            *dirty = changed ? NEW("mesh.dirty", mesh->grid.n, uint8_t) : NULL;
+    uint8_t *left = cells_mark("mesh.left", mesh), *dirty = changed ? cells_mark("mesh.dirty", mesh) : NULL;
     for (int64_t k = 0; k < n && changed; k++)
         if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
-    for (int64_t i = 0; i < p->n; i++)
-        if (mesh->place[i] >= 0 && p->kind[i] != KIND_MPM) {
-            left[mesh->place[i] >> p->dim] = 1;
-            if (dirty) dirty[mesh->place[i] >> p->dim] = 1;
-            energy += mesh_release(mesh, p, i);
-        }
-    nodes_lighten(mesh, p, left);
     particles_list(p);
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        if (mesh->place[i] < 0) continue;
+        left[mesh->place[i] >> p->dim] = 1;
+        if (dirty) dirty[mesh->place[i] >> p->dim] = 1;
+        energy += mesh_release(mesh, p, i);
+    }
+    nodes_lighten(mesh, p, left);
     cells_sort_out(mesh, p, source, dirty);
     memory_free(left);
     memory_free(dirty);
@@ -388,14 +408,24 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
     return same;
 }
 
-/* Marks the particles whose images are among the neighbours nbr [LANES] of a column of bonds: images move as their
- * sources. Most columns lead to no image. */
-static void images_expose(uint8_t *exposed, const struct particles *p, const struct image *image, const int32_t *nbr)
+/* Points that bonds or loads reach, and the cells that hold such. */
+struct exposure { uint8_t *point, *cell; };
+
+static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
+{
+    e->point[i] = 1;
+    if (mesh->place[i] >= 0) e->cell[mesh->place[i] >> mesh->grid.dim] = 1;
+}
+
+/* The particles whose images are among the neighbours nbr [LANES] of a column of bonds: images move as their sources.
+ * Most columns lead to no image. */
+static void images_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
+                          const struct image *image, const int32_t *nbr)
 {
     int32_t most = nbr[0];
     for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
     for (int l = 0; l < LANES && most >= p->n; l++)
-        if (nbr[l] >= p->n) exposed[image_root(p, image, nbr[l])] = 1;
+        if (nbr[l] >= p->n) point_expose(e, mesh, image_root(p, image, nbr[l]));
 }
 
 /* May a bond in column k of row block g lead to an image? */
@@ -405,7 +435,7 @@ static bool meets_images(const struct bonds *b, const struct particles *p, int64
     return first < 0 || first + LANES > p->n;
 }
 
-/* Adds cell I to the exposed cells if one of its points is marked in `exposed`. */
+/* Adds cell I to the exposed cells. */
 static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
@@ -414,7 +444,6 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
         const int32_t i = mesh->point[I * corners + q];
         if (i >= 0 && exposed[i]) places |= 1u << q;
     }
-    if (places == 0) return;
     if (mesh->exposed == mesh->exposed_room) {
         const int64_t room = mesh->exposed_room ? 2 * mesh->exposed_room : 256;
         mesh->exposed_list =
@@ -424,27 +453,35 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
+/* Those that the bonds of a row block reach. */
+static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
+                             const struct bonds *b, const struct loads *l, int64_t g)
+{
+    const unsigned intact = bonds_intact(b, g);
+    struct column_copy column;
+    for (int lane = 0; lane < LANES; lane++)
+        if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);
+    for (int64_t k = 0; k < bonds_columns(b, g) && p->n_all > p->n; k++) {
+        if (!meets_images(b, p, g, k)) continue;
+        column_read(&column, b, g, k);
+        images_expose(e, mesh, p, l->image, column.nbr);
+    }
+}
+
 void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
 {
     if (!mesh->place) return;
-    uint8_t *exposed = NEW("mesh.exposed_points", p->n, uint8_t);
-    for (int64_t g = 0; g < b->row_blocks; g++) {
-        const unsigned intact = bonds_intact(b, g);
-        struct column_copy column;
-        for (int lane = 0; lane < LANES; lane++) exposed[b->particle[g * LANES + lane]] |= intact >> lane & 1;
-        for (int64_t k = 0; k < bonds_columns(b, g) && p->n_all > p->n; k++) {
-            if (!meets_images(b, p, g, k)) continue;
-            column_read(&column, b, g, k);
-            images_expose(exposed, p, l->image, column.nbr);
-        }
-    }
+    struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t), cells_mark("mesh.exposed_cells", mesh)};
+    for (int64_t g = 0; g < b->row_blocks; g++) row_block_expose(&e, mesh, p, b, l, g);
     for (int k = 0; k < l->n; k++)               /* driven points move with their nodes */
         for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++)
-            exposed[l->load[k].particle[q]] = 1;
+            point_expose(&e, mesh, l->load[k].particle[q]);
     mesh->exposed = 0;
-    for (int64_t I = 0; I < mesh->grid.n; I++)
-        if (mesh->kind[I] != CELL_EMPTY) cell_expose(mesh, exposed, I);
-    memory_free(exposed);
+    for (int64_t I = next_marked(e.cell, 0, mesh->grid.n); I < mesh->grid.n;
+         I = next_marked(e.cell, I + 1, mesh->grid.n))
+        cell_expose(mesh, e.point, I);
+    memory_free(e.point);
+    memory_free(e.cell);
     active_nodes_add_exposed(mesh);
 }
 

@@ -350,18 +350,6 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
     memory_free(old->stiffness);
 }
 
-/* Index of cell I among the partial cells, -1 if it is none. */
-static int64_t partial_find(const struct mesh *mesh, int64_t I)
-{
-    int64_t low = 0, high = mesh->partial_cells;
-    while (low < high) {
-        const int64_t middle = (low + high) / 2;
-        if (mesh->partial_cell[middle] < I) low = middle + 1;
-        else high = middle;
-    }
-    return low < mesh->partial_cells && mesh->partial_cell[low] == I ? low : -1;
-}
-
 /* Detaches the groups marked in `changed` from mesh->alike, and groups that refer to them: their stiffness may no
  * longer be equal. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
@@ -379,10 +367,9 @@ void mesh_partial_again(struct mesh *mesh, const struct particles *p, const stru
     alike_part(mesh, changed);
     memory_free(changed);
 #pragma omp parallel for schedule(dynamic, 16)
-    for (int64_t I = 0; I < mesh->grid.n; I++) {
-        const int64_t k = dirty[I] ? partial_find(mesh, I) : -1;
-        if (k >= 0) mesh_partial_cell_make(&c, I, lane_of(mesh->stiffness, k, half));
-    }
+    for (int64_t k = 0; k < mesh->partial_cells; k++)
+        if (dirty[mesh->partial_cell[k]])
+            mesh_partial_cell_make(&c, mesh->partial_cell[k], lane_of(mesh->stiffness, k, half));
     ends_free(mesh);
     mesh_partial_ends_make(mesh, &c);
     memory_free(c.whole);

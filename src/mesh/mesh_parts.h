@@ -43,7 +43,7 @@ int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_
 void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I);
 
 /* Makes kinds, runs, partial cells and masses anew after mesh->level has changed in the cells marked in `dirty`
- * [grid.n]. */
+ * [grid.n + LANES]. */
 void mesh_cells_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
 /* Runs, spans and active blocks of a mesh without points, from its kinds and materials of cells and masses of nodes. */
 void mesh_runs_make(struct mesh *mesh);

@@ -20,6 +20,9 @@ void diagnostics_make(struct diagnostics *w)
  * count. */
 struct movers { int dim; const real *mass; real *const *v; const uint8_t *flag; };
 
+/* Sums skip particles moved by the nodes of a mesh this many at a time: few that do not count are visited. */
+enum { MOTION_PIECE = 64 };
+
 /* Are particles first .. end - 1 all moved by the nodes of a mesh? */
 static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
 {
@@ -65,14 +68,16 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     }
 }
 
-/* Motion of entries first .. end - 1: all sums, or the kinetic energy alone, which needs no roots. Pieces are short, so
- * that few entries that do not count are visited. */
+/* Motion of entries first .. end - 1: all sums, or the kinetic energy alone, which needs no roots. */
 static ALWAYS_INLINE struct motion diagnostics_motion_of(const struct movers *m, int64_t first, int64_t end,
                                                          const bool all)
 {
-    enum { PIECE = 64 };
     struct motion sum = {0};
-    for (; first < end; first += PIECE) motion_piece(m, first, first + PIECE < end ? first + PIECE : end, &sum, all);
+    if (m->flag && all_meshed(m->flag, first, end)) return sum;
+    for (int64_t to; first < end; first = to) {
+        to = first + MOTION_PIECE < end ? first + MOTION_PIECE : end;
+        motion_piece(m, first, to, &sum, all);
+    }
     return sum;
 }
 
@@ -96,18 +101,29 @@ real diagnostics_kinetic(const struct particles *p)
 
 struct kick { const struct particles *p; real *const *before; real dt; };
 
-/* Adds a quarter of m (change of velocity)^2 over a block [J]. Driven particles are left out: they move as prescribed,
- * and their work is booked as they move. */
-static void diagnostics_kick_block(const void *context, int64_t first, int64_t end, real *sum)
+/* Adds a quarter of m (change of velocity)^2 of particles first .. end - 1 to the sum [J]. Driven particles are left
+ * out: they move as prescribed, and their work is booked as they move. */
+static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
-    const struct kick *k = context;
     const struct particles *p = k->p;
     for (int64_t i = first; i < end; i++) {
         if (p->flag[i] & FLAG_DRIVEN || (k->before ? p->flag[i] & FLAG_MESHED : particle_on_grid(p, i))) continue;
         real change2 = 0;
         for (int d = 0; d < p->dim; d++)
             change2 += square(k->before ? p->v[d][i] - k->before[d][i] : k->dt * p->f[d][i] / p->mass[i]);
-        sum[0] += 0.25 * p->mass[i] * change2;
+        sum += 0.25 * p->mass[i] * change2;
+    }
+    return sum;
+}
+
+/* That of a block. What is moved by nodes does not count. */
+static void diagnostics_kick_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct kick *k = context;
+    if (all_meshed(k->p->flag, first, end)) return;
+    for (int64_t to; first < end; first = to) {
+        to = first + MOTION_PIECE < end ? first + MOTION_PIECE : end;
+        if (!all_meshed(k->p->flag, first, to)) sum[0] = kick_piece(k, first, to, sum[0]);
     }
 }
 

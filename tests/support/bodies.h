@@ -51,7 +51,13 @@ static inline int64_t particle_at(const struct body *b, real x, real y, real z)
     return -1;
 }
 
-static inline void hurt(struct body *b, real x, real y, real z) { b->p.damage[particle_at(b, x, y, z)] = 0.5; }
+/* Peridynamic particles alone lose bonds. */
+static inline void hurt(struct body *b, real x, real y, real z)
+{
+    const int64_t i = particle_at(b, x, y, z);
+    b->p.damage[i] = 0.5, b->p.kind[i] = KIND_PD;
+    particles_list(&b->p);
+}
 
 /* ---- archives in memory ------------------------------------------------------------------------------------------ */
 

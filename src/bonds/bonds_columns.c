@@ -1,0 +1,149 @@
+/* Where the columns of row blocks are stored when rows are made anew: those of row blocks that stay are where they
+ * were; others take the holes that row blocks have left which are no more, or come behind all that is stored. Memory
+ * that has been touched is used again, and columns are never copied. */
+#include "bonds_parts.h"
+#include "base/memory.h"
+
+/* ---- holes ------------------------------------------------------------------------------------------------------- */
+
+/* Lists of the holes by their size. */
+struct holes_by_size { struct bond_holes *all; int32_t *first, *next; int32_t most; };
+
+static void hole_list(struct holes_by_size *s, int64_t k)
+{
+    const int32_t size = s->all->hole[k].columns;
+    s->next[k] = s->first[size];
+    s->first[size] = (int32_t)k;
+}
+
+static struct holes_by_size holes_sort(struct bond_holes *all)
+{
+    struct holes_by_size s = {.all = all};
+    for (int64_t k = 0; k < all->n; k++) s.most = all->hole[k].columns > s.most ? all->hole[k].columns : s.most;
+    s.first = BARE("bonds.hole_first", s.most + 1, int32_t);
+    s.next = BARE("bonds.hole_next", all->n, int32_t);
+    for (int32_t size = 0; size <= s.most; size++) s.first[size] = -1;
+    for (int64_t k = all->n - 1; k >= 0; k--) hole_list(&s, k);
+    return s;
+}
+
+/* Columns in the smallest hole that has room for so many, -1: there is none. What is left stays a hole. */
+static int64_t hole_take(struct holes_by_size *s, int32_t columns)
+{
+    int32_t size = columns;
+    while (size <= s->most && s->first[size] < 0) size++;
+    if (columns == 0 || size > s->most) return -1;
+    const int32_t k = s->first[size];
+    struct bond_hole *hole = &s->all->hole[k];
+    const int64_t at = hole->column;
+    s->first[size] = s->next[k];
+    hole->column += columns, hole->columns -= columns;
+    if (hole->columns > 0) hole_list(s, k);
+    return at;
+}
+
+/* Holes that are used up leave the list. */
+static void holes_close(struct holes_by_size *s)
+{
+    int64_t n = 0;
+    for (int64_t k = 0; k < s->all->n; k++)
+        if (s->all->hole[k].columns > 0) s->all->hole[n++] = s->all->hole[k];
+    s->all->n = n;
+    memory_free(s->first);
+    memory_free(s->next);
+}
+
+/* What the old row blocks that are not kept have stored: holes from the next time on, as they are still read. */
+static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
+{
+    struct bond_holes *holes = &b->holes;
+    uint8_t *stays = NEW("bonds.stays", old->row_blocks, uint8_t);
+    int64_t more = old->row_blocks;
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        if (kept[g] >= 0) stays[kept[g]] = 1, more--;
+    if (holes->n + more > holes->room) {
+        const int64_t room = 2 * (holes->n + more);
+        holes->hole = memory_resize("bonds.hole", holes->hole, holes->room, room, sizeof *holes->hole);
+        holes->room = room;
+    }
+    for (int64_t g = 0; g < old->row_blocks; g++)
+        if (!stays[g] && old->column_count[g] > 0)
+            holes->hole[holes->n++] = (struct bond_hole){old->column[g], old->column_count[g]};
+    memory_free(stays);
+}
+
+/* ---- places ------------------------------------------------------------------------------------------------------ */
+
+/* Row blocks write all of their columns, padding included, or none: on a lattice most. */
+static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
+{
+    void *(*make)(const char *, int64_t, size_t) = sparse ? memory_sparse : memory_bare;
+    b->first = make("bonds.first", b->room, sizeof *b->first);
+    b->nbr = make("bonds.nbr", b->room * LANES, sizeof *b->nbr);
+    b->inverse_length = make("bonds.inverse_length", b->room * LANES, sizeof *b->inverse_length);
+    b->w = make("bonds.w", b->room * LANES, sizeof *b->w);
+    b->common = make("bonds.common", b->room, sizeof *b->common);
+    if (!s->yield.stretch) return;
+    b->yield = s->yield;
+    b->plastic_stretch = NEW("bonds.plastic_stretch", b->room * LANES, real);
+    b->plastic_path = NEW("bonds.plastic_path", b->room * LANES, real);
+    b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
+}
+
+/* More room for what is stored. */
+static void columns_extend(struct bonds *b, int64_t room)
+{
+    const int64_t had = b->room, each = LANES;
+    b->first = memory_extend("bonds.first", b->first, had, room, sizeof *b->first);
+    b->nbr = memory_extend("bonds.nbr", b->nbr, had * each, room * each, sizeof *b->nbr);
+    b->inverse_length =
+        memory_extend("bonds.inverse_length", b->inverse_length, had * each, room * each, sizeof *b->inverse_length);
+    b->w = memory_extend("bonds.w", b->w, had * each, room * each, sizeof *b->w);
+    b->common = memory_extend("bonds.common", b->common, had, room, sizeof *b->common);
+    b->room = room;
+}
+
+/* Places row blocks in the columns of old ones. */
+static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
+{
+    struct holes_by_size holes = holes_sort(&old->holes);
+    b->used = old->used;
+    for (int64_t g = 0; g < b->row_blocks; g++) {
+        b->column[g] = kept[g] >= 0 ? old->column[kept[g]] : hole_take(&holes, b->column_count[g]);
+        if (b->column[g] < 0) b->column[g] = b->used, b->used += b->column_count[g];
+    }
+    holes_close(&holes);
+    if (b->used > old->room) columns_extend(old, 2 * b->used);
+}
+
+/* Until old rows are left they and the new ones share what is stored. */
+static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
+{
+    b->room = old->room;
+    b->first = old->first, b->nbr = old->nbr, b->inverse_length = old->inverse_length, b->w = old->w,
+    b->common = old->common;
+    b->holes = old->holes;
+    old->holes = (struct bond_holes){0};
+    holes_add(b, old, kept);
+}
+
+/* Plastic strain stays in the order of its row blocks (bonds_archive.c): all columns are stored anew. */
+void columns_place(struct bonds *b, const struct row_maker *m, const int64_t *kept)
+{
+    for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];
+    shell_lengths(b, m->source->family.spacing);
+    if (m->old && !m->old->plastic_stretch && m->old->room > 0) {
+        columns_fit(b, m->old, kept);
+        columns_share(b, m->old, kept);
+        return;
+    }
+    for (int64_t g = 0; g < b->row_blocks; g++) b->column[g] = b->used, b->used += b->column_count[g];
+    b->room = b->columns;
+    columns_arrays(b, m->source, m->map->at != NULL);
+}
+
+void columns_leave(struct bonds *old, const struct bonds *b)
+{
+    if (!old || old->w != b->w) return;
+    old->first = old->nbr = NULL, old->inverse_length = old->w = NULL, old->common = NULL;
+}
