@@ -389,9 +389,11 @@ void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struc
             images_expose(exposed, p, l->image, column.nbr);
         }
     }
-    for (int k = 0; k < l->n; k++)               /* driven points move with their nodes */
-        for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++)
+    for (int k = 0; k < l->n; k++) {             /* driven points and absorbing faces act on nodes */
+        const enum boundary_kind kind = l->load[k].boundary->kind;
+        for (int64_t q = 0; q < l->load[k].n && kind != BOUNDARY_VELOCITY && kind != BOUNDARY_ABSORBING; q++)
             exposed[l->load[k].particle[q]] = 1;
+    }
     mesh->exposed = 0;
     for (int64_t I = 0; I < mesh->grid.n; I++)
         if (mesh->kind[I] != CELL_EMPTY) cell_expose(mesh, exposed, I);
