@@ -42,10 +42,10 @@ static struct oblique oblique_of(bool shear, double angle, double wavelength)
     o.frequency = hypot(o.k, o.wave) * speed;
     const double length = 2 * M_PI / hypot(o.k, o.wave);
     o.radius = length;
-    o.along = (int)ceil(7 * o.radius / h / 2) * 2;
+    o.along = (int)ceil(12 * o.radius / h / 2) * 2;
     o.from = o.along * h - 4 * o.radius;
     o.station = (o.along - nearbyint(0.5 * length / h) - 0.5) * h;
-    o.until = 12 * o.radius / (speed * cos(angle)) * (shear ? 1 : 1.7);
+    o.until = 10 * o.radius / (speed * cos(angle));      /* what the other ends send back comes later */
     return o;
 }
 
