@@ -180,7 +180,8 @@ KERNEL(void, grid_clear, (struct grid *g));      /* mass, momentum, force = 0 */
 /* Step 3, in two parts, between which bodies on grids of their own meet: nodes move, walls and mirrors hold. velocity =
  * (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready for the second map. At
  * walls the velocity is prescribed and the change is that of the prescribed motion. Nodes lighter than `smallest_mass`
- * [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Adds what the walls gave to impulse [N s]
+ * [kg] are left at rest. Nodes beyond planes of symmetry follow their images. Dashpots act in the first part, and what
+ * they took is in grid.absorbed. Adds what the walls gave to impulse [N s]
  * and work [J]; with APIC, where particles take the nodal velocity itself, that includes the momentum they replaced. */
 KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass));
 KERNEL(void, grid_constrain,
@@ -206,7 +207,8 @@ KERNEL(void, mesh_clear, (struct mesh *mesh));
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* v += dt_velocity f/m, u += dt v of the active nodes, u rounded to multiples of mesh->rounding; walls prescribe
- * their velocity, and their reaction adds to impulse [N s] and work [J]. f becomes m dv/dt_velocity of each node.
+ * their velocity, and their reaction adds to impulse [N s] and work [J]; dashpots act, and what they took is in
+ * grid.absorbed. f becomes m dv/dt_velocity of each node.
  * Returns the largest component of a velocity, infinite where one is not finite [m/s]. */
 KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work));
 

@@ -14,7 +14,8 @@ static const struct bench benches[] = {
     {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
     {"sif", bench_sif}, {"threads", bench_threads},       {"scale", bench_scale},
     {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability},
-    {"sensitivity", bench_sensitivity}, {"steps", bench_steps}, {"contact", bench_contact}};
+    {"sensitivity", bench_sensitivity}, {"steps", bench_steps}, {"contact", bench_contact},
+    {"absorbing", bench_absorbing}};
 enum { BENCHES = COUNT_OF(benches) };
 
 /* Names of earlier versions. */
@@ -39,7 +40,7 @@ static status bench_mark(const char *word, bool *asked)
     return status_set(REFUSED,
                       "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
                       "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability[=lasting|=CASE]] "
-                      "[sensitivity] [steps] [contact] [--quick] [--readme]",
+                      "[sensitivity] [steps] [contact] [absorbing] [--quick] [--readme]",
                       word);
 }
 

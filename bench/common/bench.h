@@ -179,6 +179,9 @@ status bench_sensitivity(bool quick);
 /* bench_contact.c: bodies that meet. */
 status bench_contact(bool quick);
 
+/* bench_absorbing.c: what comes back from absorbing faces. */
+status bench_absorbing(bool quick);
+
 /* bench_steps.c: start, length, angle and energy of cracks over the time step. */
 status bench_steps(bool quick);
 

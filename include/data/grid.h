@@ -5,6 +5,17 @@
 
 #include "base/base.h"
 
+/* Dashpots on a node: force over velocity by component; 0: none, or a wall holds it [kg/s]. */
+struct dashpot {
+    int32_t node;
+    real rate[DIM_MAX];
+    real impulse[DIM_MAX];               /* of this step, on the body [N s] */
+};
+
+/* What dashpots did in a step: energy that they took, a quarter of their impulse times the change of velocity [J];
+ * their impulse on the body [N s]. */
+struct absorbed { real energy, kick, impulse[DIM_MAX]; };
+
 struct grid {
     int dim;
     int body;                            /* 1 + the only body whose points are on it; 0: any */
@@ -26,6 +37,9 @@ struct grid {
     int64_t followers;
     struct follower *follower;           /* [n] those of this step, ascending */
     uint8_t *held;                       /* [n] not 0: a wall holds it; only while followers are found or bodies meet */
+    int64_t dashpots, dashpots_room;
+    struct dashpot *dashpot;             /* of absorbing faces in this step, ascending by node */
+    struct absorbed absorbed;            /* what they took in it */
 };
 
 /* A node that points have hardly reached, its neighbour and the one behind that, from which its acceleration is
@@ -58,6 +72,7 @@ status grid_cover(struct grid *g, const real *from, const real *to, int64_t most
 void grid_free(struct grid *g);
 void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load);
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
+void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
 /* Nothing is on the grid in this step: no node is constrained. */
 void grid_idle(struct grid *g);
 

@@ -52,6 +52,7 @@ struct material_tables {
     int *mirror_axis;                    /* [boundaries] -1: clamped */
     real *neighbour_volume;              /* [n_all] V^H of every particle, volume method only */
     struct surface_weights surface;      /* of bonds near faces, pd.surface moments only */
+    struct impedance *impedance;         /* [movers][materials] of absorbing faces; NULL: there are none */
     real wave_speed;                     /* fastest of the materials [m/s] */
 };
 
@@ -136,7 +137,7 @@ struct probing {
  * (engine_report.h). */
 struct sampling {
     bool due;
-    real kinetic, work, constraint_work; /* [J] before the step */
+    real kinetic, work, constraint_work, absorbed; /* [J] before the step */
     real *before[DIM_MAX];               /* velocities at its begin, where something is on the grid [m/s] */
     struct energy energy;                /* of the positions of t_n; kinetic comes last */
     real rigid, rigid_work;              /* of rigid bodies: kinetic at the begin; work up to t_n [J] */
@@ -227,6 +228,8 @@ void engine_ends_update(struct engine *e);
 /* Sum of v . f over points on the grid where they are now, without any motion [W]; accounts of loads change.
  * `middle`: half a step later [s]. */
 real engine_grid_power(struct engine *e, real middle);
+/* Dashpots of absorbing faces, by the constants of what moves their particles (engine_absorbing.c). */
+void engine_absorbing_make(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical
  * step [s]; its part of a step; positions, velocities and stresses of all its points, or only the motion of some;
  * after conversion. */

@@ -12,12 +12,14 @@
 #include "kernels/kernels.h"
 #include "data/particles.h"
 #include "data/region.h"
+#include "absorbing.h"
 
 enum boundary_kind {
     BOUNDARY_VELOCITY,       /* holds components of the velocity (`fixed` is this with value 0) */
     BOUNDARY_TRACTION,       /* surface force on the face that a body shows along an axis [Pa] */
     BOUNDARY_BODY_FORCE,     /* [N/m^3] */
-    BOUNDARY_MIRROR          /* plane of symmetry (roller) or of antisymmetry (fixed end) */
+    BOUNDARY_MIRROR,         /* plane of symmetry (roller) or of antisymmetry (fixed end) */
+    BOUNDARY_ABSORBING       /* dashpots on the face that a body shows along an axis (absorbing.h) */
 };
 
 /* Factor on a body force over the reference position: sin(2 pi (X - origin) . direction/wavelength). */
@@ -40,10 +42,10 @@ struct boundary {
     real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3] */
     struct time_function time;           /* factor on value */
     struct profile profile;              /* BODY_FORCE: factor on value */
-    int face;                            /* TRACTION: axis of the face's normal */
-    int side;                            /* TRACTION: +1 upper face, -1 lower face */
-    real section;                        /* TRACTION: of all bodies, in line [m^2], in the plane [m], 1 in space; 0: a
-                                            particle's area is its volume over the spacing */
+    int face;                            /* TRACTION, ABSORBING: axis of the face's normal */
+    int side;                            /* TRACTION, ABSORBING: +1 upper face, -1 lower face */
+    real section;                        /* TRACTION, ABSORBING: of all bodies, in line [m^2], in the plane [m], 1 in
+                                            space; 0: a particle's area is its volume over the spacing */
     int axis;                            /* MIRROR: normal of the plane ... */
     real at;                             /*         ... and where it is [m] */
     bool hold_tangential;                /* MIRROR: displacement odd in all components, not only normal */
@@ -57,6 +59,9 @@ struct load {
     real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
                                             column's first particle, -1/2 on the next; BODY_FORCE: volume times
                                             profile [m^3]. Equal ones are one array, of several components or loads */
+    /* [n] ABSORBING: area on first particles alone; 3/2 of it on these and -1/2 on the next, for nodes of a grid, to
+     * which first particles give some of it behind the face [m^2] */
+    real *outer, *edge;
     /* TRACTION, BODY_FORCE: first load on the same particles, which keeps the arrays of both; -1: itself */
     int leader;
     /* [n] of a load without leader, components with a value: positions before this step [m] */
@@ -91,6 +96,7 @@ struct loads {
     real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
                                             loads' moment [1/s^2], 0: none */
     real place_step[DIM_MAX];            /* positions across mirrors are rounded to multiples of it; 0: not [m] */
+    struct absorbing absorbing;
     real *share;                         /* scratch: driven mass of the grid's nodes [kg] */
     int64_t share_room;
     struct constrained_set constrained_mesh; /* nodes of the mesh in driven regions, on mirrors, and driven ones */
@@ -139,6 +145,20 @@ void loads_applied_free(struct loads *l);
 /* The parts of loads_apply and loads_hold that add forces and impulse, and book their work. */
 void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity);
 void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
+
+/* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
+
+/* After loads_make: the dashpots of all absorbing faces, by the impedances of what moves particles [materials], which
+ * stay with the caller. */
+void loads_absorbing_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
+void loads_absorbing_free(struct loads *l);
+/* The part of loads_apply that acts on particles that bonds move; those of loads_walls and loads_mesh_find that list
+ * dashpots of nodes, once walls are known; that of loads_react which books what these took. */
+void loads_absorb(struct loads *l, struct particles *p, real dt_velocity);
+void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
+                    real half_width);
+void loads_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
+void loads_absorbed(struct loads *l, const struct absorbed *by);
 
 #define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 

@@ -15,6 +15,7 @@ struct energy {
     real fracture;                       /* of bonds broken [J] */
     real contact;                        /* of pairs in contact (contact.h) [J] */
     real damped;                         /* taken by the interface damping (interface_zone.h) [J] */
+    real absorbed;                       /* that has left through absorbing faces (loads/absorbing.h) [J] */
 };
 
 struct energy_balance {

@@ -1,6 +1,7 @@
 /* Motion of the nodes of the mesh: velocities and displacements, walls, and mirror nodes. */
 #include <math.h>
 
+#include "kernels/dashpot.h"
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
@@ -25,6 +26,22 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
         }
         impulse[d] += sum;
         *work += all;
+    }
+}
+
+/* Adds the forces of dashpots to the nodes; a node that mirror nodes follow has their dashpots, as it has their masses
+ * and forces. */
+static void dashpots_force(struct mesh *mesh, real dt_velocity)
+{
+    struct grid *g = &mesh->grid;
+    g->absorbed = (struct absorbed){0};
+    for (int64_t k = 0; k < g->dashpots; k++) {
+        const int64_t I = g->dashpot[k].node;
+        for (int d = 0; d < g->dim && g->mass[I] > 0; d++) {
+            const real change = dt_velocity * g->force[d][I] / g->mass[I];
+            g->force[d][I] += dashpot_kick(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I],
+                                           g->velocity[d][I], change) / dt_velocity;
+        }
     }
 }
 
@@ -141,6 +158,7 @@ real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MA
 {
     real most = 0;
     mesh_mirror_nodes_gather(mesh, dt_velocity);
+    dashpots_force(mesh, dt_velocity);
     walls_force(mesh, dt_velocity, impulse, work);
     if (mesh->matched) momentum_move(mesh, dt_velocity), dt_velocity = 0;    /* velocities are those of the momentum */
 #pragma omp parallel for schedule(static) reduction(max : most)

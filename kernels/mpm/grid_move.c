@@ -2,6 +2,7 @@
  * per node; memory traffic is small compared with the maps over points. */
 #include <stdlib.h>
 
+#include "kernels/dashpot.h"
 #include "kernels/kernels.h"
 
 void grid_clear(struct grid *g)
@@ -178,6 +179,36 @@ static void followers_out(struct grid *g)
         }
 }
 
+/* Dashpots change the velocities that the forces have given. Nodes of no mass to speak of have no share of a face.
+ * Few; a serial loop keeps sums independent of the threads. */
+static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
+{
+    const real least = smallest_mass > g->light_mass ? smallest_mass : g->light_mass;
+    g->absorbed = (struct absorbed){0};
+    for (int64_t k = 0; k < g->dashpots; k++) {
+        const int64_t I = g->dashpot[k].node;
+        for (int d = 0; d < g->dim && g->mass[I] >= least; d++) {
+            const real change = g->force[d][I], before = g->velocity[d][I] - change;
+            const real given = dashpot_kick(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I], before,
+                                            change);
+            g->dashpot[k].impulse[d] = given;
+            g->force[d][I] += given / g->mass[I];
+            g->velocity[d][I] += given / g->mass[I];
+        }
+    }
+}
+
+/* With FLIP the velocity of points, and what strains them, is that of the second map: the account of dashpots goes by
+ * it. */
+static void grid_absorb_again(struct grid *g)
+{
+    for (int64_t k = 0; k < g->dashpots; k++)
+        for (int d = 0; d < g->dim; d++) {
+            const struct dashpot *c = &g->dashpot[k];
+            dashpot_correct(&g->absorbed, c->impulse[d], g->momentum[d][c->node] - g->velocity[d][c->node]);
+        }
+}
+
 void grid_advance(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass)
 {
     grid_mirror_nodes_gather(g, transfer, dt_velocity);
@@ -192,6 +223,7 @@ void grid_advance(struct grid *g, enum transfer transfer, real dt_velocity, real
             g->momentum[d][I] = 0;
         }
     }
+    grid_absorb(g, dt_velocity, smallest_mass);
 }
 
 void grid_constrain(struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work)
@@ -213,6 +245,7 @@ void grid_remapped(struct grid *g, real smallest_mass)
         const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;
         for (int d = 0; d < g->dim; d++) g->momentum[d][I] *= inverse;
     }
+    grid_absorb_again(g);
     for (int64_t k = 0; k < g->walls; k++) g->momentum[g->wall[k].component][g->wall[k].node] = g->wall[k].velocity;
     for (int64_t k = 0; k < g->mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)

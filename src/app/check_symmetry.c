@@ -64,6 +64,10 @@ static void loads_ask(const struct engine *e, int d, real *ask, real *held)
         const bool drives = a->kind == BOUNDARY_VELOCITY;
         for (int64_t k = 0; k < l->n; k++) {
             if (drives && !(a->components & 1 << d)) continue;
+            if (a->kind == BOUNDARY_ABSORBING) {
+                held[l->particle[k]] += load_mark(a) * l->outer[k] * (d == a->face ? 2 : 1);
+                continue;
+            }
             ask[l->particle[k]] += load_mark(a) * a->value[d] * (drives ? 1 : l->share[d][k]);
             if (drives) held[l->particle[k]] += load_mark(a);
         }

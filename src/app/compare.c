@@ -202,6 +202,7 @@ static status compare_energies(const struct pair *p)
         {"fracture", "fracture", "J"},
         {"contact", "contact", "J"},
         {"damped", "damped", "J"},
+        {"absorbed", "absorbed", "J"},
         {"external_work", "external work", "J"},
         {"balance_error", "balance error", ""},
         {"momentum_error", "momentum error", ""},

@@ -64,7 +64,11 @@ static const char page[] =
     "  |T| <= mu N.\n"
     "  law: pair   k (d - r) along the line of centres for pairs closer than d = min(r_0, spacing).\n"
     "\n"
-    "ENERGY   balance error = (kinetic + strain + plastic + fracture + contact + damped - work - start)/largest sum.\n"
+    "ABSORBING FACES   t = -(rho c_p v_n n + rho c_s v_t) by dashpots -k (v- + v+)/2, solved within the step (Lysmer\n"
+    "  and Kuhlemeyer 1969).\n"
+    "\n"
+    "ENERGY   balance error = (kinetic + strain + plastic + fracture + contact + damped + absorbed - work - start)/\n"
+    "  largest sum.\n"
     "\n"
     "Titles and DOIs of the sources are in README.md.\n";
 

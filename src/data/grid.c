@@ -100,9 +100,20 @@ void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node)
     g->mirror_node[g->mirror_nodes++] = *mirror_node;
 }
 
+void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot)
+{
+    if (g->dashpots == g->dashpots_room) {
+        int64_t room = g->dashpots_room ? 2 * g->dashpots_room : 256;
+        g->dashpot = memory_resize("grid.dashpot", g->dashpot, g->dashpots_room, room, sizeof *g->dashpot);
+        g->dashpots_room = room;
+    }
+    g->dashpot[g->dashpots++] = *dashpot;
+}
+
 void grid_idle(struct grid *g)
 {
-    g->walls = 0;
+    g->walls = g->dashpots = 0;
+    g->absorbed = (struct absorbed){0};
     for (int64_t k = 0; k < g->mirror_nodes; k++)
         memset(g->mirror_node[k].reaction, 0, sizeof g->mirror_node[k].reaction);
 }
@@ -111,6 +122,7 @@ void grid_free(struct grid *g)
 {
     if (g->n > 0) grid_arrays_free(g);
     memory_free(g->mirror_node);
+    memory_free(g->dashpot);
     memory_free(g->wall);
     memset(g, 0, sizeof *g);
 }

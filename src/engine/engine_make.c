@@ -407,6 +407,7 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     }
     TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
                             e->source.family.cutoff, e->optional)));
+    engine_absorbing_make(e);
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     TRY(make_bonds(e));
@@ -476,6 +477,7 @@ void engine_free(struct engine *e)
     solver_free(&e->solver);
     memory_free(e->boundary);
     memory_free(e->tables.pair_stretch);
+    memory_free(e->tables.impedance);
     memory_free(e->tables.modulus);
     memory_free(e->tables.mirror_axis);
     memory_free(e->tables.pair_yield);

@@ -8,14 +8,14 @@
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-enum { RECORD_FIXED = 23 };
+enum { RECORD_FIXED = 24 };
 
 static const struct column fixed_columns[RECORD_FIXED] = {
     {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
     {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
     {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
     {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}, {"mpm_share", ""},
-    {"rest_share", ""}, {"contact", "J"}};
+    {"rest_share", ""}, {"contact", "J"}, {"absorbed", "J"}};
 
 /* Mean inactive share of the body over the steps since the last sample; 0 where there was none. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
@@ -41,7 +41,7 @@ static void fill_record(struct engine *e)
         l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
         (real)e->bonds.n, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN, dim > 2 ? place[2] : NAN,
         u->damped, (real)e->part.n_of[KIND_MPM] / n, inactive_since_sample(&e->clock, &e->report),
-        u->contact};
+        u->contact, u->absorbed};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
     engine_rigid_record(e, r + RECORD_FIXED + e->probing.probes.columns);
@@ -130,6 +130,7 @@ static void sample_energies(struct engine *e)
         .fracture = bonds_fracture_energy(&e->bonds),
         .contact = contact_energy(&e->contact, &e->part),
         .damped = e->coupling.damped + contact_friction_work(&e->contact),
+        .absorbed = e->loads.absorbing.energy,
     };
 }
 
@@ -142,7 +143,8 @@ static void sample_write(struct engine *e, real t_velocity, real kinetic, real w
     probes_sample_end(&e->probing.probes, &o, t_velocity);
     sampling->energy.kinetic = kinetic;
     const struct energy *u = &sampling->energy;
-    e->stability.lost = !isfinite(kinetic + u->strain + u->plastic + u->fracture + u->contact + u->damped + work);
+    const real all = kinetic + u->strain + u->plastic + u->fracture + u->contact + u->damped + u->absorbed + work;
+    e->stability.lost = !isfinite(all);
     if (e->stability.lost) return;               /* engine_energy_check reports it; nothing is written */
     diagnostics_balance(&e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
@@ -161,13 +163,14 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
 }
 
 /* Excess of the mean of the kinetic energies before and after a step over 1/2 m v_before . v_after [J]
- * (diagnostics_kick). */
+ * (diagnostics_kick). Dashpots take part of a kick while it lasts: with half of what they take in it booked, what is
+ * kept is that of the other forces alone. */
 static real kick_now(const struct engine *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling.kind);
     const real dt = e->mpm.transfer.dt_velocity;
     return diagnostics_kick(&e->part, grid ? e->report.sampling.before : NULL, dt) + mesh_kick(&e->reference.mesh, dt) +
-           levels_kick(&e->reference.levels, dt);
+           levels_kick(&e->reference.levels, dt) - e->loads.absorbing.kick;
 }
 
 void engine_sample_begin(struct engine *e)
@@ -176,6 +179,7 @@ void engine_sample_begin(struct engine *e)
     sampling->due = engine_sample_due(e->scene, &e->clock);
     sampling->work = e->loads.work;
     sampling->constraint_work = e->loads.constraint_work;
+    sampling->absorbed = e->loads.absorbing.energy;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
     sync_probes(e);
     if (sampling->due) sample_state(e), engine_rigid_meet(e);
@@ -219,7 +223,7 @@ void engine_sample_end(struct engine *e)
     struct sampling *sampling = &e->report.sampling;
     if (!sampling->due) return;
     if (e->clock.step == 0) {                /* velocities of t = 0, not of half a step before; nothing is damped yet */
-        sampling->energy.damped = 0;
+        sampling->energy.damped = sampling->energy.absorbed = 0;
         sample_write(e, e->clock.t + 0.5 * e->clock.dt, sampling->kinetic + sampling->rigid,
                      sampling->work);
         e->diagnostics.energy_start -= start_excess(e);
@@ -227,6 +231,7 @@ void engine_sample_end(struct engine *e)
     }
     real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, &e->reference)) - kick_now(e);
     sampling->energy.damped += e->mpm.contact.begun;
+    sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
     const struct rigid_energy rigid = engine_rigid_energy(e);
     sample_write(e, e->clock.t + 0.5 * e->clock.dt, kinetic + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
@@ -261,6 +266,7 @@ static real power_last(struct engine *e, real *held)
     const struct loads account = e->loads;
     struct load *own = BARE("report.load", e->loads.n, struct load);
     if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
+    e->loads.absorbing.idle = true;
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(&e->contact, &e->part, 0);
@@ -271,6 +277,7 @@ static real power_last(struct engine *e, real *held)
     if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
     memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
     e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
+    e->loads.absorbing.idle = false;
     memory_free(own);
     return power;
 }

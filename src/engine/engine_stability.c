@@ -60,7 +60,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     const bool drives = b->kind == BOUNDARY_VELOCITY;
     const real from = drives ? 0 : real_max(0, clock->t - steps * clock->dt);
     real most, mean, fast2 = 0;
-    if (b->kind == BOUNDARY_MIRROR) return 0;
+    if (b->kind == BOUNDARY_MIRROR || b->kind == BOUNDARY_ABSORBING) return 0;
     factors(&b->time, from, clock->t, &most, &mean);
     if (drives) return most * sqrt(dot(b->value, b->value, p->dim));
     for (int64_t k = 0; k < load->n; k++) {

@@ -167,6 +167,7 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
     json_real(j, "fracture", l->energy.fracture);
     json_real(j, "contact", l->energy.contact);
     json_real(j, "damped", l->energy.damped);
+    json_real(j, "absorbed", l->energy.absorbed);
     json_real(j, "external_work", l->external_work);
     json_real(j, "balance_error", l->balance_error);
     json_close(j, '}');

@@ -65,6 +65,7 @@ void loads_touch(struct loads *l, const struct particles *p, const int32_t *list
 void loads_free(struct loads *l)
 {
     loads_applied_free(l);
+    loads_absorbing_free(l);
     for (int b = 0; b < l->n; b++) memory_free(l->load[b].particle);
     memory_free(l->load);
     memory_free(l->loaded);
@@ -142,6 +143,7 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
         memset(load->reaction, 0, sizeof load->reaction);
     }
     loads_push(l, p, t, dt_velocity);
+    loads_absorb(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {         /* after all forces, which reactions contain */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
@@ -174,6 +176,7 @@ static void hold(struct loads *l, const struct load *load, struct particles *p, 
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
+    loads_absorbed(l, &g->absorbed);
     for (int64_t q = 0; q < g->walls;) {         /* walls of one load and component are consecutive */
         const struct wall first = g->wall[q];
         real sum = 0;
@@ -201,6 +204,7 @@ status loads_archive(struct loads *l, struct archive *a)
     ARCHIVE_VALUE(a, "loads/impulse", l->impulse);
     ARCHIVE_VALUE(a, "loads/work", l->work);
     ARCHIVE_VALUE(a, "loads/held_work", l->constraint_work);
+    ARCHIVE_VALUE(a, "loads/absorbed", l->absorbing.energy);
     for (int b = 0; b < l->n; b++) {
         char name[48];
         snprintf(name, sizeof name, "loads/displacement%d", b);

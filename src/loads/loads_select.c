@@ -49,6 +49,11 @@ static bool bears_force(const struct boundary *b)
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE;
 }
 
+static bool wants_face(const struct boundary *b)
+{
+    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING;
+}
+
 /* Lists the particles with taken[i] > 0, marks driven ones, and makes room for shares. */
 static void take_particles(struct load *l, const uint8_t *taken, struct particles *p)
 {
@@ -77,6 +82,21 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     face_free(&face);
 }
 
+/* The same of an absorbing face. */
+static void select_absorbing(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
+{
+    struct face face;
+    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    face_make(&face, l->boundary, p, selected, spacing, true);
+    for (int64_t i = 0; i < p->n; i++) bears[i] = face.along[i] != 0;
+    take_particles(l, bears, p);
+    l->outer = NEW("loads.outer", l->n, real), l->edge = NEW("loads.edge", l->n, real);
+    for (int64_t k = 0; k < l->n; k++)
+        l->outer[k] = face.normal[l->particle[k]], l->edge[k] = face.along[l->particle[k]];
+    memory_free(bears);
+    face_free(&face);
+}
+
 /* Does particle i lie in the plane of a clamped mirror? Such a particle is its own image and stays at rest. */
 static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
@@ -95,12 +115,13 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
         any = any || selected[i];
     }
     if (b->kind == BOUNDARY_TRACTION) select_face(l, selected, p, spacing);
+    else if (b->kind == BOUNDARY_ABSORBING) select_absorbing(l, selected, p, spacing);
     else take_particles(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
-    if (!any && bears_force(b))
+    if (!any && (bears_force(b) || wants_face(b)))
         return status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
-    if (l->n > 0 || b->kind != BOUNDARY_TRACTION) return OK;
+    if (l->n > 0 || !wants_face(b)) return OK;
     return status_set(REFUSED,
                       "boundary %s: every particle in its region has one of its body before it towards %c%c; let the "
                       "region hold the body's outside there, or the wall of a hole",

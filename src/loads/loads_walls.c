@@ -216,6 +216,7 @@ void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, 
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
             driven_walls(l, b, g, velocity[b], change[b]);
+    loads_dashpots(l, g, p, k, half_width);
 }
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
@@ -250,6 +251,7 @@ void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles 
     l->constrained_mesh.n = l->constrained_mesh.lasting;
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY) mesh_driven(l, b, mesh, p);
+    loads_mesh_dashpots(l, mesh, p);
 }
 
 void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p)

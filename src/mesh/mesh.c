@@ -101,21 +101,6 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* The next of n marks that is set, from `first` on; n: there is none. Most are not, and eight are skipped at a time:
- * behind the last mark there are LANES more, not set. */
-static int64_t next_marked(const uint8_t *mark, int64_t first, int64_t n)
-{
-    while (first < n && !mark[first])
-        if (eight_bytes(mark + first)) first++;
-        else first += LANES;
-    return first < n ? first : n;
-}
-
-static uint8_t *cells_mark(const char *label, const struct mesh *mesh)
-{
-    return NEW(label, mesh->grid.n + LANES, uint8_t);
-}
-
 /* Whole: all points exist, of one material, none leaves stress to bonds, and all corners are nodes of the grid. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
@@ -406,83 +391,6 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
     if (same) mesh_partial_again(mesh, p, source, dirty);
     memory_free(dirty);
     return same;
-}
-
-/* Points that bonds or loads reach, and the cells that hold such. */
-struct exposure { uint8_t *point, *cell; };
-
-static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
-{
-    e->point[i] = 1;
-    if (mesh->place[i] >= 0) e->cell[mesh->place[i] >> mesh->grid.dim] = 1;
-}
-
-/* The particles whose images are among the neighbours nbr [LANES] of a column of bonds: images move as their sources.
- * Most columns lead to no image. */
-static void images_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
-                          const struct image *image, const int32_t *nbr)
-{
-    int32_t most = nbr[0];
-    for (int l = 1; l < LANES; l++) most = nbr[l] > most ? nbr[l] : most;
-    for (int l = 0; l < LANES && most >= p->n; l++)
-        if (nbr[l] >= p->n) point_expose(e, mesh, image_root(p, image, nbr[l]));
-}
-
-/* May a bond in column k of row block g lead to an image? */
-static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
-{
-    const int64_t first = column_first(b, g, k);
-    return first < 0 || first + LANES > p->n;
-}
-
-/* Adds cell I to the exposed cells. */
-static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
-{
-    const int corners = 1 << mesh->grid.dim;
-    unsigned places = 0;
-    for (int q = 0; q < corners; q++) {
-        const int32_t i = mesh->point[I * corners + q];
-        if (i >= 0 && exposed[i]) places |= 1u << q;
-    }
-    if (mesh->exposed == mesh->exposed_room) {
-        const int64_t room = mesh->exposed_room ? 2 * mesh->exposed_room : 256;
-        mesh->exposed_list =
-            memory_resize("mesh.exposed", mesh->exposed_list, mesh->exposed_room, room, sizeof *mesh->exposed_list);
-        mesh->exposed_room = room;
-    }
-    mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
-}
-
-/* Those that the bonds of a row block reach. */
-static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
-                             const struct bonds *b, const struct loads *l, int64_t g)
-{
-    const unsigned intact = bonds_intact(b, g);
-    struct column_copy column;
-    for (int lane = 0; lane < LANES; lane++)
-        if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);
-    for (int64_t k = 0; k < bonds_columns(b, g) && p->n_all > p->n; k++) {
-        if (!meets_images(b, p, g, k)) continue;
-        column_read(&column, b, g, k);
-        images_expose(e, mesh, p, l->image, column.nbr);
-    }
-}
-
-void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l)
-{
-    if (!mesh->place) return;
-    struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t), cells_mark("mesh.exposed_cells", mesh)};
-    for (int64_t g = 0; g < b->row_blocks; g++) row_block_expose(&e, mesh, p, b, l, g);
-    for (int k = 0; k < l->n; k++)               /* driven points move with their nodes */
-        for (int64_t q = 0; q < l->load[k].n && l->load[k].boundary->kind != BOUNDARY_VELOCITY; q++)
-            point_expose(&e, mesh, l->load[k].particle[q]);
-    mesh->exposed = 0;
-    for (int64_t I = next_marked(e.cell, 0, mesh->grid.n); I < mesh->grid.n;
-         I = next_marked(e.cell, I + 1, mesh->grid.n))
-        cell_expose(mesh, e.point, I);
-    memory_free(e.point);
-    memory_free(e.cell);
-    active_nodes_add_exposed(mesh);
 }
 
 status mesh_archive(struct mesh *mesh, struct archive *a)

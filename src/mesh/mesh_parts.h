@@ -2,6 +2,7 @@
 #ifndef CLEAVE_MESH_PARTS
 #define CLEAVE_MESH_PARTS
 
+#include "base/memory.h"
 #include "mesh/mesh_make.h"
 
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
@@ -59,5 +60,21 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
                      const struct particles *p, const struct mesh_source *source);
 /* Is cell I part of a coarser one? */
 static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I) { return mesh->level && mesh->level[I] > 0; }
+
+/* The next of n marks that is set, from `first` on; n: there is none. Most are not, and eight are skipped at a time:
+ * behind the last mark there are LANES more, not set. */
+static inline int64_t next_marked(const uint8_t *mark, int64_t first, int64_t n)
+{
+    while (first < n && !mark[first])
+        if (eight_bytes(mark + first)) first++;
+        else first += LANES;
+    return first < n ? first : n;
+}
+
+/* Marks of cells, none set. */
+static inline uint8_t *cells_mark(const char *label, const struct mesh *mesh)
+{
+    return NEW(label, mesh->grid.n + LANES, uint8_t);
+}
 
 #endif

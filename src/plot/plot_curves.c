@@ -104,7 +104,8 @@ static void choose_energies(struct energies *e, const struct history *h)
 {
     static const struct { const char *name, *label; } known[] = {
         {"kinetic", "kinetic"}, {"strain", "strain"},   {"plastic", "plastic"},
-        {"fracture", "fracture"}, {"contact", "contact"}, {"damped", "damped"}, {"external_work", "external work"}};
+        {"fracture", "fracture"}, {"contact", "contact"}, {"damped", "damped"},
+        {"absorbed", "absorbed"}, {"external_work", "external work"}};
     double largest = 0;
     *e = (struct energies){0};
     for (int k = 0; k < (int)COUNT_OF(known); k++) {

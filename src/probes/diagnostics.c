@@ -258,7 +258,7 @@ void diagnostics_momentum(struct diagnostics *w, const struct particles *p, cons
 static real balance_energy(const struct energy_balance *l)
 {
     const struct energy *e = &l->energy;
-    return e->kinetic + e->strain + e->plastic + e->fracture + e->contact + e->damped;
+    return e->kinetic + e->strain + e->plastic + e->fracture + e->contact + e->damped + e->absorbed;
 }
 
 real diagnostics_energy_change(const struct diagnostics *w)
@@ -275,7 +275,7 @@ static void balance_of(struct diagnostics *w)
     if (!w->started) w->energy_start = energy - l->external_work;
     const struct energy *e = &l->energy;
     real stored = fabs(e->kinetic) + fabs(e->strain) + fabs(e->plastic) + fabs(e->fracture) + fabs(e->contact) +
-                  fabs(e->damped);
+                  fabs(e->damped) + fabs(e->absorbed);
     w->energy_scale = real_max(w->energy_scale, real_max(stored, fabs(l->external_work)));
     l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
 }

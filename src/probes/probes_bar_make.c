@@ -146,6 +146,8 @@ static status find_load(struct probe *q, const struct observed *o)
     const struct material *m = &o->material[o->part->material[0]];
     if (probes_bar_make_count_of(o, BOUNDARY_BODY_FORCE, &other) > 0)
         return refuse(q, "a body_force acts on the bar; leave it out");
+    if (probes_bar_make_count_of(o, BOUNDARY_ABSORBING, &other) > 0)
+        return refuse(q, "an end of the bar is absorbing; fixed, mirror or nothing is expected");
     TRY(find_ends(q, o));
     if (q->request.form == EXACT_PULSE) {
         if (o->pulses == 0) return refuse(q, "the scene starts no pulse; initial with a pulse is expected");

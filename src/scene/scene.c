@@ -38,6 +38,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(read_initials(r, root));
     TRY(read_boundaries(r, root));
     TRY(check_friction(r, root));
+    TRY(check_absorbing(r, root));
     TRY(check_joined(r, root));
     TRY(read_probes(r, root));
     TRY(read_growths(r, root));

@@ -57,6 +57,19 @@ status check_friction(struct reader *r, const struct node *root)
     return OK;
 }
 
+/* REFUSED for absorbing faces of a static problem. */
+status check_absorbing(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
+    for (int b = 0; b < s->boundaries && n; b++, n = n->next)
+        if (s->boundary[b].kind == BOUNDARY_ABSORBING && s->solver != SOLVER_EXPLICIT)
+            return fault(r, node_find(n, "absorbing"),
+                         "a static equilibrium knows no waves, and nothing holds the body there; solver: explicit is "
+                         "expected");
+    return OK;
+}
+
 /* REFUSED for more than 1e12 time steps. */
 static status check_steps(struct reader *r, const struct node *root)
 {

@@ -388,18 +388,21 @@ static void write_boundary(struct writer *w, const struct boundary *b)
     }
     if (b->kind == BOUNDARY_VELOCITY) {
         write_velocity(w, b);
+    } else if (b->kind == BOUNDARY_ABSORBING) {
+        begin(w, "absorbing");
+        fputs(" true\n", w->out);
     } else {
         begin(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force");
         fputc(' ', w->out);
         write_list(w, b->value, w->scene->dim);
         fputc('\n', w->out);
     }
-    if (b->kind == BOUNDARY_TRACTION) {
+    if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) {
         begin(w, "face");
         fprintf(w->out, " %c%c\n", 'x' + b->face, b->side > 0 ? '+' : '-');
     }
     if (b->kind == BOUNDARY_BODY_FORCE) write_profile(w, &b->profile);
-    write_time(w, &b->time);
+    if (b->kind != BOUNDARY_ABSORBING) write_time(w, &b->time);
 }
 
 static void write_boundaries(struct writer *w)

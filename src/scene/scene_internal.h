@@ -166,6 +166,7 @@ status check_joined(struct reader *r, const struct node *root);
 /* Critical stretch of a material with an energy release rate, in this scene. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 status check_friction(struct reader *r, const struct node *root);
+status check_absorbing(struct reader *r, const struct node *root);
 /* Resolves frames left at auto; after the bodies are read. */
 void resolve_frames(struct scene *s);
 /* Surfaces of bodies again once they are known: those of lists need not be lattices. */

@@ -323,7 +323,7 @@ const struct key keys[] = {
     KEY("initial.centre", KEY_POINT, UNIT_LENGTH, AT(scene_initial, centre), ANY, "(0)", "of both gradients"),
 
     KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
-        "boundary conditions; each has one of the five kinds"),
+        "boundary conditions; each has one of the six kinds"),
     KEY("boundary.name", KEY_NAME, UNIT_NONE, AT(boundary, name), ANY, "(boundary0, boundary1, ..)",
         "what probes call it"),
     KEY("boundary.region", KEY_REGION, UNIT_NONE, AT(boundary, region), ANY, "(everywhere)",
@@ -339,8 +339,12 @@ const struct key keys[] = {
         "where region leaves out what hides them",
         .words = "list of number"),
     KEY("boundary.face", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
-        "outward normal of the face (with traction); what region and body show to who looks from there",
+        "outward normal of the face (with traction, absorbing); what region and body show to who looks from there",
         .words = "x+|x-|y+|y-|z+|z-"),
+    KEY("boundary.absorbing", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
+        "waves leave the body through the face: tractions -rho c_p v across it, -rho c_s v along it; nothing holds the "
+        "body there, so that steady loads move it",
+        .words = "true"),
     KEY("boundary.body_force", KEY_HAND, UNIT_BODY_FORCE, NOWHERE, ANY, NONE, "force per volume",
         .words = "list of number"),
     KEY("boundary.profile", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "uniform",

@@ -137,7 +137,16 @@ static status read_mirror(struct reader *r, const struct node *map, const struct
     return read_axis(r, at, at->text, &axis);
 }
 
-/* Reads the face of a traction into b->face (axis) and b->side (+1 or -1). */
+/* Reads an absorbing face. REFUSED beside time, and with another value than true. */
+static status read_absorbing(struct reader *r, const struct node *map, const struct node *n)
+{
+    const struct node *time = node_find(map, "time");
+    if (time) return fault(r, time, "has no meaning with absorbing, which acts at all times; leave it out");
+    if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
+    return fault(r, n, "%s is not true; leave the boundary out where no wave shall leave", shown(r, n));
+}
+
+/* Reads the face of a traction or an absorbing face into b->face (axis) and b->side (+1 or -1). */
 static status read_face(struct reader *r, const struct node *map, struct boundary *b)
 {
     const struct node *n = node_find(map, "face");
@@ -158,7 +167,7 @@ static status read_face(struct reader *r, const struct node *map, struct boundar
 /* Finds the one key that gives the kind of a boundary condition. REFUSED for none or two. */
 static status kind_of_boundary(struct reader *r, const struct node *map, const struct node **kind)
 {
-    const char *const words = "fixed|velocity|traction|body_force|mirror";
+    const char *const words = "fixed|velocity|traction|body_force|mirror|absorbing";
     *kind = NULL;
     for (const struct node *n = map->first; n; n = n->next) {
         if (word_index(words, n->key) < 0) continue;
@@ -180,13 +189,18 @@ static status read_boundary(struct reader *r, const struct node *n, struct bound
     b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
               : *kind->key == 'b' ? BOUNDARY_BODY_FORCE
               : *kind->key == 'm' ? BOUNDARY_MIRROR
+              : *kind->key == 'a' ? BOUNDARY_ABSORBING
                                   : BOUNDARY_VELOCITY;
-    if (b->kind != BOUNDARY_TRACTION) face = node_find(n, "face");
-    if (face) return fault(r, face, "has no meaning without traction; leave it out");
+    if (b->kind != BOUNDARY_TRACTION && b->kind != BOUNDARY_ABSORBING) face = node_find(n, "face");
+    if (face) return fault(r, face, "has no meaning without traction or absorbing; leave it out");
     if (profile && b->kind != BOUNDARY_BODY_FORCE)
         return fault(r, profile, "has no meaning without body_force; leave it out");
     TRY(read_profile(r, profile, &b->profile));
     if (b->kind == BOUNDARY_MIRROR) return read_mirror(r, n, kind, b);
+    if (b->kind == BOUNDARY_ABSORBING) {
+        TRY(read_absorbing(r, n, kind));
+        return read_face(r, n, b);
+    }
     if (*kind->key == 'f') return read_fixed(r, kind, b);
     if (*kind->key == 'v') return read_velocity(r, kind, b);
     TRY(read_point(r, key_find("boundary", kind->key), kind, b->value));

@@ -135,6 +135,12 @@ done <<'END'
 16|    fixed: [z]|16:13|no axis
 16|    traction: [1 MPa, 0]|15:5|face
 16||15:5|does nothing
+16|    absorbing: true^    face: x-|19:5|no meaning with absorbing
+16|    absorbing: true^    velocity: [free, 1 m/s]|17:5|given beside absorbing
+14|boundary:^  - {absorbing: false, face: x+}|15:6|not true
+14|boundary:^  - {absorbing: true}|15:5|face
+14|boundary:^  - {absorbing: true, face: z+}|15:23|no face in space
+14|solver: relaxation^boundary:^  - {absorbing: true, face: x+}|16:6|knows no waves
 17|    body: disk|17:5|there is no body
 18|    time: {step: {from: 6 us, until: 5 us}}|18:12|from is not before until
 18|    time: {table: [[1 us, 0], [0, 1]]}|18:32|times ascend
@@ -176,6 +182,8 @@ done <<'END'
 14|boundary:^  - {name: push, body_force: [0, 1], region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml:15:5: boundary[0]: boundary push|no particle
 14|boundary:^  - {mirror: {axis: x, at: 5 mm}}|bad.yaml:15:5: boundary[0]: boundary boundary0|cuts the body
 14|boundary:^  - {mirror: {axis: x, at: 0}}^  - {mirror: {axis: x, at: 0}}|bad.yaml:16:5: boundary[1]: boundary boundary1|one is enough
+14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|no particle
+14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [10 mm, 0], to: [12 mm, 10 mm]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|before it
 14|initial: [{displacement_gradient: [-2, 0, 0, 0]}]^boundary:|bad.yaml:14:11: initial[0]: |inside out
 8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml:7:1: body: body body|holds no particle
 END

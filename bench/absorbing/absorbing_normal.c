@@ -1,0 +1,77 @@
+/* Plane pulses at right angles to an absorbing face. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "absorbing_bench.h"
+#include "base/memory.h"
+
+/* A strip of so many spacings between mirrors; the pulse starts in its middle, and what comes back is the difference to
+ * a strip twice as long. */
+enum { NORMAL_LENGTH = 384 };
+#define NORMAL_VELOCITY 1e-3
+
+/* Space, material and strip by the number of dimensions. In plane strain and in space C11 = 6/5 E at Poisson's ratio
+ * 1/4, G = C11/3. */
+static int normal_scene(char *text, size_t room, const struct absorbing_method *m, int dim, int width,
+                        int length)
+{
+    static const char *const spaces[DIM_MAX + 1] = {"", "line\nsection: 1 m^2", "plane strain\nthickness: 1 m",
+                                                    "solid"};
+    static const char *const sides[DIM_MAX + 1] = {"", "", ", 8 mm", ", 8 mm, 8 mm"};
+    static const char *const zeros[DIM_MAX + 1] = {"", "", ", 0", ", 0, 0"};
+    static const char *const mirrors[DIM_MAX + 1] = {
+        "", "", "  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 8 mm}}\n",
+        "  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 8 mm}}\n"
+        "  - {mirror: {axis: z, at: 0}}\n  - {mirror: {axis: z, at: 8 mm}}\n"};
+    return snprintf(text, room,
+                    "name: normal\nspace: %s\nduration: %.9g\n%s\nconversion: {criteria: none}\n"
+                    "material: {young: %.9g, poisson: %s, density: 1}\nbody: {box: {from: [0%s], to: [%.9g%s]}}\n"
+                    "particles: {spacing: %.9g}\n"
+                    "initial:\n  - pulse: {at: [%.9g%s], direction: [1%s], width: %.9g, velocity: %.9g}\n"
+                    "boundary:\n  - {absorbing: true, face: x+}\n%soutput: {frames: 0, samples: 200}\n",
+                    spaces[dim], NORMAL_LENGTH * ABSORBING_SPACING / ABSORBING_SPEED, m->keys,
+                    ABSORBING_SPEED * ABSORBING_SPEED / (dim > 1 ? 1.2 : 1), dim > 1 ? "1/4" : "0", zeros[dim],
+                    length * ABSORBING_SPACING, sides[dim], ABSORBING_SPACING,
+                    0.5 * NORMAL_LENGTH * ABSORBING_SPACING, zeros[dim], zeros[dim], width * ABSORBING_SPACING,
+                    NORMAL_VELOCITY, mirrors[dim]);
+}
+
+/* Runs the strip, or one twice as long; *v: the velocities along x at the end, [particles]. */
+static status normal_run(const struct absorbing_method *m, int dim, int width, int length, real **v,
+                         struct absorbing_pulse *figure)
+{
+    struct engine e;
+    struct scene s;
+    char text[2048];
+    double before = 0;
+    normal_scene(text, sizeof text, m, dim, width, length);
+    TRY(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
+    status ran = engine_report_start(&e);
+    while (ran == OK && e.clock.step < e.clock.steps) {
+        ran = engine_step(&e);
+        figure->back = fmax(figure->back, before - e.loads.absorbing.energy);
+        before = e.loads.absorbing.energy;
+        figure->balance = fmax(figure->balance, fabs(e.diagnostics.now.balance_error));
+    }
+    figure->back /= e.diagnostics.energy_start;
+    engine_mesh_sync(&e);
+    *v = BARE("bench.v", e.part.n, real);
+    memcpy(*v, e.part.v[0], (size_t)e.part.n * sizeof(real));
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+status absorbing_pulse(const struct absorbing_method *m, int dim, int width, struct absorbing_pulse *figure)
+{
+    struct absorbing_pulse twin = {0, 0, 0};
+    const int64_t L = NORMAL_LENGTH, rows = dim == 1 ? 1 : dim == 2 ? 8 : 64;
+    real *with = NULL, *without = NULL;
+    *figure = twin;
+    status ran = normal_run(m, dim, width, 2 * NORMAL_LENGTH, &without, &twin);
+    if (ran == OK) ran = normal_run(m, dim, width, NORMAL_LENGTH, &with, figure);
+    for (int64_t i = 0; i < L * rows && ran == OK; i++)     /* row by row, x first */
+        figure->reflected = fmax(figure->reflected, fabs(with[i] - without[i / L * 2 * L + i % L]) / NORMAL_VELOCITY);
+    memory_free(with), memory_free(without);
+    return ran;
+}

@@ -1,0 +1,30 @@
+/* Reflection from dashpots in closed form. */
+#include <complex.h>
+#undef I                                 /* a name of nodes in headers */
+#include <math.h>
+
+#include "absorbing_bench.h"
+
+/* A plane wave exp(i w (s x + p y - t)) with displacement a. */
+struct plane_wave { double complex s, a[2]; };
+
+/* What it makes of both boundary conditions at x = 0, over i w: stress_xx + rho c_p v_x and stress_xy + rho c_s v_y; of
+ * density and c_p 1, and of mu = c_s^2. */
+static void conditions(const struct plane_wave *w, double p, double mu, double complex *to)
+{
+    to[0] = w->s * w->a[0] + (1 - 2 * mu) * p * w->a[1] - w->a[0];
+    to[1] = mu * (p * w->a[0] + w->s * w->a[1]) - sqrt(mu) * w->a[1];
+}
+
+struct absorbing_reflection absorbing_theory(bool shear, double angle, double ratio)
+{
+    const double cs = 1 / ratio, mu = cs * cs, p = sin(angle) / (shear ? cs : 1);
+    const double complex qp = csqrt(1 - p * p + 0 * _Complex_I), qs = csqrt(1 / mu - p * p + 0 * _Complex_I);
+    const struct plane_wave in = shear ? (struct plane_wave){qs, {-p * cs, qs * cs}} : (struct plane_wave){qp, {qp, p}};
+    const struct plane_wave as_p = {-qp, {-qp, p}}, as_s = {-qs, {-p * cs, -qs * cs}};
+    double complex b[2], m[2], n[2];
+    conditions(&in, p, mu, b), conditions(&as_p, p, mu, m), conditions(&as_s, p, mu, n);
+    const double complex det = m[0] * n[1] - n[0] * m[1];
+    return (struct absorbing_reflection){cabs((n[0] * b[1] - b[0] * n[1]) / det),
+                                         cabs((b[0] * m[1] - m[0] * b[1]) / det)};
+}

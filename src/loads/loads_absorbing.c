@@ -1,0 +1,240 @@
+/* Dashpots of absorbing faces: on particles that bonds move, on nodes of a grid with the mass of the points that bear
+ * the face, and on the mesh's nodes of the face. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernels/dashpot.h"
+#include "loads/loads.h"
+#include "base/memory.h"
+
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
+
+static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOUNDARY_ABSORBING; }
+
+/* Lists the particles of all absorbing faces. */
+static void particles_join(struct loads *l, const struct particles *p)
+{
+    struct absorbing *a = &l->absorbing;
+    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    for (int b = 0; b < l->n; b++)
+        for (int64_t k = 0; k < l->load[b].n && is_absorbing(&l->load[b]); k++) bears[l->load[b].particle[k]] = 1;
+    for (int64_t i = 0; i < p->n; i++) a->n += bears[i];
+    a->particle = NEW("loads.absorbing", a->n, int32_t);
+    for (int64_t i = 0, k = 0; i < p->n; i++)
+        if (bears[i]) a->particle[k++] = (int32_t)i;
+    memory_free(bears);
+}
+
+/* Force over velocity of the q-th particle of a load along d [kg/s]. */
+static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
+                    enum moved_by by, int d)
+{
+    const struct impedance *z = &a->impedance[by][p->material[load->particle[q]]];
+    const real area = (by == MOVED_BY_GRID ? load->edge : load->outer)[q];
+    return area * (d == load->boundary->face ? z->normal : z->tangential);
+}
+
+static int by_index(const void *a, const void *b)
+{
+    const int32_t i = *(const int32_t *)a, j = *(const int32_t *)b;
+    return (i > j) - (i < j);
+}
+
+/* Place of particle i in the list of dashpots; -1: it has none. */
+static int64_t dashpot_of(const struct absorbing *a, int32_t i)
+{
+    const int32_t *found = a->n ? bsearch(&i, a->particle, (size_t)a->n, sizeof i, by_index) : NULL;
+    return found ? found - a->particle : -1;
+}
+
+/* What a support holds no dashpot moves. Of particles that bonds move; nodes have walls. */
+static void rates_hold(struct loads *l, const struct particles *p)
+{
+    for (int b = 0; b < l->n; b++) {
+        const struct boundary *c = l->load[b].boundary;
+        const uint8_t held = is_clamp(c, p->dim) ? UINT8_MAX : c->kind == BOUNDARY_VELOCITY ? c->components : 0;
+        for (int64_t q = 0; q < l->load[b].n && held; q++) {
+            const int64_t k = dashpot_of(&l->absorbing, l->load[b].particle[q]);
+            for (int d = 0; d < p->dim && k >= 0; d++)
+                if (held >> d & 1) l->absorbing.rate[MOVED_BY_BONDS][d][k] = 0;
+        }
+    }
+}
+
+void loads_absorbing_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance)
+{
+    struct absorbing *a = &l->absorbing;
+    bool any = false;
+    for (int b = 0; b < l->n; b++) any = any || is_absorbing(&l->load[b]);
+    if (!any) return;
+    particles_join(l, p);
+    for (int by = 0; by < MOVERS; by++) {
+        a->impedance[by] = impedance[by];
+        for (int d = 0; d < p->dim; d++) a->rate[by][d] = NEW("loads.rate", a->n, real);
+    }
+    for (int b = 0; b < l->n; b++)
+        for (int64_t q = 0; q < l->load[b].n && is_absorbing(&l->load[b]); q++) {
+            const int64_t k = dashpot_of(a, l->load[b].particle[q]);
+            for (int by = 0; by < MOVERS; by++)
+                for (int d = 0; d < p->dim; d++)
+                    a->rate[by][d][k] += dashpot_rate(a, &l->load[b], p, q, (enum moved_by)by, d);
+        }
+    rates_hold(l, p);
+}
+
+void loads_absorbing_free(struct loads *l)
+{
+    struct absorbing *a = &l->absorbing;
+    for (int b = 0; b < l->n; b++) memory_free(l->load[b].outer), memory_free(l->load[b].edge);
+    for (int by = 0; by < MOVERS; by++)
+        for (int d = 0; d < DIM_MAX; d++) memory_free(a->rate[by][d]);
+    memory_free(a->particle);
+    memory_free(a->field);
+}
+
+/* ---- particles that bonds move ----------------------------------------------------------------------------------- */
+
+void loads_absorb(struct loads *l, struct particles *p, real dt_velocity)
+{
+    struct absorbing *a = &l->absorbing;
+    struct absorbed sum = {0};
+    a->kick = 0;
+    if (a->idle) return;
+    for (int64_t k = 0; k < a->n; k++) {
+        const int32_t i = a->particle[k];
+        if (particle_on_grid(p, i)) continue;
+        for (int d = 0; d < p->dim; d++) {
+            const real rate = a->rate[MOVED_BY_BONDS][d][k], change = dt_velocity * p->f[d][i] / p->mass[i];
+            if (rate == 0) continue;
+            p->f[d][i] += dashpot_kick(&sum, d, dt_velocity * rate, p->mass[i], p->v[d][i], change) / dt_velocity;
+        }
+    }
+    loads_absorbed(l, &sum);
+}
+
+void loads_absorbed(struct loads *l, const struct absorbed *by)
+{
+    l->absorbing.energy += by->energy;
+    l->absorbing.kick += by->kick;
+    for (int d = 0; d < DIM_MAX; d++) l->impulse[d] += by->impulse[d];
+}
+
+/* ---- nodes ------------------------------------------------------------------------------------------------------- */
+
+static int by_dashpot(const void *a, const void *b)
+{
+    const struct dashpot *p = a, *q = b;
+    return (p->node > q->node) - (p->node < q->node);
+}
+
+/* Rates are those of the face by linear extrapolation from its first two particles, which leaves nodes behind them
+ * less than nothing where the face is not on nodes: such nodes have none, and all others less, for the same sum. */
+static void rates_clip(real *rate, int64_t n)
+{
+    real all = 0, left = 0;
+    for (int64_t I = 0; I < n; I++) all += rate[I], left += real_max(rate[I], 0);
+    for (int64_t I = 0; I < n && all < left; I++) rate[I] = all > 0 ? real_max(rate[I], 0) * (all / left) : 0;
+}
+
+/* Lists the dashpots of nodes by their rates, [dim][g->n], which are used up. A node beyond a mirror plane gives its
+ * own to its image. */
+static void dashpots_list(struct grid *g, real *rate)
+{
+    for (int64_t k = 0; k < g->mirror_nodes; k++)
+        for (int d = 0; d < g->dim; d++) {
+            const int64_t from = g->mirror_node[k].node + d * g->n;
+            rate[g->mirror_node[k].image + d * g->n] += rate[from], rate[from] = 0;
+        }
+    for (int d = 0; d < g->dim; d++) rates_clip(rate + d * g->n, g->n);
+    for (int64_t I = 0; I < g->n; I++) {
+        struct dashpot one = {.node = (int32_t)I};
+        bool any = false;
+        for (int d = 0; d < g->dim; d++) one.rate[d] = rate[I + d * g->n], any = any || one.rate[d] > 0;
+        if (any) grid_add_dashpot(g, &one);
+    }
+}
+
+static void dashpots_hold(struct grid *g, int64_t node, int component)
+{
+    const struct dashpot one = {.node = (int32_t)node};
+    struct dashpot *held =
+        g->dashpots ? bsearch(&one, g->dashpot, (size_t)g->dashpots, sizeof one, by_dashpot) : NULL;
+    if (held) held->rate[component] = 0;
+}
+
+/* Zeroed rates for nodes [dim][n], kept for the next call. */
+static real *field_of(struct absorbing *a, int64_t n)
+{
+    if (a->field_room < n) {
+        a->field = memory_resize("loads.field", a->field, a->field_room, n, sizeof *a->field);
+        a->field_room = n;
+    }
+    memset(a->field, 0, (size_t)n * sizeof *a->field);
+    return a->field;
+}
+
+void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
+                    real half_width)
+{
+    struct absorbing *a = &l->absorbing;
+    int64_t n = 0;
+    g->dashpots = 0;
+    if (a->n == 0 || a->idle) return;
+    int32_t *list = NEW("loads.list", a->n, int32_t);
+    real *value = NEW("loads.value", a->n * p->dim, real);
+    for (int64_t q = 0; q < a->n; q++) {
+        const int32_t i = a->particle[q];
+        if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED || (g->body > 0 && g->body != p->body[i] + 1)) continue;
+        for (int d = 0; d < p->dim; d++) value[d * a->n + n] = a->rate[MOVED_BY_GRID][d][q];
+        list[n++] = i;
+    }
+    if (n > 0) {
+        real *rate = field_of(a, g->n * g->dim);
+        for (int d = 0; d < p->dim; d++) k->spread(g, p, half_width, list, n, value + d * a->n, rate + d * g->n);
+        dashpots_list(g, rate);
+    }
+    for (int64_t q = 0; q < g->walls; q++) dashpots_hold(g, g->wall[q].node, g->wall[q].component);
+    memory_free(list);
+    memory_free(value);
+}
+
+/* Share of a face that the point at `place` of its cell shows along `axis`, at a corner of this cell: by the weight of
+ * the corner where the face is, half a spacing before the point. */
+static real face_weight(int dim, int corner, int place, int axis, int side)
+{
+    const bool before = (corner >> axis & 1) == (side > 0), first = (place >> axis & 1) == (side > 0);
+    real weight = first ? (before ? 1 : 0) : 0.5;
+    for (int d = 0; d < dim; d++)
+        if (d != axis) weight *= (corner ^ place) >> d & 1 ? 0.25 : 0.75;
+    return weight;
+}
+
+/* Adds the rates of an absorbing face to the nodes of the cells that bear it. */
+static void mesh_face(const struct absorbing *a, const struct load *load, const struct mesh *mesh,
+                      const struct particles *p, real *rate)
+{
+    const int dim = p->dim, places = 1 << dim;
+    for (int64_t q = 0; q < load->n; q++) {
+        const int32_t at = mesh->place[load->particle[q]];
+        for (int c = 0; c < places && at >= 0; c++) {
+            const real weight =
+                face_weight(dim, c, at & (places - 1), load->boundary->face, load->boundary->side);
+            const int64_t I = (at >> dim) + mesh->corner[c];
+            for (int d = 0; d < dim; d++)
+                rate[I + d * mesh->grid.n] += weight * dashpot_rate(a, load, p, q, MOVED_BY_MESH, d);
+        }
+    }
+}
+
+void loads_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p)
+{
+    struct grid *g = &mesh->grid;
+    g->dashpots = 0;
+    if (l->absorbing.n == 0) return;
+    real *rate = field_of(&l->absorbing, g->n * g->dim);
+    for (int b = 0; b < l->n; b++)
+        if (is_absorbing(&l->load[b])) mesh_face(&l->absorbing, &l->load[b], mesh, p, rate);
+    dashpots_list(g, rate);
+    for (int64_t q = 0; q < l->constrained_mesh.n; q++)
+        dashpots_hold(g, l->constrained_mesh.held[q].node, l->constrained_mesh.held[q].component);
+}
