@@ -381,7 +381,8 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
     assert_ok(engine_report_start(e));
     for (int step = 0; step < STEPS; step++) assert_ok(engine_step(e));
     diagnostics_make(&w);
-    diagnostics_momentum(&w, &e->part, &e->reference.mesh.grid, (const real[DIM_MAX]){0});
+    const struct grid *nodes[] = {&e->reference.mesh.grid};
+    diagnostics_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
     const real t = engine_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
                                                           (one     ? 3e-6
                                                            : three ? 1
